@@ -136,6 +136,14 @@ impl Flank {
         }
     }
 
+    /// Azimuth of the mean point in the frame of the flank's table of points \[rad\]; none for a flank that was cut.
+    pub fn table_azimuth_rad(&self) -> Option<f64> {
+        match &self.surface {
+            FlankSurface::Cut(_) => None,
+            FlankSurface::Points(surface) => Some(surface.zero_rad - self.turn_rad()),
+        }
+    }
+
     /// A point in the surface's own frame.
     fn own(&self, sheet: Sheet, at: [f64; 2]) -> Option<SurfacePoint> {
         match (&self.surface, sheet) {

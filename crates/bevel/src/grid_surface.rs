@@ -6,15 +6,14 @@ use std::path::Path;
 use gearmesh_geometry::InputError;
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use crate::azimuth_surface::{AzimuthSurface, PatchPoint, SectionFrame, scale, scaled};
+use crate::azimuth_surface::{AzimuthSurface, PatchPoint, scale, scaled};
 use crate::blank::MemberBlank;
 use crate::chebyshev::{ALONG, Chebyshev2, UP, polynomials};
 use crate::cut_surface::SurfacePoint;
+use crate::grid_samples::Samples;
 use crate::hand::FlankSide;
 use crate::point_grid::PointGrid;
 
-/// A flank may go on beyond its grid by this share of the grid's size.
-const MOST_BEYOND: f64 = 0.25;
 /// So far the polynomials are asked at all, for contacts of extended surfaces.
 const DEFINED: f64 = 0.6;
 /// A normal counts as much as a place that is off by so much of the points' distance.
@@ -42,8 +41,8 @@ pub struct GridFit {
     /// The largest of these, at an end of the grid as a rule; beyond the points the surface may be off by several times as much
     /// \[m\].
     pub left_out_worst_m: f64,
-    /// Largest angle between a given normal and the surface's \[rad\].
-    pub worst_normal_rad: f64,
+    /// Largest angle between a given normal and the surface's \[rad\]; none where the file has no normals.
+    pub worst_normal_rad: Option<f64>,
     /// How far the flank goes on beyond the grid at toe, heel and tip \[m\].
     pub beyond_m: [f64; 3],
 }
@@ -52,6 +51,8 @@ pub struct GridFit {
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridSurface {
     surface: AzimuthSurface,
+    /// Azimuth of the surface's +x in the frame of the table \[rad\].
+    pub(crate) zero_rad: f64,
     /// v below which there is no flank.
     end: f64,
     /// The fit.
@@ -110,200 +111,18 @@ struct Trial {
     missed_m: f64,
 }
 
-/// Points on the blank.
-struct Samples {
-    surface: AzimuthSurface,
-    end: f64,
-    beyond_m: [f64; 3],
-    at: Vec<[f64; 2]>,
-    azimuth_rad: Vec<f64>,
-    /// ∂χ/∂s, ∂χ/∂v by the normals.
-    slopes: Vec<[f64; 2]>,
-    /// Way along the normal for each radian of χ \[m\].
-    lever_m: Vec<f64>,
-    /// Azimuth of the deviations \[rad\].
-    added_rad: Vec<f64>,
-    /// Distance of neighbours in s and v.
-    spacing: [f64; 2],
+/// What the polynomials go through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Target {
+    /// Places and normals.
+    Normals,
+    /// Places alone.
+    Places,
+    /// Deviations.
+    Added,
 }
 
 impl Samples {
-    fn new(grid: &PointGrid, blank: &MemberBlank, side: FlankSide) -> Result<Self, InputError> {
-        let frame = SectionFrame::of_tooth(blank);
-        let (sin, cos) = blank.pitch_angle_rad.sin_cos();
-        let facing = side.facing(blank.hand);
-        let [sectors, heights] = grid.size;
-        let middle = grid.points[(sectors / 2) * heights + heights / 2].r;
-        let zero = middle.y.atan2(middle.x);
-        let (turn_sin, turn_cos) = (-zero).sin_cos();
-        let turned = |v: &Vector3<f64>| {
-            Vector3::new(
-                v.x * turn_cos - v.y * turn_sin,
-                v.x * turn_sin + v.y * turn_cos,
-                v.z,
-            )
-        };
-        let mut samples = Self {
-            surface: AzimuthSurface {
-                frame,
-                pitch: [sin, cos],
-                facing,
-                domain: [[0.0, 1.0]; 2],
-                azimuth: Chebyshev2::new([[0.0; UP]; ALONG]),
-            },
-            end: 0.0,
-            beyond_m: [0.0; 3],
-            at: Vec::new(),
-            azimuth_rad: Vec::new(),
-            slopes: Vec::new(),
-            lever_m: Vec::new(),
-            added_rad: Vec::new(),
-            spacing: [0.0; 2],
-        };
-        let first = grid.points[0].normal;
-        let first_around = around(&grid.points[0].r, &first);
-        for (i, point) in grid.points.iter().enumerate() {
-            let (r, normal) = (turned(&point.r), turned(&point.normal));
-            let place = blank.cone_place(r.z, r.x.hypot(r.y));
-            let at = frame.at(place);
-            if !at.iter().all(|x| (-0.5..=1.5).contains(x)) {
-                let problem = format!(
-                    "the point lies at cone distance {:.3} mm, {:+.3} mm from the pitch cone, far from the {}'s tooth (cone distance {:.3} to {:.3} mm); \
-                     are origin and axis those of the member (apex at 0, z towards the heel)?",
-                    1e3 * place[0],
-                    1e3 * place[1],
-                    blank.name,
-                    1e3 * blank.inner_cone_m(),
-                    1e3 * blank.outer_cone_m
-                );
-                return Err(grid.error_at(i, "x_mm", problem));
-            }
-            let this = around(&r, &normal);
-            if this.abs() < 1e-3 || this.signum() != first_around.signum() {
-                let problem = "the normal points to the other side than that of the first sector and height; all into the material, or all out of it";
-                return Err(grid.error_at(i, "nx", problem.to_owned()));
-            }
-            let (slopes, lever) =
-                AzimuthSurface::slopes_of_normal(&frame, [sin, cos], at, &r, &normal);
-            samples.at.push(at);
-            samples.azimuth_rad.push(r.y.atan2(r.x));
-            samples.slopes.push(slopes);
-            samples.lever_m.push(lever.abs());
-            // Material that is added moves the flank the way it faces.
-            samples
-                .added_rad
-                .push(facing * point.deviation_m / lever.abs());
-        }
-        samples.demand_order(grid)?;
-        samples.demand_side(grid, blank, side)?;
-        samples.demand_cover(grid, blank)?;
-        Ok(samples)
-    }
-
-    fn number(&self, grid: &PointGrid, sector: usize, height: usize) -> usize {
-        sector * grid.size[1] + height
-    }
-
-    /// s goes one way along sectors and v one way along heights.
-    fn demand_order(&mut self, grid: &PointGrid) -> Result<(), InputError> {
-        let [sectors, heights] = grid.size;
-        for k in 0..2 {
-            let last = [(sectors - 1, 0), (0, heights - 1)][k];
-            let whole = self.at[self.number(grid, last.0, last.1)][k] - self.at[0][k];
-            self.spacing[k] = whole.abs() / (grid.size[k] - 1) as f64;
-            for sector in 0..sectors {
-                for height in 0..heights {
-                    let next = [(sector + 1, height), (sector, height + 1)][k];
-                    if next.0 >= sectors || next.1 >= heights {
-                        continue;
-                    }
-                    let (a, b) = (
-                        self.number(grid, sector, height),
-                        self.number(grid, next.0, next.1),
-                    );
-                    let step = (self.at[b][k] - self.at[a][k]) * whole.signum();
-                    if step <= 0.1 * self.spacing[k] {
-                        let problem = format!(
-                            "from sector {}, height {} to here the flank goes back {}; sectors must go one way along the face, heights one way up the flank",
-                            sector + 1,
-                            height + 1,
-                            ["along the face", "down the flank"][k]
-                        );
-                        return Err(grid.error_at(b, "x_mm", problem));
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// The points are those of this side and hand: a flank that faces counter-clockwise turns back clockwise from root to tip.
-    fn demand_side(
-        &self,
-        grid: &PointGrid,
-        blank: &MemberBlank,
-        side: FlankSide,
-    ) -> Result<(), InputError> {
-        let n = self.slopes.len() as f64;
-        let mean = [0, 1].map(|k| self.slopes.iter().map(|s| s[k]).sum::<f64>() / n);
-        if mean[1] * self.surface.facing >= 0.0 {
-            return Err(grid.error(format!(
-                "these are not points of the {} flank of a {}-hand {}: the tooth would be thicker at its tip; is it the other flank, or the mirror image?",
-                side.word(),
-                blank.hand.word(),
-                blank.name
-            )));
-        }
-        let turn = mean[0] * blank.hand.sign();
-        let along = turn * blank.mean_cone_m * blank.pitch_angle_rad.sin();
-        // Zerol and straight teeth lean to neither side.
-        if along < -0.1 * blank.face_width_m {
-            return Err(grid.error(format!(
-                "these points lean to the other side than a {} hand does; is it the mirror image, or z towards the apex?",
-                blank.hand.word()
-            )));
-        }
-        Ok(())
-    }
-
-    /// The grid reaches over most of the tooth.
-    fn demand_cover(&mut self, grid: &PointGrid, blank: &MemberBlank) -> Result<(), InputError> {
-        let mut domain = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-        for at in &self.at {
-            for k in 0..2 {
-                domain[k][0] = domain[k][0].min(at[k]);
-                domain[k][1] = domain[k][1].max(at[k]);
-            }
-        }
-        let size = domain.map(|[low, high]| high - low);
-        let beyond = [
-            domain[0][0] / size[0],
-            (1.0 - domain[0][1]) / size[0],
-            (1.0 - domain[1][1]) / size[1],
-        ];
-        for (share, end) in beyond.into_iter().zip(["toe", "heel", "tip"]) {
-            if share > MOST_BEYOND {
-                return Err(grid.error(format!(
-                    "the {}'s flank goes on beyond the grid at the {end} by {:.0} % of the grid's size, allowed are {:.0} %",
-                    blank.name,
-                    100.0 * share,
-                    100.0 * MOST_BEYOND
-                )));
-            }
-        }
-        let depth = self.surface.frame.depth_m(0.5)[0];
-        let face = blank.face_width_m;
-        self.beyond_m = [
-            domain[0][0] * face,
-            (1.0 - domain[0][1]) * face,
-            (1.0 - domain[1][1]) * depth,
-        ]
-        .map(|x| x.max(0.0));
-        self.end = (domain[1][0] - MOST_BEYOND * size[1]).max(0.0);
-        self.surface.domain = domain;
-        Ok(())
-    }
-
     /// Rows of the least squares of a point: its place, and its two slopes where normals count. Units: metres along the normal.
     fn rows(&self, point: usize, [p, q]: [usize; 2]) -> DMatrix<f64> {
         let [x, y] = scaled(&self.surface.domain, self.at[point]);
@@ -328,14 +147,18 @@ impl Samples {
     }
 
     /// Least squares with so many polynomials.
-    fn solve(&self, size: [usize; 2], nominal: bool) -> Option<Trial> {
+    fn solve(&self, size: [usize; 2], target: Target) -> Option<Trial> {
         let n = size[0] * size[1];
-        let used = if nominal { 3 } else { 1 };
+        let (used, azimuth_rad) = match target {
+            Target::Normals => (3, &self.azimuth_rad),
+            Target::Places => (1, &self.azimuth_rad),
+            Target::Added => (1, &self.added_rad),
+        };
         let value = |i: usize| {
-            if nominal {
+            if target == Target::Normals {
                 DVector::from_iterator(3, self.values(i).iter().copied())
             } else {
-                DVector::from_element(1, self.lever_m[i] * self.added_rad[i])
+                DVector::from_element(1, self.lever_m[i] * azimuth_rad[i])
             }
         };
         let (mut matrix, mut right) = (DMatrix::zeros(n, n), DVector::zeros(n));
@@ -367,8 +190,8 @@ impl Samples {
 
     /// The numbers of polynomials with which left-out points, places and normals, are missed least, first along the face, then
     /// up the flank. Places alone may by chance be met well by a surface that waves between them.
-    fn best(&self, grid: &PointGrid, nominal: bool) -> Option<Trial> {
-        let more = if nominal { 2 } else { 0 };
+    fn best(&self, grid: &PointGrid, target: Target) -> Option<Trial> {
+        let more = if target == Target::Normals { 2 } else { 0 };
         let most = [
             (grid.size[0] + more).min(ALONG),
             (grid.size[1] + more).min(UP),
@@ -379,7 +202,7 @@ impl Samples {
             for count in 1..=most[k] {
                 let mut next = size;
                 next[k] = count;
-                let Some(trial) = self.solve(next, nominal) else {
+                let Some(trial) = self.solve(next, target) else {
                     continue;
                 };
                 if best.as_ref().is_none_or(|b| trial.missed_m < b.missed_m) {
@@ -393,12 +216,6 @@ impl Samples {
 
     fn fit(mut self, grid: &PointGrid) -> Result<GridSurface, InputError> {
         let none = || grid.error("no smooth surface goes through these points".to_owned());
-        let Trial {
-            size,
-            coefficients,
-            mut left_out,
-            ..
-        } = self.best(grid, true).ok_or_else(none)?;
         let mut table = [[0.0; UP]; ALONG];
         let add = |c: &DVector<f64>, [p, q]: [usize; 2], table: &mut [[f64; UP]; ALONG]| {
             for i in 0..p {
@@ -407,11 +224,27 @@ impl Samples {
                 }
             }
         };
+        let target = if grid.has_normals {
+            Target::Normals
+        } else {
+            let rough = self.best(grid, Target::Places).ok_or_else(none)?;
+            add(&rough.coefficients, rough.size, &mut table);
+            self.surface.azimuth = Chebyshev2::new(table);
+            self.take_normals_of_surface(grid);
+            table = [[0.0; UP]; ALONG];
+            Target::Places
+        };
+        let Trial {
+            size,
+            coefficients,
+            mut left_out,
+            ..
+        } = self.best(grid, target).ok_or_else(none)?;
         add(&coefficients, size, &mut table);
         self.surface.azimuth = Chebyshev2::new(table);
         let worst_normal_rad = self.demand_sense(grid, &left_out)?;
         if grid.is_measured {
-            let added = self.best(grid, false).ok_or_else(none)?;
+            let added = self.best(grid, Target::Added).ok_or_else(none)?;
             add(&added.coefficients, added.size, &mut table);
             self.surface.azimuth = Chebyshev2::new(table);
             for (a, b) in left_out.iter_mut().zip(added.left_out) {
@@ -436,13 +269,14 @@ impl Samples {
         };
         Ok(GridSurface {
             surface: self.surface,
+            zero_rad: self.zero_rad,
             end: self.end,
             fit,
         })
     }
 
     /// Refuses points off the surface of their neighbours and normals that are not the surface's; the largest angle of normals.
-    fn demand_sense(&self, grid: &PointGrid, left_out: &[f64]) -> Result<f64, InputError> {
+    fn demand_sense(&self, grid: &PointGrid, left_out: &[f64]) -> Result<Option<f64>, InputError> {
         let mut sorted = left_out.to_vec();
         sorted.sort_by(f64::total_cmp);
         let usual = sorted[sorted.len() / 2];
@@ -460,6 +294,9 @@ impl Samples {
             );
             return Err(grid.error_at(i, "x_mm", problem));
         }
+        if !grid.has_normals {
+            return Ok(None);
+        }
         let mut most = 0.0f64;
         for (i, at) in self.at.iter().enumerate() {
             let p = self.surface.point(*at);
@@ -475,7 +312,7 @@ impl Samples {
             }
             most = most.max(angle);
         }
-        Ok(most)
+        Ok(Some(most))
     }
 
     /// Unit normal at a point of the surface if its azimuth had these slopes.
@@ -485,10 +322,6 @@ impl Samples {
         let [a, b] = [0, 1].map(|k| p.dr[k] + around * (slopes[k] - own[k]));
         a.cross(&b).normalize()
     }
-}
-
-fn around(r: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
-    (normal.y * r.x - normal.x * r.y) / r.x.hypot(r.y)
 }
 
 fn rms(list: &[f64]) -> f64 {

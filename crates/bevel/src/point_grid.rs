@@ -7,8 +7,10 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::NumberTable;
 use nalgebra::Vector3;
 
-/// Heads of the columns, in this order below.
+/// Heads of the columns, in this order below; the last three may all be missing.
 const HEADS: [&str; 8] = ["sector", "height", "x_mm", "y_mm", "z_mm", "nx", "ny", "nz"];
+/// Number of those that must be there.
+const PLACES: usize = 5;
 const DEVIATION: &str = "deviation_um";
 /// Sectors and heights at least.
 const LEAST: [usize; 2] = [4, 3];
@@ -22,7 +24,7 @@ const UNIT_SLACK: f64 = 2e-3;
 pub(crate) struct GridPoint {
     /// Place in the member's frame \[m\].
     pub r: Vector3<f64>,
-    /// Unit normal as given.
+    /// Unit normal as given; made of neighbouring points where none is, and rough then.
     pub normal: Vector3<f64>,
     /// Material added, normal to the flank \[m\].
     pub deviation_m: f64,
@@ -39,6 +41,8 @@ pub(crate) struct PointGrid {
     pub points: Vec<GridPoint>,
     /// Whether the file has deviations: its points and normals are then nominal.
     pub is_measured: bool,
+    /// Whether the file has normals.
+    pub has_normals: bool,
     table: NumberTable,
 }
 
@@ -49,7 +53,14 @@ impl PointGrid {
     /// [`InputError`] with file, line and reason.
     pub(crate) fn read(path: &Path, apex_m: f64) -> Result<Self, InputError> {
         let is_measured = NumberTable::head_among(path, [DEVIATION, HEADS[0]])? == DEVIATION;
+        let mut has_normals = false;
+        for head in &HEADS[PLACES..] {
+            has_normals |= NumberTable::head_among(path, [head, HEADS[0]])? == *head;
+        }
         let mut heads = HEADS.to_vec();
+        if !has_normals {
+            heads.truncate(PLACES);
+        }
         if is_measured {
             heads.push(DEVIATION);
         }
@@ -78,7 +89,11 @@ impl PointGrid {
         for row in 0..rows {
             let at = |column: usize| table.column(column)[row];
             let vector = |first: usize| Vector3::new(at(first), at(first + 1), at(first + 2));
-            let normal = vector(5);
+            let normal = if has_normals {
+                vector(PLACES)
+            } else {
+                Vector3::z()
+            };
             if (normal.norm() - 1.0).abs() > UNIT_SLACK {
                 let problem = format!(
                     "the normal ({}, {}, {}) is {:.4} long, allowed is 1",
@@ -87,7 +102,7 @@ impl PointGrid {
                     normal.z,
                     normal.norm()
                 );
-                return Err(table.error_at(row, 5, problem));
+                return Err(table.error_at(row, PLACES, problem));
             }
             let [sector, height] = [at(0), at(1)].map(|x| x as usize - 1);
             let place = &mut places[sector * size[1] + height];
@@ -103,7 +118,11 @@ impl PointGrid {
             *place = Some(GridPoint {
                 r: vector(2) * 1e-3 + Vector3::z() * apex_m,
                 normal: normal.normalize(),
-                deviation_m: if is_measured { 1e-6 * at(8) } else { 0.0 },
+                deviation_m: if is_measured {
+                    1e-6 * at(heads.len() - 1)
+                } else {
+                    0.0
+                },
                 row,
             });
         }
@@ -118,10 +137,18 @@ impl PointGrid {
             );
             return Err(table.error(problem));
         }
+        let mut points: Vec<GridPoint> = places.into_iter().flatten().collect();
+        if !has_normals {
+            let normals = normals_of_neighbours(&points, size);
+            for (point, normal) in points.iter_mut().zip(normals) {
+                point.normal = normal;
+            }
+        }
         Ok(Self {
             size,
-            points: places.into_iter().flatten().collect(),
+            points,
             is_measured,
+            has_normals,
             table,
         })
     }
@@ -136,4 +163,25 @@ impl PointGrid {
     pub(crate) fn error(&self, problem: String) -> InputError {
         self.table.error(problem)
     }
+}
+
+/// Normals from the chords to neighbouring points; 0 where these do not span a plane.
+fn normals_of_neighbours(
+    points: &[GridPoint],
+    [sectors, heights]: [usize; 2],
+) -> Vec<Vector3<f64>> {
+    let place = |sector: usize, height: usize| points[sector * heights + height].r;
+    let beside = |i: usize, count: usize| (i.saturating_sub(1), (i + 1).min(count - 1));
+    let normal = |i: usize| {
+        let (sector, height) = (i / heights, i % heights);
+        let (before, after) = beside(sector, sectors);
+        let (below, above) = beside(height, heights);
+        let along = place(after, height) - place(before, height);
+        let up = place(sector, above) - place(sector, below);
+        let across = along.cross(&up);
+        across
+            .try_normalize(1e-6 * along.norm() * up.norm())
+            .unwrap_or_else(Vector3::zeros)
+    };
+    (0..points.len()).map(normal).collect()
 }

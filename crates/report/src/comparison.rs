@@ -87,6 +87,17 @@ impl BothSides {
     }
 }
 
+/// Where a reference has no values.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct ReferenceHole {
+    /// Angle of the record's shaft before it, rad.
+    pub from_rad: f64,
+    /// Its length, rad.
+    pub step_rad: f64,
+    /// The same in mesh periods.
+    pub mesh_periods: f64,
+}
+
 /// The comparison of one quantity at one torque. All figures but `mean` are of the filtered signals.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct SeriesComparison {
@@ -120,6 +131,9 @@ pub struct SeriesComparison {
     /// Whether the record holds whole periods of ours. Where it does not, what is not locked to the record's
     /// revolutions has been averaged out of ours, as a rig's averaging does.
     pub is_locked: bool,
+    /// The widest step of the reference where it leaves out more than half a mesh period: there its curve and what depends on
+    /// it are interpolated.
+    pub reference_hole: Option<ReferenceHole>,
     /// Our signal as compared: filtered, one block of revolutions, uniform in the angle from 0.
     #[serde(skip)]
     pub ours: RigSignal,
@@ -137,6 +151,8 @@ pub struct RigView {
     pub te_filter: OrderFilter,
     /// Orders of the shaft whose amplitudes are compared.
     pub orders: Vec<f64>,
+    /// Teeth on the shaft.
+    pub mesh_order: f64,
 }
 
 impl RigView {
@@ -155,7 +171,19 @@ impl RigView {
             },
             te_filter: pair.filter(shaft),
             orders,
+            mesh_order: pair.teeth_on(shaft) as f64,
         }
+    }
+
+    /// The widest step of a series, where it is more than half a mesh period.
+    fn hole(&self, series: &AngleSeries) -> Option<ReferenceHole> {
+        let widest = series.widest_step();
+        let mesh_periods = widest.step_rad * self.mesh_order / std::f64::consts::TAU;
+        (mesh_periods > 0.5).then_some(ReferenceHole {
+            from_rad: widest.from_rad,
+            step_rad: widest.step_rad,
+            mesh_periods,
+        })
     }
 }
 
@@ -203,6 +231,7 @@ pub fn compare(
     let per_block = view.settings.revolutions_per_block;
     let is_locked = per_block.is_multiple_of(ours.period().whole_revolutions());
     let settings = view.settings.in_blocks(per_block, ours.period());
+    let reference_hole = view.hole(reference);
     let through = |side, series: &AngleSeries| {
         process(series, &settings, filter).map_err(|source| ComparisonError::Rig {
             side,
@@ -258,6 +287,7 @@ pub fn compare(
         best_offset_rad: offset.map(|offset| offset.angle_rad(per_block)),
         best_offset_correlation: offset.map(|offset| offset.correlation),
         is_locked,
+        reference_hole,
         ours,
         reference,
     })

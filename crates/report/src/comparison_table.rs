@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 
 /// Below this part of the peak-to-peak value an amplitude is rounding and its phase says nothing.
 const WEAKEST_HARMONIC: f64 = 1e-5;
+/// A correlation below this one is that of a sign turned round.
+const AGAINST: f64 = -0.9;
 
 /// Text tables of comparisons, grouped by quantity in the order of their first occurrence.
 ///
@@ -102,6 +104,27 @@ fn figures(text: &mut String, first: &SeriesComparison, group: &[&SeriesComparis
         let _ = writeln!(
             text,
             "  the record is no whole number of our periods: what is not locked to its revolutions is averaged out of ours"
+        );
+    }
+    doubts(text, group);
+}
+
+/// What makes the reference doubtful: a hole, or a sign that runs against ours.
+fn doubts(text: &mut String, group: &[&SeriesComparison]) {
+    if let Some(hole) = group.iter().find_map(|c| c.reference_hole) {
+        let [from, to] = [hole.from_rad, hole.from_rad + hole.step_rad].map(f64::to_degrees);
+        let _ = writeln!(
+            text,
+            "  the reference has no values from {from:.2} to {to:.2} deg, {:.1} mesh periods: its curve there is invented, and figures suffer",
+            hole.mesh_periods
+        );
+    }
+    let against = |c: &&&SeriesComparison| c.correlation.is_some_and(|r| r < AGAINST);
+    if let Some(c) = group.iter().find(against) {
+        let _ = writeln!(
+            text,
+            "  at {} N·m the reference runs against ours: is its sign the other one? (`gearmesh record --negate HEAD` turns it)",
+            c.torque_nm
         );
     }
 }
@@ -210,6 +233,41 @@ mod tests {
     use std::f64::consts::TAU;
 
     #[test]
+    fn holes_and_turned_signs_of_a_reference_are_told() {
+        let curve = |sign: f64, hole: std::ops::Range<i32>| {
+            let places = (0..1368).filter(|i| !hole.contains(i));
+            let (angle, values): (Vec<f64>, Vec<f64>) = places
+                .map(|i| TAU * f64::from(i) / 1368.0)
+                .map(|a| (a, sign * 2e-6 * (57.0 * a).cos()))
+                .unzip();
+            AngleSeries::one_revolution(&angle, &values).unwrap()
+        };
+        let pair = PairOrders {
+            teeth: [57, 57],
+            openings: [0, 0],
+        };
+        let view = RigView::of(&pair, Shaft::Gear1, 1, vec![57.0]);
+        let te = Quantity::TransmissionError;
+        let told = |reference: &AngleSeries| {
+            let c = compare(&curve(1.0, 0..0), reference, &te, &view).unwrap();
+            (comparison_table(std::slice::from_ref(&c)), c)
+        };
+        // 14 of 24 points a pitch are missing after point 380 (100 degrees).
+        let (text, c) = told(&curve(1.0, 381..395));
+        assert!(
+            text.contains("no values from 100.00 to 103.95 deg, 0.6 mesh"),
+            "{text}"
+        );
+        // No crest is invented.
+        assert!((c.peak_to_peak.reference / 4e-6 - 1.0).abs() < 0.01);
+        let (text, _) = told(&curve(-1.0, 381..391));
+        assert!(
+            text.contains("runs against ours") && !text.contains("no values"),
+            "{text}"
+        );
+    }
+
+    #[test]
     fn heads_carry_units_and_columns_line_up() {
         let series = |scale: f64| {
             let values: Vec<f64> = (0..1368)
@@ -249,6 +307,7 @@ mod tests {
             "{}",
             lines[6]
         );
+        assert!(!text.contains("runs against") && !text.contains("no values"));
         let lengths: Vec<usize> = lines[1..6].iter().map(|l| l.chars().count()).collect();
         assert!(lengths.iter().all(|l| *l == lengths[0]), "{lengths:?}");
     }

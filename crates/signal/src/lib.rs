@@ -20,6 +20,7 @@
 
 pub mod alignment;
 pub mod angle_series;
+mod bounded_cubic;
 pub mod campbell;
 pub mod envelope;
 mod error;

@@ -50,7 +50,8 @@ pub(super) struct MemberTable {
     /// "ease-off": twist, at the tip of the heel; its negative at the tip of the toe. 0 where not given.
     bias_um: Option<[f64; 2]>,
     /// "points": table of the concave flank's points, beside this file or with its folder: columns sector, height, x_mm, y_mm,
-    /// z_mm, nx, ny, nz; with deviation_um the points are nominal and the flank is off them by so much added material.
+    /// z_mm, nx, ny, nz (all three of these may be missing: the points make the normals); with deviation_um the points are nominal and
+    /// the flank is off them by so much added material.
     concave_points: Option<String>,
     /// "points": table of the convex flank's points.
     convex_points: Option<String>,

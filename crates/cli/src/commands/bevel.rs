@@ -4,7 +4,7 @@ use crate::arguments::BevelArguments;
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_bevel::pair_file::settings_toml;
-use gearmesh_bevel::{FlankSide, GridFit, MemberBlank, PairDesign, PairFile, ToothCheck};
+use gearmesh_bevel::{FlankSide, GridFit, MemberBlank, PairDesign, PairFile, Tooth, ToothCheck};
 use gearmesh_geometry::input::InputDocument;
 use serde_json::{Value, json};
 
@@ -101,6 +101,9 @@ fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) {
                     console::data(format!("# {}: {}", flank.name(), fit_words(fit)));
                 }
             }
+            if let Some(words) = thickness_words(&design.teeth[i], file) {
+                console::data(format!("# {words}"));
+            }
             continue;
         };
         let tables: Vec<String> = FlankSide::BOTH
@@ -121,8 +124,7 @@ fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) {
 pub(super) fn fit_words(fit: &GridFit) -> String {
     let [toe, heel, tip] = fit.beyond_m.map(|x| 1e3 * x);
     format!(
-        "{} x {} points, {} x {} polynomials; points off the surface by {:.3} um rms, {:.3} um at most; a point left out by {:.3} um rms, {:.3} um at most; normals by \
-         {:.4} degrees at most; the flank goes on beyond the points by {toe:.2} mm at the toe, {heel:.2} mm at the heel, {tip:.2} mm at the tip",
+        "{} x {} points, {} x {} polynomials; points off the surface by {:.3} um rms, {:.3} um at most; a point left out by {:.3} um rms, {:.3} um at most; normals {}; the flank goes on beyond the points by {toe:.2} mm at the toe, {heel:.2} mm at the heel, {tip:.2} mm at the tip",
         fit.size[0],
         fit.size[1],
         fit.polynomials[0],
@@ -131,8 +133,35 @@ pub(super) fn fit_words(fit: &GridFit) -> String {
         1e6 * fit.worst_m,
         1e6 * fit.left_out_rms_m,
         1e6 * fit.left_out_worst_m,
-        fit.worst_normal_rad.to_degrees()
+        fit.worst_normal_rad.map_or_else(
+            || "not given".to_owned(),
+            |worst| format!("by {:.4} degrees at most", worst.to_degrees())
+        )
     )
+}
+
+/// What the azimuths of a member's tables say of the blank and of their origin; nothing of a member that was cut.
+pub(super) fn thickness_words(tooth: &Tooth, file: &PairFile) -> Option<String> {
+    let found = tooth.table_thickness(file.blank.mean_normal_module_m)?;
+    let figures = format!(
+        "{}: {:.3} mm thick on the mean circle by the azimuths of its points, {:.3} mm by the blank, which counts",
+        tooth.blank.name,
+        1e3 * found.found_m,
+        1e3 * found.blank_m
+    );
+    if !found.is_doubtful {
+        return Some(figures);
+    }
+    let origin = found.origin_m.map_or_else(String::new, |m| {
+        format!(
+            " An origin {:+.3} mm farther towards the heel would explain it.",
+            1e3 * m
+        )
+    });
+    Some(format!(
+        "warning: {figures}. Are backlash_mm and thickness_shift those of the part, and points_origin_mm the place of the tables' origin?{origin} It says nothing where both tables \
+         do not count their azimuths from one place."
+    ))
 }
 
 /// The same by name.
@@ -144,7 +173,7 @@ pub(super) fn fit_figures(fit: &GridFit) -> Value {
         "worst_um": 1e6 * fit.worst_m,
         "left_out_rms_um": 1e6 * fit.left_out_rms_m,
         "left_out_worst_um": 1e6 * fit.left_out_worst_m,
-        "worst_normal_deg": fit.worst_normal_rad.to_degrees(),
+        "worst_normal_deg": fit.worst_normal_rad.map(f64::to_degrees),
         "beyond_mm": fit.beyond_m.map(|x| 1e3 * x),
     })
 }
@@ -167,6 +196,11 @@ fn figures(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Va
             };
             value[flank.side.word()] = fit_figures(fit);
         }
+        value["thickness_of_points_mm"] = json!(
+            design.teeth[i]
+                .table_thickness(file.blank.mean_normal_module_m)
+                .map(|found| 1e3 * found.found_m)
+        );
         for (side, s) in FlankSide::BOTH
             .into_iter()
             .zip(design.settings[i].iter().flatten())

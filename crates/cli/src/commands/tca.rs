@@ -56,7 +56,11 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
         if let Some(loaded) = &loaded {
             loaded_tca::table(&file, loaded);
         }
-        table(&file, flanks, &found, moved.as_ref());
+        let teeth = design.teeth.iter();
+        let thicknesses: Vec<String> = teeth
+            .filter_map(|tooth| bevel::thickness_words(tooth, &file))
+            .collect();
+        table(&file, flanks, &thicknesses, &found, moved.as_ref());
     }
     Ok(())
 }
@@ -93,7 +97,13 @@ pub(super) fn worth_of_points(flanks: [&Flank; 2]) -> Vec<String> {
     flanks.into_iter().filter_map(words).collect()
 }
 
-fn table(file: &PairFile, flanks: [&Flank; 2], found: &ToothContact, moved: Option<&Sensitivity>) {
+fn table(
+    file: &PairFile,
+    flanks: [&Flank; 2],
+    thicknesses: &[String],
+    found: &ToothContact,
+    moved: Option<&Sensitivity>,
+) {
     console::data(format!(
         "{}: pinion {} on gear {}; transmission error peak to peak {:.3} urad of the gear, contact ratio of the path {:.4}, edges touch first on {:.1} % of it",
         file.title,
@@ -104,6 +114,7 @@ fn table(file: &PairFile, flanks: [&Flank; 2], found: &ToothContact, moved: Opti
         100.0 * found.edge_share
     ));
     worth_of_points(flanks).into_iter().for_each(console::data);
+    thicknesses.iter().for_each(console::data);
     console::data(
         "pinion deg   TE urad   gear: L mm     h mm   ellipse mm: long  short   first   touches",
     );

@@ -23,18 +23,60 @@ def refuse(problem):
     sys.exit(2)
 
 
+def cut_from(content, start):
+    """The line that begins here, with its end, and where the next begins."""
+    end = content.find(b"\n", start)
+    return (content[start:], len(content)) if end < 0 else (content[start : end + 1], end + 1)
+
+
+def data_set(content, at):
+    """The data set whose first line begins here, as pyuff takes it, and where the next begins.
+
+    pyuff takes `    -1` for an end wherever it stands, in a head as well, and that of a binary set straight behind its
+    data only; most programs begin a line for it."""
+    kind, at = cut_from(content, at)
+    head, body = [kind], b""
+    if kind[:7] == b"    58b":
+        lines, size = int(kind[19:31]), int(kind[31:43])
+        for _ in range(lines):
+            line, at = cut_from(content, at)
+            head.append(line)
+        data, at = content[at : at + size], at + size
+        if len(data) < size:
+            refuse(f"a data set has {len(data)} of the {size} bytes that its head says; the file is cut")
+        end = content.find(b"    -1", at)
+        if end < 0 or content[at:end].strip():
+            refuse("a binary data set does not end where its head says; the file is damaged")
+        body, at = data, cut_from(content, end)[1]
+    else:
+        while True:
+            if at >= len(content):
+                refuse("the last data set has no end (a line with -1); the file is cut")
+            line, at = cut_from(content, at)
+            if line.rstrip() == b"    -1":
+                break
+            head.append(line)
+    # Columns have fixed widths: as many characters, and the same number.
+    head[1:] = [line.replace(b"    -1", b"   -01") for line in head[1:]]
+    return b"    -1\n" + b"".join(head) + body + b"    -1\n", at
 
 
 def plain(name):
-    """The file's name; where a Fortran program has written exponents with D, that of a copy with E."""
+    """The name of a copy whose data sets end as pyuff wants, and whose exponents are not Fortran's D."""
     with open(name, "rb") as given:
         content = given.read()
-    if b"    58b" in content[:400] or not re.search(rb"\d[Dd][+-]\d", content):
-        return name
+    sets, at = [], 0
+    while at < len(content):
+        line, at = cut_from(content, at)
+        if line.rstrip() == b"    -1":
+            found, at = data_set(content, at)
+            if found[7:14] != b"    58b":
+                found = re.sub(rb"(\d)[Dd]([+-]\d)", rb"\1E\2", found)
+            sets.append(found)
     copy = os.path.join(tempfile.mkdtemp(), "copy.uff")
     atexit.register(shutil.rmtree, os.path.dirname(copy), True)
     with open(copy, "wb") as changed:
-        changed.write(re.sub(rb"(\d)[Dd]([+-]\d)", rb"\1E\2", content))
+        changed.write(b"".join(sets))
     return copy
 
 

@@ -166,6 +166,12 @@ fn contact_of_points_says_what_they_are_worth() {
         line.starts_with("gear's convex: 9 x 5 points") && line.contains("turn the gear by"),
         "{line}"
     );
+    // Each table has its own mean point on +x: both together have no thickness.
+    let thickness = printed.lines().nth(2).unwrap();
+    assert!(
+        thickness.starts_with("warning: gear: ") && thickness.contains("points_origin_mm"),
+        "{thickness}"
+    );
     assert!(
         std::fs::read_to_string(&page)
             .unwrap()

@@ -97,6 +97,45 @@ fn curves_of_a_pair_go_out_as_a_universal_file_and_come_back_as_a_record() {
         2,
         &["all its functions are complex (te_m"],
     );
+    // Binary sets of either byte order, ended on a line of their own or straight behind the data; one that is cut.
+    let head: Vec<&str> = lines[begin..begin + 11].to_vec();
+    for (order, end) in [
+        (1, "\n    -1\n"),
+        (2, "\n    -1\n"),
+        (1, "    -1\n"),
+        (2, "\r\n    -1\r\n"),
+    ] {
+        let values = result.curve(&result.te_m, 0);
+        let bytes: Vec<u8> = (values.iter())
+            .flat_map(|v| {
+                if order == 1 {
+                    v.to_le_bytes()
+                } else {
+                    v.to_be_bytes()
+                }
+            })
+            .collect();
+        let size = bytes.len();
+        let head = head.join("\n");
+        let kind = format!(
+            "    58b{order:6}{:6}{:12}{size:12}{:6}{:6}{:12}{:12}",
+            2, 11, 0, 0, 0, 0
+        );
+        let begin = format!("    -1\n{kind}\n{head}\n");
+        let whole = [begin.as_bytes(), &bytes, end.as_bytes()].concat();
+        let listed = succeeds(&[
+            "record",
+            argument(&desk.file("binary.uff", whole)),
+            "--json",
+        ])
+        .json();
+        let range = numbers(&listed["channels"][0]["range"]);
+        let extreme = |pick: fn(f64, f64) -> f64| values.iter().copied().reduce(pick).unwrap();
+        assert_eq!(range, [extreme(f64::min), extreme(f64::max)]);
+        let short = [begin.as_bytes(), &bytes[..size - 9], end.as_bytes()].concat();
+        let words = ["record", argument(&desk.file("short.uff", short))].map(str::to_owned);
+        refused(&gearmesh(&words), 2, &["short.uff"]);
+    }
     let nm = result.torque_nm[0];
     let record = desk.path("record");
     let words = |te: &str| {
@@ -273,6 +312,37 @@ fn a_rigs_table_becomes_a_record_in_the_units_of_records() {
     let by_angle = [&radius[..], &["--angle", "phi"]].concat();
     let answer = made(&clockwise, &by_angle);
     assert!(answer.stderr.contains("its sign is changed"), "{answer:#?}");
+    // An angle that begins anew after a turn goes on, either way round; of several values at one angle the mean is taken; strain that
+    // grows all the time does not repeat.
+    let data = |name: &str, angle: &dyn Fn(f64) -> f64, note: &str| {
+        let answer = made(&desk.file(name, rig_file(angle)), &turn);
+        assert!(answer.stderr.contains(note), "{answer:#?}");
+        let ramp = "strain_root_ustrain_200Nm: from its end to its begin is a jump of";
+        assert!(answer.stderr.contains(ramp), "{answer:#?}");
+        ReferenceRecord::read(&folder).unwrap()
+    };
+    let tau = std::f64::consts::TAU;
+    let plain = data("plain.csv", &|a| a, "outside the revolutions");
+    let anew = data("anew.csv", &|a| a % tau, "begins anew 1 times");
+    for (a, b) in plain.angle_rad.iter().zip(&anew.angle_rad) {
+        assert!((a - b).abs() < 1e-8, "{a} {b}");
+    }
+    assert_eq!(plain.columns, anew.columns);
+    let falling = desk.file("falling.csv", rig_file(|a| tau - a % tau));
+    let answer = made(&falling, &by_angle);
+    assert!(
+        answer.stderr.contains("begins anew 1 times") && answer.code == Some(0),
+        "{answer:#?}"
+    );
+    let pulses = |a: f64| (a / tau * 250.0 + 1e-6).floor() / 250.0 * tau;
+    let steps = data("pulses.csv", &pulses, "500 values stand at the angle");
+    assert_eq!(steps.angle_rad.len(), 250);
+    let two = &plain.columns[1].values[2..4];
+    let mean = 0.5 * (two[0] + two[1]);
+    assert!(
+        (steps.columns[1].values[1] - mean).abs() < 2.1e-9,
+        "{mean} {steps:?}"
+    );
     let swinging = desk.file("swinging.csv", rig_file(f64::sin));
     refused(&made(&swinging, &by_angle), 2, &["goes to and fro"]);
 }

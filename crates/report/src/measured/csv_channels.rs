@@ -122,7 +122,7 @@ fn heads_of(
     let counts = |row: &[String]| row.iter().filter(|field| !field.is_empty()).count();
     let found = rows.iter().position(|(_, row)| of_numbers(row));
     let Some(first) = found else {
-        return Err(wrong(1, "no line of numbers"));
+        return Err(no_numbers(rows, delimiter));
     };
     let (line, row) = &rows[first];
     if counts(row) < 2 {
@@ -152,6 +152,38 @@ fn heads_of(
             .collect(),
     };
     Ok((heads, first))
+}
+
+/// Why no row is one of numbers, by the first row that begins with one.
+fn no_numbers(rows: &[(u64, Vec<String>)], delimiter: u8) -> MeasuredError {
+    let wrong = |line: u64, problem: String| MeasuredError::Table { line, problem };
+    let begins = |field: &&String| field.starts_with(|c: char| c.is_ascii_digit());
+    let found = rows
+        .iter()
+        .find(|(_, row)| row.iter().take(1).any(|f| begins(&f)));
+    let Some((line, row)) = found else {
+        return wrong(1, "no line of numbers".to_owned());
+    };
+    let sign = match delimiter {
+        b'\t' => "tabs",
+        b';' => "semicolons",
+        _ => "commas",
+    };
+    let bad = row
+        .iter()
+        .find(|f| !f.is_empty() && parsed(f, delimiter).is_none());
+    let bad = shown_field(bad.map_or("", String::as_str));
+    let hint = if bad.contains(char::is_whitespace) {
+        "; put commas, semicolons or tabs in place of blanks"
+    } else if bad.contains(['.', ',']) {
+        "; thousands are not separated, the decimal sign is a point or a comma, and a comma separates no fields where it is the decimal sign"
+    } else {
+        ""
+    };
+    wrong(
+        *line,
+        format!("no line of numbers: with fields between {sign} `{bad}` is no number{hint}"),
+    )
 }
 
 /// What separates the numbers: tabs, else semicolons, else commas; as in the first line that begins with a number, or the last line.
@@ -276,6 +308,13 @@ mod tests {
         assert!(refused("a,b\n1,2\n1,x\n").starts_with("3: `x` under `b`"));
         assert!(refused("a,b\ndeg,um\n").contains("no line of numbers"));
         assert!(refused("").contains("no line"));
+        let thousands = refused("phi;te\n0;1.234,5\n");
+        assert!(
+            thousands.starts_with("2: ") && thousands.contains("`1.234,5`"),
+            "{thousands}"
+        );
+        assert!(refused("phi te\n0 1.5\n1 2.5\n").contains("blanks"));
+        assert!(refused("phi,te\n0,\"1,5\"\n").contains("decimal"));
         assert!(refused("a\n1\n").starts_with("1: one column"));
     }
 }

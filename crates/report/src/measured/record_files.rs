@@ -6,6 +6,10 @@ use crate::pair_orders::Shaft;
 use crate::quantity::Quantity;
 use crate::record_data::parse_head;
 use std::fmt::Write;
+use std::ops::Range;
+
+/// A record whose end is off its begin by so many of the largest steps between neighbours does not repeat.
+const OPEN: f64 = 3.0;
 
 /// What the record is, and which channels it takes.
 #[derive(Debug, Clone)]
@@ -60,10 +64,21 @@ pub fn record_files(
     let mut notes = Vec::new();
     let first = columns[0].1;
     let mut angle_deg = angles(first, request)?;
+    if let Some(note) = without_wraps(&mut angle_deg) {
+        notes.push(note);
+    }
     if angle_deg.last() < angle_deg.first() {
         // A record's angle is positive in the shaft's own sense of turning.
         angle_deg.iter_mut().for_each(|angle| *angle = -*angle);
         notes.push("the angle falls: its sign is changed".to_owned());
+    }
+    let places = places_of(&angle_deg);
+    if places.len() < angle_deg.len() {
+        notes.push(format!(
+            "{} values stand at the angle of the one before: of each angle the mean is taken",
+            angle_deg.len() - places.len()
+        ));
+        angle_deg = places.iter().map(|rows| angle_deg[rows.start]).collect();
     }
     let rows = window(&angle_deg, request)?;
     let left_out = angle_deg.len() - rows.len();
@@ -77,6 +92,11 @@ pub fn record_files(
         head.starts_with("te_") && ANGLE_DEG.factor(&channel.unit).is_some()
     };
     if request.base_radius_mm.is_some() && !columns.iter().any(in_angles) {
+        for (_, channel) in columns.iter().filter(|(head, _)| head.starts_with("te_")) {
+            if LENGTH_UM.factor(&channel.unit).is_none() {
+                ANGLE_DEG.factor_of(&channel.name, &channel.unit)?;
+            }
+        }
         let problem =
             "--base-radius-mm: no transmission error of this record is measured as an angle";
         return Err(MeasuredError::Option(problem.to_owned()));
@@ -94,7 +114,14 @@ pub fn record_files(
         } else {
             1.0
         };
-        values.push((sign * factor(head, channel, request)?, &channel.y));
+        let factor = sign * factor(head, channel, request)?;
+        let mean = |at: &Range<usize>| {
+            let sum: f64 = channel.y[at.clone()].iter().sum();
+            factor * sum / at.len() as f64
+        };
+        let column: Vec<f64> = places.iter().map(mean).collect();
+        notes.extend(open_end(head, &column[rows.clone()]));
+        values.push(column);
     }
     let mut data = String::from("angle_deg");
     columns.iter().for_each(|(head, _)| {
@@ -104,8 +131,8 @@ pub fn record_files(
     data.push('\n');
     for row in rows {
         let _ = write!(data, "{}", angle_deg[row] + request.angle_offset_deg);
-        for (factor, y) in &values {
-            let _ = write!(data, ",{}", factor * y[row]);
+        for column in &values {
+            let _ = write!(data, ",{}", column[row]);
         }
         data.push('\n');
     }
@@ -169,6 +196,53 @@ fn angles(channel: &Channel, request: &RecordRequest) -> Result<Vec<f64>, Measur
     }
 }
 
+/// Lets an angle that begins anew after a turn go on; says how often it did.
+fn without_wraps(angle_deg: &mut [f64]) -> Option<String> {
+    let forward = angle_deg.windows(2).filter(|p| p[1] > p[0]).count();
+    let sense = if 2 * forward < angle_deg.len() {
+        -1.0
+    } else {
+        1.0
+    };
+    let (mut turns, mut wraps, mut before) = (0.0, 0, None);
+    for angle in angle_deg {
+        let step = before.map_or(0.0, |before| sense * (*angle - before));
+        before = Some(*angle);
+        if step < -180.0 {
+            turns -= sense * (step / 360.0).round();
+            wraps += 1;
+        }
+        *angle += 360.0 * turns;
+    }
+    (wraps > 0).then(|| format!("the angle begins anew {wraps} times: it is taken to go on"))
+}
+
+/// Rows that stand at one angle.
+fn places_of(angle_deg: &[f64]) -> Vec<Range<usize>> {
+    let mut places: Vec<Range<usize>> = Vec::new();
+    for (row, angle) in angle_deg.iter().enumerate() {
+        match places.last_mut() {
+            Some(last) if angle_deg[last.start] == *angle => last.end = row + 1,
+            _ => places.push(row..row + 1),
+        }
+    }
+    places
+}
+
+/// What is to be said of a column whose end does not meet its begin.
+fn open_end(head: &str, values: &[f64]) -> Option<String> {
+    let (first, last) = (values.first()?, values.last()?);
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let (jump, largest) = ((first - last).abs(), steps.fold(0.0, f64::max));
+    (jump > OPEN * largest && largest > 0.0).then(|| {
+        format!(
+            "{head}: from its end to its begin is a jump of {jump:.4}, {:.1} times the largest step between neighbours: it does not repeat with these revolutions \
+             (a drift, other revolutions), and its peak-to-peak value is too large",
+            jump / largest
+        )
+    })
+}
+
 /// Rows of the revolutions asked for.
 fn window(
     angle_deg: &[f64],
@@ -190,8 +264,10 @@ fn window(
         .unwrap_or_else(|| angle_deg.first().copied().unwrap_or_default());
     let needed_deg = 360.0 * request.revolutions as f64;
     let begin = angle_deg.partition_point(|angle| *angle < from_deg);
-    // The angle that closes the revolutions repeats the first and is left out.
-    let close = from_deg + needed_deg - 1e-3 * widest;
+    // The angle that closes the revolutions repeats the first and is left out, jitter or not.
+    let span_deg = angle_deg.last().unwrap_or(&0.0) - angle_deg.first().unwrap_or(&0.0);
+    let mean = span_deg / angle_deg.len().max(2).saturating_sub(1) as f64;
+    let close = from_deg + needed_deg - 0.1 * mean;
     let end = angle_deg.partition_point(|angle| *angle < close);
     let covered_deg = match angle_deg.get(begin..end) {
         Some([first, .., last]) => last - first,

@@ -20,16 +20,24 @@ pub(super) const ANGLE_DEG: Units = Units {
         ("°", 1.0),
         ("degree", 1.0),
         ("degrees", 1.0),
+        ("gon", 0.9),
         ("rad", DEG),
         ("mrad", 1e-3 * DEG),
         ("urad", 1e-6 * DEG),
         ("arcmin", 1.0 / 60.0),
         ("arcsec", 1.0 / 3600.0),
         ("\"", 1.0 / 3600.0),
+        ("″", 1.0 / 3600.0),
+        ("bogensekunden", 1.0 / 3600.0),
+        ("winkelsekunden", 1.0 / 3600.0),
+        ("winkelminuten", 1.0 / 60.0),
         ("rev", 360.0),
         ("revolutions", 360.0),
         ("turn", 360.0),
         ("turns", 360.0),
+        ("u", 360.0),
+        ("umdr", 360.0),
+        ("umdrehungen", 360.0),
     ],
 };
 
@@ -74,11 +82,20 @@ pub(super) const TIME_S: Units = Units {
 };
 
 impl Units {
-    /// Value of one of these units; none where it is of another quantity.
+    /// Value of one of these units, or of a part of it such as `rev/1024` (a pulse of an encoder); none where it is of another
+    /// quantity.
     pub fn factor(&self, unit: &str) -> Option<f64> {
-        let unit = plain(unit);
-        let found = self.known.iter().find(|(name, _)| *name == unit);
-        found.map(|(_, factor)| *factor)
+        // German: a degree. In small letters it may be that or a gon, and is asked for.
+        let unit = plain(if unit.trim() == "Grad" { "deg" } else { unit });
+        let of = |wanted: &str| {
+            let found = self.known.iter().find(|(name, _)| *name == wanted);
+            found.map(|(_, factor)| *factor)
+        };
+        of(&unit).or_else(|| {
+            let (whole, parts) = unit.split_once('/')?;
+            let parts = parts.parse::<f64>().ok()?;
+            (parts.is_finite() && parts >= 1.0).then(|| of(whole).map(|one| one / parts))?
+        })
     }
 
     /// The same of a channel's unit.
@@ -91,7 +108,12 @@ impl Units {
             name: name.to_owned(),
             found: unit.to_owned(),
             what: self.what,
-            allowed: known.join(" "),
+            allowed: known.join(" ")
+                + if self.known == ANGLE_DEG.known {
+                    "; pulses of an encoder are parts of a turn, such as rev/1024"
+                } else {
+                    ""
+                },
         })
     }
 }
@@ -167,6 +189,17 @@ mod tests {
             );
         }
         assert_eq!(ANGLE_DEG.factor("turns"), Some(360.0));
+        for (unit, deg) in [
+            ("Grad", 1.0),
+            ("gon", 0.9),
+            ("U", 360.0),
+            ("rev/1024", 360.0 / 1024.0),
+        ] {
+            assert_eq!(ANGLE_DEG.factor(unit), Some(deg), "{unit}");
+        }
+        for unit in ["grad", "rev/0", "rev/", "pulses", "rev/x", "1/5"] {
+            assert_eq!(ANGLE_DEG.factor(unit), None, "{unit}");
+        }
         assert_eq!(STRAIN_USTRAIN.factor("-"), Some(1e6));
         let message = LENGTH_UM.factor_of("TE", "N").unwrap_err().to_string();
         assert!(
