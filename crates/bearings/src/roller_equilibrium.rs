@@ -216,7 +216,22 @@ impl Roller<'_> {
         nalgebra::Matrix2::new(self.e_r.dot(&r), self.e_r.dot(&z), r.z, z.z)
     }
 
-    /// Halfway between the races.
+    /// Where a cylindrical roller lies on the outer race under its centrifugal force, all of its length taken to bear; where nothing throws it, far inside. Between
+    /// the races nothing tells a search which way to go.
+    fn thrown_out_m(&self) -> f64 {
+        let row = self.row;
+        let thrown_n = row.mass_kg * row.pitch_radius_m * self.orbit * self.orbit;
+        if thrown_n <= NO_FORCE_N {
+            return 0.0;
+        }
+        let reach = |most: f64, lamina: &Lamina| most.max(lamina.reach_m);
+        let reach_m = row.laminae.iter().fold(0.0, reach);
+        let length_m: f64 = row.laminae.iter().map(|lamina| lamina.length_m).sum();
+        let depth_m = (thrown_n / (row.outer.contact.stiffness * length_m)).powf(0.9);
+        row.outer.offset_m - reach_m + depth_m
+    }
+
+    /// Halfway between the races, or thrown out.
     fn start(&self) -> Vector3<f64> {
         let row = self.row;
         let a = &self.pose.axis;
@@ -226,7 +241,13 @@ impl Roller<'_> {
             a * row.middle_z_m + (self.e_r - a * self.e_r.dot(a)).normalize() * row.pitch_radius_m;
         let shift = self.in_plane(&(turned + self.pose.centre_m - middle)) * 0.5;
         if row.rib.is_none() {
-            Vector3::new(row.pitch_radius_m + shift[0], row.middle_z_m, tilt)
+            let halfway_m = row.pitch_radius_m + shift[0];
+            let thrown_m = self.thrown_out_m();
+            if halfway_m < thrown_m {
+                Vector3::new(thrown_m, row.middle_z_m, 0.0)
+            } else {
+                Vector3::new(halfway_m, row.middle_z_m, tilt)
+            }
         } else {
             // With the ring along its rib, halfway between the races across the roller's axis.
             let (_, across) = self.axes(0.0);
