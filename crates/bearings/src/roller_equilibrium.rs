@@ -21,6 +21,9 @@ const NO_FORCE_N: f64 = 1e-9;
 /// Newton's iterations of one roller before it is given up.
 const MOST_ITERATIONS: usize = 100;
 
+/// Proximal steps of one roller before it is left where Newton's method leaves it.
+const MOST_PROXIMAL_STEPS: usize = 30;
+
 /// One roller at its angle.
 pub(crate) struct Roller<'a> {
     pub row: &'a RollerRow,
@@ -262,13 +265,62 @@ impl Roller<'_> {
         }
     }
 
-    /// Newton's method; each step is shortened, then turned towards the force, until the unbalanced force falls.
+    /// A quarter of a roller's length \[m\], by which moments count as forces.
+    fn arm_m(&self) -> f64 {
+        0.25 * self.row.laminae.len() as f64 * self.row.laminae[0].length_m
+    }
+
+    /// Newton's method. Where it stops with forces left over, as on a tapered roller that is thrown about between race and rib, proximal steps follow: each ends
+    /// where the roller would rest if a spring held it to its place before; springs are softened from step to step.
     fn equilibrium(&self, start: ElementPlace) -> Result<(Vector3<f64>, State), BearingError> {
+        let begin = start.unwrap_or_else(|| self.start());
+        let first = self.newton(begin, None);
+        let unbalanced = |state: &State| {
+            let size = state.residual.norm();
+            size > 1e-6 * state.scale && state.scale > NO_FORCE_N
+        };
+        match &first {
+            Ok((_, state)) if !unbalanced(state) => return first,
+            _ => {}
+        }
+        let mut place = begin;
+        let mut spring = self.state(&begin).scale / 1e-6;
+        for _ in 0..MOST_PROXIMAL_STEPS {
+            let Ok((next, _)) = self.newton(place, Some((place, spring))) else {
+                break;
+            };
+            place = next;
+            spring *= 0.5;
+            match self.newton(place, None) {
+                Ok((place, state)) if !unbalanced(&state) => return Ok((place, state)),
+                _ => {}
+            }
+        }
+        first
+    }
+
+    /// Newton's method; each step is shortened, then turned towards the force, until the unbalanced force falls. With a spring to a place (N/m; about the
+    /// circumferential direction by the square of [`Self::arm_m`]), if one is given.
+    fn newton(
+        &self,
+        start: Vector3<f64>,
+        spring: Option<(Vector3<f64>, f64)>,
+    ) -> Result<(Vector3<f64>, State), BearingError> {
         let row = self.row;
-        let arm = 0.25 * row.laminae.len() as f64 * row.laminae[0].length_m;
+        let arm = self.arm_m();
         let size_of = |r: &Vector3<f64>| Vector3::new(r[0], r[1], r[2] / arm).norm();
-        let mut place = start.unwrap_or_else(|| self.start());
-        let mut state = self.state(&place);
+        let state_at = |place: &Vector3<f64>| {
+            let mut state = self.state(place);
+            if let Some((at, stiffness)) = spring {
+                for (axis, share) in [1.0, 1.0, arm * arm].into_iter().enumerate() {
+                    state.residual[axis] -= stiffness * share * (place[axis] - at[axis]);
+                    state.tangent[(axis, axis)] += stiffness * share;
+                }
+            }
+            state
+        };
+        let mut place = start;
+        let mut state = state_at(&place);
         let mut lift = 0.0_f64;
         for _ in 0..MOST_ITERATIONS {
             let size = size_of(&state.residual);
@@ -293,7 +345,7 @@ impl Roller<'_> {
             }
             let factor = (50e-6 / moved).min(1.0);
             let next = place + step * factor;
-            let found = self.state(&next);
+            let found = state_at(&next);
             if size_of(&found.residual) < size {
                 (place, state) = (next, found);
                 lift = if lift < 1e-8 { 0.0 } else { 0.1 * lift };

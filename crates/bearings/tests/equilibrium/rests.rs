@@ -254,3 +254,28 @@ fn tapered_rollers_and_races_share_an_apex() {
         assert!(off.abs() < 1e-12, "{off}");
     }
 }
+
+/// The unloaded row of a pair of tapered bearings at speed: every roller bears its centrifugal force on the outer race and the rib.
+#[test]
+fn unpressed_tapered_rollers_are_in_equilibrium() {
+    let pair = bearing(&format!(
+        "{TAPERED}arrangement = \"O\"\nrow_distance_mm = 25.0\n"
+    ));
+    let turning = Operation {
+        inner_rad_per_s: 1000.0,
+        ..Operation::default()
+    };
+    let load = AppliedBearingLoad {
+        force_n: [300.0, 100.0, 4000.0],
+        tilt: TiltCondition::Held([0.0; 2]),
+    };
+    let (_, loads) = rests(&pair, load, &turning);
+    let Row::Roller(row) = &pair.rows[1] else {
+        panic!("no rollers")
+    };
+    for roller in &loads.elements[1] {
+        // Across the axis, along the outer race's normal: at least the centrifugal force, whatever rib and inner race add.
+        let across = roller.outer_load_n * row.outer.normal.0;
+        assert!(across > 0.9 * roller.centrifugal_n, "{roller:?}");
+    }
+}
