@@ -21,6 +21,9 @@ const NO_FORCE_N: f64 = 1e-9;
 /// Newton's iterations of one roller before it is given up.
 const MOST_ITERATIONS: usize = 100;
 
+/// Proximal steps of one roller before it is left where Newton's method leaves it.
+const MOST_PROXIMAL_STEPS: usize = 30;
+
 /// One roller at its angle.
 pub(crate) struct Roller<'a> {
     pub row: &'a RollerRow,
@@ -216,7 +219,22 @@ impl Roller<'_> {
         nalgebra::Matrix2::new(self.e_r.dot(&r), self.e_r.dot(&z), r.z, z.z)
     }
 
-    /// Halfway between the races.
+    /// Where a cylindrical roller lies on the outer race under its centrifugal force, all of its length taken to bear; where nothing throws it, far inside. Between
+    /// the races nothing tells a search which way to go.
+    fn thrown_out_m(&self) -> f64 {
+        let row = self.row;
+        let thrown_n = row.mass_kg * row.pitch_radius_m * self.orbit * self.orbit;
+        if thrown_n <= NO_FORCE_N {
+            return 0.0;
+        }
+        let reach = |most: f64, lamina: &Lamina| most.max(lamina.reach_m);
+        let reach_m = row.laminae.iter().fold(0.0, reach);
+        let length_m: f64 = row.laminae.iter().map(|lamina| lamina.length_m).sum();
+        let depth_m = (thrown_n / (row.outer.contact.stiffness * length_m)).powf(0.9);
+        row.outer.offset_m - reach_m + depth_m
+    }
+
+    /// Halfway between the races, or thrown out.
     fn start(&self) -> Vector3<f64> {
         let row = self.row;
         let a = &self.pose.axis;
@@ -226,7 +244,13 @@ impl Roller<'_> {
             a * row.middle_z_m + (self.e_r - a * self.e_r.dot(a)).normalize() * row.pitch_radius_m;
         let shift = self.in_plane(&(turned + self.pose.centre_m - middle)) * 0.5;
         if row.rib.is_none() {
-            Vector3::new(row.pitch_radius_m + shift[0], row.middle_z_m, tilt)
+            let halfway_m = row.pitch_radius_m + shift[0];
+            let thrown_m = self.thrown_out_m();
+            if halfway_m < thrown_m {
+                Vector3::new(thrown_m, row.middle_z_m, 0.0)
+            } else {
+                Vector3::new(halfway_m, row.middle_z_m, tilt)
+            }
         } else {
             // With the ring along its rib, halfway between the races across the roller's axis.
             let (_, across) = self.axes(0.0);
@@ -241,13 +265,62 @@ impl Roller<'_> {
         }
     }
 
-    /// Newton's method; each step is shortened, then turned towards the force, until the unbalanced force falls.
+    /// A quarter of a roller's length \[m\], by which moments count as forces.
+    fn arm_m(&self) -> f64 {
+        0.25 * self.row.laminae.len() as f64 * self.row.laminae[0].length_m
+    }
+
+    /// Newton's method. Where it stops with forces left over, as on a tapered roller that is thrown about between race and rib, proximal steps follow: each ends
+    /// where the roller would rest if a spring held it to its place before; springs are softened from step to step.
     fn equilibrium(&self, start: ElementPlace) -> Result<(Vector3<f64>, State), BearingError> {
+        let begin = start.unwrap_or_else(|| self.start());
+        let first = self.newton(begin, None);
+        let unbalanced = |state: &State| {
+            let size = state.residual.norm();
+            size > 1e-6 * state.scale && state.scale > NO_FORCE_N
+        };
+        match &first {
+            Ok((_, state)) if !unbalanced(state) => return first,
+            _ => {}
+        }
+        let mut place = begin;
+        let mut spring = self.state(&begin).scale / 1e-6;
+        for _ in 0..MOST_PROXIMAL_STEPS {
+            let Ok((next, _)) = self.newton(place, Some((place, spring))) else {
+                break;
+            };
+            place = next;
+            spring *= 0.5;
+            match self.newton(place, None) {
+                Ok((place, state)) if !unbalanced(&state) => return Ok((place, state)),
+                _ => {}
+            }
+        }
+        first
+    }
+
+    /// Newton's method; each step is shortened, then turned towards the force, until the unbalanced force falls. With a spring to a place (N/m; about the
+    /// circumferential direction by the square of [`Self::arm_m`]), if one is given.
+    fn newton(
+        &self,
+        start: Vector3<f64>,
+        spring: Option<(Vector3<f64>, f64)>,
+    ) -> Result<(Vector3<f64>, State), BearingError> {
         let row = self.row;
-        let arm = 0.25 * row.laminae.len() as f64 * row.laminae[0].length_m;
+        let arm = self.arm_m();
         let size_of = |r: &Vector3<f64>| Vector3::new(r[0], r[1], r[2] / arm).norm();
-        let mut place = start.unwrap_or_else(|| self.start());
-        let mut state = self.state(&place);
+        let state_at = |place: &Vector3<f64>| {
+            let mut state = self.state(place);
+            if let Some((at, stiffness)) = spring {
+                for (axis, share) in [1.0, 1.0, arm * arm].into_iter().enumerate() {
+                    state.residual[axis] -= stiffness * share * (place[axis] - at[axis]);
+                    state.tangent[(axis, axis)] += stiffness * share;
+                }
+            }
+            state
+        };
+        let mut place = start;
+        let mut state = state_at(&place);
         let mut lift = 0.0_f64;
         for _ in 0..MOST_ITERATIONS {
             let size = size_of(&state.residual);
@@ -272,7 +345,7 @@ impl Roller<'_> {
             }
             let factor = (50e-6 / moved).min(1.0);
             let next = place + step * factor;
-            let found = self.state(&next);
+            let found = state_at(&next);
             if size_of(&found.residual) < size {
                 (place, state) = (next, found);
                 lift = if lift < 1e-8 { 0.0 } else { 0.1 * lift };

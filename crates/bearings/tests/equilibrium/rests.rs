@@ -20,6 +20,10 @@ fn rests(
     let [x, y, z] = load.force_n;
     let size = x.hypot(y).hypot(z);
     for (axis, force) in load.force_n.into_iter().enumerate() {
+        // Cylindrical rollers hold nothing along the axis.
+        if axis == 2 && !bearing.locates {
+            continue;
+        }
         let unbalanced = ring.load[axis] + force;
         assert!(
             unbalanced.abs() < 1e-8 * size,
@@ -201,6 +205,35 @@ fn interference_presses_every_roller_alike() {
     }
 }
 
+/// At speed rollers that the inner ring does not press lie on the outer race under their centrifugal force, and all others press it by as much more.
+#[test]
+fn unpressed_rollers_press_the_outer_race() {
+    let turning = Operation {
+        inner_rad_per_s: 1500.0,
+        ..Operation::default()
+    };
+    for clearance in ["0.0", "40.0"] {
+        let loose = bearing(&ROLLERS.replace("um = 10.0", &format!("um = {clearance}")));
+        let load = AppliedBearingLoad {
+            force_n: [900.0, 200.0, 0.0],
+            tilt: TiltCondition::Held([0.5e-3, 0.0]),
+        };
+        let (_, loads) = rests(&loose, load, &turning);
+        let unpressed = loads.elements[0]
+            .iter()
+            .filter(|roller| roller.inner_load_n == 0.0);
+        assert!(unpressed.count() > 3);
+        for roller in &loads.elements[0] {
+            assert!(roller.centrifugal_n > 10.0);
+            close(
+                roller.outer_load_n - roller.inner_load_n,
+                roller.centrifugal_n,
+                1e-3,
+            );
+        }
+    }
+}
+
 /// Rollers and races of a tapered bearing have one apex on its axis.
 #[test]
 fn tapered_rollers_and_races_share_an_apex() {
@@ -219,5 +252,30 @@ fn tapered_rollers_and_races_share_an_apex() {
     for race in [&row.inner, &row.outer] {
         let off = race.normal.1 * apex_z - race.offset_m;
         assert!(off.abs() < 1e-12, "{off}");
+    }
+}
+
+/// The unloaded row of a pair of tapered bearings at speed: every roller bears its centrifugal force on the outer race and the rib.
+#[test]
+fn unpressed_tapered_rollers_are_in_equilibrium() {
+    let pair = bearing(&format!(
+        "{TAPERED}arrangement = \"O\"\nrow_distance_mm = 25.0\n"
+    ));
+    let turning = Operation {
+        inner_rad_per_s: 1000.0,
+        ..Operation::default()
+    };
+    let load = AppliedBearingLoad {
+        force_n: [300.0, 100.0, 4000.0],
+        tilt: TiltCondition::Held([0.0; 2]),
+    };
+    let (_, loads) = rests(&pair, load, &turning);
+    let Row::Roller(row) = &pair.rows[1] else {
+        panic!("no rollers")
+    };
+    for roller in &loads.elements[1] {
+        // Across the axis, along the outer race's normal: at least the centrifugal force, whatever rib and inner race add.
+        let across = roller.outer_load_n * row.outer.normal.0;
+        assert!(across > 0.9 * roller.centrifugal_n, "{roller:?}");
     }
 }
