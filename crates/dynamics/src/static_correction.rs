@@ -17,7 +17,7 @@ use crate::system::System;
 /// Singular values below this share of the largest, after scaling, count as zero.
 const FREE: f64 = 1e-11;
 
-/// Share of the largest stiffness, scaled by the masses, that counts as rounding.
+/// Share of the largest stiffness, and of the largest entry of a joint equation, scaled by the masses, that counts as rounding.
 const ROUNDING: f64 = 1e-14;
 
 /// Share of the largest push anywhere with which a push is compared at least: below [`BALANCED`] times this it is rounding, such as what a body turned
@@ -148,6 +148,23 @@ fn by_singular_values(
             most.max(stiffest)
                 .max((equations.residual[j] * mass[j] * mass[j]).abs())
         });
+    // So is what a joint equation has of a motion that it leaves free.
+    let felt: Vec<f64> = kept
+        .iter()
+        .map(|&equation| {
+            let entries = (0..n).filter(|i| weighs[*i]);
+            let entries = entries.map(|i| (mass[i] * equations.gradient.get(i, equation)).abs());
+            ROUNDING * entries.fold(0.0_f64, f64::max)
+        })
+        .collect();
+    let gradient = |i: usize, k: usize| {
+        let entry = equations.gradient.get(i, kept[k]);
+        if weighs[i] && (mass[i] * entry).abs() <= felt[k] {
+            0.0
+        } else {
+            entry
+        }
+    };
     let entry = |i: usize, j: usize| match (i < n, j < n) {
         // What has no mass is not measured by it.
         (true, true)
@@ -158,8 +175,8 @@ fn by_singular_values(
             0.0
         }
         (true, true) => equations.stiffness.get(i, j),
-        (true, false) => equations.gradient.get(i, kept[j - n]),
-        (false, true) => equations.gradient.get(j, kept[i - n]),
+        (true, false) => gradient(i, j - n),
+        (false, true) => gradient(j, i - n),
         (false, false) => 0.0,
     };
     // Scales that bring the largest entry of every row and column to about 1, from those of the mass matrix.
