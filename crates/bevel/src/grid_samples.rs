@@ -31,8 +31,8 @@ pub(crate) struct Samples {
     pub spacing: [f64; 2],
     /// Azimuth of the surface's own +x in the frame of the table \[rad\].
     pub zero_rad: f64,
-    /// Of the points, in the frame of the surface: place and normal.
-    places: Vec<(Vector3<f64>, Vector3<f64>)>,
+    /// Places of the points in the frame of the surface \[m\].
+    places: Vec<Vector3<f64>>,
 }
 
 impl Samples {
@@ -90,7 +90,7 @@ impl Samples {
             let (slopes, lever) =
                 AzimuthSurface::slopes_of_normal(&frame, [sin, cos], at, &r, &normal);
             samples.at.push(at);
-            samples.places.push((r, normal));
+            samples.places.push(r);
             samples.azimuth_rad.push(r.y.atan2(r.x));
             samples.slopes.push(slopes);
             samples.lever_m.push(lever.abs());
@@ -214,9 +214,13 @@ impl Samples {
         for i in 0..self.at.len() {
             let normal = self.surface.point(self.at[i]).n;
             let (frame, pitch) = (&self.surface.frame, self.surface.pitch);
-            let (r, _) = &self.places[i];
-            let (slopes, lever) =
-                AzimuthSurface::slopes_of_normal(frame, pitch, self.at[i], r, &normal);
+            let (slopes, lever) = AzimuthSurface::slopes_of_normal(
+                frame,
+                pitch,
+                self.at[i],
+                &self.places[i],
+                &normal,
+            );
             self.slopes[i] = slopes;
             self.lever_m[i] = lever.abs();
             self.added_rad[i] = self.surface.facing * grid.points[i].deviation_m / lever.abs();
