@@ -81,6 +81,15 @@ impl PythonEnvironment {
         &self.interpreter
     }
 
+    /// The interpreter, isolated: neither the working folder nor `PYTHONPATH` nor the user's own packages are searched
+    /// for modules, so that no file of a downloaded folder runs. All Python children begin with this.
+    #[must_use]
+    pub fn command(&self) -> Command {
+        let mut command = Command::new(&self.interpreter);
+        command.arg("-I");
+        command
+    }
+
     /// Runs a script text in an isolated interpreter with `input` on its standard input; returns its standard output.
     ///
     /// # Errors
@@ -96,8 +105,9 @@ impl PythonEnvironment {
             python: self.interpreter.display().to_string(),
             cause,
         };
-        let mut child = Command::new(&self.interpreter)
-            .args(["-I", "-c", script])
+        let mut child = self
+            .command()
+            .args(["-c", script])
             .args(arguments)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())

@@ -1,7 +1,7 @@
 //! Writing beside and renaming: a killed run or a full disk leaves the old file or none. Outputs are never links: what
 //! a link points to is not overwritten.
 
-use std::fs::{File, TryLockError};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -40,6 +40,39 @@ static WRITING: Mutex<()> = Mutex::new(());
 /// the program from another thread calls this first.
 pub fn wait_for_writes() -> MutexGuard<'static, ()> {
     WRITING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Refuses an output that is there and is no plain file: a link, whose target would be written, a device, a folder.
+///
+/// # Errors
+/// [`FileError::OutputIsALink`], [`FileError::NotARegularFile`].
+pub fn demand_output(path: &Path) -> Result<(), FileError> {
+    // A rename would replace a device such as /dev/null by a file, and a link by a file beside what it points to.
+    match path.symlink_metadata() {
+        Ok(found) if found.is_symlink() => Err(FileError::OutputIsALink {
+            path: path.to_owned(),
+        }),
+        Ok(found) if !found.is_file() => Err(FileError::NotARegularFile {
+            path: path.to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Opens a file that grows by being appended to, such as a log of rows; makes an empty one where there is none.
+///
+/// # Errors
+/// Those of [`demand_output`], [`FileError::Io`].
+pub(crate) fn open_growing(path: &Path) -> Result<File, FileError> {
+    let io = |source| FileError::Io {
+        path: path.to_owned(),
+        action: "open",
+        source,
+    };
+    demand_output(path)?;
+    let mut options = OpenOptions::new();
+    let file = options.read(true).write(true).create(true).truncate(false);
+    file.open(path).map_err(io)
 }
 
 /// Folder of a file; the current one for a bare name.
@@ -99,18 +132,7 @@ pub(crate) fn write_atomically_from<E: From<FileError>>(
         }
     };
     let _held = wait_for_writes();
-    // A rename would replace a device such as /dev/null by a file, and a link by a file beside what it points to.
-    match path.symlink_metadata() {
-        Ok(found) if found.is_symlink() => {
-            let path = path.to_owned();
-            return Err(FileError::OutputIsALink { path }.into());
-        }
-        Ok(found) if !found.is_file() => {
-            let path = path.to_owned();
-            return Err(FileError::NotARegularFile { path }.into());
-        }
-        _ => {}
-    }
+    demand_output(path)?;
     let prefix = temporary_prefix(path);
     remove_abandoned(staging, &prefix, suffix);
     let mut temporary =

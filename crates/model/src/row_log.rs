@@ -6,11 +6,11 @@
 //! resumes and when they become columns. HDF5 comes at the end ([`write_columns`](crate::write_columns)): libhdf5 may
 //! leave a file unreadable that it had open when the process was killed.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use crate::atomic_file::folder_of;
+use crate::atomic_file::{folder_of, open_growing};
 use crate::file_error::FileError;
 
 const NUMBER_BYTES: usize = size_of::<f64>();
@@ -29,16 +29,11 @@ impl LockedLog {
     /// Opens the file, or makes an empty one, and locks it.
     ///
     /// # Errors
-    /// [`FileError::InUse`] if another process has it locked, [`FileError::Io`].
+    /// [`FileError::InUse`] if another process has it locked, [`FileError::OutputIsALink`],
+    /// [`FileError::NotARegularFile`], [`FileError::Io`].
     pub fn open(path: &Path) -> Result<Self, FileError> {
         let io = |action| RowLog::io(path, action);
-        let file = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(path)
-            .map_err(io("open"))?;
+        let file = open_growing(path)?;
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
@@ -58,7 +53,7 @@ impl LockedLog {
         #[cfg(unix)]
         {
             use std::os::unix::fs::MetadataExt;
-            match (self.file.metadata(), self.path.metadata()) {
+            match (self.file.metadata(), self.path.symlink_metadata()) {
                 (Ok(open), Ok(named)) => (open.dev(), open.ino()) == (named.dev(), named.ino()),
                 _ => false,
             }
@@ -285,9 +280,24 @@ impl RowLog {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use std::fs::OpenOptions;
 
     fn resume(path: &Path, columns: usize, rows: u64, digest: &str) -> Result<RowLog, FileError> {
         LockedLog::open(path)?.resume(columns, rows, digest)
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_log_behind_a_link_is_refused_and_what_it_points_to_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, other) = (folder.path().join("rows.log"), folder.path().join("other"));
+        std::os::unix::fs::symlink(&other, &path).unwrap();
+        let refused = || RowLog::create(&path, 3).err();
+        assert!(matches!(refused(), Some(FileError::OutputIsALink { .. })));
+        assert!(!other.exists());
+        std::fs::write(&other, "mine").unwrap();
+        assert!(matches!(refused(), Some(FileError::OutputIsALink { .. })));
+        assert_eq!(std::fs::read(&other).unwrap(), b"mine");
     }
 
     #[test]

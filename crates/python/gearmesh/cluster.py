@@ -73,6 +73,10 @@ def run_cases(
         token = stack.enter_context(_token(out))
         bar = stack.enter_context(Bar(progress, "study"))
         connection = stack.enter_context(_Connection(cluster, patience_s))
+        from .cluster_worker import LOG
+
+        if (out / LOG).is_symlink():
+            raise _native.InputError(f"{out / LOG} is a symbolic link, and nothing is written through links; remove it")
         if gears:
             connection.until_done(functools.partial(_reduce_gears, path=path, out=out, token=token, bar=bar))
         cases: list[Sent] = _native.study_cases(path, out)
@@ -193,7 +197,8 @@ class _Connection:
                 client = Client(scheduler_file=address, timeout=timeout_s, set_as_default=False)
             else:
                 client = Client(address, timeout=timeout_s, set_as_default=False)
-        except (OSError, ValueError, TypeError) as cause:
+        except (OSError, ValueError, TypeError, KeyError, AttributeError) as cause:
+            # The last three: a file that is no scheduler file.
             raise _native.InputError(
                 f"--scheduler: nothing answers at {address!r} ({cause}); give the address of a running dask scheduler, as "
                 "tcp://HOST:8786, its scheduler file, or local"

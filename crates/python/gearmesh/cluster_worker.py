@@ -51,7 +51,9 @@ def store(path: Path, content: bytes) -> None:
 
 
 def log(out: Path, line: str) -> None:
-    with open(out / LOG, "a", encoding="utf-8") as file:
+    # A link of this name is not followed: what it points to is not ours.
+    flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)
+    with open(os.open(out / LOG, flags, 0o666), "a", encoding="utf-8") as file:
         file.write(line)
 
 

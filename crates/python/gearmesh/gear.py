@@ -66,7 +66,7 @@ class Gear:
 
     def write(self, path: str | Path) -> None:
         """Writes the gear file."""
-        Path(path).write_text(self.toml, encoding="utf-8")
+        _native.write_text(path, self.toml)
 
     def reduce(self, path: str | Path | None = None, **options: Any):
         """The reduced gear: see gearmesh.reduce."""

@@ -113,7 +113,7 @@ class Scene:
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes the scene file. Files that it names relative to folder must be found from there, too."""
-        Path(path).write_text(self.toml, encoding="utf-8")
+        _native.write_text(path, self.toml)
 
     def __repr__(self) -> str:
         return f"<Scene {self.title!r}: {'gear pair at rest' if self.kind == 'pair' else 'multibody system'}>"

@@ -8,7 +8,7 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::{SceneFile, named_files, renamed_files};
 use pyo3::prelude::*;
 
-use crate::errors::{InputError, input_error};
+use crate::errors::{InputError, file_error, input_error};
 
 /// TOML text of a JSON object.
 ///
@@ -27,6 +27,12 @@ pub(crate) fn json_from_toml(text: &str, file: &str) -> PyResult<String> {
         .glance()
         .map_err(input_error)?;
     serde_json::to_string(&table).map_err(|error| InputError::new_err(error.to_string()))
+}
+
+/// Writes a text file whole or not at all. Raises InputError where the path is a link or no file, OSError.
+#[pyfunction]
+pub(crate) fn write_text(path: PathBuf, text: &str) -> PyResult<()> {
+    gearmesh_model::write_text(&path, text).map_err(file_error)
 }
 
 /// JSON Schema (draft 2020-12) of gear, scene, study or optimise files, as text.

@@ -40,6 +40,7 @@ mod native {
     #[pymodule_export]
     use crate::documents::{
         check_gear, check_scene, files_of, json_from_toml, schema, toml_from_json, with_files,
+        write_text,
     };
     #[pymodule_export]
     use crate::errors::{InputError, WorkError};

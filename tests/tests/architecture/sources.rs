@@ -16,6 +16,13 @@ const UNCHECKED: [&str; 2] = [
     "tests/support/counting_allocator.rs", // the trait's methods are unsafe
 ];
 
+/// The only files that open files to write; each with its reason.
+const OPENS_FILES: [&str; 3] = [
+    "crates/model/src/atomic_file.rs", // the one place for outputs
+    "crates/cli/src/commands/export/series.rs", // into a temporary folder
+    "crates/python/src/meshio_exchange.rs", // into a temporary folder
+];
+
 #[test]
 fn source_files_stay_short() {
     let faults: Vec<String> = rust_files("")
@@ -72,6 +79,53 @@ fn unchecked_code_stays_where_it_is_listed() {
         users, expected,
         "only the files on the right may contain code that the compiler cannot check: write the others without it, or \
          list the file in UNCHECKED with its reason"
+    );
+}
+
+/// What writes elsewhere follows links, and leaves half a file where it is killed.
+#[test]
+fn outputs_are_opened_in_one_place() {
+    let calls = [
+        concat!("File::", "create"),
+        concat!("Open", "Options"),
+        concat!("fs::", "write"),
+    ];
+    let mut faults = Vec::new();
+    for file in rust_files("crates") {
+        let name = relative(&file);
+        if !name.contains("/src/") || OPENS_FILES.contains(&&name[..]) {
+            continue;
+        }
+        let content = read(&file);
+        let code = content.split("#[cfg(test)]").next().unwrap_or_default();
+        for (index, line) in code.lines().enumerate() {
+            if calls.iter().any(|call| before_comment(line).contains(call)) {
+                faults.push(format!(
+                    "{name}:{} opens a file to write: use write_text, write_bytes or write_by of gearmesh-model",
+                    index + 1
+                ));
+            }
+        }
+    }
+    assert_no_faults(&faults);
+}
+
+/// A Python that is started without isolation runs modules that lie in the working folder.
+#[test]
+fn children_are_started_where_they_are_isolated() {
+    let call = concat!("Command::", "new(");
+    let files = rust_files("crates").into_iter();
+    let starters: Vec<String> = files
+        .filter(|file| relative(file).contains("/src/") && read(file).contains(call))
+        .map(|file| relative(&file))
+        .collect();
+    assert_eq!(
+        starters,
+        [
+            "crates/cli/src/commands/doctor.rs",
+            "crates/mesh/src/python.rs"
+        ],
+        "only these start programs: ask PythonEnvironment::command for a Python"
     );
 }
 

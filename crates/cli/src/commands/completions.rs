@@ -4,6 +4,7 @@ use crate::arguments::{Arguments, CompletionsArguments, ManArguments};
 use crate::console;
 use crate::failure::Failure;
 use clap::CommandFactory;
+use gearmesh_model::write_bytes;
 
 /// Runs `gearmesh completions`.
 pub fn completions(a: &CompletionsArguments) -> Result<(), Failure> {
@@ -17,7 +18,14 @@ pub fn completions(a: &CompletionsArguments) -> Result<(), Failure> {
 pub fn man(a: &ManArguments) -> Result<(), Failure> {
     let failed = |cause: std::io::Error| Failure::work(format!("{}: {cause}", a.output.display()));
     std::fs::create_dir_all(&a.output).map_err(failed)?;
-    clap_mangen::generate_to(Arguments::command(), &a.output).map_err(failed)?;
+    // They are generated as plain files, which would follow links; outputs do not.
+    let scratch = tempfile::tempdir().map_err(Failure::work)?;
+    clap_mangen::generate_to(Arguments::command(), scratch.path()).map_err(failed)?;
+    for page in std::fs::read_dir(scratch.path()).map_err(Failure::work)? {
+        let page = page.map_err(Failure::work)?;
+        let text = std::fs::read(page.path()).map_err(Failure::work)?;
+        write_bytes(&a.output.join(page.file_name()), &text)?;
+    }
     console::data(a.output.join("gearmesh.1").display());
     Ok(())
 }

@@ -5,7 +5,7 @@ use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt::{self, Scratch};
 use crate::page_file;
-use gearmesh_model::write_text;
+use gearmesh_model::{csv_cell, write_text};
 use gearmesh_report::optimise_page::optimise_page;
 use gearmesh_report::short;
 use gearmesh_scene::optimise::{Optimisation, Optimum, Trial, optimise};
@@ -126,16 +126,8 @@ fn table(problem: &Optimisation, found: &Optimum) -> Vec<String> {
 
 /// A line for each choice: variables, objectives.
 fn csv(problem: &Optimisation, trials: &[Trial]) -> String {
-    let head: Vec<String> = names(problem)
-        .into_iter()
-        .map(|name| {
-            if name.contains([',', '"', '\n']) {
-                format!("\"{}\"", name.replace('"', "\"\""))
-            } else {
-                name
-            }
-        })
-        .collect();
+    let names = names(problem);
+    let head: Vec<_> = names.iter().map(|name| csv_cell(name)).collect();
     let line = |trial: &Trial| {
         let numbers = trial.values.iter().chain(&trial.objectives);
         numbers.map(f64::to_string).collect::<Vec<_>>().join(",") + "\n"

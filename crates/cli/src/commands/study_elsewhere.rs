@@ -7,7 +7,6 @@ use crate::interrupt;
 use crate::offline;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::process::Command;
 
 /// Runs all cases; why cases have failed, by the names of their files.
 ///
@@ -20,7 +19,7 @@ pub fn run(
     let python = offline::python()?;
     let folder = tempfile::tempdir().map_err(Failure::work)?;
     let list = folder.path().join("failures.json");
-    let mut command = Command::new(python.interpreter());
+    let mut command = python.command();
     command
         .args(["-m", "gearmesh.cluster"])
         .arg(&arguments.study)

@@ -1,5 +1,7 @@
 //! A table as CSV: one line of names, commas, points; texts in quotes where they need them.
 
+use gearmesh_model::{no_formula, without_apostrophe};
+
 use super::{Cells, ExportError, Table};
 
 /// The table as text. A number has as many digits as tell it from its neighbours.
@@ -8,12 +10,17 @@ use super::{Cells, ExportError, Table};
 /// [`ExportError::Csv`].
 pub fn csv_text(table: &Table) -> Result<String, ExportError> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(table.columns.iter().map(|(name, _)| name))?;
+    writer.write_record(
+        table
+            .columns
+            .iter()
+            .map(|(name, _)| no_formula(name).into_owned()),
+    )?;
     for row in 0..table.rows() {
         for (_, cells) in &table.columns {
             match cells {
                 Cells::Numbers(values) => writer.write_field(number(values[row]))?,
-                Cells::Texts(values) => writer.write_field(&values[row])?,
+                Cells::Texts(values) => writer.write_field(no_formula(&values[row]).as_ref())?,
             }
         }
         writer.write_record(None::<&[u8]>)?;
@@ -41,12 +48,16 @@ fn number(value: f64) -> String {
 /// [`ExportError::Csv`] if lines are of different lengths.
 pub fn study_table(text: &str) -> Result<Table, ExportError> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let names: Vec<String> = reader.headers()?.iter().map(str::to_owned).collect();
+    let names: Vec<String> = reader
+        .headers()?
+        .iter()
+        .map(|name| without_apostrophe(name).to_owned())
+        .collect();
     let mut cells: Vec<Vec<String>> = vec![Vec::new(); names.len()];
     for record in reader.records() {
         let record = record?;
         let each = cells.iter_mut().zip(&record);
-        each.for_each(|(column, cell)| column.push(cell.to_owned()));
+        each.for_each(|(column, cell)| column.push(without_apostrophe(cell).to_owned()));
     }
     let mut table = Table::new("study");
     for (name, cells) in names.into_iter().zip(cells) {

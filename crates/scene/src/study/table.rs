@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use gearmesh_model::csv_cell;
+
 use super::cases::{CaseResult, Selected, SelectedValue};
 use super::study_file::Study;
 
@@ -28,11 +30,13 @@ pub(super) fn table(study: &Study, results: &[CaseResult]) -> String {
     let head = parameters
         .chain(columns.iter().copied())
         .chain(["file", "failure"]);
-    let mut text = head.map(quoted).collect::<Vec<_>>().join(",") + "\n";
+    let mut text = head.map(csv_cell).collect::<Vec<_>>().join(",") + "\n";
     for result in results {
         let settings = settings(study, result);
         let file = result.file.as_deref().and_then(Path::file_name);
-        let file = file.map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let file = file.map_or_else(String::new, |name| {
+            csv_cell(&name.to_string_lossy()).into_owned()
+        });
         match &result.figures {
             Ok(selected) if is_wide => {
                 for row in selected.chunks(study.tables.columns.len().max(1)) {
@@ -44,7 +48,7 @@ pub(super) fn table(study: &Study, results: &[CaseResult]) -> String {
             }
             Ok(selected) => {
                 for one in selected {
-                    let column = quoted(&one.column);
+                    let column = csv_cell(&one.column);
                     // A number beside series stands in the place of the mean.
                     let rest = match one.value {
                         SelectedValue::Single(_) => ",,,",
@@ -55,7 +59,7 @@ pub(super) fn table(study: &Study, results: &[CaseResult]) -> String {
             }
             Err(problem) => {
                 let empty = ",".repeat(columns.len());
-                text += &format!("{settings}{empty}{file},{}\n", quoted(problem));
+                text += &format!("{settings}{empty}{file},{}\n", csv_cell(problem));
             }
         }
     }
@@ -80,7 +84,7 @@ fn settings(study: &Study, result: &CaseResult) -> String {
         let mut settings = result.case.settings.iter();
         let found = settings.find(|setting| setting.parameter == name);
         found.map_or_else(String::new, |setting| match &setting.value {
-            toml::Value::String(word) => quoted(word),
+            toml::Value::String(word) => csv_cell(word).into_owned(),
             value => value.to_string(),
         })
     };
@@ -88,13 +92,4 @@ fn settings(study: &Study, result: &CaseResult) -> String {
     parameters
         .map(|parameter| of(&parameter.name) + ",")
         .collect()
-}
-
-/// A text as a cell of a comma separated file.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
 }

@@ -18,7 +18,9 @@ use std::ffi::OsString;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use gearmesh_model::{DataArray, DataTree, FileError, FileFormat, LockedLog, RowLog};
+use gearmesh_model::{
+    DataArray, DataTree, FileError, FileFormat, LockedLog, RowLog, demand_output,
+};
 
 use super::error::SystemRunError;
 
@@ -68,17 +70,9 @@ impl PartFolder {
     ) -> Result<(Self, Option<DataTree>), SystemRunError> {
         let folder = Self::beside(output);
         // Better told now than after the run.
-        for path in [output, &folder] {
-            let path = path.to_owned();
-            match path.symlink_metadata() {
-                Ok(found) if found.is_symlink() => {
-                    return Err(FileError::OutputIsALink { path }.into());
-                }
-                Ok(found) if path == output && !found.is_file() => {
-                    return Err(FileError::NotARegularFile { path }.into());
-                }
-                _ => {}
-            }
+        demand_output(output)?;
+        if folder.is_symlink() {
+            return Err(FileError::OutputIsALink { path: folder }.into());
         }
         let locked = lock(&folder)?;
         let checkpoint = folder.join(CHECKPOINT_FILE);

@@ -4,7 +4,7 @@ use crate::arguments::SeriesArguments;
 use crate::commands::signal::series::Series;
 use crate::console;
 use crate::failure::Failure;
-use gearmesh_model::write_text;
+use gearmesh_model::{csv_cell, write_text};
 use gearmesh_report::min_max;
 use gearmesh_report::page::{Align, Axis, AxisScale, LineChart, LineSeries, Page, Section, Table};
 use gearmesh_signal::Spectrum;
@@ -190,6 +190,7 @@ impl Outcome {
             unit => format!("{} [{unit}]", curve.name),
         };
         let heads: Vec<String> = self.curves.iter().map(head).collect();
+        let heads: Vec<_> = heads.iter().map(|head| csv_cell(head)).collect();
         let mut text = heads.join(",") + "\n";
         let rows = self.curves.first().map_or(0, |curve| curve.values.len());
         for row in 0..rows {
