@@ -11,6 +11,7 @@
 //! | balls that move | [`DynamicBearing`] | `dynamic/` |
 //! | what may be wrong with it | [`faults::Fault`] | `faults/` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
+//! | what the ends of rollers suffer | [`stress_riser::stress_riser`] | `stress_riser.rs` |
 //! | life over the loads of a run | [`LoadHistory`] | `load_history.rs` |
 //! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `estimate.rs` |
 //! | frequencies of rolling | [`BearingFrequencies`] | `frequencies.rs` |
@@ -46,6 +47,7 @@ pub mod ring_load;
 pub mod ring_pose;
 mod roller_equilibrium;
 pub mod roller_row;
+pub mod stress_riser;
 
 pub use ball_kinematics::RaceControl;
 pub use ball_row::BallRow;

@@ -9,4 +9,5 @@ mod independent;
 mod lives;
 mod published;
 mod rests;
+mod stress_risers;
 mod tangents;
