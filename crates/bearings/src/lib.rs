@@ -13,7 +13,7 @@
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
 //! | what the ends of rollers suffer | [`stress_riser::stress_riser`] | `stress_riser.rs` |
 //! | life over the loads of a run | [`LoadHistory`] | `load_history.rs` |
-//! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `estimate.rs` |
+//! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `designations.rs`, `element_room.rs`, `estimate.rs` |
 //! | frequencies of rolling | [`BearingFrequencies`] | `frequencies.rs` |
 //!
 //! SI units. Frame: that of the outer ring, z its axis; the pose of the inner ring is seen in it, loads act on the inner ring.
@@ -26,10 +26,12 @@ pub mod bearing_file;
 mod build_rows;
 pub mod catalogue;
 pub mod definition;
+pub mod designations;
 mod dual;
 pub mod dynamic;
 pub mod element_load;
 pub mod element_place;
+pub mod element_room;
 mod error;
 pub mod estimate;
 pub mod faults;

@@ -1,6 +1,7 @@
 //! Equilibrium of bearings against independent solutions (tools/reference/bearings.py), their tangents, their lives, and bad files.
 #![allow(clippy::unwrap_used, clippy::expect_used)] // test code
 
+mod catalogue;
 mod common;
 mod files;
 mod hard_cases;

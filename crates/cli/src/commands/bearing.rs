@@ -21,6 +21,7 @@ use std::path::Path;
 pub fn read(path: &Path) -> Result<BearingFromFile, Failure> {
     let found = BearingFromFile::read(path)?;
     found.notes.iter().for_each(console::note);
+    found.warnings.iter().for_each(console::warning);
     Ok(found)
 }
 
@@ -251,6 +252,9 @@ impl Answer<'_> {
                 "length_mm": 1e3 * e.length_m,
                 "length_spread_mm": e.length_spread_m.map(|d| 1e3 * d),
                 "pitch_diameter_mm": 1e3 * e.pitch_m,
+                "dynamic_N": e.dynamic_n,
+                "static_N": e.static_n,
+                "poor_fit": e.poor_fit,
                 "dynamic_ratio": e.dynamic_ratio,
                 "static_ratio": e.static_ratio,
             });

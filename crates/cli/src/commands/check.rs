@@ -140,6 +140,7 @@ fn bearing(document: &InputDocument) -> Result<Finding, Failure> {
     let found = BearingFromFile::from_document(document)?;
     QuasiStaticBearing::new(&found.definition).map_err(Failure::work)?;
     found.notes.iter().for_each(console::note);
+    found.warnings.iter().for_each(console::warning);
     Ok(Finding::new("bearing", Some(&found.definition.name)))
 }
 

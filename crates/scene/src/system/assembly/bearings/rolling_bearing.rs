@@ -14,10 +14,20 @@ pub(in crate::system::assembly) fn definition(
     folder: &Path,
     keys: &TableKeys<'_>,
 ) -> Result<BearingDefinition, InputError> {
+    Ok(read(key, file, folder, keys)?.definition)
+}
+
+/// Everything that the file says.
+pub(super) fn read(
+    key: &str,
+    file: &str,
+    folder: &Path,
+    keys: &TableKeys<'_>,
+) -> Result<BearingFromFile, InputError> {
     let path = folder.join(file);
     if !path.exists() {
         let problem = format!("the bearing file {} does not exist", path.display());
         return Err(keys.error(key, problem));
     }
-    Ok(BearingFromFile::from_document(&InputDocument::read(&path)?)?.definition)
+    BearingFromFile::from_document(&InputDocument::read(&path)?)
 }
