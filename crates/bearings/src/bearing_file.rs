@@ -4,6 +4,7 @@ mod arrangement_keys;
 mod ball_keys;
 mod catalogue_keys;
 mod fault_keys;
+mod fit_keys;
 mod roller_keys;
 
 use std::path::Path;
@@ -97,6 +98,8 @@ struct BearingFile {
     /// Load ratings of the whole bearing; those not given are computed. "catalogue": those of one bearing, `dynamic_N` and `static_N` needed without
     /// `designation`.
     ratings: Option<RatingsTable>,
+    /// Fits of the rings and temperatures: the clearance in operation follows from them; the bearing as stated where not given.
+    fit: Option<fit_keys::FitTable>,
     /// What is wrong with the bearing, one table a fault; sound where there is none.
     #[serde(default)]
     fault: Vec<FaultTable>,
@@ -237,6 +240,8 @@ impl BearingFromFile {
         let keys = TableKeys::new(document, "");
         refuse_unused(&file, &keys)?;
         let mut notes = Vec::new();
+        let stated = |mm: Option<f64>| mm.map(|value| MM * value);
+        let mut boundary = (stated(file.bore_mm), stated(file.outside_diameter_mm));
         let (geometry, estimate, name, from_catalogue) = match file.kind {
             Kind::DeepGroove | Kind::AngularContact => {
                 let geometry = ball_keys::geometry(&file, &keys, &mut notes)?;
@@ -248,6 +253,7 @@ impl BearingFromFile {
             }
             Kind::Catalogue => {
                 let found = catalogue_keys::geometry(&file, document, &keys, &mut notes)?;
+                boundary = (Some(found.line.bore_m), Some(found.line.outside_m));
                 (
                     found.geometry,
                     Some(found.estimate),
@@ -271,6 +277,9 @@ impl BearingFromFile {
                 table.require(key, value, value > 0.0, "more than 0")?;
             }
         }
+        let fit = (file.fit.as_ref())
+            .map(|table| fit_keys::fit(table, document, boundary, &geometry))
+            .transpose()?;
         let stated = StatedRatings {
             dynamic_n: stated.dynamic_N,
             static_n: stated.static_N,
@@ -289,6 +298,7 @@ impl BearingFromFile {
         let warnings = estimate.iter().filter_map(|e| e.poor_fit.clone()).collect();
         let definition = BearingDefinition {
             name,
+            fit,
             faults: fault_keys::faults(&file.fault, document, &geometry, &arrangement)?,
             geometry,
             element_material: material(&file.element_material, document, "element_material")?,
@@ -299,6 +309,7 @@ impl BearingFromFile {
             stated_ratings,
         };
         check_boundary(&file, &keys, &definition)?;
+        fit_keys::require_operating(&definition, document)?;
         Ok(Self {
             definition,
             estimate,

@@ -1,6 +1,7 @@
 //! What a bearing is: sizes, materials, arrangement, in SI units.
 
 use crate::faults::Fault;
+use crate::fit::Fit;
 
 /// A bearing.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +22,8 @@ pub struct BearingDefinition {
     pub first_angle_rad: f64,
     /// Load ratings that are stated; those that are not are computed.
     pub stated_ratings: StatedRatings,
+    /// How its rings are seated and how warm it is; none: the clearance is the stated one.
+    pub fit: Option<Fit>,
     /// What is wrong with it; empty for a sound bearing.
     pub faults: Vec<Fault>,
 }

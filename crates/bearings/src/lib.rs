@@ -9,6 +9,7 @@
 //! | all rows: load on the inner ring and its tangent | [`QuasiStaticBearing`] | `quasi_static.rs` |
 //! | the same between two bodies of a system | [`QuasiStaticElement`] | `quasi_static_element.rs` |
 //! | balls that move | [`DynamicBearing`] | `dynamic/` |
+//! | fits and heat: the clearance in operation | [`OperatingClearance`] | `fit.rs` |
 //! | what may be wrong with it | [`faults::Fault`] | `faults/` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
 //! | what the ends of rollers suffer | [`stress_riser::stress_riser`] | `stress_riser.rs` |
@@ -35,6 +36,7 @@ pub mod element_room;
 mod error;
 pub mod estimate;
 pub mod faults;
+pub mod fit;
 pub mod frequencies;
 pub mod life;
 pub mod line_contact;
@@ -59,6 +61,7 @@ pub use dynamic::{DynamicBearing, DynamicEffects};
 pub use element_load::ElementLoad;
 pub use element_place::ElementPlaces;
 pub use error::BearingError;
+pub use fit::OperatingClearance;
 pub use frequencies::BearingFrequencies;
 pub use gearmesh_geometry::point_contact::PointContact;
 pub use gearmesh_geometry::{elliptic, point_contact};

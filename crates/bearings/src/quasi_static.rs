@@ -149,8 +149,13 @@ impl QuasiStaticBearing {
             Preload::Force(force_n) => shift_under_force(&rows[0], definition, force_n)?,
         };
         let senses = definition.arrangement.rows();
+        // Rings keep their places along the axis as they are seated: a fit adds to the preload of a pair.
+        let clearance = definition.operating_clearance();
         for (row, (_, sense)) in rows.iter_mut().zip(senses) {
             row.shift_inner(sense * preload_m);
+            if let Some(clearance) = &clearance {
+                clearance.apply(row);
+            }
         }
         for (number, row) in rows.iter_mut().enumerate() {
             match row {

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod bearing;
+mod bearing_clearance;
 pub mod bearing_frequencies;
 mod bearing_page;
 pub mod bevel;

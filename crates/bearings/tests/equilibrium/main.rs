@@ -4,6 +4,7 @@
 mod catalogue;
 mod common;
 mod files;
+mod fits;
 mod hard_cases;
 mod hertz;
 mod independent;

@@ -1,6 +1,6 @@
 //! `gearmesh bearing`: a rolling bearing under a load.
 
-use super::bearing_page;
+use super::{bearing_clearance, bearing_page};
 use crate::arguments::{BearingArguments, ControlWord};
 use crate::console;
 use crate::failure::Failure;
@@ -165,7 +165,7 @@ fn lubrication(a: &BearingArguments) -> Result<Option<Lubrication>, Failure> {
 }
 
 /// To so many decimals, without the sign of what is nothing then.
-fn rounded(value: f64, decimals: i32) -> f64 {
+pub(super) fn rounded(value: f64, decimals: i32) -> f64 {
     let unit = 10.0_f64.powi(decimals);
     (value * unit).round() / unit + 0.0
 }
@@ -243,6 +243,9 @@ impl Answer<'_> {
                 "L10mr_Mrev": self.life.modified_mrev.and_then(finite),
             },
         });
+        if let Some(clearance) = self.found.definition.operating_clearance() {
+            value["clearance"] = bearing_clearance::figures(&clearance);
+        }
         if let Some(e) = &self.found.estimate {
             value["estimate"] = json!({
                 "elements": e.elements,
@@ -281,6 +284,10 @@ impl Answer<'_> {
                 );
             }
             console::data(text);
+        }
+        if let Some(clearance) = self.found.definition.operating_clearance() {
+            let lines = bearing_clearance::lines(&clearance);
+            lines.into_iter().for_each(console::data);
         }
         if self.bearing.preload_m != 0.0 {
             console::data(format!(

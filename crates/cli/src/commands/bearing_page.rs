@@ -1,6 +1,7 @@
 //! The page of `gearmesh bearing --report`: loads round the bearing, contact angles and pressures.
 
 use super::bearing::Answer;
+use super::bearing_clearance;
 use crate::arguments::BearingArguments;
 use crate::failure::Failure;
 use crate::page_file;
@@ -51,6 +52,9 @@ fn page(answer: &Answer<'_>, a: &BearingArguments) -> Page {
             "Balls and rollers".to_owned()
         };
         page = page.section(of_row(answer, row, loads, name));
+    }
+    if let Some(clearance) = answer.found.definition.operating_clearance() {
+        page = page.section(bearing_clearance::section(&clearance));
     }
     page.footer(format!(
         "{} by gearmesh {}",
