@@ -5,6 +5,7 @@ mod ball_keys;
 mod catalogue_keys;
 mod fault_keys;
 mod fit_keys;
+mod friction_keys;
 mod roller_keys;
 
 use std::path::Path;
@@ -100,6 +101,8 @@ struct BearingFile {
     ratings: Option<RatingsTable>,
     /// Fits of the rings and temperatures: the clearance in operation follows from them; the bearing as stated where not given.
     fit: Option<fit_keys::FitTable>,
+    /// Friction torque by Palmgren's model; none is computed where not given.
+    friction: Option<friction_keys::FrictionTable>,
     /// What is wrong with the bearing, one table a fault; sound where there is none.
     #[serde(default)]
     fault: Vec<FaultTable>,
@@ -298,6 +301,9 @@ impl BearingFromFile {
         let warnings = estimate.iter().filter_map(|e| e.poor_fit.clone()).collect();
         let definition = BearingDefinition {
             name,
+            friction: (file.friction.as_ref())
+                .map(|table| friction_keys::friction(table, document, &geometry))
+                .transpose()?,
             fit,
             faults: fault_keys::faults(&file.fault, document, &geometry, &arrangement)?,
             geometry,

@@ -2,6 +2,7 @@
 
 use crate::faults::Fault;
 use crate::fit::Fit;
+use crate::friction::Friction;
 
 /// A bearing.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +25,8 @@ pub struct BearingDefinition {
     pub stated_ratings: StatedRatings,
     /// How its rings are seated and how warm it is; none: the clearance is the stated one.
     pub fit: Option<Fit>,
+    /// What makes its friction torque; none: it is not computed.
+    pub friction: Option<Friction>,
     /// What is wrong with it; empty for a sound bearing.
     pub faults: Vec<Fault>,
 }
@@ -59,6 +62,17 @@ pub enum BearingGeometry {
     Ball(BallGeometry),
     /// Cylindrical and tapered roller bearings.
     Roller(RollerGeometry),
+}
+
+impl BearingGeometry {
+    /// Number of balls or rollers in a row.
+    #[must_use]
+    pub fn elements(&self) -> usize {
+        match self {
+            Self::Ball(g) => g.balls,
+            Self::Roller(g) => g.rollers,
+        }
+    }
 }
 
 /// Which ball bearing.

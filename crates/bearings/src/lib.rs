@@ -11,6 +11,7 @@
 //! | balls that move | [`DynamicBearing`] | `dynamic/` |
 //! | fits and heat: the clearance in operation | [`OperatingClearance`] | `fit.rs` |
 //! | what may be wrong with it | [`faults::Fault`] | `faults/` |
+//! | friction torque | [`friction::Friction`] | `friction.rs` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
 //! | what the ends of rollers suffer | [`stress_riser::stress_riser`] | `stress_riser.rs` |
 //! | life over the loads of a run | [`LoadHistory`] | `load_history.rs` |
@@ -38,6 +39,7 @@ pub mod estimate;
 pub mod faults;
 pub mod fit;
 pub mod frequencies;
+pub mod friction;
 pub mod life;
 pub mod line_contact;
 pub mod load_history;
@@ -63,6 +65,7 @@ pub use element_place::ElementPlaces;
 pub use error::BearingError;
 pub use fit::OperatingClearance;
 pub use frequencies::BearingFrequencies;
+pub use friction::{Friction, FrictionTorque};
 pub use gearmesh_geometry::point_contact::PointContact;
 pub use gearmesh_geometry::{elliptic, point_contact};
 pub use life::Life;

@@ -9,6 +9,7 @@ use crate::definition::{BearingDefinition, Preload};
 use crate::element_load::ElementLoad;
 use crate::element_place::{ElementPlace, ElementPlaces};
 use crate::error::BearingError;
+use crate::faults::missing_element::missing;
 use crate::faults::{Fault, MisalignedRing, RowFaults, Side};
 use crate::operation::Operation;
 use crate::point_contact::ContactEllipse;
@@ -32,6 +33,15 @@ impl Row {
         match self {
             Self::Ball(row) => row.balls,
             Self::Roller(row) => row.rollers,
+        }
+    }
+
+    /// Whether a ball or roller is there.
+    #[must_use]
+    pub fn has(&self, element: usize) -> bool {
+        match self {
+            Self::Ball(row) => row.has(element),
+            Self::Roller(row) => !row.missing.contains(&element),
         }
     }
 
@@ -160,7 +170,10 @@ impl QuasiStaticBearing {
         for (number, row) in rows.iter_mut().enumerate() {
             match row {
                 Row::Ball(row) => row.faults = RowFaults::of(&definition.faults, number, row)?,
-                Row::Roller(_) => refuse_faults_of_balls(&definition.faults)?,
+                Row::Roller(row) => {
+                    refuse_faults_of_balls(&definition.faults)?;
+                    row.missing = missing(&definition.faults, number, row.rollers)?;
+                }
             }
         }
         Ok(Self {
@@ -271,10 +284,11 @@ impl QuasiStaticBearing {
 }
 
 fn refuse_faults_of_balls(faults: &[Fault]) -> Result<(), BearingError> {
-    let of_balls = |fault: &Fault| !matches!(fault, Fault::MisalignedRing { .. });
+    let of_balls =
+        |fault: &Fault| !matches!(fault, Fault::MisalignedRing { .. } | Fault::Missing { .. });
     if faults.iter().any(of_balls) {
         return Err(BearingError::NotCarried(
-            "of the faults a roller bearing can have a misaligned ring only; spalls, waviness and off-size balls are those of ball bearings",
+            "of the faults a roller bearing can have a misaligned ring and missing rollers only; spalls, waviness and off-size balls are those of ball bearings",
         ));
     }
     Ok(())

@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod bearing;
 mod bearing_clearance;
 pub mod bearing_frequencies;
+mod bearing_friction;
 mod bearing_page;
 pub mod bevel;
 mod bevel_stress;

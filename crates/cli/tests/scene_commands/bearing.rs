@@ -270,3 +270,46 @@ fn a_fit_is_printed_term_by_term() {
     );
     assert!(other.get("clearance").is_none());
 }
+
+/// Friction stands in print, page and JSON; a missing ball is told by name.
+#[test]
+fn friction_and_missing_balls_are_printed() {
+    let desk = Desk::new();
+    let text = format!(
+        "{B218}[friction]\nviscosity_mm2_per_s = 30.0\nseal_torque_Nm = 0.1\n[[fault]]\nkind = \"missing\"\nelement = 3\n"
+    );
+    let file = desk.file("rubs.toml", text);
+    let page = desk.path("rubs.html");
+    let load = [
+        "bearing",
+        argument(&file),
+        "--load-N",
+        "0,0,17800",
+        "--speed-rpm",
+        "1500",
+    ];
+    let json = succeeds(&[&load[..], &["--json", "--report", argument(&page)]].concat()).json();
+    let friction = |key: &str| json["friction"][key].as_f64().unwrap();
+    near(
+        &json["friction"]["torque_Nm"],
+        friction("viscous_Nm") + friction("load_Nm") + 0.1,
+        1e-12,
+    );
+    near(
+        &json["friction"]["power_W"],
+        friction("torque_Nm") * 50.0 * std::f64::consts::PI,
+        1e-12,
+    );
+    assert_eq!(json["rows"][0][2]["missing"], true);
+    let print = succeeds(&load).stdout;
+    assert!(
+        print.contains("friction torque") && print.contains("power loss"),
+        "{print}"
+    );
+    assert!(print.contains("  45.00         missing"), "{print}");
+    assert!(
+        std::fs::read_to_string(&page)
+            .unwrap()
+            .contains("power loss")
+    );
+}
