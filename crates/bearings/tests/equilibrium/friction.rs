@@ -57,7 +57,8 @@ fn the_viscous_part_follows_its_powers() {
 #[test]
 fn the_part_by_the_load_by_hand() {
     let across = friction(&oiled(ROLLERS, ""), [2000.0, 1500.0, 0.0], 600.0);
-    close(across.load_nm, 1e-3 * 0.0003 * 2500.0 * 33.5, 1e-6);
+    // Outer loads lie along other radii than inner ones by the ring's displacement over the radius.
+    close(across.load_nm, 1e-3 * 0.0003 * 2500.0 * 33.5, 1e-3);
     let c0 = Ratings::of(&definition(B6205)).static_n;
     let along = friction(&oiled(B6205, ""), [0.0, 0.0, 400.0], 60.0);
     // P0 = 0.5 F_a, P1 = 3 F_a.
@@ -74,7 +75,7 @@ fn the_part_by_the_load_by_hand() {
     );
     close(
         both.load_nm,
-        1e-3 * 0.001 * (p0.max(3000.0) / c0).powf(0.33) * p1 * 125.3,
+        1e-3 * 0.001 * (f64::max(p0, 3000.0) / c0).powf(0.33) * p1 * 125.3,
         1e-3,
     );
     let stated = friction(&oiled(B218, "f1 = 0.002\n"), [0.0, 0.0, 9000.0], 60.0);

@@ -3,7 +3,7 @@
 //! The table for people is in `system_table.rs`.
 
 use crate::arguments::RunArguments;
-use crate::commands::{ratings, system_table};
+use crate::commands::{losses, ratings, system_table};
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -83,6 +83,9 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
         value["run"] = run;
     }
     value["ratings"] = ratings::json(&result.ratings);
+    if let losses @ Value::Object(_) = losses::json(result)? {
+        value["losses"] = losses;
+    }
     match result.kind {
         ResultKind::Transient => {
             let passings = result.mesh_passings().map_err(Failure::work)?;
