@@ -17,6 +17,7 @@ pub mod demo;
 pub mod doctor;
 pub mod export;
 pub mod import;
+mod import_trial;
 pub mod init;
 mod loaded_gauges;
 mod loaded_tca;
