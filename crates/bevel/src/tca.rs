@@ -304,7 +304,7 @@ pub struct Sensitivity {
     pub shaft_angle: [f64; 2],
 }
 
-/// Where the mean contact lies on the gear in an assembly, L and h \[m\], from a contact nearby.
+/// The mean contact in an assembly, from a contact nearby, and where it lies on the gear, L and h \[m\].
 ///
 /// # Errors
 /// [`BevelError::NoContact`].
@@ -313,7 +313,7 @@ pub(crate) fn mean_place_m(
     blank: &PairBlank,
     error: &AssemblyError,
     near: &Touch,
-) -> Result<[f64; 2], BevelError> {
+) -> Result<(Touch, [f64; 2]), BevelError> {
     let none = || BevelError::NoContact {
         hint: "make the errors smaller",
     };
@@ -329,7 +329,7 @@ pub(crate) fn mean_place_m(
     };
     let mean = mean_contact(&mesh, &start)?;
     let p = flanks[1].point(mean.at[1]).ok_or_else(none)?;
-    Ok(flanks[1].place(&p.r))
+    Ok((mean, flanks[1].place(&p.r)))
 }
 
 /// Sensitivity of the mean contact round an assembly, by central differences over 0.1 µm and 1 µrad.
@@ -342,7 +342,7 @@ pub fn sensitivity(
     error: &AssemblyError,
 ) -> Result<Sensitivity, BevelError> {
     let (_, first) = first_touch(flanks, blank, error)?;
-    let place = |error: &AssemblyError| mean_place_m(flanks, blank, error, &first);
+    let place = |error: &AssemblyError| Ok(mean_place_m(flanks, blank, error, &first)?.1);
     let slope = |by: AssemblyError, size: f64| -> Result<[f64; 2], BevelError> {
         let shifted = |sign: f64| place(&error.plus(&by.scaled(sign)));
         let (up, down) = (shifted(1.0)?, shifted(-1.0)?);

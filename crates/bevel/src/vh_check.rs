@@ -6,6 +6,7 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 use crate::assembly::{Assembly, AssemblyError};
 use crate::blank::PairBlank;
 use crate::contact_path::first_touch;
+use crate::contact_point::Touch;
 use crate::error::BevelError;
 use crate::flank::Flank;
 use crate::hand::FlankSide;
@@ -38,6 +39,8 @@ const PARTS: usize = 10;
 const MOST_STEPS: usize = 12;
 /// Steps of the differences \[m\]; of the angle over the mean cone distance.
 const STEP_M: f64 = 1e-7;
+/// A place is met within this \[m\].
+const CLOSE_M: f64 = 1e-9;
 
 /// Which error of assembly is free beside P.
 #[derive(Clone, Copy)]
@@ -61,9 +64,8 @@ impl PairDesign {
         let flanks = self.flanks(pinion);
         let gear_axial =
             gear_axial_of_backlash(blank, [flanks[0], self.teeth[0].flank(pinion.mate())]);
-        let (_, near) = first_touch(flanks, blank, base)?;
-        let place = |error: &AssemblyError| mean_place_m(flanks, blank, error, &near);
-        let start = place(base)?;
+        let (_, first) = first_touch(flanks, blank, base)?;
+        let (first, start) = mean_place_m(flanks, blank, base, &first)?;
         let half = blank.outer_cone_m - blank.mean_cone_m;
         let to = |free: Free, sign: f64| -> Result<VhSetting, BevelError> {
             let end = blank.mean_cone_m + sign * (1.0 - 2.0 * FROM_END) * half;
@@ -79,34 +81,38 @@ impl PairDesign {
                 by.gear_axial_m = gear_axial(&by);
                 by
             };
-            let at = |x: Vector2<f64>| Ok(Vector2::from(place(&base.plus(&error(x)))?));
+            // Contacts move by tens of millimetres for each of an error: each is sought from the last one.
+            let at = |x: Vector2<f64>, near: &Touch| -> Result<(Touch, Vector2<f64>), BevelError> {
+                let (touch, place) = mean_place_m(flanks, blank, &base.plus(&error(x)), near)?;
+                Ok((touch, place.into()))
+            };
             let begin = Vector2::from(start);
             // The same share of the depth, which is in proportion to the cone distance.
             let goal = Vector2::new(end, start[1] * end / start[0]);
             let mut x = Vector2::zeros();
+            let (mut near, mut here) = (first, begin);
             for part in 1..=PARTS {
                 let target = begin + (goal - begin) * (part as f64 / PARTS as f64);
-                let mut miss: Vector2<f64> = at(x)? - target;
                 for _ in 0..MOST_STEPS {
-                    if miss.norm() < 1e-10 {
+                    if (here - target).norm() < CLOSE_M {
                         break;
                     }
                     let mut slopes = Matrix2::zeros();
                     for i in 0..2 {
                         let mut step = Vector2::zeros();
                         step[i] = STEP_M;
-                        slopes.set_column(i, &((at(x + step)? - at(x - step)?) / (2.0 * STEP_M)));
+                        let ends = [at(x + step, &near)?.1, at(x - step, &near)?.1];
+                        slopes.set_column(i, &((ends[0] - ends[1]) / (2.0 * STEP_M)));
                     }
-                    let step = slopes.lu().solve(&miss).ok_or_else(unreached)?;
-                    x -= step;
-                    miss = at(x)? - target;
+                    x -= slopes.lu().solve(&(here - target)).ok_or_else(unreached)?;
+                    (near, here) = at(x, &near)?;
                 }
-                if miss.norm() > 1e-7 {
+                if (here - target).norm() > 100.0 * CLOSE_M {
                     return Err(unreached());
                 }
             }
             Ok(VhSetting {
-                place_m: at(x)?.into(),
+                place_m: here.into(),
                 error: error(x),
             })
         };

