@@ -28,6 +28,7 @@ pub mod modes;
 pub mod optimise;
 pub mod periods;
 pub mod plan;
+pub mod pressures;
 pub mod ratings;
 pub mod record;
 pub mod recover;

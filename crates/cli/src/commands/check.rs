@@ -1,7 +1,7 @@
 //! `gearmesh check`: reads a file of any kind and says what it is, or what is wrong with it.
 
 use crate::arguments::CheckArguments;
-use crate::commands::{reduce, system_table};
+use crate::commands::{bevel, reduce, system_table};
 use crate::failure::Failure;
 use crate::{console, offline};
 use gearmesh_bearings::QuasiStaticBearing;
@@ -147,8 +147,18 @@ fn found(path: &Path) -> Result<Finding, Failure> {
 
 fn bevel_pair(document: &InputDocument) -> Result<Finding, Failure> {
     let file = PairFile::from_document(document)?;
-    file.checked_design(document)?;
-    Ok(Finding::new("bevel pair", Some(&file.title)))
+    let (design, _) = file.checked_design(document)?;
+    let mut finding = Finding::new("bevel pair", Some(&file.title));
+    finding.lines = bevel::thickness_words(&design, &file);
+    (finding.facts).insert(
+        "backlash_mm".into(),
+        json!(1e3 * design.backlash_m(&file.blank)),
+    );
+    for (i, tooth) in design.teeth.iter().enumerate() {
+        let thickness = bevel::thickness_figures(tooth, design.settings[i].as_ref(), &file);
+        (finding.facts).insert(format!("{}_thickness", tooth.blank.name), thickness);
+    }
+    Ok(finding)
 }
 
 fn bevel_gear(document: &InputDocument, folder: &Path) -> Result<Finding, Failure> {
