@@ -68,6 +68,12 @@ impl BallRow {
         }
     }
 
+    /// Whether a ball is there.
+    #[must_use]
+    pub fn has(&self, ball: usize) -> bool {
+        !(self.faults.as_ref()).is_some_and(|faults| faults.is_missing(ball))
+    }
+
     /// Diameter \[m\] and mass \[kg\] of a ball, which may be of another size than the others.
     #[must_use]
     pub fn ball_size(&self, ball: usize) -> (f64, f64) {
@@ -97,6 +103,15 @@ impl BallRow {
         let (step_sine, step_cosine) = (std::f64::consts::TAU / self.balls as f64).sin_cos();
         let (mut sine, mut cosine) = self.angle_rad(0, operation).sin_cos();
         for (number, place) in places.iter_mut().enumerate() {
+            let e_r = Vector3::new(cosine, sine, 0.0);
+            (sine, cosine) = (
+                sine * step_cosine + cosine * step_sine,
+                cosine * step_cosine - sine * step_sine,
+            );
+            if !self.has(number) {
+                each(ElementLoad::absent(self.angle_rad(number, operation)));
+                continue;
+            }
             let faulty = self.faults.as_ref().map(|faults| {
                 let angle = self.angle_rad(number, operation);
                 let angles = (angle, angle - operation.inner_angle_rad);
@@ -112,14 +127,10 @@ impl BallRow {
                 outer,
                 pose,
                 operation,
-                e_r: Vector3::new(cosine, sine, 0.0),
+                e_r,
                 number,
             };
             each(ball.add(place, ring)?);
-            (sine, cosine) = (
-                sine * step_cosine + cosine * step_sine,
-                cosine * step_cosine - sine * step_sine,
-            );
         }
         Ok(())
     }

@@ -4,6 +4,8 @@ mod arrangement_keys;
 mod ball_keys;
 mod catalogue_keys;
 mod fault_keys;
+mod fit_keys;
+mod friction_keys;
 mod roller_keys;
 
 use std::path::Path;
@@ -45,27 +47,27 @@ struct BearingFile {
     outside_diameter_mm: Option<f64>,
     /// Width, as `bore_mm`.
     width_mm: Option<f64>,
-    /// "deep-groove", "angular-contact": number of balls in a row.
+    /// "deep-groove", "angular-contact": number of balls in a row. "catalogue": where it is known.
     balls: Option<usize>,
-    /// "deep-groove", "angular-contact": diameter of the balls.
+    /// "deep-groove", "angular-contact": diameter of the balls. "catalogue": where it is known.
     ball_diameter_mm: Option<f64>,
-    /// Diameter of the circle of the balls' or rollers' middles.
+    /// Diameter of the circle of the balls' or rollers' middles. "catalogue": where it is known; the middle between bore and outside diameter otherwise.
     pitch_diameter_mm: Option<f64>,
     /// "deep-groove", "angular-contact": radius of the inner groove over the ball's diameter, more than 0.5.
     inner_conformity: Option<f64>,
     /// "deep-groove", "angular-contact": radius of the outer groove over the ball's diameter, more than 0.5.
     outer_conformity: Option<f64>,
-    /// "angular-contact": contact angle without load. "tapered-roller": angle of the outer race against the axis. "catalogue": of an angular-contact bearing.
+    /// "angular-contact": contact angle without load. "tapered-roller": angle of the outer race against the axis. "catalogue": of angular-contact and tapered roller bearings.
     contact_angle_deg: Option<f64>,
     /// "deep-groove", "cylindrical-roller", "catalogue": play across the axis from one side to the other; negative: interference, as fits leave it; 0 where not given.
     radial_clearance_um: Option<f64>,
     /// "deep-groove", "angular-contact": diameters of the grooves' bottoms, inner and outer, instead of clearance or contact angle.
     raceway_diameters_mm: Option<[f64; 2]>,
-    /// "cylindrical-roller", "tapered-roller": number of rollers in a row.
+    /// "cylindrical-roller", "tapered-roller": number of rollers in a row. "catalogue": where it is known.
     rollers: Option<usize>,
-    /// "cylindrical-roller", "tapered-roller": diameter of the rollers, in their middle.
+    /// "cylindrical-roller", "tapered-roller": diameter of the rollers, in their middle. "catalogue": where it is known.
     roller_diameter_mm: Option<f64>,
-    /// "cylindrical-roller", "tapered-roller": length of the rollers that carries.
+    /// "cylindrical-roller", "tapered-roller": length of the rollers that carries. "catalogue": where it is known.
     roller_length_mm: Option<f64>,
     /// "cylindrical-roller", "tapered-roller": end profile; logarithmic by ISO/TS 16281 where not given.
     profile: Option<ProfileTable>,
@@ -75,13 +77,13 @@ struct BearingFile {
     end_radius_ratio: Option<f64>,
     /// "tapered-roller": height of the contact with the rib above the inner race's edge; a fifth of the roller's large radius where not given.
     rib_height_mm: Option<f64>,
-    /// "catalogue": designation in the built-in catalogue, such as "6205".
+    /// "catalogue": a designation such as "6205", "7010 C", "NU 204" or "30206": boundary dimensions by ISO 15 and ISO 355.
     designation: Option<String>,
     /// "catalogue": type, where no designation is given.
     r#type: Option<CatalogueType>,
-    /// Two rows: "O" (back to back), "X" (face to face) or "tandem"; one row where not given.
+    /// Two rows: "O" (back to back), "X" (face to face) or "tandem"; one row where not given. "catalogue" with two rows in its rings: "O" where not given.
     arrangement: Option<ArrangementWord>,
-    /// Distance of the two rows.
+    /// Distance of the two rows. "catalogue" with two rows in its rings: half the width where not given.
     row_distance_mm: Option<f64>,
     /// "angular-contact", "tapered-roller": axial force that the rows of a pair bear at rest without load; of a single row that which its place without
     /// load stands for.
@@ -94,8 +96,13 @@ struct BearingFile {
     element_material: Option<MaterialTable>,
     /// Material of the rings; steel where not given.
     ring_material: Option<MaterialTable>,
-    /// Load ratings of the whole bearing; those not given are computed. "catalogue": `dynamic_N` and `static_N` needed without `designation`.
+    /// Load ratings of the whole bearing; those not given are computed. "catalogue": those of one bearing, `dynamic_N` and `static_N` needed without
+    /// `designation`.
     ratings: Option<RatingsTable>,
+    /// Fits of the rings and temperatures: the clearance in operation follows from them; the bearing as stated where not given.
+    fit: Option<fit_keys::FitTable>,
+    /// Friction torque by Palmgren's model; none is computed where not given.
+    friction: Option<friction_keys::FrictionTable>,
     /// What is wrong with the bearing, one table a fault; sound where there is none.
     #[serde(default)]
     fault: Vec<FaultTable>,
@@ -200,6 +207,8 @@ pub struct BearingFromFile {
     pub estimate: Option<Estimate>,
     /// Remarks for the user.
     pub notes: Vec<String>,
+    /// What the user should look at: estimates that fit badly.
+    pub warnings: Vec<String>,
 }
 
 impl BearingFromFile {
@@ -234,6 +243,8 @@ impl BearingFromFile {
         let keys = TableKeys::new(document, "");
         refuse_unused(&file, &keys)?;
         let mut notes = Vec::new();
+        let stated = |mm: Option<f64>| mm.map(|value| MM * value);
+        let mut boundary = (stated(file.bore_mm), stated(file.outside_diameter_mm));
         let (geometry, estimate, name, from_catalogue) = match file.kind {
             Kind::DeepGroove | Kind::AngularContact => {
                 let geometry = ball_keys::geometry(&file, &keys, &mut notes)?;
@@ -245,12 +256,12 @@ impl BearingFromFile {
             }
             Kind::Catalogue => {
                 let found = catalogue_keys::geometry(&file, document, &keys, &mut notes)?;
-                let ratings = (found.line.dynamic_n, found.line.static_n);
+                boundary = (Some(found.line.bore_m), Some(found.line.outside_m));
                 (
                     found.geometry,
                     Some(found.estimate),
                     found.name,
-                    Some(ratings),
+                    Some((found.rows, found.ratings)),
                 )
             }
         };
@@ -269,9 +280,31 @@ impl BearingFromFile {
                 table.require(key, value, value > 0.0, "more than 0")?;
             }
         }
-        let arrangement = arrangement_keys::arrangement(&file, &keys)?;
+        let fit = (file.fit.as_ref())
+            .map(|table| fit_keys::fit(table, document, boundary, &geometry))
+            .transpose()?;
+        let stated = StatedRatings {
+            dynamic_n: stated.dynamic_N,
+            static_n: stated.static_N,
+            fatigue_n: stated.fatigue_N,
+        };
+        let (arrangement, stated_ratings) = match from_catalogue {
+            None => (arrangement_keys::arrangement(&file, &keys)?, stated),
+            Some((Some(rows), _)) => (rows, stated),
+            Some((None, of_one)) => {
+                let arrangement = arrangement_keys::arrangement(&file, &keys)?;
+                let bearings = arrangement.rows().len();
+                let ratings = of_one.of_several(bearings, &geometry, stated.fatigue_n);
+                (arrangement, ratings)
+            }
+        };
+        let warnings = estimate.iter().filter_map(|e| e.poor_fit.clone()).collect();
         let definition = BearingDefinition {
             name,
+            friction: (file.friction.as_ref())
+                .map(|table| friction_keys::friction(table, document, &geometry))
+                .transpose()?,
+            fit,
             faults: fault_keys::faults(&file.fault, document, &geometry, &arrangement)?,
             geometry,
             element_material: material(&file.element_material, document, "element_material")?,
@@ -279,17 +312,15 @@ impl BearingFromFile {
             arrangement,
             preload: arrangement_keys::preload(&file, &keys)?,
             first_angle_rad: file.first_angle_deg.unwrap_or(0.0).to_radians(),
-            stated_ratings: StatedRatings {
-                dynamic_n: stated.dynamic_N.or(from_catalogue.map(|r| r.0)),
-                static_n: stated.static_N.or(from_catalogue.map(|r| r.1)),
-                fatigue_n: stated.fatigue_N,
-            },
+            stated_ratings,
         };
         check_boundary(&file, &keys, &definition)?;
+        fit_keys::require_operating(&definition, document)?;
         Ok(Self {
             definition,
             estimate,
             notes,
+            warnings,
         })
     }
 }
@@ -336,13 +367,19 @@ fn material(
 fn refuse_unused(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputError> {
     const BALLS: &[&str] = &["deep-groove", "angular-contact"];
     const ROLLERS: &[&str] = &["cylindrical-roller", "tapered-roller"];
+    const OR_LISTED: &[&str] = &["deep-groove", "angular-contact", "catalogue"];
+    const ROLLERS_OR_LISTED: &[&str] = &["cylindrical-roller", "tapered-roller", "catalogue"];
     const LISTED: &[&str] = &["catalogue"];
     const PRELOADED: &[&str] = &["angular-contact", "tapered-roller", "catalogue"];
     keys.refuse_unused(
         ("kind", file.kind.word()),
         &[
-            ("balls", file.balls.is_some(), BALLS),
-            ("ball_diameter_mm", file.ball_diameter_mm.is_some(), BALLS),
+            ("balls", file.balls.is_some(), OR_LISTED),
+            (
+                "ball_diameter_mm",
+                file.ball_diameter_mm.is_some(),
+                OR_LISTED,
+            ),
             (
                 "pitch_diameter_mm",
                 file.pitch_diameter_mm.is_some(),
@@ -351,6 +388,7 @@ fn refuse_unused(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputEr
                     "angular-contact",
                     "cylindrical-roller",
                     "tapered-roller",
+                    "catalogue",
                 ],
             ),
             (
@@ -378,13 +416,17 @@ fn refuse_unused(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputEr
                 file.raceway_diameters_mm.is_some(),
                 BALLS,
             ),
-            ("rollers", file.rollers.is_some(), ROLLERS),
+            ("rollers", file.rollers.is_some(), ROLLERS_OR_LISTED),
             (
                 "roller_diameter_mm",
                 file.roller_diameter_mm.is_some(),
-                ROLLERS,
+                ROLLERS_OR_LISTED,
             ),
-            ("roller_length_mm", file.roller_length_mm.is_some(), ROLLERS),
+            (
+                "roller_length_mm",
+                file.roller_length_mm.is_some(),
+                ROLLERS_OR_LISTED,
+            ),
             ("profile", file.profile.is_some(), ROLLERS),
             ("laminae", file.laminae.is_some(), ROLLERS),
             (

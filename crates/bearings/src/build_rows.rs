@@ -181,6 +181,7 @@ pub(crate) fn roller_row(
         }),
         mass_kg,
         inertia_kg_m2: (own, 0.5 * own + mass_kg * g.length_m.powi(2) / 12.0),
+        missing: Vec::new(),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Catalogue lines: what a bearing's designation stands for.
+//! Catalogue lines: boundary dimensions of a bearing, and what is known of its inside.
 
 /// Type of a bearing in a catalogue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema)]
@@ -8,8 +8,64 @@ pub enum CatalogueType {
     DeepGroove,
     /// Angular-contact ball bearing.
     AngularContact,
+    /// Angular-contact ball bearing with two rows in one pair of rings.
+    AngularContactDoubleRow,
     /// Cylindrical roller bearing.
     CylindricalRoller,
+    /// Tapered roller bearing; its width is that of the assembled bearing (T).
+    TaperedRoller,
+}
+
+impl CatalogueType {
+    /// The word of the file.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::DeepGroove => "deep-groove",
+            Self::AngularContact => "angular-contact",
+            Self::AngularContactDoubleRow => "angular-contact-double-row",
+            Self::CylindricalRoller => "cylindrical-roller",
+            Self::TaperedRoller => "tapered-roller",
+        }
+    }
+
+    /// Whether it has rollers.
+    #[must_use]
+    pub fn has_rollers(self) -> bool {
+        matches!(self, Self::CylindricalRoller | Self::TaperedRoller)
+    }
+
+    /// Rows within one pair of rings.
+    #[must_use]
+    pub fn rows(self) -> usize {
+        match self {
+            Self::AngularContactDoubleRow => 2,
+            _ => 1,
+        }
+    }
+
+    /// Contact angles that it is made with \[deg\]; none where it has no angle of its own.
+    #[must_use]
+    pub fn angles_deg(self) -> Option<[f64; 2]> {
+        match self {
+            Self::DeepGroove | Self::CylindricalRoller => None,
+            Self::AngularContact | Self::AngularContactDoubleRow => Some([1.0, 60.0]),
+            Self::TaperedRoller => Some([5.0, 45.0]),
+        }
+    }
+}
+
+/// What is known of the inside; the estimator keeps it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct KnownInside {
+    /// Z of a row.
+    pub elements: Option<usize>,
+    /// D of balls or rollers \[m\].
+    pub diameter_m: Option<f64>,
+    /// Length of rollers \[m\].
+    pub length_m: Option<f64>,
+    /// d_m \[m\].
+    pub pitch_m: Option<f64>,
 }
 
 /// One line of a catalogue.
@@ -19,102 +75,32 @@ pub struct CatalogueLine {
     pub kind: CatalogueType,
     /// d \[m\].
     pub bore_m: f64,
-    /// D \[m\].
+    /// D_a \[m\].
     pub outside_m: f64,
-    /// B \[m\].
+    /// B, of tapered bearings T \[m\].
     pub width_m: f64,
-    /// C \[N\].
-    pub dynamic_n: f64,
-    /// C₀ \[N\].
-    pub static_n: f64,
+    /// C of one bearing \[N\], where it is known.
+    pub dynamic_n: Option<f64>,
+    /// C₀ of one bearing \[N\], where it is known.
+    pub static_n: Option<f64>,
     /// α \[rad\].
     pub contact_angle_rad: f64,
+    /// What is known of the inside.
+    pub known: KnownInside,
 }
 
-/// A line of the built-in catalogue with its source.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Listed {
-    /// Designation, upper case, without blanks.
-    pub designation: &'static str,
-    /// Its line.
-    pub line: CatalogueLine,
-    /// Where the figures are from.
-    pub source: &'static str,
-}
-
-/// d, D, B in mm, C, C₀ in kN, α in degrees.
-const fn line(
-    kind: CatalogueType,
-    sizes_mm: [f64; 3],
-    ratings_kn: [f64; 2],
-    angle_deg: f64,
-) -> CatalogueLine {
-    CatalogueLine {
-        kind,
-        bore_m: 1e-3 * sizes_mm[0],
-        outside_m: 1e-3 * sizes_mm[1],
-        width_m: 1e-3 * sizes_mm[2],
-        dynamic_n: 1e3 * ratings_kn[0],
-        static_n: 1e3 * ratings_kn[1],
-        contact_angle_rad: angle_deg.to_radians(),
+impl CatalogueLine {
+    /// d_m: as stated, else (d + D_a)/2, an assumption \[m\].
+    #[must_use]
+    pub fn pitch_m(&self) -> f64 {
+        self.known
+            .pitch_m
+            .unwrap_or(0.5 * (self.bore_m + self.outside_m))
     }
-}
 
-/// Boundary dimensions by ISO 15; ratings as the catalogues of the makers named print them, quoted from memory: check them against the maker's
-/// current table before they matter.
-const QUOTED: &str = "boundary dimensions ISO 15; ratings as printed in general catalogues (FAG, NSK), quoted from memory";
-
-/// The built-in catalogue.
-pub const CATALOGUE: [Listed; 4] = [
-    Listed {
-        designation: "6205",
-        line: line(
-            CatalogueType::DeepGroove,
-            [25.0, 52.0, 15.0],
-            [14.0, 7.85],
-            0.0,
-        ),
-        source: QUOTED,
-    },
-    Listed {
-        designation: "6308",
-        line: line(
-            CatalogueType::DeepGroove,
-            [40.0, 90.0, 23.0],
-            [40.5, 24.0],
-            0.0,
-        ),
-        source: QUOTED,
-    },
-    Listed {
-        designation: "NU204",
-        line: line(
-            CatalogueType::CylindricalRoller,
-            [20.0, 47.0, 14.0],
-            [25.7, 22.6],
-            0.0,
-        ),
-        source: QUOTED,
-    },
-    Listed {
-        designation: "7010C",
-        line: line(
-            CatalogueType::AngularContact,
-            [50.0, 80.0, 16.0],
-            [26.0, 21.9],
-            15.0,
-        ),
-        source: QUOTED,
-    },
-];
-
-/// Finds a designation; blanks and case do not matter.
-#[must_use]
-pub fn find(designation: &str) -> Option<&'static Listed> {
-    let wanted: String = designation
-        .chars()
-        .filter(|c| !c.is_whitespace())
-        .flat_map(char::to_uppercase)
-        .collect();
-    CATALOGUE.iter().find(|one| one.designation == wanted)
+    /// D_a − d \[m\].
+    #[must_use]
+    pub fn section_m(&self) -> f64 {
+        self.outside_m - self.bore_m
+    }
 }

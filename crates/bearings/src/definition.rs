@@ -1,6 +1,8 @@
 //! What a bearing is: sizes, materials, arrangement, in SI units.
 
 use crate::faults::Fault;
+use crate::fit::Fit;
+use crate::friction::Friction;
 
 /// A bearing.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +23,10 @@ pub struct BearingDefinition {
     pub first_angle_rad: f64,
     /// Load ratings that are stated; those that are not are computed.
     pub stated_ratings: StatedRatings,
+    /// How its rings are seated and how warm it is; none: the clearance is the stated one.
+    pub fit: Option<Fit>,
+    /// What makes its friction torque; none: it is not computed.
+    pub friction: Option<Friction>,
     /// What is wrong with it; empty for a sound bearing.
     pub faults: Vec<Fault>,
 }
@@ -56,6 +62,17 @@ pub enum BearingGeometry {
     Ball(BallGeometry),
     /// Cylindrical and tapered roller bearings.
     Roller(RollerGeometry),
+}
+
+impl BearingGeometry {
+    /// Number of balls or rollers in a row.
+    #[must_use]
+    pub fn elements(&self) -> usize {
+        match self {
+            Self::Ball(g) => g.balls,
+            Self::Roller(g) => g.rollers,
+        }
+    }
 }
 
 /// Which ball bearing.

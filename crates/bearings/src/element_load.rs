@@ -36,3 +36,14 @@ pub struct ElementLoad {
     /// Whether a ball rolls without spin on the inner race; otherwise on the outer one.
     pub controlled_by_inner: bool,
 }
+
+impl ElementLoad {
+    /// Of an element that is not there: its place, and nothing else.
+    #[must_use]
+    pub fn absent(angle_rad: f64) -> Self {
+        Self {
+            angle_rad,
+            ..Self::default()
+        }
+    }
+}

@@ -9,10 +9,13 @@
 //! | all rows: load on the inner ring and its tangent | [`QuasiStaticBearing`] | `quasi_static.rs` |
 //! | the same between two bodies of a system | [`QuasiStaticElement`] | `quasi_static_element.rs` |
 //! | balls that move | [`DynamicBearing`] | `dynamic/` |
+//! | fits and heat: the clearance in operation | [`OperatingClearance`] | `fit.rs` |
 //! | what may be wrong with it | [`faults::Fault`] | `faults/` |
+//! | friction torque | [`friction::Friction`] | `friction.rs` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
+//! | what the ends of rollers suffer | [`stress_riser::stress_riser`] | `stress_riser.rs` |
 //! | life over the loads of a run | [`LoadHistory`] | `load_history.rs` |
-//! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `estimate.rs` |
+//! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `designations.rs`, `element_room.rs`, `estimate.rs` |
 //! | frequencies of rolling | [`BearingFrequencies`] | `frequencies.rs` |
 //!
 //! SI units. Frame: that of the outer ring, z its axis; the pose of the inner ring is seen in it, loads act on the inner ring.
@@ -25,14 +28,18 @@ pub mod bearing_file;
 mod build_rows;
 pub mod catalogue;
 pub mod definition;
+pub mod designations;
 mod dual;
 pub mod dynamic;
 pub mod element_load;
 pub mod element_place;
+pub mod element_room;
 mod error;
 pub mod estimate;
 pub mod faults;
+pub mod fit;
 pub mod frequencies;
+pub mod friction;
 pub mod life;
 pub mod line_contact;
 pub mod load_history;
@@ -46,6 +53,7 @@ pub mod ring_load;
 pub mod ring_pose;
 mod roller_equilibrium;
 pub mod roller_row;
+pub mod stress_riser;
 
 pub use ball_kinematics::RaceControl;
 pub use ball_row::BallRow;
@@ -55,7 +63,9 @@ pub use dynamic::{DynamicBearing, DynamicEffects};
 pub use element_load::ElementLoad;
 pub use element_place::ElementPlaces;
 pub use error::BearingError;
+pub use fit::OperatingClearance;
 pub use frequencies::BearingFrequencies;
+pub use friction::{Friction, FrictionTorque};
 pub use gearmesh_geometry::point_contact::PointContact;
 pub use gearmesh_geometry::{elliptic, point_contact};
 pub use life::Life;

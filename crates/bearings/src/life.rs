@@ -5,6 +5,7 @@ use crate::element_load::ElementLoad;
 use crate::operation::Operation;
 use crate::quasi_static::RowLoads;
 use crate::ratings::{Ratings, ball_static_factor, nominal_angle_rad, outer_angle_rad};
+use crate::stress_riser::stress_riser;
 
 /// Lives in millions of turns of the rings against each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -143,8 +144,9 @@ fn reference_mrev(
             for row in &loads.laminae {
                 for k in 0..g.laminae {
                     let of_lamina = || row.iter().skip(k).step_by(g.laminae);
-                    let q_i = mean_of(of_lamina().map(|q| q.0), powers[0]);
-                    let q_o = mean_of(of_lamina().map(|q| q.1), powers[1]);
+                    let riser = stress_riser(k, g.laminae);
+                    let q_i = riser * mean_of(of_lamina().map(|q| q.0), powers[0]);
+                    let q_o = riser * mean_of(of_lamina().map(|q| q.1), powers[1]);
                     damage += (q_i / inner).powf(4.5) + (q_o / outer).powf(4.5);
                 }
             }

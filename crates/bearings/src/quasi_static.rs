@@ -9,6 +9,7 @@ use crate::definition::{BearingDefinition, Preload};
 use crate::element_load::ElementLoad;
 use crate::element_place::{ElementPlace, ElementPlaces};
 use crate::error::BearingError;
+use crate::faults::missing_element::missing;
 use crate::faults::{Fault, MisalignedRing, RowFaults, Side};
 use crate::operation::Operation;
 use crate::point_contact::ContactEllipse;
@@ -32,6 +33,15 @@ impl Row {
         match self {
             Self::Ball(row) => row.balls,
             Self::Roller(row) => row.rollers,
+        }
+    }
+
+    /// Whether a ball or roller is there.
+    #[must_use]
+    pub fn has(&self, element: usize) -> bool {
+        match self {
+            Self::Ball(row) => row.has(element),
+            Self::Roller(row) => !row.missing.contains(&element),
         }
     }
 
@@ -149,13 +159,21 @@ impl QuasiStaticBearing {
             Preload::Force(force_n) => shift_under_force(&rows[0], definition, force_n)?,
         };
         let senses = definition.arrangement.rows();
+        // Rings keep their places along the axis as they are seated: a fit adds to the preload of a pair.
+        let clearance = definition.operating_clearance();
         for (row, (_, sense)) in rows.iter_mut().zip(senses) {
             row.shift_inner(sense * preload_m);
+            if let Some(clearance) = &clearance {
+                clearance.apply(row);
+            }
         }
         for (number, row) in rows.iter_mut().enumerate() {
             match row {
                 Row::Ball(row) => row.faults = RowFaults::of(&definition.faults, number, row)?,
-                Row::Roller(_) => refuse_faults_of_balls(&definition.faults)?,
+                Row::Roller(row) => {
+                    refuse_faults_of_balls(&definition.faults)?;
+                    row.missing = missing(&definition.faults, number, row.rollers)?;
+                }
             }
         }
         Ok(Self {
@@ -266,10 +284,11 @@ impl QuasiStaticBearing {
 }
 
 fn refuse_faults_of_balls(faults: &[Fault]) -> Result<(), BearingError> {
-    let of_balls = |fault: &Fault| !matches!(fault, Fault::MisalignedRing { .. });
+    let of_balls =
+        |fault: &Fault| !matches!(fault, Fault::MisalignedRing { .. } | Fault::Missing { .. });
     if faults.iter().any(of_balls) {
         return Err(BearingError::NotCarried(
-            "of the faults a roller bearing can have a misaligned ring only; spalls, waviness and off-size balls are those of ball bearings",
+            "of the faults a roller bearing can have a misaligned ring and missing rollers only; spalls, waviness and off-size balls are those of ball bearings",
         ));
     }
     Ok(())

@@ -2,7 +2,8 @@
 //!
 //! Marker A is the outer ring, marker B the inner one, z the axis. Load and tangent are those of [`QuasiStaticBearing`] at the place of B in A, with linear
 //! damping beside it. The speeds that balls feel (centrifugal force, gyroscopic moment) are those of the last accepted step; between steps the cage goes on
-//! at its speed of rolling, (ω_i − ω_o)(1 − γ)/2 seen from the outer ring, so that elements pass.
+//! at its speed of rolling, (ω_i − ω_o)(1 − γ)/2 seen from the outer ring, so that elements pass. The friction torque of a definition that has one is that of
+//! the loads and speeds of the last accepted step, too, and nothing in the first: M ω/√(ω² + ω₀²) against the turning of the rings.
 
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, Power, View};
 use gearmesh_dynamics::{BodyId, ElementFailure, MarkerPair, RelativeMotion};
@@ -12,8 +13,10 @@ use crate::definition::BearingDefinition;
 use crate::element_place::ElementPlaces;
 use crate::error::BearingError;
 use crate::frequencies::RollingSizes;
+use crate::friction::FrictionTorque;
 use crate::operation::{Control, Operation};
 use crate::quasi_static::QuasiStaticBearing;
+use crate::quasi_static::RowLoads;
 use crate::ring_channels::{RING_CHANNELS, race_loads, ring_channels, sample_ring};
 use crate::ring_pose::RingPose;
 
@@ -28,10 +31,14 @@ pub struct RingDamping {
     pub tilt_nm_s_per_rad: f64,
 }
 
+/// ω₀: rings that turn slower than some of it against each other rub less \[rad/s\].
+const CREEP_RAD_PER_S: f64 = 0.1;
+
 /// The bearing as a force element.
 ///
 /// Channels: force and moment on the inner ring (A axes; `force_shaft_x_N` and so on), the force in world axes and across the axis; with
-/// [`Self::with_element_loads`] the load of every ball or roller at both races.
+/// [`Self::with_element_loads`] the load of every ball or roller at both races; of a bearing with friction torque and power loss of the loads and speeds of the
+/// moment.
 pub struct QuasiStaticElement {
     name: String,
     pair: MarkerPair,
@@ -41,6 +48,8 @@ pub struct QuasiStaticElement {
     damping: RingDamping,
     control: Control,
     element_loads: bool,
+    /// With a friction torque: the definition it is computed from, and whether it acts.
+    rubbing: Option<(BearingDefinition, bool)>,
     /// Time, cage's angle and speeds of the rings at the last accepted step.
     kept: Kept,
     /// Where the elements stood at the last accepted step: every search begins there. Part of the saved state, so that a resumed run is the same to the
@@ -58,6 +67,8 @@ struct Kept {
     inner_angle_rad: f64,
     inner_rad_per_s: f64,
     outer_rad_per_s: f64,
+    /// M.
+    friction_nm: f64,
 }
 
 impl QuasiStaticElement {
@@ -98,6 +109,7 @@ impl QuasiStaticElement {
             damping,
             control,
             element_loads: false,
+            rubbing: definition.friction.map(|_| (definition.clone(), true)),
             kept: Kept::default(),
         })
     }
@@ -107,6 +119,42 @@ impl QuasiStaticElement {
     pub fn with_element_loads(mut self) -> Self {
         self.element_loads = true;
         self
+    }
+
+    /// Shows friction torque and power loss, if it has them, but lets the rings turn freely: for equilibria, in which a torque about a shaft that turns freely
+    /// would find no counterpart.
+    #[must_use]
+    pub fn without_friction_torque(mut self) -> Self {
+        if let Some((_, acts)) = &mut self.rubbing {
+            *acts = false;
+        }
+        self
+    }
+
+    /// Friction torque at the places of the elements of the last evaluation, and power that it takes; zero where there is none to compute.
+    fn friction(&mut self, pose: &RingPose, operation: &Operation) -> Option<FrictionTorque> {
+        let (definition, _) = self.rubbing.as_ref()?;
+        let friction = definition.friction.as_ref()?;
+        let mut loads = RowLoads::default();
+        let mut all = Vec::new();
+        let each = |element| all.push(element);
+        let found = (self.bearing).evaluate_each(pose, operation, &mut self.places, each);
+        found.ok()?;
+        let mut rest = all.as_slice();
+        for row in &self.bearing.rows {
+            let (own, others) = rest.split_at(row.elements());
+            loads.elements.push(own.to_vec());
+            rest = others;
+        }
+        Some(friction.torque(definition, &loads, operation))
+    }
+
+    /// Moment about the axis against the relative spin of the rings, and its slope.
+    fn rubs(&self, spin_rad_per_s: f64) -> (f64, f64) {
+        let scale = spin_rad_per_s.hypot(CREEP_RAD_PER_S);
+        let moment = self.kept.friction_nm / scale;
+        let slope = moment * (CREEP_RAD_PER_S / scale).powi(2);
+        (moment * spin_rad_per_s, slope)
     }
 
     fn motion(&self, view: &View<'_>) -> RelativeMotion {
@@ -164,6 +212,7 @@ impl QuasiStaticElement {
             inner_angle_rad: (seen.m21 - seen.m12).atan2(seen.m11 + seen.m22),
             inner_rad_per_s,
             outer_rad_per_s,
+            friction_nm: self.kept.friction_nm,
         };
     }
 }
@@ -196,8 +245,13 @@ impl ForceElement for QuasiStaticElement {
         let ring = self
             .bearing
             .evaluate_from(&pose(&motion), &operation, &mut self.places)?;
-        let (damping, rates) = (self.damping_matrix(), rates(&motion));
-        let viscous = damping * rates;
+        let (mut damping, rates) = (self.damping_matrix(), rates(&motion));
+        let mut viscous = damping * rates;
+        if self.kept.friction_nm > 0.0 {
+            let (moment, slope) = self.rubs(rates[5]);
+            viscous[5] += moment;
+            damping[(5, 5)] += slope;
+        }
         let load = ring.load - viscous;
         // The balls' energy is not told: what the bearing does is work from outside.
         loads.power = Power {
@@ -219,13 +273,21 @@ impl ForceElement for QuasiStaticElement {
 
     fn begin(&mut self, view: &View<'_>) {
         self.kept_places.forget();
+        self.kept.friction_nm = 0.0;
         self.keep(view, 0.0);
     }
 
     fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
         let angle = self.operation(view.time_s).cage_angle_rad;
+        // Equilibria are committed at the time of the start: rings that turn freely would find none with friction.
+        let goes_on = view.time_s > self.kept.time_s;
         self.keep(view, angle);
         self.kept_places.take_from(&self.places);
+        if goes_on && self.rubbing.as_ref().is_some_and(|(_, acts)| *acts) {
+            let operation = self.operation(view.time_s);
+            let found = self.friction(&pose(&self.motion(view)), &operation);
+            self.kept.friction_nm = found.map_or(0.0, |friction| friction.total_nm());
+        }
         Ok(())
     }
 
@@ -237,6 +299,7 @@ impl ForceElement for QuasiStaticElement {
             kept.inner_angle_rad,
             kept.inner_rad_per_s,
             kept.outer_rad_per_s,
+            kept.friction_nm,
         ]);
         self.kept_places.save(out);
     }
@@ -248,6 +311,7 @@ impl ForceElement for QuasiStaticElement {
             inner_angle_rad,
             inner_rad_per_s,
             outer_rad_per_s,
+            friction_nm,
             ref places @ ..,
         ] = *numbers
         {
@@ -257,6 +321,7 @@ impl ForceElement for QuasiStaticElement {
                 inner_angle_rad,
                 inner_rad_per_s,
                 outer_rad_per_s,
+                friction_nm,
             };
             self.kept_places.restore(places);
         }
@@ -269,6 +334,12 @@ impl ForceElement for QuasiStaticElement {
             for element in 1..=count {
                 channels.extend(race_loads("element", element));
             }
+        }
+        if self.rubbing.is_some() {
+            let what = "friction torque of the bearing under its loads and speeds";
+            channels.push(Channel::new("friction_torque_Nm", "N·m", what));
+            let what = "power that the bearing's friction takes";
+            channels.push(Channel::new("friction_power_W", "W", what));
         }
         channels
     }
@@ -292,6 +363,18 @@ impl ForceElement for QuasiStaticElement {
             out.fill(f64::NAN);
             return;
         };
+        if self.rubbing.is_some() {
+            let [inner_rad_per_s, outer_rad_per_s] = self.speeds(view);
+            let operation = Operation {
+                inner_rad_per_s,
+                outer_rad_per_s,
+                ..operation
+            };
+            let friction = self.friction(&pose(&motion), &operation);
+            let friction = friction.unwrap_or_default();
+            let at = out.len() - 2;
+            out[at..].copy_from_slice(&[friction.total_nm(), friction.power_w()]);
+        }
         let load = ring.load - self.damping_matrix() * rates(&motion);
         let force = motion.to_world(&load.fixed_rows::<3>(0).into_owned());
         sample_ring(&load, &force, out);

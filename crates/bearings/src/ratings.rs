@@ -4,6 +4,7 @@
 
 use crate::definition::{
     BallBearingKind, BallGeometry, BearingDefinition, BearingGeometry, RollerGeometry,
+    StatedRatings,
 };
 use crate::point_contact::{PointContact, contact_modulus_pa};
 
@@ -160,6 +161,28 @@ impl Ratings {
                 .fatigue_n
                 .unwrap_or_else(|| fatigue_limit_n(&definition.geometry, static_n)),
             rows,
+        }
+    }
+}
+
+impl StatedRatings {
+    /// Ratings of a row of bearings whose own these are: 0.7 (balls) or 7/9 (rollers) is the power of their number in C, ISO 281. C_u is that of all.
+    #[must_use]
+    pub(crate) fn of_several(
+        self,
+        bearings: usize,
+        geometry: &BearingGeometry,
+        fatigue_n: Option<f64>,
+    ) -> Self {
+        let count = bearings as f64;
+        let power = match geometry {
+            BearingGeometry::Ball(_) => 0.7,
+            BearingGeometry::Roller(_) => 7.0 / 9.0,
+        };
+        Self {
+            dynamic_n: self.dynamic_n.map(|c| c * count.powf(power)),
+            static_n: self.static_n.map(|c| c * count),
+            fatigue_n,
         }
     }
 }

@@ -73,6 +73,8 @@ pub struct RollerRow {
     pub mass_kg: f64,
     /// Moments of inertia about its axis and across it \[kg·m²\].
     pub inertia_kg_m2: (f64, f64),
+    /// Rollers that are not there, in rising order.
+    pub missing: Vec<usize>,
 }
 
 impl RollerRow {
@@ -110,7 +112,13 @@ impl RollerRow {
     ) -> Result<(), BearingError> {
         let (orbit, spin) = self.speeds(operation);
         for (number, start) in places.iter_mut().enumerate() {
-            let (sine, cosine) = self.angle_rad(number, operation).sin_cos();
+            let angle = self.angle_rad(number, operation);
+            if self.missing.contains(&number) {
+                self.laminae.iter().for_each(|_| each_lamina(0.0, 0.0));
+                each(ElementLoad::absent(angle));
+                continue;
+            }
+            let (sine, cosine) = angle.sin_cos();
             let roller = Roller {
                 row: self,
                 pose,
@@ -120,7 +128,7 @@ impl RollerRow {
                 spin,
             };
             let mut load = roller.add(start, ring, &mut each_lamina)?;
-            load.angle_rad = self.angle_rad(number, operation);
+            load.angle_rad = angle;
             each(load);
         }
         Ok(())

@@ -19,6 +19,16 @@ pub struct AssemblyError {
 }
 
 impl AssemblyError {
+    /// Both together.
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            offset_m: self.offset_m + other.offset_m,
+            pinion_axial_m: self.pinion_axial_m + other.pinion_axial_m,
+            gear_axial_m: self.gear_axial_m + other.gear_axial_m,
+            shaft_angle_rad: self.shaft_angle_rad + other.shaft_angle_rad,
+        }
+    }
+
     /// A share of it.
     pub fn scaled(&self, share: f64) -> Self {
         Self {

@@ -111,12 +111,8 @@ pub fn first_touch(
 }
 
 /// All contacts of one tooth pair, sampled so many times a pitch of the pinion.
-///
-/// # Errors
-/// [`BevelError::NoFlankPoint`] where a flank does not reach over its blank.
-pub fn pair_contacts(mesh: &Mesh<'_>, per_pitch: usize) -> Result<PairContacts, BevelError> {
-    let search = ContactSearch::new(*mesh)?;
-    let teeth = mesh.flanks[0].blank.teeth;
+pub(crate) fn pair_contacts(search: &ContactSearch<'_>, per_pitch: usize) -> PairContacts {
+    let teeth = search.mesh().flanks[0].blank.teeth;
     let step_rad = std::f64::consts::TAU / (teeth as f64 * per_pitch as f64);
     // The flanks of a tooth look the other way half a turn on.
     let reach = REACH.min(teeth as i64 / 4 + 1) * per_pitch as i64;
@@ -133,16 +129,16 @@ pub fn pair_contacts(mesh: &Mesh<'_>, per_pitch: usize) -> Result<PairContacts, 
     ];
     let flank_span_rad = match ends {
         [Some(first), Some(last)] => {
-            let end = |touch: &Touch, way: f64| end_of(&search, touch, way * step_rad);
+            let end = |touch: &Touch, way: f64| end_of(search, touch, way * step_rad);
             Some([end(&first.2, -1.0), end(&last.2, 1.0)])
         }
         _ => None,
     };
-    Ok(PairContacts {
+    PairContacts {
         step_rad,
         contacts,
         flank_span_rad,
-    })
+    }
 }
 
 /// Turn at which the path leaves the flanks, between a contact on them and the next sample, by halving.

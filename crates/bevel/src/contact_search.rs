@@ -105,6 +105,11 @@ impl<'a> ContactSearch<'a> {
         })
     }
 
+    /// The pair that is searched.
+    pub(crate) fn mesh(&self) -> &Mesh<'a> {
+        &self.mesh
+    }
+
     /// The gear's flank through a point of the pinion; none beside the gear's flank.
     fn candidate(&self, turn: f64, place: [f64; 2], r: &Vector3<f64>) -> Option<Candidate> {
         let [pinion, gear] = &self.mesh.assembly.members;

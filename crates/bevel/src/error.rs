@@ -68,6 +68,70 @@ pub enum BevelError {
         /// Width of the blade.
         blade_mm: f64,
     },
+    /// The edges of both blades do not lie beside one another in the slot.
+    #[error(
+        "the {member}'s edge radius does not fit: at cone distance {cone_mm:.3} mm the slot's bottom is {slot_mm:.4} mm wide, the edges of both blades take \
+         {edges_mm:.4} mm; allowed are edge radii up to {share:.3} of these"
+    )]
+    EdgeTooLarge {
+        /// Member.
+        member: &'static str,
+        /// Place along the pitch cone.
+        cone_mm: f64,
+        /// Width of the slot normal to the tooth.
+        slot_mm: f64,
+        /// What both edges take.
+        edges_mm: f64,
+        /// Edge radii that fit, over those asked for.
+        share: f64,
+    },
+    /// Both flanks in one operation leave no slot, or no tooth.
+    #[error(
+        "the {member}'s settings leave teeth of {thickness_mm:.4} mm on the mean circle, whose pitch is {pitch_mm:.4} mm: the point radius of the concave \
+         flank (outside blade) must exceed that of the convex one (inside blade) by the point width; where the flanks are cut one after the other, \
+         state thickness = \"blank\""
+    )]
+    NoSlot {
+        /// Member.
+        member: &'static str,
+        /// Thickness along the circle.
+        thickness_mm: f64,
+        /// Pitch along the circle.
+        pitch_mm: f64,
+    },
+    /// No point width leaves a thickness.
+    #[error(
+        "no point width of one cutter leaves the {member}'s teeth {thickness_mm:.4} mm thick on the mean circle; change thickness_shift or backlash_mm"
+    )]
+    NoPointWidth {
+        /// Member.
+        member: &'static str,
+        /// Thickness along the circle.
+        thickness_mm: f64,
+    },
+    /// Flanks that nowhere touch inside their limits.
+    #[error("the pinion's {pinion} and the gear's {gear} flank do not meet: {problem}")]
+    DoNotMeet {
+        /// Side of the pinion.
+        pinion: &'static str,
+        /// Side of the gear.
+        gear: &'static str,
+        /// What was found, and what to look at.
+        problem: String,
+    },
+    /// Teeth that stand in each other in an assembly.
+    #[error(
+        "teeth jam: while the pinion's {pinion} flanks touch in this assembly, the other ones stand in each other by {depth_mm:.4} mm, allowed are \
+         {allowed_mm:.4} mm; make the errors of assembly smaller, or give the pair backlash_mm"
+    )]
+    Jam {
+        /// Side of the pinion that touches.
+        pinion: &'static str,
+        /// Along the normal of the flanks that stand in each other.
+        depth_mm: f64,
+        /// Most.
+        allowed_mm: f64,
+    },
     /// No blade angle gives the pressure angle.
     #[error(
         "no blade angle between 0 and 45 degrees gives the {flank} flank the pressure angle {pressure_deg:.3} degrees: the dedendum angle is too large"
@@ -116,11 +180,18 @@ impl BevelError {
             Self::NoFlankPoint { flank, .. }
             | Self::Undercut { flank, .. }
             | Self::NoBladeAngle { flank, .. } => of_flank(flank),
-            Self::Pointed { member, .. } | Self::BladeTooWide { member, .. } => member,
+            Self::Pointed { member, .. }
+            | Self::BladeTooWide { member, .. }
+            | Self::EdgeTooLarge { member, .. }
+            | Self::NoSlot { member, .. }
+            | Self::NoPointWidth { member, .. } => member,
             // It makes the pinion for a gear that is given.
             Self::Synthesis { .. } => "pinion",
-            Self::NoContact { .. } if document.has("tca") => "tca",
-            Self::NoMate { .. } | Self::NoContact { .. } => "",
+            Self::NoContact { .. } | Self::Jam { .. } if document.has("tca") => "tca",
+            Self::NoMate { .. }
+            | Self::NoContact { .. }
+            | Self::DoNotMeet { .. }
+            | Self::Jam { .. } => "",
         };
         document.error(key, self)
     }

@@ -14,7 +14,6 @@ use serde::Deserialize;
 
 use crate::bevel_gear::BevelGear;
 use crate::blank::ToothForm;
-use crate::error::BevelError;
 use crate::pair_file::PairFile;
 
 const MM: f64 = 1e-3;
@@ -123,17 +122,13 @@ impl BevelGear {
         pair_document: &InputDocument,
     ) -> Result<Self, InputError> {
         let pair = PairFile::from_document(pair_document)?;
-        let cut = |e: BevelError| document.error("bevel_gear.pair", e.in_file(pair_document));
-        let design = pair.design().map_err(cut)?;
+        let (design, _) = (pair.checked_design(pair_document))
+            .map_err(|e| document.error("bevel_gear.pair", e))?;
         let member = match file.bevel_gear.member {
             MemberWord::Pinion => 0,
             MemberWord::Gear => 1,
         };
         let tooth = design.teeth[member].clone();
-        let request = &pair.members[member];
-        tooth
-            .check(request.least_top_land_m, request.point_width_m)
-            .map_err(cut)?;
         if tooth
             .flanks
             .iter()

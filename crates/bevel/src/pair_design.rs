@@ -2,6 +2,7 @@
 
 use crate::basic_settings::{Process, basic_settings, crown_settings};
 use crate::blank::{PairBlank, ToothForm};
+use crate::cut_thickness::{ThicknessFrom, settings_of_thickness};
 use crate::error::BevelError;
 use crate::flank::Flank;
 use crate::grid_surface::GridSurface;
@@ -22,8 +23,8 @@ pub enum Cutting {
     Synthesis([Synthesis; 2]),
     /// Pinion: each flank fitted to an ease-off.
     EaseOff([AskedEaseOff; 2]),
-    /// As stated.
-    Given([MachineSettings; 2]),
+    /// As stated, and which thickness the teeth have, where that is stated.
+    Given([MachineSettings; 2], Option<ThicknessFrom>),
     /// Not cut here: through measured or published points.
     Points(Box<[GridSurface; 2]>),
 }
@@ -55,21 +56,32 @@ impl PairDesign {
             let crown =
                 || FlankSide::BOTH.map(|side| crown_settings(member, data, side, edge_radius_m[i]));
             match &cutting[i] {
-                Cutting::Given(settings) => Ok(*settings),
+                Cutting::Given(settings, _) => Ok(*settings),
                 Cutting::Crown => Ok(crown()),
                 Cutting::Basic(_) if data.form == ToothForm::Straight => Ok(crown()),
-                Cutting::Basic(process) => basic_settings(member, data, edge_radius_m[i], *process),
+                Cutting::Basic(process) => {
+                    // The formula's point width is that of the pitch cone: the slot that is cut is not quite the blank's.
+                    let basic = basic_settings(member, data, edge_radius_m[i], *process)?;
+                    settings_of_thickness(member, &basic, member.mean_thickness_m)
+                }
                 // Where the search begins.
                 Cutting::Synthesis(_) | Cutting::EaseOff(_) | Cutting::Points(_) => {
                     basic_settings(member, data, edge_radius_m[i], Process::Generated)
                 }
             }
         };
+        let thickness = |i: usize| match &cutting[i] {
+            Cutting::Given(_, asked) => *asked,
+            // One operation only where its point width was found above.
+            Cutting::Basic(_) => None,
+            _ => Some(ThicknessFrom::Blank),
+        };
         let (gear_settings, gear) = match &cutting[1] {
             Cutting::Points(grids) => (None, Tooth::through(&blank.members[1], grids)?),
             _ => {
                 let settings = derived(1)?;
-                (Some(settings), Tooth::cut(&blank.members[1], &settings)?)
+                let tooth = Tooth::cut(&blank.members[1], &settings, thickness(1))?;
+                (Some(settings), tooth)
             }
         };
         if let Cutting::Points(grids) = &cutting[0] {
@@ -102,7 +114,7 @@ impl PairDesign {
             }
             _ => {}
         }
-        let pinion = Tooth::cut(&blank.members[0], &pinion_settings)?;
+        let pinion = Tooth::cut(&blank.members[0], &pinion_settings, thickness(0))?;
         Ok(Self {
             settings: [Some(pinion_settings), gear_settings],
             teeth: [pinion, gear],

@@ -2,6 +2,7 @@
 
 mod assembly_table;
 mod blank_table;
+mod given_check;
 mod load_table;
 mod member_table;
 mod settings_table;
@@ -20,7 +21,7 @@ use serde::Deserialize;
 use crate::blank::PairBlank;
 use crate::error::BevelError;
 use crate::hand::FlankSide;
-use crate::pair_design::PairDesign;
+use crate::pair_design::{Cutting, PairDesign};
 use crate::tca::TcaRequest;
 use crate::tooth::ToothCheck;
 use assembly_table::AssemblyTable;
@@ -134,6 +135,12 @@ impl PairFile {
         )
     }
 
+    /// Whether the file states the settings of a member.
+    fn has_given_settings(&self) -> bool {
+        let given = |m: &MemberRequest| matches!(m.cutting, Cutting::Given(..));
+        self.members.iter().any(given)
+    }
+
     /// Settings and flanks of the pair, and what was found where both members' teeth were checked.
     ///
     /// # Errors
@@ -150,6 +157,10 @@ impl PairFile {
             found.map_err(fault)
         };
         let checks = [check(0)?, check(1)?];
+        // Derived flanks meet by what they are derived from, measured ones stand where they stand.
+        if self.has_given_settings() {
+            design.check_meeting(&self.blank).map_err(fault)?;
+        }
         Ok((design, checks))
     }
 }

@@ -2,10 +2,12 @@
 //! what assembly errors do to them.
 
 use crate::assembly::{Assembly, AssemblyError};
+use crate::between_positions::between_positions;
 use crate::blank::PairBlank;
 use crate::contact_ellipse::ContactEllipse;
 use crate::contact_path::{ContactKind, first_touch, pair_contacts};
 use crate::contact_point::{Mesh, Touch};
+use crate::contact_search::ContactSearch;
 use crate::ease_off::{EaseOff, EaseOffMap};
 use crate::error::BevelError;
 use crate::flank::Flank;
@@ -43,6 +45,11 @@ pub struct PathPoint {
     /// Transmission error: turn of the gear ahead of constant ratio in the driven sense, less the largest of all
     /// positions \[rad\].
     pub error_rad: f64,
+    /// The same from where the mean points of both flanks meet in the pair as designed: with what an assembly with errors adds to it for
+    /// good \[rad\].
+    pub lead_rad: f64,
+    /// Whether the position stands between the equal steps: where the next pair takes over, or the lead has an extreme.
+    pub is_between: bool,
     /// What touches.
     pub kind: ContactKind,
     /// Whether no other tooth pair touches before this one.
@@ -62,7 +69,9 @@ pub struct ToothContact {
     pub path: Vec<PathPoint>,
     /// Transmission error of the pair of gears over one pitch, at equal steps from turn 0 \[rad\].
     pub error_rad: Vec<f64>,
-    /// Largest less smallest transmission error \[rad\].
+    /// Largest transmission error of all positions, from where the mean points of both flanks meet in the pair as designed \[rad\].
+    pub largest_rad: f64,
+    /// Largest less smallest transmission error, changes of pairs and extremes between the steps included \[rad\].
     pub peak_to_peak_rad: f64,
     /// Pitches during which a pair's flanks touch at the path inside their limits; 0 where only edges touch.
     pub contact_ratio: f64,
@@ -94,51 +103,62 @@ pub fn tooth_contact(
         flanks,
         assembly: &assembly,
     };
-    let is_conjugate = first_touch(flanks, blank, &AssemblyError::default())
-        .is_ok_and(|(_, touch)| touches_along_line(&touch));
+    let is_conjugate = are_conjugate(flanks, blank);
     if is_conjugate && request.error == AssemblyError::default() {
         return Err(BevelError::NoContact {
             hint: "they are conjugate and touch along a line, which has no path of contact; look at their ease-off",
         });
     }
-    let contacts = pair_contacts(&mesh, request.per_pitch)?;
+    let search = ContactSearch::new(mesh)?;
+    let contacts = pair_contacts(&search, request.per_pitch);
     // The gear is pushed by the pair that brings it farthest.
     let n = request.per_pitch as i64;
-    let mut composite = vec![f64::NEG_INFINITY; request.per_pitch];
+    let mut leaders = vec![(0, f64::NEG_INFINITY); request.per_pitch];
     for (i, _, touch) in &contacts.contacts {
-        let slot = &mut composite[i.rem_euclid(n) as usize];
-        *slot = slot.max(mesh.lead_rad(touch));
+        let (slot, lead) = (i.rem_euclid(n) as usize, mesh.lead_rad(touch));
+        if lead > leaders[slot].1 {
+            leaders[slot] = (*i, lead);
+        }
     }
-    if composite.iter().any(|x| !x.is_finite()) {
+    if leaders.iter().any(|(_, lead)| !lead.is_finite()) {
         return Err(BevelError::NoContact {
             hint: "at some turns no tooth reaches its mate, edges included; make the errors smaller",
         });
     }
-    let largest = composite.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let smallest = composite.iter().copied().fold(f64::INFINITY, f64::min);
-    let mut path = Vec::with_capacity(contacts.contacts.len());
-    for (i, kind, touch) in &contacts.contacts {
+    let between = between_positions(&search, &contacts, &leaders);
+    let leads = leaders.iter().map(|(_, lead)| *lead);
+    let leads = leads.chain(between.iter().map(|(_, touch)| mesh.lead_rad(touch)));
+    let largest = leads.clone().fold(f64::NEG_INFINITY, f64::max);
+    let smallest = leads.fold(f64::INFINITY, f64::min);
+    let point = |kind: ContactKind, touch: &Touch, leading: bool, is_between: bool| {
         let lead = mesh.lead_rad(touch);
         let places = [0, 1].map(|k| {
             flanks[k]
                 .point(touch.at[k])
                 .map_or([f64::NAN; 2], |p| flanks[k].place(&p.r))
         });
-        path.push(PathPoint {
+        PathPoint {
             pinion_turn_rad: touch.pinion_turn_rad,
             error_rad: lead - largest,
-            kind: *kind,
-            leading: lead >= composite[i.rem_euclid(n) as usize],
+            lead_rad: lead,
+            is_between,
+            kind,
+            leading,
             places_m: places,
-            ellipse: (*kind == ContactKind::Flanks).then(|| ContactEllipse::at(touch)),
+            ellipse: (kind == ContactKind::Flanks).then(|| ContactEllipse::at(touch)),
             touch: *touch,
-        });
-    }
-    let leading = path.iter().filter(|p| p.leading).count() as f64;
-    let edges = path
-        .iter()
-        .filter(|p| p.leading && p.kind != ContactKind::Flanks)
-        .count() as f64;
+        }
+    };
+    let steps = contacts.contacts.iter().map(|(i, kind, touch)| {
+        let leads = mesh.lead_rad(touch) >= leaders[i.rem_euclid(n) as usize].1;
+        point(*kind, touch, leads, false)
+    });
+    let mut path: Vec<PathPoint> = steps.collect();
+    path.extend((between.iter()).map(|(kind, touch)| point(*kind, touch, true, true)));
+    path.sort_by(|a, b| a.pinion_turn_rad.total_cmp(&b.pinion_turn_rad));
+    let at_steps = || path.iter().filter(|p| p.leading && !p.is_between);
+    let leading = at_steps().count() as f64;
+    let edges = at_steps().filter(|p| p.kind != ContactKind::Flanks).count() as f64;
     let best = path
         .iter()
         .filter(|p| p.kind == ContactKind::Flanks)
@@ -158,7 +178,8 @@ pub fn tooth_contact(
     keep_near_leading(&mut path, n as usize);
     let pitch = contacts.step_rad * request.per_pitch as f64;
     Ok(ToothContact {
-        error_rad: composite.iter().map(|x| x - largest).collect(),
+        error_rad: leaders.iter().map(|(_, lead)| lead - largest).collect(),
+        largest_rad: largest,
         peak_to_peak_rad: largest - smallest,
         contact_ratio: contacts
             .flank_span_rad
@@ -170,8 +191,14 @@ pub fn tooth_contact(
     })
 }
 
+/// Whether flanks touch along a line in the pair as designed.
+pub fn are_conjugate(flanks: [&Flank; 2], blank: &PairBlank) -> bool {
+    first_touch(flanks, blank, &AssemblyError::default())
+        .is_ok_and(|(_, touch)| touches_along_line(&touch))
+}
+
 /// Whether flanks touch along a line.
-fn touches_along_line(touch: &Touch) -> bool {
+pub(crate) fn touches_along_line(touch: &Touch) -> bool {
     let [least, largest] = ContactEllipse::at(touch).curvatures_per_m;
     least.abs() < LINE_CONTACT * largest.abs()
 }
@@ -277,6 +304,34 @@ pub struct Sensitivity {
     pub shaft_angle: [f64; 2],
 }
 
+/// The mean contact in an assembly, from a contact nearby, and where it lies on the gear, L and h \[m\].
+///
+/// # Errors
+/// [`BevelError::NoContact`].
+pub(crate) fn mean_place_m(
+    flanks: [&Flank; 2],
+    blank: &PairBlank,
+    error: &AssemblyError,
+    near: &Touch,
+) -> Result<(Touch, [f64; 2]), BevelError> {
+    let none = || BevelError::NoContact {
+        hint: "make the errors smaller",
+    };
+    let assembly = Assembly::new(blank, error);
+    let mesh = Mesh {
+        flanks,
+        assembly: &assembly,
+    };
+    let start = mesh.touch(near.pinion_turn_rad, near);
+    let start = match start {
+        Some(start) => start,
+        None => first_touch(flanks, blank, error)?.1,
+    };
+    let mean = mean_contact(&mesh, &start)?;
+    let p = flanks[1].point(mean.at[1]).ok_or_else(none)?;
+    Ok((mean, flanks[1].place(&p.r)))
+}
+
 /// Sensitivity of the mean contact round an assembly, by central differences over 0.1 µm and 1 µrad.
 ///
 /// # Errors
@@ -287,33 +342,9 @@ pub fn sensitivity(
     error: &AssemblyError,
 ) -> Result<Sensitivity, BevelError> {
     let (_, first) = first_touch(flanks, blank, error)?;
-    let place = |error: &AssemblyError| -> Result<[f64; 2], BevelError> {
-        let assembly = Assembly::new(blank, error);
-        let mesh = Mesh {
-            flanks,
-            assembly: &assembly,
-        };
-        let start = mesh
-            .touch(first.pinion_turn_rad, &first)
-            .ok_or(BevelError::NoContact {
-                hint: "make the errors smaller",
-            })?;
-        let mean = mean_contact(&mesh, &start)?;
-        let p = flanks[1].point(mean.at[1]).ok_or(BevelError::NoContact {
-            hint: "make the errors smaller",
-        })?;
-        Ok(flanks[1].place(&p.r))
-    };
+    let place = |error: &AssemblyError| Ok(mean_place_m(flanks, blank, error, &first)?.1);
     let slope = |by: AssemblyError, size: f64| -> Result<[f64; 2], BevelError> {
-        let shifted = |sign: f64| {
-            let e = by.scaled(sign);
-            place(&AssemblyError {
-                offset_m: error.offset_m + e.offset_m,
-                pinion_axial_m: error.pinion_axial_m + e.pinion_axial_m,
-                gear_axial_m: error.gear_axial_m + e.gear_axial_m,
-                shaft_angle_rad: error.shaft_angle_rad + e.shaft_angle_rad,
-            })
-        };
+        let shifted = |sign: f64| place(&error.plus(&by.scaled(sign)));
         let (up, down) = (shifted(1.0)?, shifted(-1.0)?);
         Ok([0, 1].map(|i| (up[i] - down[i]) / (2.0 * size)))
     };

@@ -1,19 +1,24 @@
 //! Both flanks of a member's tooth, and what must not happen to them: undercut, points, blades that do not fit.
 
+use std::f64::consts::TAU;
+
 use crate::blank::MemberBlank;
+use crate::cut_thickness::{ThicknessFrom, ToothThickness, cut_thickness_m, is_one_operation};
 use crate::error::BevelError;
 use crate::flank::{Flank, Located, cone_directions};
 use crate::grid_surface::GridSurface;
 use crate::hand::FlankSide;
 use crate::settings::MachineSettings;
 
-/// A tooth: its concave and its convex flank, as far apart at the mean point as the blank says.
+/// A tooth: its concave and its convex flank, as far apart at the mean point as both are cut, or as the blank says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tooth {
     /// Blank.
     pub blank: MemberBlank,
     /// Concave and convex flank, each with its own mean point on +x.
     pub flanks: [Flank; 2],
+    /// How far they are apart.
+    pub thickness: ToothThickness,
 }
 
 /// What the checks of a tooth found.
@@ -25,22 +30,62 @@ pub struct ToothCheck {
     pub least_slot_m: Option<f64>,
 }
 
+/// Width of a slot's bottom, normal to the tooth, seen in the plane of the crown gear that cuts it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlotWidth {
+    /// Between the points of blades without edge radius \[m\].
+    pub point_m: f64,
+    /// What the edge radii of both blades take of it \[m\].
+    pub edges_m: f64,
+}
+
 /// Places of the checks along the face and up the flank.
 const ALONG: usize = 9;
 const UP: usize = 9;
 
 impl Tooth {
-    /// A tooth from the settings of its concave and convex flank.
+    /// A tooth from the settings of its concave and convex flank. `thickness`: what is asked for; where nothing is, the settings count that
+    /// cut both flanks in one operation, else the blank.
     ///
     /// # Errors
-    /// [`BevelError::NoFlankPoint`].
-    pub fn cut(blank: &MemberBlank, settings: &[MachineSettings; 2]) -> Result<Self, BevelError> {
+    /// [`BevelError::NoFlankPoint`]; [`BevelError::NoSlot`] where the blades leave no slot between the flanks of one operation.
+    pub fn cut(
+        blank: &MemberBlank,
+        settings: &[MachineSettings; 2],
+        thickness: Option<ThicknessFrom>,
+    ) -> Result<Self, BevelError> {
+        let flanks = [
+            Flank::cut(blank, FlankSide::Concave, &settings[0])?,
+            Flank::cut(blank, FlankSide::Convex, &settings[1])?,
+        ];
+        let circle = TAU * blank.mean_cone_m * blank.pitch_angle_rad.sin() / blank.teeth as f64;
+        let one_operation = is_one_operation(blank, settings).then(|| cut_thickness_m(&flanks));
+        // Crown gears of one cutter radius have the larger one inside: two operations.
+        let [outside, inside] =
+            (settings.each_ref()).map(|s| s.face_mill().map_or(0.0, |mill| mill.point_radius_m));
+        let is_tooth =
+            |thickness: &f64| outside > inside && *thickness > 0.0 && *thickness < circle;
+        let cut_m = one_operation.filter(is_tooth);
+        let from = match (thickness, one_operation) {
+            (Some(ThicknessFrom::Blank), _) | (_, None) => ThicknessFrom::Blank,
+            (_, Some(_)) => ThicknessFrom::Settings,
+        };
+        if let (ThicknessFrom::Settings, None, Some(thickness)) = (from, cut_m, one_operation) {
+            return Err(BevelError::NoSlot {
+                member: blank.name,
+                thickness_mm: 1e3 * thickness,
+                pitch_mm: 1e3 * circle,
+            });
+        }
+        let found = ToothThickness {
+            blank_m: blank.mean_thickness_m,
+            cut_m,
+            from,
+        };
         Ok(Self {
             blank: blank.clone(),
-            flanks: [
-                Flank::cut(blank, FlankSide::Concave, &settings[0])?,
-                Flank::cut(blank, FlankSide::Convex, &settings[1])?,
-            ],
+            flanks,
+            thickness: found,
         })
     }
 
@@ -56,6 +101,11 @@ impl Tooth {
                 Flank::through(blank, FlankSide::Concave, concave.clone())?,
                 Flank::through(blank, FlankSide::Convex, convex.clone())?,
             ],
+            thickness: ToothThickness {
+                blank_m: blank.mean_thickness_m,
+                cut_m: None,
+                from: ThicknessFrom::Blank,
+            },
         })
     }
 
@@ -70,7 +120,7 @@ impl Tooth {
     /// Angle from the tooth's middle to a flank's mean point, counter-clockwise about the axis \[rad\].
     pub fn half_angle_rad(&self, side: FlankSide) -> f64 {
         let radius = self.blank.mean_cone_m * self.blank.pitch_angle_rad.sin();
-        side.facing(self.blank.hand) * 0.5 * self.blank.mean_thickness_m / radius
+        side.facing(self.blank.hand) * 0.5 * self.thickness.counts_m() / radius
     }
 
     /// Angle that the tooth covers at a place \[rad\].
@@ -116,9 +166,22 @@ impl Tooth {
                 });
             }
             found.least_top_m = found.least_top_m.min(top);
-            let Some(width) = self.slot_width_m(cone)? else {
+            let Some(SlotWidth {
+                point_m: width,
+                edges_m,
+            }) = self.slot_width_m(cone)?
+            else {
                 continue;
             };
+            if width > 0.0 && width < edges_m - 1e-9 * blank.mean_cone_m {
+                return Err(BevelError::EdgeTooLarge {
+                    member: blank.name,
+                    cone_mm: 1e3 * cone,
+                    slot_mm: 1e3 * width,
+                    edges_mm: 1e3 * edges_m,
+                    share: width / edges_m,
+                });
+            }
             if width < point_width_m - 1e-9 * blank.mean_cone_m || width <= 0.0 {
                 return Err(BevelError::BladeTooWide {
                     member: blank.name,
@@ -133,14 +196,12 @@ impl Tooth {
         Ok(found)
     }
 
-    /// Width of the blade's point that leaves the slot's bottom as it is \[m\]: its width normal to the tooth between
-    /// the points of blades without edge
-    /// radius, seen in the plane of the crown gear that cuts it. None of flanks from points.
+    /// Width of the blade's point that leaves the slot's bottom as it is. None of flanks from points.
     ///
     /// # Errors
     /// [`BevelError::NoFlankPoint`].
-    pub fn slot_width_m(&self, cone_m: f64) -> Result<Option<f64>, BevelError> {
-        let mut angle = std::f64::consts::TAU / self.blank.teeth as f64;
+    pub fn slot_width_m(&self, cone_m: f64) -> Result<Option<SlotWidth>, BevelError> {
+        let mut angle = TAU / self.blank.teeth as f64;
         let (mut radius, mut cosine, mut edges, mut slip) = (0.0, 0.0, 0.0, 0.0);
         for flank in &self.flanks {
             let Some(cut) = flank.cut_surface() else {
@@ -167,7 +228,10 @@ impl Tooth {
                 }
             }
         }
-        Ok(Some(angle * radius * cosine / slip + edges))
+        Ok(Some(SlotWidth {
+            point_m: angle * radius * cosine / slip + edges,
+            edges_m: edges,
+        }))
     }
 }
 

@@ -310,7 +310,10 @@ pub struct ImportArguments {
     /// Scenes of reduced gears (`hybrid` meshes) in place of the springs of ISO 6336: reduce the gear files first
     #[arg(long)]
     pub reduced: bool,
-    /// Print what was taken, assumed and not represented as JSON
+    /// Write the files only: neither check them nor run the scenes at rest
+    #[arg(long)]
+    pub no_run: bool,
+    /// Print the figures at rest, and what was taken, assumed and not represented, as JSON
     #[arg(long)]
     pub json: bool,
 }

@@ -53,6 +53,13 @@ pub fn bevel_gear(path: &Path) -> Result<Option<BevelGear>, Failure> {
 /// What a gear file leaves to find before the offline stage: whether its mesh is there, and numbers that look like
 /// those of another unit.
 pub fn judge_gear(gear: &GearDefinition, document: &InputDocument) -> Result<(), Failure> {
+    demand_body_file(gear, document)?;
+    console::unit_slips(document.unit_slips());
+    Ok(())
+}
+
+/// Demands the mesh file that a gear names.
+pub fn demand_body_file(gear: &GearDefinition, document: &InputDocument) -> Result<(), Failure> {
     if let Some(body) = gear.blank.meshed() {
         let shown = body.file.display();
         if !body.file.exists() {
@@ -62,7 +69,6 @@ pub fn judge_gear(gear: &GearDefinition, document: &InputDocument) -> Result<(),
         demand_readable(&body.file, MOST_MESH_BYTES)
             .map_err(|error| document.error("blank.file", format!("{shown} {error}")))?;
     }
-    console::unit_slips(document.unit_slips());
     Ok(())
 }
 

@@ -168,6 +168,12 @@ impl GearMesh {
         self
     }
 
+    /// Whether its teeth rub.
+    #[must_use]
+    pub fn rubs(&self) -> bool {
+        self.friction.is_some()
+    }
+
     /// Kinematics.
     #[must_use]
     pub fn kinematics(&self) -> &dyn FlankKinematics {
@@ -327,6 +333,7 @@ impl GearMesh {
         let result = &mut self.load;
         result.load = Vector6::zeros();
         result.power = Power::default();
+        result.friction_w = 0.0;
         self.effort.poses += 1;
         self.modal.begin(tangents);
         let rates = pose.rates();

@@ -25,6 +25,21 @@ pub(crate) fn normal_force(flank: Flank) -> Channel {
     Channel::new(format!("normal_force_{side}_N"), "N", what)
 }
 
+/// Number of [`powers`].
+pub(crate) const POWERS: usize = 2;
+
+/// Of meshes whose teeth rub: what friction takes, and what gear 1 puts in.
+pub(crate) fn powers() -> [Channel; POWERS] {
+    let watts = |name, what| Channel::new(name, "W", what);
+    [
+        watts("friction_power_W", "power that friction of the teeth takes"),
+        watts(
+            "power_W",
+            "power that the body of gear 1 puts into the mesh; negative where it takes it out",
+        ),
+    ]
+}
+
 /// Transmission error, pairs of teeth that carry, and whether the gears are apart.
 pub(crate) fn state() -> [Channel; 3] {
     let te = "transmission error of the flanks in contact about the bodies' axes, zero at first touch, negative under load; where none touch that of the \

@@ -9,7 +9,7 @@ use crate::error::DrivetrainError;
 use crate::flank_contacts::FlankContacts;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
-use crate::mesh_channels::{self, FORCES, SliceLineLoads, force_on_gear_1};
+use crate::mesh_channels::{self, FORCES, POWERS, SliceLineLoads, force_on_gear_1};
 use crate::pair_channels::PairChannels;
 use crate::pose::Pose;
 use crate::strain_gauges::{ModalPart, StrainGauges};
@@ -52,7 +52,7 @@ impl PairTangents {
 ///
 /// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry, whether the gears are apart (1 where
 /// no tooth reaches the mate; the transmission error then goes on as that of continued flanks); strain of each gauge; the force
-/// on gear 1 and the line load of each slice (mesh_channels.rs); the pairs of teeth that carry (pair_channels.rs).
+/// on gear 1 and the line load of each slice (mesh_channels.rs); the pairs of teeth that carry (pair_channels.rs); powers where the teeth rub.
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,
@@ -294,6 +294,12 @@ impl ForceElement for MeshElement {
                     .into_iter()
                     .flatten(),
             )
+            .chain(
+                (self.mesh.rubs())
+                    .then(mesh_channels::powers)
+                    .into_iter()
+                    .flatten(),
+            )
             .collect()
     }
 
@@ -303,6 +309,16 @@ impl ForceElement for MeshElement {
         if self.update(view, &motion, false).is_err() {
             out.fill(f64::NAN);
             return;
+        }
+        let own = if self.mesh.rubs() { POWERS } else { 0 };
+        let (out, powers) = out.split_at_mut(out.len() - own);
+        if let [friction, power] = powers {
+            let mesh = self.mesh.load();
+            let body = view.body(self.bodies[0]);
+            let force = motion.generalised_force(&mesh.load);
+            *friction = mesh.friction_w;
+            *power = -(force.fixed_rows::<3>(0).dot(&body.velocity_m_per_s)
+                + (force.fixed_rows::<3>(3)).dot(&body.angular_velocity_rad_per_s));
         }
         let mut pairs = 0;
         let sides = self.mesh.flanks().count();

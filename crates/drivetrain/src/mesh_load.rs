@@ -16,6 +16,8 @@ pub struct MeshLoad {
     pub by_velocity: Matrix6,
     /// Energy and power.
     pub power: Power,
+    /// Power that friction of the teeth takes, within that of `power` \[W\].
+    pub friction_w: f64,
 }
 
 impl Default for MeshLoad {
@@ -25,6 +27,7 @@ impl Default for MeshLoad {
             by_position: Matrix6::zeros(),
             by_velocity: Matrix6::zeros(),
             power: Power::default(),
+            friction_w: 0.0,
         }
     }
 }

@@ -78,6 +78,7 @@ impl Assembly<'_> {
                 friction_n = drag.shares.map(|share| force * share);
                 direction += drag.load;
                 result.power.dissipated_w += force * drag.dissipated_w;
+                result.friction_w += force * drag.dissipated_w;
                 if tangents {
                     result.by_position += force * drag.by_position;
                     result.by_velocity += force * drag.by_velocity;

@@ -186,7 +186,7 @@ impl Meridian {
             points,
             regions: vec![Region {
                 loops: vec![(0..count).collect()],
-                corners: Vec::new(),
+                ..Region::default()
             }],
             largest: gear.mesh.body_m,
         };

@@ -4,9 +4,11 @@ use crate::MeshError;
 use crate::grading::{Pieces, graded};
 use crate::mid_sides::{CurvedSides, MidSides};
 use crate::plane_mesher::{PlaneMesh, PlaneProblem, Region};
+use crate::thin_ring;
 use crate::tooth_cell::ring_radius_m;
 use gearmesh_geometry::{GearDefinition, Openings, Slots};
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::iter;
 
 /// Growth of element length with the distance from the ring, and from the hub.
 const GRADING: f64 = 0.35;
@@ -160,7 +162,7 @@ pub enum BodyLengths {
 /// Places the nodes on the edges of the body's regions. `ring_per_tooth` pieces of the ring belong to each tooth.
 ///
 /// # Errors
-/// [`MeshError::NoCut`] when no tooth space lies clear of the openings.
+/// [`MeshError::NoCut`] when no tooth space lies clear of the openings, [`MeshError::OpeningsAcross`] when they lie across a circle of nodes.
 pub fn body_problem(
     gear: &GearDefinition,
     ring_per_tooth: usize,
@@ -181,6 +183,28 @@ pub fn body_problem(
         BodyLengths::WithinSector => wanted(r).min(r * angle),
     };
     let levels = region_circles(gear);
+    // Pieces of a circle.
+    let least = if closed { 8 } else { 2 };
+    let in_a_region = |o: &Openings| {
+        let within = |pair: &[(f64, bool)]| o.radii_m().1 < pair[0].0 && o.radii_m().0 > pair[1].0;
+        levels.windows(2).any(within)
+    };
+    if let Some(openings) = gear.blank.openings().filter(|o| !in_a_region(o)) {
+        let (inner, outer) = openings.radii_m();
+        return Err(MeshError::OpeningsAcross {
+            inner_mm: inner * 1e3,
+            outer_mm: outer * 1e3,
+        });
+    }
+    let openings_in = |i: usize| {
+        let within = |o: &Openings| o.radii_m().1 < levels[i].0 && o.radii_m().0 > levels[i + 1].0;
+        gear.blank.openings().filter(within)
+    };
+    let is_thin = |i: usize| {
+        let (outer, inner) = (levels[i].0, levels[i + 1].0);
+        let length = size(inner).min(inner * angle / least as f64);
+        thin_ring::is_thin(outer, inner, length) && openings_in(i).is_none()
+    };
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut add = |r: f64, phi: f64| {
         points.push([r * phi.cos(), r * phi.sin(), size(r)]);
@@ -193,10 +217,9 @@ pub fn body_problem(
         .map(|(level, &(r, _))| {
             // The bore takes over the hub's number of pieces, so that the hub can be paved regularly.
             let hub_inside = level + 1 == levels.len() && gear.blank.web().is_some();
-            if r != ring && !hub_inside {
+            if r != ring && !hub_inside && !(level > 0 && is_thin(level - 1)) {
                 // Free regions are meshed two boundary pieces at a time, and blossom needs an even number of those:
                 // the outline of a region has a multiple of four pieces, of which two equal edges are even already.
-                let least = if closed { 8 } else { 2 };
                 let outer = n;
                 n = ((r * angle / size(r)).ceil() as usize)
                     .max(least)
@@ -214,23 +237,21 @@ pub fn body_problem(
     let mut left_side = Vec::new();
     let mut regions = Vec::new();
     let mut web_region = Vec::new();
+    let mut arcs: Vec<Vec<usize>> = Vec::new();
     for (i, pair) in circles.windows(2).enumerate() {
         let (outer, inner) = (&pair[0], &pair[1]);
         let mut loops = Vec::new();
+        let even = Pieces {
+            least: 2,
+            even: true,
+        };
+        let radii = graded(levels[i].0, levels[i + 1].0, size, even);
+        let steps = &radii[1..radii.len() - 1];
+        let mut edges = [Vec::new(), Vec::new()];
         if closed {
             loops.push(outer.clone());
             loops.push(inner.clone());
         } else {
-            let radii = graded(
-                levels[i].0,
-                levels[i + 1].0,
-                size,
-                Pieces {
-                    least: 2,
-                    even: true,
-                },
-            );
-            let steps = &radii[1..radii.len() - 1];
             let right: Vec<usize> = steps.iter().map(|&r| add(r, start)).collect();
             let left: Vec<usize> = steps.iter().map(|&r| add(r, start + angle)).collect();
             let mut outline = outer.clone();
@@ -242,38 +263,49 @@ pub fn body_problem(
             right_side.push(inner[0]);
             left_side.extend(&left);
             left_side.push(inner[inner.len() - 1]);
+            edges = [right, left];
         }
-        if let Some(openings) = gear.blank.openings() {
-            let (r_in, r_out) = openings.radii_m();
-            if r_out < levels[i].0 && r_in > levels[i + 1].0 {
-                let repeat = TAU / openings.count() as f64;
-                let first = ((start - openings.phase_rad()) / repeat).ceil() as i64;
-                for k in 0..(openings.count() / sectors) as i64 {
-                    let centre = openings.phase_rad() + repeat * (first + k) as f64;
-                    // Every other point is the middle of a side.
-                    let outline = opening_outline(&openings, gear.mesh.body_m);
-                    let (corners, middles): (Vec<_>, Vec<_>) = outline
-                        .as_chunks()
-                        .0
-                        .iter()
-                        .map(|&[(r, phi), middle]| (add(r, centre + phi), middle))
-                        .unzip();
-                    for (k, (r, phi)) in middles.into_iter().enumerate() {
-                        let (sin, cos) = (centre + phi).sin_cos();
-                        let next = corners[(k + 1) % corners.len()];
-                        curved.insert(corners[k], next, [r * cos, r * sin]);
-                    }
-                    loops.push(corners);
+        if let Some(openings) = openings_in(i) {
+            let repeat = TAU / openings.count() as f64;
+            let first = ((start - openings.phase_rad()) / repeat).ceil() as i64;
+            for k in 0..(openings.count() / sectors) as i64 {
+                let centre = openings.phase_rad() + repeat * (first + k) as f64;
+                // Every other point is the middle of a side.
+                let outline = opening_outline(&openings, gear.mesh.body_m);
+                let (corners, middles): (Vec<_>, Vec<_>) = outline
+                    .as_chunks()
+                    .0
+                    .iter()
+                    .map(|&[(r, phi), middle]| (add(r, centre + phi), middle))
+                    .unzip();
+                for (k, (r, phi)) in middles.into_iter().enumerate() {
+                    let (sin, cos) = (centre + phi).sin_cos();
+                    let next = corners[(k + 1) % corners.len()];
+                    curved.insert(corners[k], next, [r * cos, r * sin]);
                 }
+                loops.push(corners);
             }
+        }
+        let mut quads = Vec::new();
+        if is_thin(i) {
+            let pieces = outer.len() - usize::from(!closed);
+            let place = |k: usize| start + angle * k as f64 / pieces as f64;
+            let between = thin_ring::circles(steps, &edges, outer.len(), |r, k| add(r, place(k)));
+            arcs.extend(between.iter().cloned());
+            let rows: Vec<&[usize]> = iter::once(&outer[..])
+                .chain(between.iter().map(|circle| &circle[..]))
+                .chain([&inner[..]])
+                .collect();
+            quads = thin_ring::quads(&rows, closed);
         }
         regions.push(Region {
             loops,
             corners: Vec::new(),
+            quads,
         });
         web_region.push(levels[i].1);
     }
-    for circle in &circles {
+    for circle in circles.iter().chain(&arcs) {
         curved.insert_arcs(circle, closed, |n| [points[n][0], points[n][1]]);
     }
     Ok(BodyProblem {

@@ -56,6 +56,10 @@ impl GearMesh {
     /// # Errors
     /// [`MeshError`] when gmsh is missing or fails, or when the mesh is poorer than `min_scaled_jacobian`.
     pub fn new(gear: &GearDefinition, python: &PythonEnvironment) -> Result<Self, MeshError> {
+        Self::made(gear, python).map_err(|error| error.with_lengths(gear))
+    }
+
+    fn made(gear: &GearDefinition, python: &PythonEnvironment) -> Result<Self, MeshError> {
         if gear.mesh.element == Element::Tet10 && gear.blank.meshed().is_none() {
             return Self::in_tetrahedra(gear, python);
         }

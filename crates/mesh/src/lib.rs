@@ -10,6 +10,7 @@
 //! | one tooth: blocks that follow its outline, their quads | [`tooth_blocks::ToothBlocks`], [`tooth_cell::ToothCell`] | `tooth_blocks.rs`, `tooth_cell.rs` |
 //! | the cut of the tooth-only submodel | [`CutLine`] | `cut_line.rs` |
 //! | hub, web and rim of one sector, with openings | [`body`] | `body.rs` |
+//! | rings of it thinner than elements | | `thin_ring.rs` |
 //! | a crack along sides of its quads | [`crack_line::CrackLine`] | `crack_line.rs` |
 //! | all teeth and sectors in the plane | [`section::Section`] | `section.rs` |
 //! | middles of sides, on the true curve | [`mid_sides`] | `mid_sides.rs` |
@@ -58,6 +59,7 @@ pub mod solid_mesher;
 pub mod solid_problem;
 mod tet_mesh;
 pub mod tet_split;
+mod thin_ring;
 pub mod tooth_blocks;
 pub mod tooth_cell;
 pub mod twist;
@@ -70,6 +72,8 @@ pub use elements::ElementList;
 pub use face::{FaceShape, OutlineFace};
 pub use gear_mesh::GearMesh;
 pub use mesh_size::MeshSize;
+
+use gearmesh_geometry::{GearDefinition, MeshSettings};
 
 /// Why no mesh could be made.
 #[derive(Debug, thiserror::Error)]
@@ -116,6 +120,17 @@ pub enum MeshError {
         /// Best clearance found.
         best_deg: f64,
     },
+    /// Openings lie across a circle that must be a line of the mesh.
+    #[error(
+        "blank.slots or blank.holes: they reach from radius {inner_mm:.3} to {outer_mm:.3} mm, across a circle at which the body's shape \
+         changes (rim, hub, or a point of the contour); keep them on one side of it"
+    )]
+    OpeningsAcross {
+        /// Innermost radius.
+        inner_mm: f64,
+        /// Outermost radius.
+        outer_mm: f64,
+    },
     /// The crack leaves the tooth.
     #[error(
         "crack: its tip at x {x_mm:.3} mm, y {y_mm:.3} mm of the tooth's section leaves the tooth and the ring below it, or comes too close to \
@@ -131,11 +146,13 @@ pub enum MeshError {
     },
     /// Quality below what the definition demands.
     #[error(
-        "the mesh is too poor: smallest scaled Jacobian {found:.3} at x {x_mm:.2} mm, y {y_mm:.2} mm, z {z_mm:.2} mm, demanded {demanded:.3}; choose smaller or more even element sizes in [mesh], or lower min_scaled_jacobian"
+        "the mesh is too poor: smallest scaled Jacobian {found:.3} at x {x_mm:.2} mm, y {y_mm:.2} mm, z {z_mm:.2} mm, demanded {demanded:.3}; choose smaller or more even element sizes in [mesh]{lengths}, or lower min_scaled_jacobian"
     )]
     Quality {
         /// Smallest scaled Jacobian.
         found: f64,
+        /// The lengths that make it, by their keys, in brackets; empty where they are not known.
+        lengths: String,
         /// Demanded.
         demanded: f64,
         /// Where.
@@ -145,4 +162,32 @@ pub enum MeshError {
         /// Where.
         z_mm: f64,
     },
+}
+
+impl MeshError {
+    /// Names the element lengths of the part with the worst element, with the default ones.
+    fn with_lengths(mut self, gear: &GearDefinition) -> Self {
+        if let Self::Quality {
+            x_mm,
+            y_mm,
+            lengths,
+            ..
+        } = &mut self
+        {
+            let module_mm = gear.tooth.module_m * 1e3;
+            let width_mm = gear.tooth.face_width_m * 1e3;
+            let defaults = MeshSettings::default_lengths(gear.mesh.element, module_mm, width_mm);
+            let found = [gear.mesh.flank_m, gear.mesh.fillet_m, gear.mesh.body_m];
+            let told = |k: usize| {
+                let key = ["flank_mm", "fillet_mm", "body_mm"][k];
+                format!("{key} {:.3}, {:.3} by default", found[k] * 1e3, defaults[k])
+            };
+            let in_teeth = x_mm.hypot(*y_mm) > 1e3 * tooth_cell::ring_radius_m(gear);
+            *lengths = match in_teeth {
+                true => format!(" (there: {}; {})", told(0), told(1)),
+                false => format!(" (there: {})", told(2)),
+            };
+        }
+        self
+    }
 }

@@ -113,8 +113,10 @@ def mesh(problem, tags, algorithm, recombination, factor):
 
 def best_mesh(problem):
     """Of each region the best of the attempts. All nodes on their edges are given, so regions need not be of one attempt."""
-    best, last = {}, "triangles were left"
-    poor = list(range(1, len(problem["surfaces"]) + 1))
+    given = {tag: surface["quads"] for tag, surface in enumerate(problem["surfaces"], 1) if surface["quads"]}
+    best = {tag: ([], [[("point", n) for n in quad] for quad in quads], 1.0) for tag, quads in given.items()}
+    last = "triangles were left"
+    poor = [tag for tag in range(1, len(problem["surfaces"]) + 1) if tag not in given]
     for number, attempt in enumerate(FREE_ATTEMPTS):
         wanted = GOOD if attempt[2] == 1.0 else TOLERABLE
         if number >= ALWAYS:

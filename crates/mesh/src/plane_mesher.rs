@@ -19,13 +19,15 @@ pub enum PlaneMeshError {
     Mismatch(&'static str),
 }
 
-/// A region: loops of point numbers (the outline first, then openings). With corners it is structured.
-#[derive(Debug, Clone, Serialize)]
+/// A region: loops of point numbers (the outline first, then openings). With corners it is structured, with quads it is meshed already.
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct Region {
     /// Closed loops of point numbers; the last point is joined to the first.
     pub loops: Vec<Vec<usize>>,
     /// The four corner points of a structured region; empty for a free one.
     pub corners: Vec<usize>,
+    /// Its quads where they are given, their inner nodes among the points; none where it is to be meshed.
+    pub quads: Vec<[usize; 4]>,
 }
 
 /// Regions that share points.

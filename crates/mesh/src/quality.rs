@@ -31,6 +31,7 @@ impl QualityReport {
         let [x_mm, y_mm, z_mm] = self.worst_m.map(|v| v * 1e3);
         Err(MeshError::Quality {
             found: self.smallest,
+            lengths: String::new(),
             demanded: min_scaled_jacobian,
             x_mm,
             y_mm,

@@ -240,6 +240,7 @@ impl ToothBlocks {
         let region = |loop_points: Vec<usize>, corners: [usize; 4]| Region {
             loops: vec![loop_points],
             corners: corners.to_vec(),
+            quads: Vec::new(),
         };
         let layer = |line: &[usize], inner: &[usize], start: &[usize], end: &[usize]| {
             region(

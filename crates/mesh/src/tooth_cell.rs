@@ -38,7 +38,8 @@ pub struct ToothCell {
 }
 
 /// Radius of the circle below which the body begins \[m\]: the rim's inner circle where the rim is thin, otherwise
-/// about one and a half modules below the root.
+/// about one and a half modules below the root. It keeps at least half way between the root and what lies inside: bore, openings, and the outline
+/// of the shaft that the gear is cut into, whose faces are held while teeth are condensed with nothing held.
 pub fn ring_radius_m(gear: &GearDefinition) -> f64 {
     let module = gear.tooth.module_m;
     let root = gear.profile.root_radius_m;
@@ -50,6 +51,14 @@ pub fn ring_radius_m(gear: &GearDefinition) -> f64 {
         }
         Some(web) if web.rim_inner_radius_m > root - 2.5 * module => web.rim_inner_radius_m,
         Some(_) => default,
-        None => default.max(0.5 * (gear.blank.inner_radius_m() + root)),
+        None => {
+            let shaft = gear.blank.cut_into_shaft().map(|s| s.end_radii_m);
+            let openings = gear.blank.openings().map(|o| o.radii_m().1);
+            let within = [gear.blank.inner_radius_m()]
+                .into_iter()
+                .chain(shaft.into_iter().flatten())
+                .chain(openings);
+            default.max(0.5 * (within.fold(0.0, f64::max) + root))
+        }
     }
 }

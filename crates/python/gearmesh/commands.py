@@ -63,13 +63,14 @@ def demo(folder: str | os.PathLike[str], *, progress: Progress = None) -> str:
 
 
 def import_rexs(
-    model: str | os.PathLike[str], folder: str | os.PathLike[str], *, reduced: bool = False
+    model: str | os.PathLike[str], folder: str | os.PathLike[str], *, reduced: bool = False, run: bool = True
 ) -> dict[str, Any]:
     """A gearbox from a REXS file (docs/rexs.md): gear files, scenes and bearings into a folder.
 
-    reduced: scenes with `hybrid` meshes of reduced gears. Returns what was taken, assumed and not represented.
+    reduced: scenes with `hybrid` meshes of reduced gears. run: check the files and run the scenes at rest. Returns
+    `warnings`, the figures `at_rest`, and what was taken, assumed and not represented, each with its weight.
     """
-    return program("import", model, "-o", folder, *options({"reduced": reduced}))
+    return program("import", model, "-o", folder, *options({"reduced": reduced, "no_run": not run}))
 
 
 class Record:

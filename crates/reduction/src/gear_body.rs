@@ -85,7 +85,7 @@ impl<M: RepeatedMesh> GearBody<M> {
     /// Factorises a mesh and its model with some nodes held; making the mesh took `meshed_s` seconds.
     ///
     /// # Errors
-    /// [`ReductionError::Fe`] when it is not held.
+    /// [`ReductionError::Fe`] when it is not held, [`ReductionError::HeldTeeth`] when more than its body is.
     pub fn held(
         (mesh, model, bore): (M, FeModel, &[usize]),
         (symmetry, deformation): (Symmetry, Deformation),
@@ -101,6 +101,14 @@ impl<M: RepeatedMesh> GearBody<M> {
                 let mut fixed = vec![false; model.node_count()];
                 for &n in bore {
                     fixed[n] = true;
+                }
+                // Teeth are condensed with nothing held.
+                let held = (0..mesh.teeth())
+                    .flat_map(|tooth| mesh.cell_nodes(tooth))
+                    .filter(|&n| fixed[n as usize])
+                    .count();
+                if held > 0 {
+                    return Err(ReductionError::HeldTeeth { held });
                 }
                 let body = CyclicBody::new(&mesh, &model, &fixed, progress, &mut stage_seconds)?;
                 Solver::Cyclic(Box::new(body))

@@ -144,6 +144,15 @@ pub enum ReductionError {
         /// End of the range \[Hz\].
         up_to_hz: f64,
     },
+    /// Nodes of a tooth, or of the ring below it, are held.
+    #[error(
+        "the gear is held too far out: {held} of the held nodes belong to teeth or to the ring below them; make blank.bore_diameter_mm or \
+         blank.shaft_diameter_mm smaller"
+    )]
+    HeldTeeth {
+        /// Number of such nodes.
+        held: usize,
+    },
     /// An identity that holds exactly was violated: the numbers cannot be trusted.
     #[error(
         "the reduction failed its own check: {check} is {found:.2e}, at most {allowed:.0e} is expected; the stiffness matrix is too ill-conditioned (very thin web, very slender elements?)"
@@ -169,8 +178,13 @@ impl ReductionError {
             | Self::NoDensity
             | Self::ModesInPlaneStrain
             | Self::NoModes { .. }
+            | Self::HeldTeeth { .. }
+            | Self::AtCrack { .. }
             | Self::Mesh(
                 MeshError::NoCut { .. }
+                | MeshError::OpeningsAcross { .. }
+                | MeshError::CrackTip { .. }
+                | MeshError::CrossedLines { .. }
                 | MeshError::Quality { .. }
                 | MeshError::Bevel(_)
                 | MeshError::MeshedElsewhere { .. },

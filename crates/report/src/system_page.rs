@@ -9,6 +9,7 @@
 //! | pairs of bevel teeth: forces, contact pattern, path | `tooth_pairs.rs` |
 //! | orbits of gears, lines of shafts and cages | `orbits.rs` |
 //! | curves over the speed | `sweep.rs` |
+//! | what friction takes, part by part | `losses.rs` |
 //! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
 //! | what was judged after the run | `../ratings.rs` |
 
@@ -17,6 +18,7 @@ mod bearings;
 mod columns;
 mod eigen;
 mod equilibria;
+mod losses;
 mod orbits;
 mod sweep;
 mod tooth_pairs;
@@ -57,6 +59,7 @@ pub(crate) fn sections(
         ResultKind::Static => sections.extend(equilibria::equilibria(r)?),
         ResultKind::Eigen => sections.push(eigen::eigen(r)),
     }
+    sections.extend(losses::section(r)?);
     sections.extend(stress);
     sections.extend(ratings::section(&r.head.title, &r.ratings));
     sections.push(provenance(r));

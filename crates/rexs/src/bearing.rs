@@ -1,6 +1,7 @@
 //! Bearings: springs in the scene, files for those with a catalogue.
 
 use crate::error::RexsError;
+use crate::ledger::About;
 use crate::model::Component;
 use crate::source::Source;
 use crate::structure::Structure;
@@ -97,6 +98,7 @@ pub fn read(
     let Some(sides) = structure.sides(component.id) else {
         source.leave_out(
             component,
+            About::Lost,
             "no relation says what it stands between: not in the scene",
         );
         return Ok(None);
@@ -104,6 +106,7 @@ pub fn read(
     if component.kind.contains("plain") || component.kind == "slide_bearing" {
         source.leave_out(
             component,
+            About::Stiffness,
             "plain bearing: a linear spring in its place, without film",
         );
     }
@@ -117,13 +120,18 @@ pub fn read(
             Some(k) if k >= RIGID_FROM => {
                 source.assume(
                     component,
+                    About::Small,
                     format!("{id} of {k:e} N/mm stands for rigid: {RIGID:e} N/mm"),
                 );
                 RIGID
             }
             Some(k) if k > 0.0 => k,
             _ => {
-                source.assume(component, format!("no {id} given: {without:e} N/mm"));
+                source.assume(
+                    component,
+                    About::Stiffness,
+                    format!("no {id} given: {without:e} N/mm"),
+                );
                 without
             }
         })
@@ -157,7 +165,7 @@ pub fn read(
                 _ => "axial support both ways",
             };
             let text = format!("axial_force_absorption {found}: {words}");
-            source.assume(component, text);
+            source.assume(component, About::Support, text);
             support
         }
     };
@@ -178,6 +186,7 @@ pub fn read(
     if tilt > RIGID_TILT {
         source.assume(
             component,
+            About::Small,
             format!(
                 "bending_stiffness of {tilt:e} N m/rad stands for rigid: {RIGID_TILT:e} N m/rad"
             ),
@@ -233,6 +242,7 @@ fn catalogue(
     let Some((_, word)) = TYPES.iter().find(|(rexs, _)| *rexs == kind) else {
         source.leave_out(
             component,
+            About::Nothing,
             format!(
                 "type `{kind}` as balls or rollers: no bearing file, a linear spring in the scene"
             ),
@@ -247,6 +257,7 @@ fn catalogue(
     else {
         source.leave_out(
             component,
+            About::Nothing,
             "no bearing file: it needs inner_diameter, outer_diameter, width and both load ratings",
         );
         return Ok(None);
@@ -254,6 +265,7 @@ fn catalogue(
     if rows != 1 || bore >= outside || width <= 0.0 || dynamic <= 0.0 || rest <= 0.0 {
         source.leave_out(
             component,
+            About::Nothing,
             "no bearing file: one row, diameters and load ratings that are possible",
         );
         return Ok(None);
@@ -275,6 +287,7 @@ fn catalogue(
     if *word == "angular-contact" {
         source.assume(
             component,
+            About::Nothing,
             "bearing file: contact angle of 40 deg unless its row says otherwise",
         );
         text.push_str("contact_angle_deg = 40.0\n");

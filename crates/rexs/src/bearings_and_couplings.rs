@@ -1,6 +1,7 @@
 //! What stands between two parts: bearings, couplings, brakes, joints of shaft and hub.
 
 use crate::error::RexsError;
+use crate::ledger::About;
 use crate::loose_gears;
 use crate::placement::frame;
 use crate::power_flow::Link;
@@ -48,15 +49,17 @@ pub fn bearings_and_couplings(
                 on_shaft |= kind == "shaft";
                 if !["shaft", "gear_casing", "gear_unit", ""].contains(&kind) {
                     let what = format!("its part {kind} is not in the scene: taken as the ground");
-                    source.assume(component, what);
+                    source.assume(component, About::Support, what);
                 }
                 found.u_mm[side] = None;
                 continue;
             };
             if found.u_mm[side].is_none() {
                 let by_vector = own.and_then(|own| Some(shaft.frame?.u_of(own.origin_mm)));
+                let about = by_vector.map_or(About::Place, |_| About::Small);
                 source.assume(
                     component,
+                    about,
                     format!(
                         "no place on {} given: {}",
                         shaft.name,
@@ -69,7 +72,13 @@ pub fn bearings_and_couplings(
             }
         }
         if on_shaft || found.u_mm == [None, None] {
-            source.leave_out(component, "on no shaft of the scene");
+            // Shafts of the file that the scene does not have are those of planets.
+            let about = if on_shaft {
+                About::Nothing
+            } else {
+                About::Lost
+            };
+            source.leave_out(component, about, "on no shaft of the scene");
         } else {
             train.bearings.push(found);
         }
@@ -82,7 +91,7 @@ pub fn bearings_and_couplings(
         };
         if train.gears.iter().any(|g| found.sides.contains(&g.gear.id)) {
             let what = "joins a gear to its shaft: the gear is fixed there, rigidly";
-            source.assume(component, what);
+            source.assume(component, About::Stiffness, what);
             continue;
         }
         let casing = |id: i64| {
@@ -96,7 +105,7 @@ pub fn bearings_and_couplings(
         let braked = braked.filter(|&(_, other, _)| casing(other));
         if let Some((shaft, _, side)) = { braked }.find(|&(id, ..)| train.shaft(id).is_some()) {
             let what = "engaged between a shaft and the casing: a brake, which bears the torque that the loads leave over; the shaft stands";
-            source.assume(component, what);
+            source.assume(component, About::Nothing, what);
             let u_mm = found.u_mm[side].unwrap_or(0.0);
             let load = loads::brake(component.id, found.name, shaft, u_mm);
             train.loads.push(load);
@@ -105,6 +114,7 @@ pub fn bearings_and_couplings(
         if found.sides.iter().any(|&id| train.shaft(id).is_none()) {
             source.leave_out(
                 component,
+                About::Lost,
                 "does not join two shafts of the scene: nothing is held by it",
             );
             continue;
@@ -118,7 +128,11 @@ pub fn bearings_and_couplings(
     }
     loose_gears::hold_hubs(source, train);
     for component in source.model.of_kind(&coupling::JOINTS) {
-        source.leave_out(component, "joints of shaft and hub are rigid in the scene");
+        source.leave_out(
+            component,
+            About::Small,
+            "joints of shaft and hub are rigid in the scene",
+        );
     }
     Ok(())
 }

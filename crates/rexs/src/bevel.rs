@@ -1,6 +1,7 @@
 //! Bevel stages: a pair file with the blank, cut as the program proposes.
 
 use crate::error::RexsError;
+use crate::ledger::About;
 use crate::model::Component;
 use crate::source::Source;
 use crate::structure::Structure;
@@ -89,6 +90,7 @@ pub fn read(
     {
         source.leave_out(
             stage,
+            About::Nothing,
             "hypoid offset: gearmesh's bevel pairs have crossing axes; no pair file",
         );
         return Ok(None);
@@ -112,12 +114,17 @@ pub fn read(
     };
     let widths = of_both("face_width")?;
     let [Some(width_1), Some(width_2)] = [widths[0].or(widths[1]), widths[1].or(widths[0])] else {
-        source.leave_out(stage, "bevel gears without face width: no pair file");
+        source.leave_out(
+            stage,
+            About::Nothing,
+            "bevel gears without face width: no pair file",
+        );
         return Ok(None);
     };
     let Some(outer) = outer else {
         source.leave_out(
             stage,
+            About::Nothing,
             "neither outer_transverse_module nor outer_pitch_diameter: no pair file",
         );
         return Ok(None);
@@ -127,7 +134,7 @@ pub fn read(
         None => source
             .number(stage, "generated_pressure_angle_on_drive_side", DEG)?
             .unwrap_or_else(|| {
-                source.assume(stage, "no pressure angle given: 20 deg");
+                source.assume(stage, About::Teeth, "no pressure angle given: 20 deg");
                 20.0
             }),
     };
@@ -137,7 +144,11 @@ pub fn read(
             [Some(hand), _] => hand == "right",
             [None, Some(hand)] => hand == "left",
             [None, None] => {
-                source.assume(pinion, "no spiral_angle_pitch_direction given: left");
+                source.assume(
+                    pinion,
+                    About::Teeth,
+                    "no spiral_angle_pitch_direction given: left",
+                );
                 false
             }
         };
@@ -190,6 +201,7 @@ pub fn pair_file(
             .unwrap_or_else(|| {
                 source.assume(
                     stage,
+                    About::Nothing,
                     format!("no cutter_radius given: the mean cone distance, {mean_cone:.3} mm"),
                 );
                 mean_cone
@@ -208,13 +220,14 @@ pub fn pair_file(
             let kinds = ["bevel_gear_tool", "bevel_gear_manufacturing_settings"];
             for id in structure.partners(flank, &kinds) {
                 if let Some(found) = source.model.component(id) {
-                    source.leave_out(found, "machine settings of other programs: frames and signs differ; the pair file lets the program propose settings, or give them as \"given\"");
+                    source.leave_out(found, About::Nothing, "machine settings of other programs: frames and signs differ; the pair file lets the program propose settings, or give them as \"given\"");
                 }
             }
         }
     }
     source.assume(
         stage,
+        About::Nothing,
         "bevel pair file: standard taper and thickness, machine settings as the program proposes",
     );
     Ok(Some(text))

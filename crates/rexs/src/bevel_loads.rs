@@ -1,6 +1,7 @@
 //! What the gears of bevel stages put on their shafts: forces and moments at the stations where they stand.
 
 use crate::bevel_force::{Line, MeanForce, mean_force};
+use crate::ledger::About;
 use crate::placement::{add, cross, dot};
 use crate::shaft::Shaft;
 use crate::source::Source;
@@ -31,8 +32,8 @@ pub fn bevel_loads(source: &Source<'_>, train: &Train) -> Vec<BevelLoad> {
                 continue;
             };
             match found {
-                Some(_) => source.assume(component, "no mesh in the scene: its torque, radial and axial forces act on the shaft at the middle of the face, without friction"),
-                None => source.leave_out(component, "no mesh in the scene: its torque acts on the shaft, its radial and axial forces do not, for the axes of the stage do not cross at its shaft angle, or its torque or teeth are not known"),
+                Some(_) => source.assume(component, About::Small, "no mesh in the scene: its torque, radial and axial forces act on the shaft at the middle of the face, without friction"),
+                None => source.leave_out(component, About::Lost, "no mesh in the scene: its torque acts on the shaft, its radial and axial forces do not, for the axes of the stage do not cross at its shaft angle, or its torque or teeth are not known"),
             }
         }
         let Some((force, pinion)) = found else {

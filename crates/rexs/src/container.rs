@@ -44,7 +44,9 @@ pub fn unpack(bytes: Vec<u8>) -> Result<Unpacked, RexsError> {
     let rank = |name: &str| {
         let lower = name.to_lowercase();
         let hidden = lower.starts_with("__macosx") || lower.contains("/.");
-        ENDINGS.iter().position(|e| lower.ends_with(e) && !hidden)
+        ENDINGS
+            .iter()
+            .position(|e| lower.ends_with(e) && !hidden && !leads_out(&lower))
     };
     // The model lies on top, what it refers to in folders.
     let depth = |name: &str| name.matches('/').count();
@@ -53,7 +55,16 @@ pub fn unpack(bytes: Vec<u8>) -> Result<Unpacked, RexsError> {
         .filter_map(|n| Some(((depth(n), rank(n)?), n)))
         .collect();
     members.sort();
+    let outside = names.iter().find(|name| leads_out(name));
     let Some(&(best, name)) = members.first() else {
+        if let Some(name) = outside {
+            return Err(RexsError::Container {
+                found: format!(
+                    "a zip file whose member `{name}` stands outside of the archive's own folder, which models never do; pack the model again, \
+                     without a folder"
+                ),
+            });
+        }
         return Err(RexsError::Container {
             found: format!(
                 "a zip file without a member that ends in {}",
@@ -94,6 +105,12 @@ pub fn unpack(bytes: Vec<u8>) -> Result<Unpacked, RexsError> {
         member: Some(name.clone()),
         further: further.cloned().collect(),
     })
+}
+
+/// Whether a member's path leads out of the folder in which the archive would be unpacked.
+fn leads_out(name: &str) -> bool {
+    let is_absolute = name.starts_with(['/', '\\']) || name.get(1..2) == Some(":");
+    is_absolute || name.split(['/', '\\']).any(|part| part == "..")
 }
 
 fn too_large(what: &str) -> RexsError {

@@ -1,6 +1,7 @@
 //! Couplings: what joins shafts, and whether it is engaged in the present gear.
 
 use crate::error::RexsError;
+use crate::ledger::About;
 use crate::model::{Component, Value};
 use crate::source::Source;
 use crate::structure::Structure;
@@ -54,6 +55,7 @@ pub fn read(
     let Some(sides) = structure.sides(component.id) else {
         source.leave_out(
             component,
+            About::Lost,
             "no relation says what it joins: not in the scene",
         );
         return Ok(None);
@@ -61,6 +63,7 @@ pub fn read(
     if is_open(source, component, shift_index) {
         source.leave_out(
             component,
+            About::Nothing,
             format!("open in gear {shift_index}: its two sides are not joined in the scene"),
         );
         return Ok(None);
@@ -82,6 +85,7 @@ pub fn read(
     if is_open {
         source.assume(
             component,
+            About::Stiffness,
             format!("no rotational_stiffness given: {RIGID_NM_PER_RAD:e} N m/rad"),
         );
         torsion = RIGID_NM_PER_RAD;

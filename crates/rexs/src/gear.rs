@@ -1,12 +1,13 @@
 //! Cylindrical gears: teeth, tool, blank, material.
 
 use crate::error::RexsError;
+use crate::ledger::About;
 use crate::microgeometry::Microgeometry;
 use crate::model::Component;
 use crate::source::Source;
 use crate::structure::Structure;
-use crate::tooth_thickness::din_3967_mm;
-use crate::units::{DEG, KG_PER_DM3, MM, MPA, ONE, UM};
+use crate::tooth_thickness::thickness;
+use crate::units::{DEG, KG_PER_DM3, MM, MPA, ONE};
 
 /// Linear elastic material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,6 +112,7 @@ pub fn material(
     let Some(found) = ids.first().and_then(|&id| source.model.component(id)) else {
         source.assume(
             component,
+            About::Stiffness,
             "no material given: steel, 206 GPa, 0.3, 7850 kg/m3",
         );
         return Ok(STEEL);
@@ -121,6 +123,7 @@ pub fn material(
     if let Some(rigid) = young.filter(|&e| e > MOST_MPA) {
         source.assume(
             found,
+            About::Small,
             format!("a modulus of {rigid:e} MPa stands for rigid: {MOST_MPA:e} MPa"),
         );
     }
@@ -131,7 +134,7 @@ pub fn material(
         .number(found, "density", KG_PER_DM3)?
         .filter(|&d| d > 0.0);
     if young.is_none() || poisson.is_none() || density.is_none() {
-        source.assume(found, "modulus, Poisson's ratio or density not given or not possible: those of steel, 206 GPa, 0.3, 7850 kg/m3");
+        source.assume(found, About::Stiffness, "modulus, Poisson's ratio or density not given or not possible: those of steel, 206 GPa, 0.3, 7850 kg/m3");
     }
     Ok(Material {
         young_gpa: young.map_or(STEEL.young_gpa, |e| 1e-3 * e.min(MOST_MPA)),
@@ -239,7 +242,7 @@ fn of_flanks(
     if let [Some(left), Some(right)] = values
         && (left - right).abs() > 1e-9
     {
-        source.leave_out(gear, format!("{attribute} of left flanks, {left}: gears have one for both, the right flanks' {right}"));
+        source.leave_out(gear, About::Teeth, format!("{attribute} of left flanks, {left}: gears have one for both, the right flanks' {right}"));
     }
     let [left, right] = values;
     Ok(right.or(left).or(read(gear)?))
@@ -260,6 +263,7 @@ fn flank_values(
         Some(angle) if (5.0..=45.0).contains(&angle) => gear.pressure_angle_deg = angle,
         other => source.assume(
             component,
+            About::Teeth,
             format!(
                 "normal_pressure_angle {}: 20 deg",
                 other.map_or("not given".to_owned(), |a| format!(
@@ -277,7 +281,7 @@ fn flank_values(
         None => value("addendum_modification_coefficient_after_finishing", ONE)?,
     };
     gear.profile_shift = shift.unwrap_or_else(|| {
-        source.assume(component, "no profile shift given: 0");
+        source.assume(component, About::Teeth, "no profile shift given: 0");
         0.0
     });
     gear.tip_chamfer_mm = value("tooth_tip_chamfer", MM)?
@@ -308,12 +312,13 @@ fn tool(
     let Some(tool) = found else {
         source.assume(
             component,
+            About::Teeth,
             "no tool given: rack of ISO 53 profile A, dedendum 1.25 and tip radius 0.38 modules",
         );
         return limit_tip_radius(source, component, gear);
     };
     if tool.kind != "rack_shaped_tool" {
-        source.assume(tool, "read as a rack of the same reference profile: roots cut by cutter wheels are not modelled");
+        source.assume(tool, About::Small, "read as a rack of the same reference profile: roots cut by cutter wheels are not modelled");
     }
     let module = gear.module_mm;
     let pair = |factor: &str, length: &str| -> Result<Option<f64>, RexsError> {
@@ -326,14 +331,18 @@ fn tool(
         "addendum_reference_profile",
     )? {
         Some(addendum) if addendum > 0.0 => gear.dedendum = addendum,
-        _ => source.assume(tool, "no addendum given: dedendum of the gear 1.25 modules"),
+        _ => source.assume(
+            tool,
+            About::Teeth,
+            "no addendum given: dedendum of the gear 1.25 modules",
+        ),
     }
     match pair(
         "tip_corner_radius_factor_reference_profile",
         "tip_corner_radius_reference_profile",
     )? {
         Some(radius) => gear.rack_tip_radius = radius,
-        None => source.assume(tool, "no tip radius given: 0.38 modules"),
+        None => source.assume(tool, About::Small, "no tip radius given: 0.38 modules"),
     }
     limit_tip_radius(source, tool, gear)
 }
@@ -360,7 +369,7 @@ fn limit_tip_radius(
     if gear.rack_tip_radius > most {
         source.assume(
             subject,
-            format!("a tip radius of {} modules does not fit on the rack's tip: {most:.4}, the full round", gear.rack_tip_radius),
+            About::Small, format!("a tip radius of {} modules does not fit on the rack's tip: {most:.4}, the full round", gear.rack_tip_radius),
         );
         gear.rack_tip_radius = most;
     }
@@ -382,6 +391,7 @@ fn tip_and_root(
         {
             source.assume(
                 component,
+                About::Nothing,
                 format!("dedendum {dedendum:.4} modules, from root_diameter"),
             );
             gear.dedendum = dedendum;
@@ -397,49 +407,13 @@ fn tip_and_root(
         } else {
             source.leave_out(
                 component,
+                About::Teeth,
                 format!(
                     "tip_diameter {tip} mm, which teeth of module {} mm cannot have",
                     gear.module_mm
                 ),
             );
         }
-    }
-    Ok(())
-}
-
-fn thickness(source: &Source<'_>, component: &Component, gear: &mut Gear) -> Result<(), RexsError> {
-    let cos_helix = gear.helix_deg.to_radians().cos();
-    let span = [
-        source.number(component, "upper_backlash_allowance_referenced_to_span", UM)?,
-        source.number(component, "lower_backlash_allowance_referenced_to_span", UM)?,
-    ];
-    let code = source.text(
-        component,
-        "tooth_thickness_deviation_tolerance_series_din_3967_1978",
-    );
-    let normal_mm = if let [Some(upper), Some(lower)] = span {
-        let mean = -0.5e-3 * (upper + lower) / gear.pressure_angle_deg.to_radians().cos();
-        source.assume(
-            component,
-            "tooth thickness: the middle of the allowances of span",
-        );
-        Some(mean)
-    } else if let Some(code) = code {
-        let found = din_3967_mm(&code, gear.reference_diameter_mm());
-        match found {
-            Some(mean) => source.assume(
-                component,
-                format!("tooth thickness: {:.1} um thinner in the normal section, the middle of DIN 3967 {code}", 1e3 * mean),
-            ),
-            None => source.leave_out(component, format!("tooth thickness `{code}`, which the tables of DIN 3967 do not have for this diameter")),
-        }
-        found
-    } else {
-        source.assume(component, "no tooth thickness allowance given: none, teeth without backlash at the theoretical centre distance");
-        None
-    };
-    if let Some(mean) = normal_mm.filter(|m| *m > 0.0 && *m < 0.5 * gear.module_mm) {
-        gear.thickness_allowance_mm = mean / cos_helix;
     }
     Ok(())
 }
@@ -461,7 +435,7 @@ fn bore(
             if source.has(body, "body_contour_coordinate_u")
                 || source.has(body, "gear_body_web_thickness")
             {
-                source.leave_out(body, "rim, web and contour: the blank is a solid disc with this bore; give [blank] kind = \"thin-rim\" or \"contour\" by hand");
+                source.leave_out(body, About::Blank, "rim, web and contour: the blank is a solid disc with this bore; give [blank] kind = \"thin-rim\" or \"contour\" by hand");
             }
         }
     }

@@ -1,6 +1,7 @@
 //! The bodies of gears in the scene. Most sit on a station of their shaft; one that turns loose has a place of its own, and so has a
 //! second gear at the place of another one, to which it is fixed.
 
+use crate::ledger::About;
 use crate::placement::Frame;
 use crate::shaft::Shaft;
 use crate::source::Source;
@@ -52,7 +53,7 @@ pub fn gear_bodies(
                     let what = format!(
                         "stands at the place of {first} on the same shaft: fixed to it there"
                     );
-                    source.assume(component, what);
+                    source.assume(component, About::Small, what);
                 }
                 joints.push_str(&format!(
                     "\n[[joint]]\nname = {}\nkind = \"fixed\"\nbody_1 = {}\nbody_2 = {name}\n",

@@ -4,15 +4,16 @@ use crate::bevel;
 use crate::container::{Unpacked, unpack};
 use crate::error::RexsError;
 use crate::gear_text::gear_file;
-use crate::ledger::Ledger;
+use crate::ledger::{About, Ledger};
 use crate::model::{LoadCase, Model};
 use crate::scene_text::{Meshes, scene};
+use crate::sheet::Sheet;
 use crate::source::Source;
 use crate::structure::Structure;
 use crate::text::file_stem;
 use crate::train;
 use crate::units::{HOUR, M_PER_S2, ONE};
-use crate::{json, versions, xml};
+use crate::{json, unjoined, versions, xml};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
@@ -38,6 +39,8 @@ pub struct Import {
     pub scenes: Vec<String>,
     /// Names of the gear files among them.
     pub gears: Vec<String>,
+    /// What each scene must show when it runs.
+    pub sheets: Vec<Sheet>,
     /// What became of it.
     pub ledger: Ledger,
 }
@@ -95,11 +98,11 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
     let mut ledger = Ledger::default();
     let mut model = parse(&unpacked)?;
     for further in &unpacked.further {
-        ledger.leave_out("the zip file", format!("member {further}"));
+        ledger.leave_out("the zip file", About::Nothing, format!("member {further}"));
     }
     versions::bring_up_to_date(&mut model, &mut ledger)?;
     for unknown in &model.unknown {
-        ledger.leave_out("the file", unknown.clone());
+        ledger.leave_out("the file", About::Nothing, unknown.clone());
     }
     let structure = Structure::new(&model, &mut ledger)?;
     let ledger = RefCell::new(ledger);
@@ -113,6 +116,7 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
     {
         ledger.borrow_mut().leave_out(
             &format!("load case {}", case.id),
+            About::Lost,
             format!(
                 "values of component {}, which is not in the file",
                 component.id
@@ -148,6 +152,7 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
             Some(text) => made.add(format!("{stem}_study.toml"), text),
             None => ledger.borrow_mut().assume(
                 "the load spectrum",
+                About::Nothing,
                 "its cases differ in more than one torque: a scene for each case, no study",
             ),
         }
@@ -161,6 +166,7 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
             let words = component.words();
             ledger.borrow_mut().leave_out(
                 "accumulation of the load spectrum",
+                About::Nothing,
                 format!(
                     "{} values of {words}: results of the other program",
                     component.attributes.len()
@@ -169,6 +175,7 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
         }
     }
     let source = Source::new(&model, &ledger, &used);
+    unjoined::list(&source, &structure);
     if cases.is_empty() {
         source.list_unused();
     }
@@ -177,7 +184,11 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
         .iter()
         .filter(|c| !KNOWN.contains(&c.kind.as_str()))
     {
-        source.leave_out(component, "components of this type have no counterpart");
+        source.leave_out(
+            component,
+            About::Nothing,
+            "components of this type have no counterpart",
+        );
     }
     Ok(Import {
         version: model.version.clone(),
@@ -185,6 +196,7 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
         files: made.files,
         scenes: made.scenes,
         gears: made.gears,
+        sheets: made.sheets,
         ledger: ledger.into_inner(),
     })
 }
@@ -208,6 +220,7 @@ struct Made {
     files: Vec<ImportedFile>,
     scenes: Vec<String>,
     gears: Vec<String>,
+    sheets: Vec<Sheet>,
 }
 
 impl Made {
@@ -242,9 +255,16 @@ impl Made {
                     .to_owned(),
             );
             let file = format!("{name}.toml");
-            let text = scene(source, &train, &title, &head, gravity, self.with);
+            let (text, held) = scene(source, &train, &title, &head, gravity, self.with);
+            self.sheets.push(Sheet::new(&file, &train, held));
             self.add(file.clone(), text);
             self.scenes.push(file);
+        } else {
+            source.ledger().assume(
+                "the file",
+                About::Lost,
+                "no scene: no shaft of it carries anything (relations of type assembly join gears, bearings and loads to shafts)",
+            );
         }
         let origin = head.first().cloned().unwrap_or_default();
         for seated in &train.gears {
@@ -372,7 +392,7 @@ fn unit_values(
             }
             match crate::placement::unit(direction) {
                 Some(direction) => gravity = Some(direction.map(|x| size * x)),
-                None => source.leave_out(unit, "gravity without a direction"),
+                None => source.leave_out(unit, About::Lost, "gravity without a direction"),
             }
         }
     }

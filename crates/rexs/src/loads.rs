@@ -1,6 +1,7 @@
 //! External loads and additional masses on shafts.
 
 use crate::error::RexsError;
+use crate::ledger::About;
 use crate::model::Component;
 use crate::source::Source;
 use crate::units::{KG, KG_M2, KW, MM, N, NM};
@@ -18,6 +19,8 @@ pub struct Load {
     pub u_mm: f64,
     /// Torque about u \[N m\]; none where it follows from the others.
     pub torque_nm: Option<f64>,
+    /// Torque about u that the file states beside, of a load that does not define it \[N m\].
+    pub stated_nm: Option<f64>,
     /// Power \[W\], where given instead.
     pub power_w: Option<f64>,
     /// Whether it takes part in the flow of power.
@@ -30,6 +33,9 @@ pub struct Load {
     pub moment_nm: [f64; 2],
 }
 
+/// Torques, forces and powers in N m, N and kW above this are slips.
+const MOST: f64 = 1e9;
+
 /// Reads a load.
 ///
 /// # Errors
@@ -41,7 +47,7 @@ pub fn read(
     shaft: i64,
 ) -> Result<Load, RexsError> {
     let u_mm = source.number(component, "u_coordinate_on_shaft", MM)?;
-    let value = |id: &str, unit| source.number(component, id, unit);
+    let value = |id: &str, unit| source.number_up_to(component, id, unit, MOST);
     let torque_nm = value("torque_around_u_axis", NM)?;
     let power_w = value("power", KW)?.map(|p| 1e3 * p).filter(|p| *p != 0.0);
     let states = source.flag(component, "transmits_torque")?;
@@ -52,11 +58,12 @@ pub fn read(
     if let Some(torque) = torque_nm.filter(|t| *t != 0.0 && !transmits) {
         source.leave_out(
             component,
+            About::Lost,
             format!("a torque of {torque} N m where transmits_torque is false"),
         );
     }
     if u_mm.is_none() {
-        source.assume(component, "no u_coordinate_on_shaft given: 0");
+        source.assume(component, About::Place, "no u_coordinate_on_shaft given: 0");
     }
     let force = |axis: &str| value(&format!("force_{axis}_direction"), N);
     Ok(Load {
@@ -65,6 +72,7 @@ pub fn read(
         shaft,
         u_mm: u_mm.unwrap_or(0.0),
         torque_nm: torque_nm.filter(|_| transmits && !follows),
+        stated_nm: torque_nm.filter(|t| *t != 0.0 && follows),
         power_w: power_w.filter(|_| transmits && !follows),
         transmits,
         is_brake: false,
@@ -88,6 +96,7 @@ pub fn brake(id: i64, name: String, shaft: i64, u_mm: f64) -> Load {
         shaft,
         u_mm,
         torque_nm: None,
+        stated_nm: None,
         power_w: None,
         transmits: true,
         is_brake: true,
@@ -125,7 +134,7 @@ pub fn added_mass(
         .number(component, "mass_of_component", KG)?
         .filter(|m| *m > 0.0)
     else {
-        source.leave_out(component, "no mass given");
+        source.leave_out(component, About::Nothing, "no mass given");
         return Ok(None);
     };
     let inertia = |axis: &str| -> Result<f64, RexsError> {

@@ -3,6 +3,7 @@
 
 use crate::bearing::{self, AxialSupport, Bearing};
 use crate::coupling;
+use crate::ledger::About;
 use crate::model::Component;
 use crate::shaft::Shaft;
 use crate::source::Source;
@@ -84,7 +85,7 @@ pub fn stand_on_hubs(
         };
         if gear.shaft == sides[1 - side] {
             let what = "between a shaft and a gear that is fixed to it: carries nothing";
-            source.leave_out(component, what);
+            source.leave_out(component, About::Small, what);
             return false;
         }
         sides[side] = gear.shaft;
@@ -116,7 +117,11 @@ pub fn hold_hubs(source: &Source<'_>, train: &mut Train) {
             _ => "on its bearings there",
         };
         if let Some(component) = source.model.component(id) {
-            source.assume(component, format!("turns loose on {on}: {words}"));
+            source.assume(
+                component,
+                About::Support,
+                format!("turns loose on {on}: {words}"),
+            );
         }
         if is_bare {
             let sides = [carrier, id];

@@ -2,6 +2,7 @@
 
 use crate::error::RexsError;
 use crate::gear::Gear;
+use crate::ledger::About;
 use crate::model::Component;
 use crate::source::Source;
 use crate::structure::Structure;
@@ -108,7 +109,11 @@ pub fn read(
         let mut seen: Vec<&str> = Vec::new();
         for m in found(&READ) {
             if seen.contains(&m.kind.as_str()) {
-                source.leave_out(m, "a second one of its kind on the same flank");
+                source.leave_out(
+                    m,
+                    About::Flanks,
+                    "a second one of its kind on the same flank",
+                );
                 continue;
             }
             seen.push(&m.kind);
@@ -116,13 +121,14 @@ pub fn read(
         }
         side.extend(reader.ends(&found(&ENDS))?);
         for m in found(&UNREAD) {
-            source.leave_out(m, "gear files have no such modification; give it as a topography or as an error of the mesh");
+            source.leave_out(m, About::Flanks, "gear files have no such modification; give it as a topography or as an error of the mesh");
         }
     }
     let [left, right] = sides;
     if left != right {
         source.assume(
             component,
+            About::Flanks,
             "left and right flanks as seen from the end of the shaft at higher u",
         );
     }
@@ -159,6 +165,7 @@ impl Reader<'_> {
         if let Some(um) = found.filter(|um| um.abs() > 1000.0) {
             self.source.leave_out(
                 m,
+                About::Flanks,
                 format!("{id} of {um} um: more than 1000 is no modification"),
             );
             return Ok(None);
@@ -189,12 +196,16 @@ impl Reader<'_> {
             Some("circular") => "arc",
             Some("linear") => "linear",
             Some(other) => {
-                self.source
-                    .leave_out(m, format!("shape `{other}`: taken as parabolic"));
+                self.source.leave_out(
+                    m,
+                    About::Flanks,
+                    format!("shape `{other}`: taken as parabolic"),
+                );
                 "parabolic"
             }
             None => {
-                self.source.assume(m, "no shape given: linear");
+                self.source
+                    .assume(m, About::Flanks, "no shape given: linear");
                 "linear"
             }
         }
@@ -213,11 +224,14 @@ impl Reader<'_> {
                     return Ok(Vec::new());
                 };
                 if let Some(root) = root.filter(|root| *root != tip) {
-                    self.source.leave_out(m, format!("{root} um at the root: one parabola from the highest point on, {tip} um at the tip"));
+                    self.source.leave_out(m, About::Flanks, format!("{root} um at the root: one parabola from the highest point on, {tip} um at the tip"));
                 }
                 let middle = highest.unwrap_or_else(|| {
-                    self.source
-                        .assume(m, "no highest point given: the reference circle");
+                    self.source.assume(
+                        m,
+                        About::Flanks,
+                        "no highest point given: the reference circle",
+                    );
                     self.gear.reference_diameter_mm()
                 });
                 vec![
@@ -231,6 +245,7 @@ impl Reader<'_> {
                 };
                 self.source.assume(
                     m,
+                    About::Flanks,
                     "sign: positive removes towards the tip; over the whole involute",
                 );
                 vec![key("profile_angle_um", amount)]
@@ -246,6 +261,7 @@ impl Reader<'_> {
                 if a != b {
                     self.source.leave_out(
                         m,
+                        About::Flanks,
                         format!("{a} and {b} um at the two faces: their mean at both"),
                     );
                 }
@@ -257,6 +273,7 @@ impl Reader<'_> {
                 };
                 self.source.assume(
                     m,
+                    About::Flanks,
                     "sign: positive removes towards the face that is not the datum face",
                 );
                 vec![key(
@@ -274,6 +291,7 @@ impl Reader<'_> {
                 };
                 self.source.assume(
                     m,
+                    About::Flanks,
                     "sign: positive where the profile's slope grows from the datum face on",
                 );
                 vec![key(
@@ -301,13 +319,14 @@ impl Reader<'_> {
         let Some(start) = start else {
             self.source.leave_out(
                 m,
+                About::Flanks,
                 format!("{amount} um: neither a diameter nor a length at which it begins is given"),
             );
             return Ok(Vec::new());
         };
         let (tip, base) = (self.gear.tip_mm(), self.gear.base_diameter_mm());
         if !(base..tip).contains(&start) {
-            self.source.leave_out(m, format!("{amount} um from a diameter of {start:.4} mm on: not on the flank, {base:.4} to {tip:.4} mm"));
+            self.source.leave_out(m, About::Flanks, format!("{amount} um from a diameter of {start:.4} mm on: not on the flank, {base:.4} to {tip:.4} mm"));
             return Ok(Vec::new());
         }
         Ok(vec![
@@ -340,9 +359,11 @@ impl Reader<'_> {
                     ));
                 }
                 (None, _) => {}
-                _ => self
-                    .source
-                    .leave_out(m, "end relief without a length on the face"),
+                _ => self.source.leave_out(
+                    m,
+                    About::Flanks,
+                    "end relief without a length on the face",
+                ),
             }
         }
         let Some(&(amount, length, shape, is_positive)) = found.first() else {
@@ -355,6 +376,7 @@ impl Reader<'_> {
                 if (second.0, second.1, second.2) != (amount, length, shape) {
                     self.source.leave_out(
                         ends[1],
+                        About::Flanks,
                         "another end relief than at the other face: both have that of the first",
                     );
                 }
@@ -381,8 +403,11 @@ impl Reader<'_> {
             .source
             .list(m, "topographical_modification_amounts", MM)?;
         let (Some(diameters), Some(places), Some(amounts)) = (diameters, places, amounts) else {
-            self.source
-                .leave_out(m, "topography without diameters, coordinates and amounts");
+            self.source.leave_out(
+                m,
+                About::Flanks,
+                "topography without diameters, coordinates and amounts",
+            );
             return Ok(Vec::new());
         };
         let increasing =
@@ -393,7 +418,7 @@ impl Reader<'_> {
         {
             self.source.leave_out(
                 m,
-                format!(
+                About::Flanks, format!(
                     "topography of {} diameters, {} places and {} amounts: no full grid of increasing points",
                     diameters.len(),
                     places.len(),
@@ -402,7 +427,7 @@ impl Reader<'_> {
             );
             return Ok(Vec::new());
         }
-        self.source.assume(m, "places over the face count from the face at the lower u; positive amounts remove material");
+        self.source.assume(m, About::Flanks, "places over the face count from the face at the lower u; positive amounts remove material");
         let half = 0.5 * self.gear.face_width_mm;
         // z increases, as u does; against u the table runs from its other end.
         let along_z = |mut values: Vec<f64>| {

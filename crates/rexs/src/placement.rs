@@ -1,6 +1,7 @@
 //! Where components stand in space: vectors of a reference component, chained.
 
 use crate::error::RexsError;
+use crate::ledger::About;
 use crate::model::Component;
 use crate::source::Source;
 
@@ -78,6 +79,7 @@ pub fn frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>
             }
             source.assume(
                 next,
+                About::Place,
                 "other components stand in its frame, which is not given: taken as the gear unit's",
             );
             break;
@@ -91,7 +93,7 @@ pub fn frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>
             let what = format!(
                 "its place is given from component {id}, which is not in the file: taken as from the gear unit"
             );
-            source.assume(next, what);
+            source.assume(next, About::Lost, what);
             break;
         };
         let is_seen = chain.iter().any(|(c, _)| c.id == parent.id);
@@ -132,6 +134,7 @@ fn own_frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>
     if u.is_none() || w.is_none() {
         source.assume(
             component,
+            About::Place,
             "no u or w axis given: those of its reference component",
         );
     }

@@ -4,6 +4,7 @@
 //! Willis: ω_s − i₀ ω_r = (1 − i₀) ω_c with i₀ = −z_A z_r/(z_s z_B), the ratio of sun to ring under a carrier that stands; planet A meets the
 //! sun, B the ring, both on one shaft, mostly one gear (Niemann, Winter: Maschinenelemente, volume 2, planetary gears).
 
+use crate::ledger::About;
 use crate::model::Component;
 use crate::power_flow::Link;
 use crate::source::Source;
@@ -22,12 +23,16 @@ struct Member {
 /// Joins the members of all planetary stages.
 pub fn join(source: &Source<'_>, structure: &Structure, train: &mut Train) {
     for stage in source.model.of_kind(&["planetary_stage"]) {
-        let what = match members(source, structure, train, stage) {
+        let (about, what) = match members(source, structure, train, stage) {
             Some((members, ratio)) => couple(source, train, stage, members, ratio),
-            None => "sun, ring, planets and carrier were not found as one of each kind".to_owned(),
+            None => (
+                About::Lost,
+                "sun, ring, planets and carrier were not found as one of each kind".to_owned(),
+            ),
         };
         source.leave_out(
             stage,
+            about,
             format!("planetary stages have no planets and no mesh in scenes; {what}"),
         );
     }
@@ -112,7 +117,7 @@ fn couple(
     stage: &Component,
     members: [Member; 3],
     ratio: f64,
-) -> String {
+) -> (About, String) {
     let turns = |m: &Member| {
         m.shaft
             .is_some_and(|id| is_driven(source, train, &m.part, id))
@@ -126,7 +131,7 @@ fn couple(
         _ => {
             let names = members.iter().zip(&turning).filter(|(_, t)| **t);
             let names: Vec<&str> = names.map(|(m, _)| m.name).collect();
-            return format!(
+            let what = format!(
                 "speeds and torques do not pass through: of sun, ring and carrier two must turn, the third one stands; on shafts with a load, another gear or a coupling are: {}",
                 if names.is_empty() {
                     "none".to_owned()
@@ -134,6 +139,7 @@ fn couple(
                     names.join(", ")
                 }
             );
+            return (About::Lost, what);
         }
     };
     let shafts = pair.map(|i| members[i].shaft.unwrap_or_default());
@@ -171,10 +177,11 @@ fn couple(
         });
     }
     let [a, b] = pair.map(|i| members[i].name);
-    format!(
+    let what = format!(
         "its {} stands, {b} turns {relative:.6} times as fast as {a}: torques pass through, and act on the shafts of both in the scene; no forces: across the axis they cancel between planets, along the axis those of helical teeth are left out",
         members[standing].name
-    )
+    );
+    (About::Support, what)
 }
 
 /// Whether something but the stage itself may turn a shaft: a load that transmits torque, another gear, a coupling to another shaft.

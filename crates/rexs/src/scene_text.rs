@@ -2,7 +2,9 @@
 
 use crate::bearing::AxialSupport;
 use crate::bevel_loads::{BevelLoad, bevel_loads};
+use crate::drive_text::{Held, drive};
 use crate::gear_bodies::gear_bodies;
+use crate::ledger::About;
 use crate::placement::Frame;
 use crate::shaft::Shaft;
 use crate::source::Source;
@@ -35,18 +37,7 @@ pub fn model_file(gear_file: &str) -> String {
     format!("{}.h5", gear_file.trim_end_matches(".toml"))
 }
 
-/// A torque on a shaft about z, at a place along u.
-struct Torque {
-    shaft: i64,
-    u_mm: f64,
-    nm: f64,
-    name: String,
-}
-
-/// Stiffness with which each train is held where power goes in \[N m/rad\].
-const HELD_NM_PER_RAD: f64 = 1e6;
-
-/// Text of the scene.
+/// Text of the scene, and what holds its trains.
 pub fn scene(
     source: &Source<'_>,
     train: &Train,
@@ -54,7 +45,7 @@ pub fn scene(
     head: &[String],
     gravity: Option<[f64; 3]>,
     with: Meshes,
-) -> String {
+) -> (String, Vec<Held>) {
     let mut text = String::new();
     for line in head {
         text.push_str(&format!("# {}\n", comment(line)));
@@ -77,12 +68,12 @@ pub fn scene(
     let supports = axial_supports(source, train, &bevel_loads);
     bearings(&mut text, train, &supports);
     couplings(&mut text, train);
-    drive(&mut text, source, train, &groups);
+    let held = drive(&mut text, source, train, &groups);
     bevel_loads
         .iter()
         .for_each(|load| text.push_str(&load.text()));
     meshes(&mut text, train, with);
-    text
+    (text, held)
 }
 
 /// Trains that are joined by meshes of the scene and couplings, as far as these links are wanted: the number of each shaft's train.
@@ -240,7 +231,7 @@ fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLoad])
                 let verb = if is_pushed { "holds" } else { "does not hold" };
                 source.assume(
                     component,
-                    format!("supports along u one way only: in this load case ({along_u:.1} N along u from the teeth and loads of {}) it {verb} the shaft", shaft.name),
+                    About::Nothing, format!("supports along u one way only: in this load case ({along_u:.1} N along u from the teeth and loads of {}) it {verb} the shaft", shaft.name),
                 );
             }
         }
@@ -251,13 +242,14 @@ fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLoad])
             if let Some(component) = source.model.component(train.bearings[*chosen].id) {
                 source.assume(
                     component,
+                    About::Support,
                     format!("nothing else holds {} along its axis: it does", shaft.name),
                 );
             }
         }
     }
     if !is_known && let Some(unit) = source.model.of_kind(&["gear_unit"]).next() {
-        source.assume(unit, "the train has loops: torques of their meshes depend on stiffness, their flanks are `both`, one-way supports as without their axial tooth forces");
+        source.assume(unit, About::Support, "the train has loops: torques of their meshes depend on stiffness, their flanks are `both`, one-way supports as without their axial tooth forces");
     }
     holds
 }
@@ -283,7 +275,7 @@ fn bearings(text: &mut String, train: &Train, supports: &[bool]) {
         text.push_str(&format!("body_2 = {}\n", quoted(&second)));
         let mut model = format!(
             "kind = \"linear\", radial_stiffness_N_per_mm = {}",
-            number(bearing.radial_n_per_mm.max(1e-3))
+            number(bearing.radial_n_per_mm)
         );
         if holds {
             // One that was chosen for want of others may have none of its own.
@@ -326,112 +318,6 @@ fn couplings(text: &mut String, train: &Train) {
             numbers(&[radial, radial, axial]),
             numbers(&[tilt, tilt, torsion])
         ));
-    }
-}
-
-/// Each train is held by a spring about its axis where most power goes in; all other torques and forces are loads.
-fn drive(text: &mut String, source: &Source<'_>, train: &Train, groups: &BTreeMap<i64, usize>) {
-    let transmitting = train.loads.iter().filter(|l| l.transmits);
-    let mut torques: Vec<Torque> = transmitting
-        .zip(&train.flow.torque_nm)
-        .map(|(load, &nm)| Torque {
-            shaft: load.shaft,
-            u_mm: load.u_mm,
-            nm,
-            name: load.name.clone(),
-        })
-        .collect();
-    for seat in train.torque_seats() {
-        // What the shaft brings to the link, the link takes from the shaft.
-        let Some(link) = train.flow.link_nm.get(seat.link.0).copied().flatten() else {
-            if let Some(component) = source.model.component(seat.shaft) {
-                source.leave_out(component, format!("the torque at {}, which is part of a loop: it depends on stiffness, which a stage without a mesh in the scene does not have. Nothing acts there, what is behind it bears no load", seat.name));
-            }
-            continue;
-        };
-        torques.push(Torque {
-            shaft: seat.shaft,
-            u_mm: seat.u_mm,
-            nm: -link[seat.link.1],
-            name: format!("torque at {}", seat.name),
-        });
-    }
-    let mut done: Vec<usize> = Vec::new();
-    for shaft in &train.shafts {
-        let Some(&group) = groups.get(&shaft.id) else {
-            continue;
-        };
-        if done.contains(&group) {
-            continue;
-        }
-        done.push(group);
-        let is_mine = |t: &&Torque| groups.get(&t.shaft) == Some(&group);
-        let power = |t: &Torque| t.nm * train.flow.speed_rpm.get(&t.shaft).copied().unwrap_or(1.0);
-        let input = torques
-            .iter()
-            .filter(is_mine)
-            .max_by(|a, b| power(a).total_cmp(&power(b)));
-        let (body, name) = match input {
-            Some(t) => (train.shaft(t.shaft).map(|s| s.body(t.u_mm)), t.name.clone()),
-            None => {
-                if let Some(component) = source.model.component(shaft.id) {
-                    source.assume(
-                        component,
-                        "no torque acts on its train: held at its first station",
-                    );
-                }
-                (Some(shaft.station_body(0)), shaft.name.clone())
-            }
-        };
-        let Some(body) = body else { continue };
-        text.push_str(&format!(
-            "\n# Holds the train where its power goes in; its torque is that of the input.\n[[torsion_spring]]\nname = {}\nbody_2 = {}\nstiffness_Nm_per_rad = {}\n",
-            quoted(&format!("held at {name}")),
-            quoted(&body),
-            number(HELD_NM_PER_RAD)
-        ));
-        for t in torques.iter().filter(is_mine) {
-            let is_input = input.is_some_and(|i| std::ptr::eq(i, t));
-            if is_input || t.nm == 0.0 {
-                continue;
-            }
-            let Some(on) = train.shaft(t.shaft) else {
-                continue;
-            };
-            text.push_str(&format!(
-                "\n[[load]]\nname = {}\nbody = {}\ntorque_Nm = {}\n",
-                quoted(&t.name),
-                quoted(&on.body(t.u_mm)),
-                number(t.nm)
-            ));
-        }
-    }
-    forces(text, train);
-}
-
-fn forces(text: &mut String, train: &Train) {
-    for load in &train.loads {
-        let Some(shaft) = train.shaft(load.shaft) else {
-            continue;
-        };
-        let frame = shaft.frame.unwrap_or(Frame::WORLD);
-        let body = quoted(&shaft.body(load.u_mm));
-        let mut table = |kind: &str, axis: usize, key: &str, value: f64| {
-            if value != 0.0 {
-                let name = quoted(&format!("{} {kind} {}", load.name, ["u", "v", "w"][axis]));
-                text.push_str(&format!(
-                    "\n[[load]]\nname = {name}\nbody = {body}\n{key} = {}\nalong = {}\n",
-                    number(value),
-                    numbers(&frame.axes[axis])
-                ));
-            }
-        };
-        for (axis, &force) in load.force_n.iter().enumerate() {
-            table("force", axis, "force_N", force);
-        }
-        for (axis, &moment) in load.moment_nm.iter().enumerate() {
-            table("moment", axis + 1, "torque_Nm", moment);
-        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::error::RexsError;
 use crate::gear::{Material, material};
+use crate::ledger::About;
 use crate::model::Component;
 use crate::placement::Frame;
 use crate::source::Source;
@@ -180,6 +181,9 @@ fn within([low, high]: &[f64; 2], u_mm: f64) -> bool {
     u_mm >= low - SAME_MM && u_mm <= high + SAME_MM
 }
 
+/// Faster shafts are slips \[1/min\]: dental turbines reach half of it.
+pub const MOST_RPM: f64 = 1e6;
+
 /// Pieces of a taper.
 const TAPER_PIECES: usize = 3;
 
@@ -201,7 +205,7 @@ pub fn read(
             continue;
         };
         let Some(length) = source.number(piece, "length", MM)?.filter(|l| *l > 0.0) else {
-            source.leave_out(piece, "a section without length");
+            source.leave_out(piece, About::Stiffness, "a section without length");
             continue;
         };
         let start = source
@@ -212,7 +216,11 @@ pub fn read(
         let [outer_0, outer_1] = [value("outer_diameter_begin")?, value("outer_diameter_end")?];
         let [inner_0, inner_1] = [value("inner_diameter_begin")?, value("inner_diameter_end")?];
         let Some(outer) = outer_0.or(outer_1).filter(|d| *d > 0.0) else {
-            source.leave_out(piece, "a section without an outer diameter");
+            source.leave_out(
+                piece,
+                About::Stiffness,
+                "a section without an outer diameter",
+            );
             continue;
         };
         let outer = [
@@ -225,8 +233,21 @@ pub fn read(
         ];
         let is_taper = outer[0] != outer[1] || inner[0] != inner[1];
         if is_taper {
+            // Bending stiffness goes with d^4: 1/d^4 along the taper, and in the middles of its pieces.
+            let [a, b] = outer;
+            let exact = (a.powi(-3) - b.powi(-3)) / (3.0 * (b - a));
+            let middles = (0..TAPER_PIECES)
+                .map(|k| a + (b - a) * (k as f64 + 0.5) / TAPER_PIECES as f64)
+                .map(|d| d.powi(-4) / TAPER_PIECES as f64);
+            let off = (middles.sum::<f64>() / exact - 1.0).abs();
+            let about = if off > 1e-2 || inner[0] != inner[1] {
+                About::Stiffness
+            } else {
+                About::Small
+            };
             source.assume(
                 piece,
+                about,
                 format!("a taper: {TAPER_PIECES} cylinders of its diameters in their middles"),
             );
         }
@@ -235,7 +256,7 @@ pub fn read(
             let at = |d: [f64; 2]| d[0] + (d[1] - d[0]) * (k as f64 + 0.5) / pieces as f64;
             let [outer_mm, mut inner_mm] = [at(outer), at(inner).max(0.0)];
             if inner_mm >= outer_mm {
-                source.leave_out(piece, format!("an inner diameter of {inner_mm} mm, which is not below the outer one: solid"));
+                source.leave_out(piece, About::Stiffness, format!("an inner diameter of {inner_mm} mm, which is not below the outer one: solid"));
                 inner_mm = 0.0;
             }
             let step = length / pieces as f64;
@@ -250,7 +271,7 @@ pub fn read(
     sections.sort_by(|a, b| a.start_mm.total_cmp(&b.start_mm));
     let mut sections = part_overlaps(source, component, sections);
     close_gaps(source, component, &mut sections);
-    let speed = source.number(component, "rotational_speed", RPM)?;
+    let speed = source.number_up_to(component, "rotational_speed", RPM, MOST_RPM)?;
     let defines = source.flag(component, "defines_speed")?;
     Ok(Shaft {
         id: component.id,
@@ -284,6 +305,7 @@ fn part_overlaps(
     }
     source.assume(
         component,
+        About::Stiffness,
         "sections overlap: there the largest outer and the smallest inner diameter count",
     );
     let mut borders: Vec<f64> = sections
@@ -315,8 +337,15 @@ fn close_gaps(source: &Source<'_>, component: &Component, sections: &mut [Sectio
     for i in 1..sections.len() {
         let (start, end) = (sections[i].start_mm, sections[i - 1].end_mm);
         if (start - end).abs() > 1e-6 {
+            let length = end - sections[i - 1].start_mm;
+            let about = if (start - end).abs() > 1e-2 * length {
+                About::Stiffness
+            } else {
+                About::Small
+            };
             source.assume(
                 component,
+                about,
                 format!(
                     "sections do not join at u = {start} mm ({} of {:.6} mm): the one before ends there",
                     if start > end { "gap" } else { "overlap" },
@@ -327,6 +356,9 @@ fn close_gaps(source: &Source<'_>, component: &Component, sections: &mut [Sectio
         sections[i - 1].end_mm = start;
     }
 }
+
+/// Shafts that are longer than this many diameters are none of a gearbox.
+const MOST_SLENDER: f64 = 100.0;
 
 /// A shaft without sections: one as thick as what sits on it, and long enough.
 pub fn demand_sections(
@@ -349,6 +381,7 @@ pub fn demand_sections(
         };
         source.assume(
             component,
+            About::Stiffness,
             format!("no sections given: {outer_mm} mm thick from u = {start_mm} to {end_mm} mm"),
         );
         shaft.sections.push(Section {
@@ -365,8 +398,30 @@ pub fn demand_sections(
     if let [Some(start), Some(end)] = ends {
         for u in [least, most] {
             if u.abs() < 1e9 && (u < start - SAME_MM || u > end + SAME_MM) {
-                source.assume(component, format!("something stands at u = {u} mm, beyond its sections ({start} to {end} mm): the last section goes on to there"));
+                // Something that hangs over by less than the shaft is thick may be drawn so; more is a slip of a coordinate.
+                let beyond = (start - u).max(u - end);
+                let is_slip = beyond > shaft.diameters_mm(u)[0];
+                let about = if is_slip {
+                    About::Lost
+                } else {
+                    About::Stiffness
+                };
+                let what = format!(
+                    "something stands at u = {u} mm, beyond its sections ({start} to {end} mm): the last section goes on to there, the shaft is \
+                     {:.6} mm longer",
+                    beyond
+                );
+                source.assume(component, about, what);
             }
+        }
+        let thickest = shaft.sections.iter().map(|s| s.outer_mm);
+        let thickest = thickest.fold(0.0, f64::max);
+        let length = end.max(most) - start.min(least);
+        if least <= most && length > MOST_SLENDER * thickest {
+            let what = format!(
+                "{length} mm long and {thickest} mm thick at most: look at the places along u of what stands on it"
+            );
+            source.assume(component, About::Lost, what);
         }
     }
 }

@@ -2,10 +2,10 @@
 //! not represented, so that nothing is dropped in silence.
 
 use crate::error::RexsError;
-use crate::ledger::Ledger;
+use crate::ledger::{About, Ledger};
 use crate::model::{Attribute, Component, Model, Value};
 use crate::units::{self, Unit};
-use std::cell::RefCell;
+use std::cell::{RefCell, RefMut};
 use std::collections::BTreeSet;
 
 /// What an infinite stiffness is read as, in the unit of the file: far above what stands for rigid.
@@ -34,14 +34,23 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// The list, for what is no component's.
+    pub fn ledger(&self) -> RefMut<'_, Ledger> {
+        self.ledger.borrow_mut()
+    }
+
     /// Something was assumed.
-    pub fn assume(&self, component: &Component, text: impl Into<String>) {
-        self.ledger.borrow_mut().assume(&component.words(), text);
+    pub fn assume(&self, component: &Component, about: About, text: impl Into<String>) {
+        self.ledger
+            .borrow_mut()
+            .assume(&component.words(), about, text);
     }
 
     /// Something is not represented.
-    pub fn leave_out(&self, component: &Component, text: impl Into<String>) {
-        self.ledger.borrow_mut().leave_out(&component.words(), text);
+    pub fn leave_out(&self, component: &Component, about: About, text: impl Into<String>) {
+        self.ledger
+            .borrow_mut()
+            .leave_out(&component.words(), about, text);
     }
 
     /// A component's own value stands in a file.
@@ -52,7 +61,11 @@ impl<'a> Source<'a> {
     fn attribute<'c>(&self, component: &'c Component, id: &str) -> Option<&'c Attribute> {
         let attribute = component.attribute(id).filter(|a| !a.value.is_empty())?;
         if attribute.value.is_nan() {
-            self.leave_out(component, format!("{id} NaN: as if it were not given"));
+            self.leave_out(
+                component,
+                About::Nothing,
+                format!("{id} NaN: as if it were not given"),
+            );
             self.used.borrow_mut().insert((component.id, id.to_owned()));
             return None;
         }
@@ -94,6 +107,7 @@ impl<'a> Source<'a> {
         if absent && wanted.dimension != units::Dimension::One {
             self.assume(
                 component,
+                About::Nothing,
                 format!("{}: no unit given, taken as {}", a.id, standard.name),
             );
             return Ok(standard.si / wanted.si);
@@ -143,6 +157,31 @@ impl<'a> Source<'a> {
         unit: Unit,
     ) -> Result<Option<f64>, RexsError> {
         self.number_in(component, id, unit, unit)
+    }
+
+    /// A number of a size that machines have.
+    ///
+    /// # Errors
+    /// As of [`Self::number`], and for a larger one.
+    pub fn number_up_to(
+        &self,
+        component: &Component,
+        id: &str,
+        unit: Unit,
+        most: f64,
+    ) -> Result<Option<f64>, RexsError> {
+        let value = self.number(component, id, unit)?;
+        match component
+            .attribute(id)
+            .filter(|_| value.is_some_and(|v| v.abs() > most))
+        {
+            Some(a) => {
+                let found = format!("{:e} {}", value.unwrap_or_default(), unit.name);
+                let allowed = format!("allowed is up to {most:e} {}", unit.name);
+                Err(self.wrong(component, a, found, allowed))
+            }
+            None => Ok(value),
+        }
     }
 
     /// A number whose unit is `standard` in the schema.
@@ -232,7 +271,25 @@ impl<'a> Source<'a> {
     /// # Errors
     /// [`RexsError::Attribute`] for another count.
     pub fn vector(&self, component: &Component, id: &str) -> Result<Option<[f64; 3]>, RexsError> {
-        let Some(values) = self.list(component, id, units::MM)? else {
+        let values = self.list(component, id, units::MM);
+        let Some(values) = values.map_err(|cause| match cause {
+            RexsError::Attribute {
+                line,
+                component,
+                attribute,
+                found,
+                ..
+            } if found.ends_with("is no number") => RexsError::Attribute {
+                line,
+                component,
+                attribute,
+                found,
+                allowed: "allowed are three numbers, along the axes of its reference component"
+                    .to_owned(),
+            },
+            other => other,
+        })?
+        else {
             return Ok(None);
         };
         match values.as_slice() {

@@ -1,7 +1,7 @@
 //! Which component belongs to which, from the relations.
 
 use crate::error::RexsError;
-use crate::ledger::Ledger;
+use crate::ledger::{About, Ledger};
 use crate::model::{Model, Relation};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -59,6 +59,7 @@ impl Structure {
             } else {
                 ledger.leave_out(
                     &format!("relation {} ({})", relation.id, relation.kind),
+                    About::Lost,
                     format!(
                         "names component {}, which is not in the file; the relation is left out",
                         lost.join(", ")

@@ -3,6 +3,7 @@
 
 use crate::bearing::{self, AxialSupport, Bearing};
 use crate::coupling::RIGID;
+use crate::ledger::About;
 use crate::source::Source;
 use crate::train::Train;
 
@@ -24,7 +25,7 @@ pub fn leave_out_bare(source: &Source<'_>, train: &mut Train) {
     for component in bare.filter_map(|s| source.model.component(s.id)) {
         let what =
             "no gear, bearing, coupling, load or mass of the scene stands on it: not in the scene";
-        source.leave_out(component, what);
+        source.leave_out(component, About::Nothing, what);
     }
     train.shafts.retain(|s| used.contains(&s.id));
     train.loads.retain(|l| used.contains(&l.shaft));
@@ -63,7 +64,7 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
             coupling.stiffness = RIGID;
             if let Some(component) = source.model.component(coupling.id) {
                 let what = "no stiffness given, and a shaft at it has not two bearings of its own: rigid in all directions";
-                source.assume(component, what);
+                source.assume(component, About::Stiffness, what);
             }
         }
     }
@@ -86,7 +87,7 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
                         "the only place that holds {name} across its axis: the bearing holds the shaft against tilting, too, by {:e} N m/rad",
                         bearing::RIGID_TILT
                     );
-                    source.assume(component, what);
+                    source.assume(component, About::Support, what);
                 }
             }
             continue;
@@ -110,7 +111,7 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
                 "no bearing and no coupling holds it across its axis: held at u = {start} and {end} mm by {:e} N/mm, along the axis at the first",
                 bearing::RIGID
             );
-            source.assume(component, what);
+            source.assume(component, About::Support, what);
         }
     }
 }

@@ -1,5 +1,12 @@
 //! How much thinner than without backlash teeth are: DIN 3967 codes such as `c25`, or allowances of span.
 
+use crate::error::RexsError;
+use crate::gear::Gear;
+use crate::ledger::About;
+use crate::model::Component;
+use crate::source::Source;
+use crate::units::{MM, UM};
+
 /// Upper limits of the ranges of reference diameters \[mm\].
 const DIAMETERS_MM: [f64; 7] = [10.0, 50.0, 125.0, 280.0, 560.0, 1000.0, 1600.0];
 
@@ -55,4 +62,70 @@ pub fn din_3967_mm(code: &str, reference_diameter_mm: f64) -> Option<f64> {
     let upper = UPPER_UM.iter().find(|(name, _)| *name == letters)?.1[range];
     let tolerance = TOLERANCE_UM.get(series)?[range];
     Some(1e-3 * (0.5 * tolerance - upper))
+}
+
+/// Reads by how much the teeth of a gear are thinner than those without backlash: allowances of span, of the chordal thickness, a DIN 3967
+/// code, in this order.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn thickness(
+    source: &Source<'_>,
+    component: &Component,
+    gear: &mut Gear,
+) -> Result<(), RexsError> {
+    let cos_helix = gear.helix_deg.to_radians().cos();
+    let span = [
+        source.number(component, "upper_backlash_allowance_referenced_to_span", UM)?,
+        source.number(component, "lower_backlash_allowance_referenced_to_span", UM)?,
+    ];
+    // In the normal section; those of the transverse one are larger by 1/cos beta.
+    let mut chordal = [None, None];
+    for (found, end) in chordal.iter_mut().zip(["upper", "lower"]) {
+        let normal = source.number(
+            component,
+            &format!("chordal_tooth_thickness_{end}_deviation"),
+            MM,
+        )?;
+        let transverse = format!("chordal_transverse_tooth_thickness_{end}_deviation");
+        let transverse = source.number(component, &transverse, MM)?;
+        *found = normal.or(transverse.map(|s| s * cos_helix));
+    }
+    let code = source.text(
+        component,
+        "tooth_thickness_deviation_tolerance_series_din_3967_1978",
+    );
+    let normal_mm = if let [Some(upper), Some(lower)] = span {
+        let mean = -0.5e-3 * (upper + lower) / gear.pressure_angle_deg.to_radians().cos();
+        source.assume(
+            component,
+            About::Small,
+            "tooth thickness: the middle of the allowances of span",
+        );
+        Some(mean)
+    } else if let [Some(upper), Some(lower)] = chordal {
+        source.assume(
+            component,
+            About::Small,
+            "tooth thickness: the middle of the allowances of the chordal thickness",
+        );
+        Some(-0.5 * (upper + lower))
+    } else if let Some(code) = code {
+        let found = din_3967_mm(&code, gear.reference_diameter_mm());
+        match found {
+            Some(mean) => source.assume(
+                component,
+                About::Small, format!("tooth thickness: {:.1} um thinner in the normal section, the middle of DIN 3967 {code}", 1e3 * mean),
+            ),
+            None => source.leave_out(component, About::Small, format!("tooth thickness `{code}`, which the tables of DIN 3967 do not have for this diameter")),
+        }
+        found
+    } else {
+        source.assume(component, About::Small, "no tooth thickness allowance given: none, teeth without backlash at the theoretical centre distance");
+        None
+    };
+    if let Some(mean) = normal_mm.filter(|m| *m > 0.0 && *m < 0.5 * gear.module_mm) {
+        gear.thickness_allowance_mm = mean / cos_helix;
+    }
+    Ok(())
 }

@@ -6,6 +6,7 @@ use crate::bevel::{self, BevelStage};
 use crate::coupling::{self, Coupling};
 use crate::error::RexsError;
 use crate::gear::{self, Gear};
+use crate::ledger::About;
 use crate::loads::{self, AddedMass, Load};
 use crate::loose_gears::{self, Seat};
 use crate::microgeometry;
@@ -153,6 +154,7 @@ pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Tr
         {
             source.leave_out(
                 component,
+                About::Nothing,
                 format!("{role}: planetary stages are not in the scene"),
             );
             continue;
@@ -193,6 +195,7 @@ fn seat_gears(
     {
         source.leave_out(
             component,
+            About::Nothing,
             format!("{}s have no model", component.kind.replace('_', " ")),
         );
     }
@@ -222,8 +225,17 @@ fn seat_gears(
             mid_mm,
         });
         if seat.is_none() {
+            // Planets stand on pins, which scenes do not have.
+            let shafts = structure.partners(component.id, &["shaft"]);
+            let is_planet = |id: &i64| structure.planetary_role(*id).is_some();
+            let about = if shafts.iter().any(is_planet) {
+                About::Nothing
+            } else {
+                About::Lost
+            };
             source.leave_out(
                 component,
+                about,
                 "on no shaft of the scene: its file is written, the scene does not have it",
             );
         }
@@ -254,8 +266,16 @@ fn join_stages(
                         .position(|g| g.gear.id == id && g.shaft >= 0)
                 };
                 let [Some(a), Some(b)] = gears.map(place) else {
+                    // Stages of planets are told with the planetary stage.
+                    let planetary = structure.partners(stage.id, &["planetary_stage"]);
+                    let about = if planetary.is_empty() {
+                        About::Lost
+                    } else {
+                        About::Nothing
+                    };
                     source.leave_out(
                         stage,
+                        about,
                         format!(
                             "between {} and {}, of which the scene does not have both",
                             g1.words(),
@@ -267,7 +287,7 @@ fn join_stages(
                 let same = |m: &&Mesh| m.gears == [a, b] || m.gears == [b, a];
                 if let Some(first) = train.meshes.iter().find(same) {
                     let what = format!("its gears are in mesh already in {}", first.name);
-                    source.leave_out(stage, what);
+                    source.leave_out(stage, About::Nothing, what);
                     continue;
                 }
                 let [first, second] = [&train.gears[a], &train.gears[b]];
@@ -293,6 +313,7 @@ fn join_stages(
             "bevel_stage" => bevel_stage(source, structure, train, stage, [g1, g2])?,
             _ => source.leave_out(
                 stage,
+                About::Lost,
                 format!(
                     "{}s have no model in scenes: speeds and torques do not pass",
                     stage.kind.replace('_', " ")
@@ -365,7 +386,11 @@ fn bevel_stage(
         seats.push((gear.id, shaft, start + 0.5 * width, gear.name.clone()));
     }
     let [(_, a, ..), (_, b, ..)] = seats.as_slice() else {
-        source.leave_out(stage, "its gears sit on no shafts of the scene");
+        source.leave_out(
+            stage,
+            About::Lost,
+            "its gears sit on no shafts of the scene",
+        );
         return Ok(());
     };
     // Equal speeds of the pitch cones in their common line, seen from apex to heel.
@@ -397,7 +422,7 @@ fn on_shafts(
     for component in source.model.of_kind(&["external_load", "additional_mass"]) {
         let shafts = structure.partners(component.id, &["shaft"]);
         let Some(&shaft) = shafts.iter().find(|&&id| train.shaft(id).is_some()) else {
-            source.leave_out(component, "on no shaft of the scene");
+            source.leave_out(component, About::Lost, "on no shaft of the scene");
             continue;
         };
         if component.kind == "external_load" {

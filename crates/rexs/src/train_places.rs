@@ -1,6 +1,7 @@
 //! Where shafts stand, and gears on them.
 
 use crate::error::RexsError;
+use crate::ledger::About;
 use crate::placement::{Frame, add, frame};
 use crate::source::Source;
 use crate::structure::Structure;
@@ -21,7 +22,11 @@ pub fn place_shafts(
     if let Some(first) = train.shafts.first_mut().filter(|s| s.frame.is_none()) {
         first.frame = Some(Frame::WORLD);
         if let Some(component) = source.model.component(first.id) {
-            source.assume(component, "no support_vector given: the origin, along x");
+            source.assume(
+                component,
+                About::Nothing,
+                "no support_vector given: the origin, along x",
+            );
         }
     }
     let mut has_news = true;
@@ -69,13 +74,13 @@ pub fn place_shafts(
                 has_news = true;
             }
             if let Some(component) = source.model.component(id) {
-                source.assume(component, format!("no support_vector given: {distance} mm from its mate at {angle} deg, faces in the middle of each other"));
+                source.assume(component, About::Place, format!("no support_vector given: {distance} mm from its mate at {angle} deg, faces in the middle of each other"));
             }
         }
         if !has_news && let Some(open) = train.shafts.iter_mut().find(|s| s.frame.is_none()) {
             open.frame = Some(Frame::WORLD);
             if let Some(component) = source.model.component(open.id) {
-                source.assume(component, "neither a support_vector nor a stage that tells its place: the origin, along x");
+                source.assume(component, About::Place, "neither a support_vector nor a stage that tells its place: the origin, along x");
             }
             has_news = true;
         }
@@ -128,15 +133,15 @@ pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<(), Rexs
         let half = 0.5 * seated.gear.face_width_mm;
         match by_vector {
             Some(u) if !seated.mid_mm.is_finite() => {
-                source.assume(component, format!("no u_coordinate_on_shaft given: the middle of the face stands at the support vector, u = {u:.4} mm"));
+                source.assume(component, About::Nothing, format!("no u_coordinate_on_shaft given: the middle of the face stands at the support vector, u = {u:.4} mm"));
                 seated.mid_mm = u;
             }
             Some(u) if (u - (seated.mid_mm - half)).abs() < 1e-3 && half > 1e-3 => {
-                source.assume(component, format!("u_coordinate_on_shaft of {u:.4} mm is the middle of the face, where its support vector stands, not its start"));
+                source.assume(component, About::Place, format!("u_coordinate_on_shaft of {u:.4} mm is the middle of the face, where its support vector stands, not its start"));
                 seated.mid_mm = u;
             }
             Some(u) if (u - seated.mid_mm).abs() > 1e-2 => {
-                source.assume(component, format!("its support vector stands at u = {u:.4} mm of the shaft, its u_coordinate_on_shaft means {:.4} mm: the latter", seated.mid_mm));
+                source.assume(component, About::Place, format!("its support vector stands at u = {u:.4} mm of the shaft, its u_coordinate_on_shaft means {:.4} mm: the latter", seated.mid_mm));
             }
             _ => {}
         }
@@ -151,7 +156,7 @@ pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<(), Rexs
             let what = format!(
                 "no place on the shaft given: {words}, the middle of the face at u = {mid_mm:.4} mm"
             );
-            source.assume(component, what);
+            source.assume(component, About::Place, what);
         }
     }
     Ok(())

@@ -2,7 +2,7 @@
 //! wherever it stands: programs write names of one version under the number of another.
 
 use crate::error::RexsError;
-use crate::ledger::Ledger;
+use crate::ledger::{About, Ledger};
 use crate::model::{Component, Model};
 
 /// Types that were renamed: old, new, version of the new one.
@@ -269,6 +269,7 @@ pub fn bring_up_to_date(model: &mut Model, ledger: &mut Ledger) -> Result<(), Re
     if stated.is_empty() {
         ledger.assume(
             "the file",
+            About::Nothing,
             "states no version of REXS: read as 1.0 to 2.0.0, names of all of them are known",
         );
     } else {
@@ -285,6 +286,7 @@ pub fn bring_up_to_date(model: &mut Model, ledger: &mut Ledger) -> Result<(), Re
         if !known {
             ledger.assume(
                 "the file",
+                About::Nothing,
                 format!("version {stated} is newer than those that are known: read as 2.0.0"),
             );
         }

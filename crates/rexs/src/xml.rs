@@ -22,9 +22,8 @@ pub fn read(text: &str) -> Result<Model, RexsError> {
         nodes_limit: 20_000_000,
         ..ParsingOptions::default()
     };
-    let document = Document::parse_with_options(text, options).map_err(|cause| {
-        RexsError::syntax(Some(cause.pos().row), format!("broken XML: {cause}"))
-    })?;
+    let document =
+        Document::parse_with_options(text, options).map_err(|cause| broken(text, &cause))?;
     let root = document.root_element();
     if root.tag_name().name() != "model" {
         return Err(wrong(
@@ -61,6 +60,32 @@ pub fn read(text: &str) -> Result<Model, RexsError> {
         }
     }
     Ok(model)
+}
+
+/// What the parser did not like. Of a text that ends too early it gives no place, of a document type neither place nor name.
+fn broken(text: &str, cause: &roxmltree::Error) -> RexsError {
+    let line_of = |at: usize| text[..at].matches('\n').count() as u32 + 1;
+    match cause {
+        roxmltree::Error::DtdDetected => {
+            let at = text.find("<!DOCTYPE").unwrap_or(0);
+            let end = text[at..].find(['>', '[', '\n']).unwrap_or(0);
+            let what = format!(
+                "a document type (`{}`): REXS files have none, and what it may name is not read. Take it out",
+                text[at..at + end].trim_end()
+            );
+            RexsError::syntax(Some(line_of(at)), what)
+        }
+        roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::UnclosedRootNode => {
+            let end = text.trim_end().len();
+            let last = text[..end].rsplit('\n').next().unwrap_or_default().trim();
+            let last: String = last.chars().take(80).collect();
+            let what = format!(
+                "broken XML: the text ends here, before </model>: `{last}`. Part of the file is missing"
+            );
+            RexsError::syntax(Some(line_of(end)), what)
+        }
+        other => RexsError::syntax(Some(other.pos().row), format!("broken XML: {other}")),
+    }
 }
 
 /// Refuses text that nests deeper than any model before the parser, which calls itself for each level, sees it.

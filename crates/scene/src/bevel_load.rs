@@ -7,7 +7,9 @@ use gearmesh_drivetrain::{BevelSlices, DrivetrainError, LoadedContact, LoadedPai
 use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
-/// Slices of rigid gears where the file says nothing.
+use crate::pair::warnings::ELASTIC_SHARE;
+
+/// Slices of rigid gears where the file says nothing, and more where a light load touches few of them.
 const SLICES: usize = 31;
 
 /// What was found under load.
@@ -21,6 +23,25 @@ pub struct LoadedBevel {
     pub slices: usize,
     /// One for each torque.
     pub found: Vec<LoadedContact>,
+}
+
+impl LoadedBevel {
+    /// What is to be said of pressures beyond what steel bears elastically ([`ELASTIC_SHARE`]); `young_pa`: the softer member's modulus.
+    #[must_use]
+    pub fn too_much_pressure(&self, young_pa: f64) -> Option<String> {
+        let limit_pa = ELASTIC_SHARE * young_pa;
+        let [of, torque_nm] = (self.found.iter())
+            .map(|of| [of.pressures_pa()[0], of.torque_nm])
+            .filter(|[pressure, _]| *pressure > limit_pa)
+            .max_by(|a, b| a[0].total_cmp(&b[0]))?;
+        Some(format!(
+            "at {torque_nm} N m the pressure reaches {:.2} GPa, {:.1} % of Young's modulus: above {} % ({:.2} GPa) steel yields, and the elastic contact computed here no longer holds",
+            1e-9 * of,
+            100.0 * of / young_pa,
+            100.0 * ELASTIC_SHARE,
+            1e-9 * limit_pa
+        ))
+    }
 }
 
 /// Why a pair cannot be loaded.
@@ -50,7 +71,43 @@ pub fn load_bevel(
     load: &LoadRequest,
     models: Option<[&ReducedGear; 2]>,
 ) -> Result<LoadedBevel, BevelLoadError> {
-    let slices = slices(load, models)?;
+    let mut slices = slices(load, models)?;
+    let is_free = models.is_none() && load.slices.is_none();
+    loop {
+        let found = load_in_slices((file, design), load, models, slices)?;
+        let finer = (2 * slices).min(MOST_SLICES);
+        if !is_free || finer == slices || !wants_more(&found.found, slices as f64 / finer as f64) {
+            return Ok(found);
+        }
+        slices = finer;
+    }
+}
+
+/// Slices of rigid gears at most where the file says nothing.
+const MOST_SLICES: usize = 100;
+/// Slices of the pair that carries most which are to be loaded at every position.
+const LOADED_SLICES: usize = 8;
+
+/// Whether some position has too few loaded slices for its load to be spread over them, and slices that are shorter by a factor stay longer
+/// than every contact's half width, below which the law of half spaces is cut off.
+fn wants_more(found: &[LoadedContact], shorter: f64) -> bool {
+    let positions = found.iter().flat_map(|of| &of.positions);
+    let few = positions.clone().any(|at| {
+        let best = at.pair_forces_n().first().map(|(teeth, _)| *teeth);
+        let loaded = at.patches.iter().filter(|p| Some(p.teeth) == best);
+        loaded.count() < LOADED_SLICES
+    });
+    few && positions
+        .flat_map(|at| &at.patches)
+        .all(|p| p.half_width_m < shorter * p.length_m)
+}
+
+fn load_in_slices(
+    (file, design): (&PairFile, &PairDesign),
+    load: &LoadRequest,
+    models: Option<[&ReducedGear; 2]>,
+    slices: usize,
+) -> Result<LoadedBevel, BevelLoadError> {
     let flanks = BevelSlices::new(&file.blank, design, slices)?;
     let pair = LoadedPair {
         blank: &file.blank,

@@ -30,6 +30,22 @@ pub(super) fn arrangement(
     })
 }
 
+/// Rows of a bearing that has two in one pair of rings.
+pub(super) fn of_double_row(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    distance_m: f64,
+) -> Result<Arrangement, InputError> {
+    match file.arrangement {
+        None | Some(ArrangementWord::O) => Ok(Arrangement::O { distance_m }),
+        Some(ArrangementWord::X) => Ok(Arrangement::X { distance_m }),
+        Some(ArrangementWord::Tandem) => Err(keys.error(
+            "arrangement",
+            "found \"tandem\", allowed are \"O\" and \"X\": the rows of a double-row bearing bear axial loads both ways",
+        )),
+    }
+}
+
 /// How rows are preloaded.
 pub(super) fn preload(file: &BearingFile, keys: &TableKeys<'_>) -> Result<Preload, InputError> {
     match (file.preload_N, file.preload_um) {

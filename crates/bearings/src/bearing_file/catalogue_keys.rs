@@ -4,18 +4,23 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
 use super::ball_keys::MOST_INTERFERENCE;
-use super::roller_keys::require_clearance;
+use super::roller_keys::{require_clearance, usual_taper};
 use super::{BearingFile, MM, UM};
-use crate::catalogue::{CATALOGUE, CatalogueLine, CatalogueType, find};
+use crate::catalogue::{CatalogueLine, CatalogueType, KnownInside};
 use crate::definition::{
-    BallBearingKind, BallGeometry, BearingGeometry, RollerGeometry, RollerProfile,
+    Arrangement, BallBearingKind, BallGeometry, BearingGeometry, RollerGeometry, RollerProfile,
+    StatedRatings,
 };
+use crate::designations;
 use crate::estimate::Estimate;
 
 /// A bearing estimated from its line.
 pub(super) struct FromCatalogue {
     pub geometry: BearingGeometry,
-    pub line: CatalogueLine,
+    /// Rows within its rings, where there are several.
+    pub rows: Option<Arrangement>,
+    /// Ratings of one bearing that the line states.
+    pub ratings: StatedRatings,
     pub estimate: Estimate,
     pub name: Option<String>,
 }
@@ -27,83 +32,204 @@ pub(super) fn geometry(
     keys: &TableKeys<'_>,
     notes: &mut Vec<String>,
 ) -> Result<FromCatalogue, InputError> {
-    let (line, name) = match &file.designation {
-        Some(designation) => {
-            let listed = find(designation).ok_or_else(|| {
-                let known: Vec<&str> = CATALOGUE.iter().map(|one| one.designation).collect();
-                keys.error(
-                    "designation",
-                    format!(
-                        "found \"{designation}\", allowed is one of {}; give type, bore_mm, outside_diameter_mm, width_mm and [ratings] instead",
-                        known.join(", ")
-                    ),
-                )
-            })?;
-            for (key, given) in [
-                ("type", file.r#type.is_some()),
-                ("bore_mm", file.bore_mm.is_some()),
-                ("outside_diameter_mm", file.outside_diameter_mm.is_some()),
-                ("width_mm", file.width_mm.is_some()),
-                ("contact_angle_deg", file.contact_angle_deg.is_some()),
-            ] {
-                if given {
-                    return Err(keys.error(
-                        key,
-                        "is given together with a designation, which says it; remove one of the two",
-                    ));
-                }
-            }
-            notes.push(format!("{}: {}", listed.designation, listed.source));
-            (listed.line, Some(listed.designation.to_owned()))
-        }
-        None => (line(file, document, keys)?, None),
+    let (mut line, name) = match &file.designation {
+        Some(designation) => designated(designation, file, keys, notes)?,
+        None => (line(file, keys)?, None),
     };
+    read_ratings(file, document, &mut line, name.is_some())?;
+    line.known = known(file, keys, line.kind)?;
+    line.check().map_err(|no| {
+        let table = TableKeys::new(document, if no.in_ratings { "ratings" } else { "" });
+        // Metres in millimetres again: without what rounding leaves.
+        let found = (1e9 * no.found).round() / 1e9;
+        table.error(no.key, format!("found {found}, allowed is {}", no.allowed))
+    })?;
     let estimate = line.estimate().ok_or_else(|| {
         keys.error(
             "bore_mm",
-            "no number of balls or rollers goes between bore and outside diameter; check the line",
+            "no number of balls or rollers that reaches the ratings goes between bore and outside diameter and into the width; check the line",
         )
     })?;
     let clearance_m = UM * file.radial_clearance_um.unwrap_or(0.0);
-    let geometry = match line.kind {
-        CatalogueType::DeepGroove | CatalogueType::AngularContact => {
-            ball_geometry(file, keys, &line, &estimate, clearance_m)?
-        }
-        CatalogueType::CylindricalRoller => {
-            require_clearance(keys, clearance_m / UM, estimate.diameter_m / UM)?;
-            for (key, given) in [
-                ("inner_conformity", file.inner_conformity.is_some()),
-                ("outer_conformity", file.outer_conformity.is_some()),
-            ] {
-                if given {
-                    return Err(keys.error(key, "is not used by a roller bearing; remove it"));
-                }
-            }
-            BearingGeometry::Roller(RollerGeometry {
-                rollers: estimate.elements,
-                diameter_m: estimate.diameter_m,
-                length_m: estimate.length_m,
-                pitch_diameter_m: estimate.pitch_m,
-                radial_clearance_m: clearance_m,
-                taper: None,
-                profile: RollerProfile::Logarithmic {
-                    scale_m: 0.35e-3 * estimate.diameter_m,
-                },
-                laminae: 40,
-            })
-        }
+    let geometry = if line.kind.has_rollers() {
+        roller_geometry(file, keys, &line, &estimate, clearance_m)?
+    } else {
+        ball_geometry(file, keys, &line, &estimate, clearance_m)?
     };
     notes.push(
-        "number and size of the rolling elements are estimated from the catalogue line (ISO 281, ISO 76); pitch diameter, conformities and clearance are \
-         assumed where not given"
+        "number and size of the rolling elements that the file does not state are estimated from the catalogue line (ISO 281, ISO 76); pitch diameter, \
+         conformities and clearance are assumed where not given"
             .to_owned(),
     );
     Ok(FromCatalogue {
         geometry,
-        line,
+        rows: rows(file, keys, &line, &estimate, notes)?,
+        ratings: StatedRatings {
+            dynamic_n: line.dynamic_n,
+            static_n: line.static_n,
+            fatigue_n: None,
+        },
         estimate,
         name,
     })
+}
+
+/// The line of a designation.
+fn designated(
+    designation: &str,
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    notes: &mut Vec<String>,
+) -> Result<(CatalogueLine, Option<String>), InputError> {
+    let mut listed = designations::find(designation).ok_or_else(|| {
+        keys.error(
+            "designation",
+            format!(
+                "found \"{designation}\", allowed are {}; give type, bore_mm, outside_diameter_mm and width_mm instead",
+                designations::known()
+            ),
+        )
+    })?;
+    for (key, given) in [
+        ("type", file.r#type.is_some()),
+        ("bore_mm", file.bore_mm.is_some()),
+        ("outside_diameter_mm", file.outside_diameter_mm.is_some()),
+        ("width_mm", file.width_mm.is_some()),
+        (
+            "contact_angle_deg",
+            file.contact_angle_deg.is_some() && listed.says_angle,
+        ),
+    ] {
+        if given {
+            return Err(keys.error(
+                key,
+                "is given together with a designation, which says it; remove one of the two",
+            ));
+        }
+    }
+    if !listed.says_angle {
+        listed.line.contact_angle_rad = contact_angle(file, keys, listed.line.kind)?;
+    }
+    notes.push(format!("{}: {}", listed.designation, listed.source()));
+    Ok((listed.line, Some(listed.designation)))
+}
+
+/// What is known of the inside.
+fn known(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    kind: CatalogueType,
+) -> Result<KnownInside, InputError> {
+    let rollers = kind.has_rollers();
+    for (key, given, of_rollers) in [
+        ("balls", file.balls.is_some(), false),
+        ("ball_diameter_mm", file.ball_diameter_mm.is_some(), false),
+        ("rollers", file.rollers.is_some(), true),
+        (
+            "roller_diameter_mm",
+            file.roller_diameter_mm.is_some(),
+            true,
+        ),
+        ("roller_length_mm", file.roller_length_mm.is_some(), true),
+    ] {
+        if given && of_rollers != rollers {
+            let word = kind.word();
+            return Err(keys.error(key, format!("is not used by type = \"{word}\"; remove it")));
+        }
+    }
+    let (number, diameter) = if rollers {
+        (file.rollers, file.roller_diameter_mm)
+    } else {
+        (file.balls, file.ball_diameter_mm)
+    };
+    Ok(KnownInside {
+        elements: number,
+        diameter_m: diameter.map(|mm| MM * mm),
+        length_m: file.roller_length_mm.map(|mm| MM * mm),
+        pitch_m: file.pitch_diameter_mm.map(|mm| MM * mm),
+    })
+}
+
+/// Rows within one pair of rings.
+fn rows(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    line: &CatalogueLine,
+    estimate: &Estimate,
+    notes: &mut Vec<String>,
+) -> Result<Option<Arrangement>, InputError> {
+    if line.kind.rows() == 1 {
+        return Ok(None);
+    }
+    let most_m = line.width_m - estimate.diameter_m;
+    // Balls of both rows side by side, were they not staggered.
+    let least_m = 0.5 * estimate.diameter_m;
+    let distance_m = match file.row_distance_mm {
+        Some(mm) => MM * mm,
+        None => {
+            let distance_m = (0.5 * line.width_m).max(estimate.diameter_m).min(most_m);
+            notes.push(format!(
+                "the rows are assumed to stand {:.2} mm apart; give row_distance_mm where it is known",
+                distance_m / MM
+            ));
+            distance_m
+        }
+    };
+    keys.require(
+        "row_distance_mm",
+        distance_m / MM,
+        distance_m >= least_m && distance_m <= most_m,
+        &format!(
+            "{:.2} to {:.2}: two rows of balls of {:.2} mm in a width of {} mm",
+            least_m / MM,
+            most_m / MM,
+            estimate.diameter_m / MM,
+            line.width_m / MM
+        ),
+    )?;
+    super::arrangement_keys::of_double_row(file, keys, distance_m).map(Some)
+}
+
+fn roller_geometry(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    line: &CatalogueLine,
+    estimate: &Estimate,
+    clearance_m: f64,
+) -> Result<BearingGeometry, InputError> {
+    for (key, given) in [
+        ("inner_conformity", file.inner_conformity.is_some()),
+        ("outer_conformity", file.outer_conformity.is_some()),
+    ] {
+        if given {
+            return Err(keys.error(key, "is not used by a roller bearing; remove it"));
+        }
+    }
+    let size = (estimate.diameter_m, estimate.length_m, estimate.pitch_m);
+    let (taper, share) = if line.kind == CatalogueType::TaperedRoller {
+        if file.radial_clearance_um.is_some() {
+            return Err(keys.error(
+                "radial_clearance_um",
+                "is not used by a tapered roller bearing, whose play is its preload_um; remove it",
+            ));
+        }
+        (Some(usual_taper(line.contact_angle_rad, size)), 0.45e-3)
+    } else {
+        require_clearance(keys, clearance_m / UM, estimate.diameter_m / UM)?;
+        (None, 0.35e-3)
+    };
+    Ok(BearingGeometry::Roller(RollerGeometry {
+        rollers: estimate.elements,
+        diameter_m: estimate.diameter_m,
+        length_m: estimate.length_m,
+        pitch_diameter_m: estimate.pitch_m,
+        radial_clearance_m: clearance_m,
+        taper,
+        profile: RollerProfile::Logarithmic {
+            scale_m: share * estimate.diameter_m,
+        },
+        laminae: 40,
+    }))
 }
 
 fn ball_geometry(
@@ -125,31 +251,28 @@ fn ball_geometry(
     };
     let inner = conformity("inner_conformity", file.inner_conformity, 0.52)?;
     let outer = conformity("outer_conformity", file.outer_conformity, 0.53)?;
-    let (kind, free_angle_rad) = match line.kind {
-        CatalogueType::AngularContact => {
-            if file.radial_clearance_um.is_some() {
-                return Err(keys.error(
-                    "radial_clearance_um",
-                    "is not used by an angular-contact bearing, whose contact angle says it; remove it",
-                ));
-            }
-            (BallBearingKind::AngularContact, line.contact_angle_rad)
-        }
-        _ => {
-            let distance_m = (inner + outer - 1.0) * estimate.diameter_m;
-            let (least, most) = (
-                -MOST_INTERFERENCE * estimate.diameter_m / UM,
-                2.0 * distance_m / UM,
-            );
-            keys.require(
+    let (kind, free_angle_rad) = if line.kind == CatalogueType::DeepGroove {
+        let distance_m = (inner + outer - 1.0) * estimate.diameter_m;
+        let (least, most) = (
+            -MOST_INTERFERENCE * estimate.diameter_m / UM,
+            2.0 * distance_m / UM,
+        );
+        keys.require(
+            "radial_clearance_um",
+            clearance_m / UM,
+            (least..most).contains(&(clearance_m / UM)),
+            &format!("{least:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most:.1}"),
+        )?;
+        let half_sine = (0.25 * clearance_m.max(0.0) / distance_m).sqrt();
+        (BallBearingKind::DeepGroove, 2.0 * half_sine.asin())
+    } else {
+        if file.radial_clearance_um.is_some() {
+            return Err(keys.error(
                 "radial_clearance_um",
-                clearance_m / UM,
-                (least..most).contains(&(clearance_m / UM)),
-                &format!("{least:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most:.1}"),
-            )?;
-            let half_sine = (0.25 * clearance_m.max(0.0) / distance_m).sqrt();
-            (BallBearingKind::DeepGroove, 2.0 * half_sine.asin())
+                "is not used by an angular-contact bearing, whose contact angle says it; remove it",
+            ));
         }
+        (BallBearingKind::AngularContact, line.contact_angle_rad)
     };
     Ok(BearingGeometry::Ball(BallGeometry {
         kind,
@@ -166,12 +289,8 @@ fn ball_geometry(
     }))
 }
 
-/// The line as the file states it.
-fn line(
-    file: &BearingFile,
-    document: &InputDocument,
-    keys: &TableKeys<'_>,
-) -> Result<CatalogueLine, InputError> {
+/// The line as the file states it, without ratings.
+fn line(file: &BearingFile, keys: &TableKeys<'_>) -> Result<CatalogueLine, InputError> {
     let needed_by = "a catalogue bearing without designation";
     let kind = keys.needed("type", file.r#type, needed_by)?;
     let size = |key: &str, value: Option<f64>| {
@@ -188,39 +307,72 @@ fn line(
         outside_m > bore_m,
         &format!("more than the bore, {}", bore_m / MM),
     )?;
-    let table = TableKeys::new(document, "ratings");
-    let ratings = file.ratings.clone().unwrap_or_default();
-    let rating = |key: &str, value: Option<f64>| {
-        let value = table.needed(key, value, needed_by)?;
-        table.require(key, value, value > 0.0, "more than 0")?;
-        Ok::<_, InputError>(value)
-    };
-    let contact_angle_rad = match (kind, file.contact_angle_deg) {
-        (CatalogueType::AngularContact, angle) => {
-            let degrees = keys.needed("contact_angle_deg", angle, "an angular-contact bearing")?;
-            keys.require(
-                "contact_angle_deg",
-                degrees,
-                degrees > 0.0 && degrees <= 60.0,
-                "more than 0 and at most 60",
-            )?;
-            degrees.to_radians()
-        }
-        (_, None) => 0.0,
-        (_, Some(_)) => {
-            return Err(keys.error(
-                "contact_angle_deg",
-                "is used by type = \"angular-contact\" only; remove it",
-            ));
-        }
-    };
     Ok(CatalogueLine {
         kind,
         bore_m,
         outside_m,
         width_m,
-        dynamic_n: rating("dynamic_N", ratings.dynamic_N)?,
-        static_n: rating("static_N", ratings.static_N)?,
-        contact_angle_rad,
+        dynamic_n: None,
+        static_n: None,
+        contact_angle_rad: contact_angle(file, keys, kind)?,
+        known: KnownInside::default(),
     })
+}
+
+/// Ratings that the file states; they belong to one bearing.
+fn read_ratings(
+    file: &BearingFile,
+    document: &InputDocument,
+    line: &mut CatalogueLine,
+    has_designation: bool,
+) -> Result<(), InputError> {
+    let table = TableKeys::new(document, "ratings");
+    let ratings = file.ratings.clone().unwrap_or_default();
+    for (key, value, place) in [
+        ("dynamic_N", ratings.dynamic_N, &mut line.dynamic_n),
+        ("static_N", ratings.static_N, &mut line.static_n),
+    ] {
+        if !has_designation {
+            table.needed(key, value, "a catalogue bearing without designation")?;
+        }
+        if let Some(value) = value {
+            table.require(key, value, value > 0.0, "more than 0")?;
+        }
+        *place = value;
+    }
+    Ok(())
+}
+
+fn contact_angle(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    kind: CatalogueType,
+) -> Result<f64, InputError> {
+    let key = "contact_angle_deg";
+    match (kind.angles_deg(), file.contact_angle_deg) {
+        (Some([least, most]), angle) => {
+            let needed_by = match kind {
+                CatalogueType::TaperedRoller => {
+                    "type = \"tapered-roller\" (where a catalogue prints e, the angle is atan(e/1.5))".to_owned()
+                }
+                _ => format!("type = \"{}\"", kind.word()),
+            };
+            let degrees = keys.needed(key, angle, &needed_by)?;
+            keys.require(
+                key,
+                degrees,
+                (least..=most).contains(&degrees),
+                &format!("{least} to {most}"),
+            )?;
+            Ok(degrees.to_radians())
+        }
+        (None, None) => Ok(0.0),
+        (None, Some(_)) => Err(keys.error(
+            key,
+            format!(
+                "is not used by type = \"{}\", which has none of its own; remove it",
+                kind.word()
+            ),
+        )),
+    }
 }

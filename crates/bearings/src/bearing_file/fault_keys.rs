@@ -90,6 +90,13 @@ pub enum FaultTable {
         /// By how much its diameter is larger; negative: smaller.
         oversize_um: f64,
     },
+    /// A ball or roller that is not there.
+    Missing {
+        /// The row, from 1; 1 where not given.
+        row: Option<usize>,
+        /// The ball or roller, from 1.
+        element: usize,
+    },
     /// A ring that stands askew or aside on its seat.
     MisalignedRing {
         /// The ring.
@@ -127,6 +134,7 @@ pub(super) fn faults(
         }
         found.push(fault);
     }
+    refuse_absent(&found, document, geometry)?;
     Ok(found)
 }
 
@@ -166,7 +174,7 @@ impl FaultTable {
         };
         let needed = || {
             balls.ok_or_else(|| {
-                keys.error("kind", "is a fault of ball bearings; a roller bearing can have \"misaligned-ring\" only")
+                keys.error("kind", "is a fault of ball bearings; a roller bearing can have \"misaligned-ring\" and \"missing\" only")
             })
         };
         match self {
@@ -193,6 +201,7 @@ impl FaultTable {
                 };
                 Ok(Fault::OffSizeBall { row, ball, size })
             }
+            Self::Missing { row, element } => missing(keys, (*row, rows), *element, geometry),
             Self::MisalignedRing {
                 ring,
                 tilt_mrad,
@@ -355,6 +364,64 @@ impl FaultTable {
             },
         })
     }
+}
+
+fn missing(
+    keys: &TableKeys<'_>,
+    row: (Option<usize>, usize),
+    element: usize,
+    geometry: &BearingGeometry,
+) -> Result<Fault, InputError> {
+    let (row, _) = place(keys, row, None)?;
+    let elements = geometry.elements();
+    keys.require(
+        "element",
+        element as f64,
+        (1..=elements).contains(&element),
+        &format!("1 to {elements}, the balls or rollers of a row"),
+    )?;
+    Ok(Fault::Missing {
+        row,
+        element: element - 1,
+    })
+}
+
+/// Complains about a fault of a ball that is missing, and about rows that are left with fewer than two elements.
+fn refuse_absent(
+    found: &[Fault],
+    document: &InputDocument,
+    geometry: &BearingGeometry,
+) -> Result<(), InputError> {
+    let absent = |at: (usize, usize)| {
+        let mut all = found.iter();
+        all.any(|f| matches!(*f, Fault::Missing { row, element } if (row, element) == at))
+    };
+    for (number, fault) in found.iter().enumerate() {
+        let path = format!("fault.{number}");
+        let keys = TableKeys::new(document, &path);
+        match *fault {
+            Fault::BallSpall { row, ball, .. } | Fault::OffSizeBall { row, ball, .. }
+                if absent((row, ball)) =>
+            {
+                let problem = "another fault says that this ball is missing; remove one of the two";
+                return Err(keys.error("ball", problem));
+            }
+            Fault::Missing { row, element } => {
+                let alike = |f: &Fault| matches!(*f, Fault::Missing { row: r, .. } if r == row);
+                if found[..number].contains(&Fault::Missing { row, element }) {
+                    let problem =
+                        "a fault before this one says that it is missing; remove one of the two";
+                    return Err(keys.error("element", problem));
+                }
+                if found[..=number].iter().filter(|f| alike(f)).count() + 2 > geometry.elements() {
+                    let problem = "fewer than two balls or rollers of the row are left; remove some of these faults";
+                    return Err(keys.error("element", problem));
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 fn depth(keys: &TableKeys<'_>, depth_um: f64, g: &BallGeometry) -> Result<(), InputError> {

@@ -82,6 +82,26 @@ pub(super) fn require_clearance(
     )
 }
 
+/// Where the file names none.
+const END_RADIUS_RATIO: f64 = 0.95;
+
+/// Share of the large end's radius at which the rib touches, where the file names none.
+const RIB_SHARE: f64 = 0.2;
+
+/// Taper and rib of a roller of this diameter, length and pitch diameter, as they are where nothing else is stated.
+pub(super) fn usual_taper(
+    contact_angle_rad: f64,
+    (diameter_m, length_m, pitch_m): (f64, f64, f64),
+) -> Taper {
+    let half_taper = half_taper_of(diameter_m / pitch_m, contact_angle_rad);
+    let large_m = 0.5 * diameter_m + 0.5 * length_m * half_taper.tan();
+    Taper {
+        contact_angle_rad,
+        end_radius_ratio: END_RADIUS_RATIO,
+        rib_height_m: RIB_SHARE * large_m,
+    }
+}
+
 fn taper(
     file: &BearingFile,
     keys: &TableKeys<'_>,
@@ -98,7 +118,7 @@ fn taper(
         (5.0..=45.0).contains(&degrees),
         "5 to 45",
     )?;
-    let end = file.end_radius_ratio.unwrap_or(0.95);
+    let end = file.end_radius_ratio.unwrap_or(END_RADIUS_RATIO);
     keys.require(
         "end_radius_ratio",
         end,
@@ -116,7 +136,7 @@ fn taper(
         &format!("less than {apex:.3}, the distance of the rollers' middle from their apex"),
     )?;
     let large = 0.5 * diameter + 0.5 * length * half_taper.tan();
-    let height = file.rib_height_mm.unwrap_or(0.2 * large);
+    let height = file.rib_height_mm.unwrap_or(RIB_SHARE * large);
     keys.require(
         "rib_height_mm",
         height,

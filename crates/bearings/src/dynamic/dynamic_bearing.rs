@@ -149,16 +149,25 @@ impl DynamicBearing {
     }
 
     fn balls(&self) -> usize {
-        self.rows.iter().map(|row| row.balls).sum()
+        self.numbered().count()
     }
 
-    /// Rows, and numbers of their balls among all.
+    /// Rows and their balls that are there, with the numbers of these among all that are there.
     fn numbered(&self) -> impl Iterator<Item = (usize, &BallRow, usize, usize)> {
         let rows = self.rows.iter().enumerate();
-        rows.flat_map(|(place, row)| {
-            let before: usize = self.rows[..place].iter().map(|row| row.balls).sum();
-            (0..row.balls).map(move |ball| (place, row, ball, before + ball))
-        })
+        let there = rows.flat_map(|(place, row)| {
+            let balls = (0..row.balls).filter(|ball| row.has(*ball));
+            balls.map(move |ball| (place, row, ball))
+        });
+        there
+            .enumerate()
+            .map(|(number, (place, row, ball))| (place, row, ball, number))
+    }
+
+    /// What a user calls a ball of a row: its number, from 1, row after row, missing ones counted.
+    fn label(&self, place: usize, ball: usize) -> usize {
+        let before: usize = self.rows[..place].iter().map(|row| row.balls).sum();
+        before + ball + 1
     }
 }
 
@@ -194,16 +203,17 @@ impl ForceElement for DynamicBearing {
     fn unknowns(&self) -> Vec<Unknown> {
         let axes = ["x", "y", "z"];
         let mut unknowns = Vec::with_capacity(self.balls() * self.per_ball());
-        for (_, row, ball, number) in self.numbered() {
+        for (place, row, ball, _) in self.numbered() {
             let (diameter, mass) = row.ball_size(ball);
+            let label = self.label(place, ball);
             for axis in axes {
-                let name = format!("ball_{}_{axis}_m", number + 1);
+                let name = format!("ball_{label}_{axis}_m");
                 unknowns.push(Unknown::inertial(&name, mass, row.pitch_radius_m));
             }
             if self.turns() {
                 let inertia = 0.1 * mass * diameter.powi(2);
                 for axis in axes {
-                    let name = format!("ball_{}_turn_{axis}_rad", number + 1);
+                    let name = format!("ball_{label}_turn_{axis}_rad");
                     unknowns.push(Unknown::inertial(&name, inertia, 1.0));
                 }
             }
@@ -234,7 +244,12 @@ impl ForceElement for DynamicBearing {
         let per_ball = self.per_ball();
         let mut first = 0;
         for row in &self.rows {
-            for start in start_of_row(row, &pose, &operation) {
+            let starts = start_of_row(row, &pose, &operation);
+            let there = starts
+                .into_iter()
+                .enumerate()
+                .filter(|(ball, _)| row.has(*ball));
+            for (_, start) in there {
                 let place = origin + axes * start.place_m;
                 let velocity = drift + axes * start.velocity_m_per_s;
                 values[first..first + 3].copy_from_slice(place.as_slice());
@@ -357,7 +372,8 @@ impl ForceElement for DynamicBearing {
             channels.extend(cage_motion_channels(cage));
         }
         if self.ball_loads {
-            for ball in 1..=self.balls() {
+            for (place, _, ball, _) in self.numbered() {
+                let ball = self.label(place, ball);
                 channels.extend(race_loads("ball", ball));
                 let what = format!(
                     "place of ball {ball} round the axis of the outer ring, from its x towards y"

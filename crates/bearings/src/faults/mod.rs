@@ -1,4 +1,4 @@
-//! What may be wrong with a bearing: damage of races and balls, waves, a ball of another size, a ring that stands askew.
+//! What may be wrong with a bearing: damage of races and balls, waves, a ball of another size, one that is missing, a ring that stands askew.
 //!
 //! | fault | type | file |
 //! | --- | --- | --- |
@@ -6,6 +6,7 @@
 //! | spall on a ball | [`BallSpall`] | `ball_spall.rs` |
 //! | waves of a race, across and along the axis | [`Waviness`] | `waviness.rs` |
 //! | ball of another size | [`OffSizeBall`] | `off_size_ball.rs` |
+//! | ball or roller that is missing | | [`missing_element`] |
 //! | ring that stands askew or aside | [`MisalignedRing`] | `misaligned_ring.rs` |
 //! | all those of one row, and what they do to a groove | [`RowFaults`] | `row_faults.rs` |
 //!
@@ -14,6 +15,7 @@
 
 pub mod ball_spall;
 pub mod misaligned_ring;
+pub mod missing_element;
 pub mod off_size_ball;
 pub mod race_spall;
 pub mod row_faults;
@@ -74,6 +76,13 @@ pub enum Fault {
         ball: usize,
         /// By how much.
         size: OffSizeBall,
+    },
+    /// A ball or roller that is not there; row and element from 0.
+    Missing {
+        /// The row.
+        row: usize,
+        /// The ball or roller.
+        element: usize,
     },
     /// A ring that stands askew or aside.
     MisalignedRing {

@@ -1,6 +1,7 @@
 //! All faults of a row of balls, and what they do to its grooves.
 
 use super::ball_spall::PlacedPatch;
+use super::missing_element::missing;
 use super::race_spall::{Depth, PlacedSpall};
 use super::waviness::Displaced;
 use super::{BallSpall, Fault, OffSizeBall, Side, Waviness};
@@ -74,19 +75,24 @@ pub struct RowFaults {
     outer: RaceFaults,
     sizes: Vec<(usize, OffSizeBall)>,
     spalled: Vec<SpalledBall>,
+    /// Balls that are not there, in rising order.
+    missing: Vec<usize>,
 }
 
 impl RowFaults {
     /// Those of a row among the faults of a bearing; none where all of them are without depth.
     ///
     /// # Errors
-    /// [`BearingError::Parameter`] for a ball that the row does not have.
+    /// [`BearingError::Parameter`] for a ball that the row does not have, [`BearingError::NotCarried`] where too few are left.
     pub(crate) fn of(
         faults: &[Fault],
         number: usize,
         row: &BallRow,
     ) -> Result<Option<Box<Self>>, BearingError> {
-        let mut found = Self::default();
+        let mut found = Self {
+            missing: missing(faults, number, row.balls)?,
+            ..Self::default()
+        };
         let exists = |ball: usize| {
             if ball < row.balls {
                 return Ok(());
@@ -148,7 +154,8 @@ impl RowFaults {
         let none = found.inner.is_empty()
             && found.outer.is_empty()
             && found.sizes.is_empty()
-            && found.spalled.is_empty();
+            && found.spalled.is_empty()
+            && found.missing.is_empty();
         Ok((!none).then(|| Box::new(found)))
     }
 
@@ -172,6 +179,11 @@ impl RowFaults {
     pub(crate) fn size(&self, ball: usize) -> Option<OffSizeBall> {
         let mut sizes = self.sizes.iter().filter(|(at, _)| *at == ball);
         sizes.next().map(|(_, size)| *size)
+    }
+
+    /// Whether a ball is not there.
+    pub(crate) fn is_missing(&self, ball: usize) -> bool {
+        self.missing.contains(&ball)
     }
 
     /// Balls with spalls.

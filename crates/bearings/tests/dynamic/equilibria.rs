@@ -226,3 +226,36 @@ fn cost_is_linear_in_the_balls() {
     assert_eq!(tractions - before[2], contacts - before[1]);
     assert_eq!(pockets, 0);
 }
+
+/// A ball is missing: the others have states and channels under their own numbers, and settle where the equilibrium without it has them.
+#[test]
+fn moving_balls_know_nothing_of_a_missing_one() {
+    let bearing = bearing(&format!(
+        "{B218}[[fault]]\nkind = \"missing\"\nelement = 5\n"
+    ));
+    let speed = 2.0 * std::f64::consts::PI;
+    let operation = Operation {
+        inner_rad_per_s: speed,
+        ..Operation::default()
+    };
+    let load = AppliedBearingLoad {
+        force_n: [3000.0, 0.0, 17800.0],
+        tilt: TiltCondition::Held([0.0; 2]),
+    };
+    let pose = bearing.equilibrium(&load, &operation).unwrap();
+    let system = system(&bearing, damped(15.0), &pose, speed, &Held::Fast);
+    let mut run = Simulation::new(system, Params::fixed(5e-6)).unwrap();
+    run.run(2e-3, |_| ControlFlow::Continue(())).unwrap();
+    let found = Channels::at_end(run);
+    let (_, loads) = bearing.loads(&pose, &operation).unwrap();
+    let balls = loads.elements[0].iter().enumerate();
+    for (number, ball) in balls.filter(|(number, _)| *number != 4) {
+        let here = found.get(&format!("bearing.ball_{}_inner_N", number + 1));
+        assert!(
+            (here - ball.inner_load_n).abs() < 3e-3 * loads.elements[0][0].inner_load_n,
+            "{here} {ball:?}"
+        );
+    }
+    assert_eq!(loads.elements[0][4].inner_load_n, 0.0);
+    close(found.get("bearing.force_shaft_z_N"), -17800.0, 2e-3);
+}

@@ -6,7 +6,8 @@ use gearmesh_bearings::quasi_static_element::{QuasiStaticElement, RingDamping};
 use gearmesh_bearings::ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{Control, Operation, RingPose};
 use gearmesh_dynamics::{
-    Body, GROUND, Marker, MarkerPair, Params, Simulation, StaticParams, System, equilibrium,
+    Body, GROUND, Joint, JointKind, Marker, MarkerPair, Params, Simulation, StaticParams, System,
+    equilibrium,
 };
 use nalgebra::{Matrix6, Vector5};
 
@@ -225,4 +226,78 @@ fn balls_pass_under_a_turning_outer_ring() {
             "{now} {later}, {ripple}"
         );
     }
+}
+
+/// A shaft that turns freely under a radial load slows down as its friction torque says, I ω̇ = −M(ω), and the energy that it loses is the heat;
+/// an equilibrium with the same speed is found, because the torque does not act in it.
+#[test]
+fn friction_slows_a_free_shaft_down() {
+    let text = format!("{B6205}[friction]\nviscosity_mm2_per_s = 50.0\nseal_torque_Nm = 0.01\n");
+    let force_n = [900.0, 0.0, 0.0];
+    let load = AppliedBearingLoad {
+        force_n,
+        tilt: TiltCondition::Held([0.0; 2]),
+    };
+    let still = Operation::default();
+    let pose = bearing(&text).equilibrium(&load, &still).unwrap();
+    let (inertia, start, end_s) = (1e-4, 150.0, 0.05);
+    let mut builder = System::builder();
+    let shaft = shaft(&mut builder, &pose, start);
+    let at = Marker::ground(pose.centre_m.into());
+    let seat = Marker::at(shaft, [0.0; 3]);
+    builder.joint(Joint::new("held", JointKind::Revolute, at, seat).unwrap());
+    let pair = MarkerPair {
+        a: Marker::at(GROUND, [0.0; 3]),
+        b: seat,
+    };
+    builder.element(element(&text, pair));
+    let mut system = builder.build().unwrap();
+    let state = system.start().clone();
+    let found = equilibrium(&mut system, &state, &StaticParams::default()).unwrap();
+    let channels = Channels::of(&mut system, &found.state);
+    let torque = |speed: f64| {
+        let operation = Operation {
+            inner_rad_per_s: speed,
+            ..still
+        };
+        let (_, loads) = bearing(&text).loads(&pose, &operation).unwrap();
+        let d = definition(&text);
+        d.friction.unwrap().torque(&d, &loads, &operation)
+    };
+    close(
+        channels.get("bearing.friction_torque_Nm"),
+        torque(start).total_nm(),
+        1e-6,
+    );
+    close(
+        channels.get("bearing.friction_power_W"),
+        torque(start).power_w(),
+        1e-6,
+    );
+    let mut run = Simulation::new(system, Params::fixed(1e-4)).unwrap();
+    run.run(end_s, |_| ControlFlow::Continue(())).unwrap();
+    let speed = run.state().velocity[5];
+    // By Runge's midpoint rule in steps of its own.
+    let mut expected = start;
+    for _ in 0..200 {
+        let h = end_s / 200.0;
+        let middle = expected - 0.5 * h * torque(expected).total_nm() / inertia;
+        expected -= h * torque(middle).total_nm() / inertia;
+    }
+    assert!(
+        expected < 0.95 * start && expected > 0.2 * start,
+        "{expected}"
+    );
+    // The torque of a step is that of the step before.
+    close(start - speed, start - expected, 5e-3);
+    let heat = 0.5 * inertia * (start * start - speed * speed);
+    close(run.info().energy.dissipated_j, heat, 1e-3);
+    // Where nothing turns any more nothing rubs, and it does not turn back.
+    let mut run = run;
+    run.run(2.0, |_| ControlFlow::Continue(())).unwrap();
+    assert!(
+        run.state().velocity[5].abs() < 1e-3,
+        "{}",
+        run.state().velocity[5]
+    );
 }

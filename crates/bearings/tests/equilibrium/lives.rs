@@ -1,13 +1,11 @@
 //! Ratings and lives.
 
 use crate::common::{B218, B6205, ROLLERS, bearing, close, definition};
-use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingDefinition;
 use gearmesh_bearings::life::Lubrication;
 use gearmesh_bearings::ratings::{ball_dynamic_factor, ball_static_factor, roller_dynamic_factor};
 use gearmesh_bearings::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{Life, Operation, QuasiStaticBearing, Ratings};
-use gearmesh_geometry::input::InputDocument;
 
 fn life(definition: &BearingDefinition, force_n: [f64; 3], tilt: TiltCondition) -> Life {
     let bearing = QuasiStaticBearing::new(definition).unwrap();
@@ -93,8 +91,9 @@ fn a_load_zone_of_half_the_turn_gives_l10() {
         );
     let definition = crate::common::definition(&rollers);
     let found = life(&definition, [2000.0, 0.0, 0.0], held);
-    // Line contact wears with the fourth power of the load; L10 has 10/3 for all rollers, and λν = 0.83 stands for what a straight lamina lacks.
-    let capacity = 0.83 * found.reference_mrev.powf(0.25) * 2000.0;
+    // Line contact wears with the fourth power of the load; L10 has 10/3 for all rollers, and λν = 0.83 stands for what a lamina lacks whose end has no
+    // stress riser, which takes 0.3429 of the life of 40 even laminae.
+    let capacity = 0.83 * (found.reference_mrev / 0.342_876_6).powf(0.25) * 2000.0;
     close(capacity, Ratings::of(&definition).dynamic_n, 2e-2);
 }
 
@@ -151,34 +150,6 @@ fn lubrication_changes_life_within_its_bounds() {
             factor(reference * joint * 1.000001, 0.5),
         );
         close(below, above, 1e-3);
-    }
-}
-
-/// 6205 in REFERENCES §2: 9 balls of 0.3126 in on 1.537 in.
-#[test]
-fn a_catalogue_line_gives_a_6205() {
-    let estimate = |designation: &str| {
-        let text = format!("kind = \"catalogue\"\ndesignation = \"{designation}\"\n");
-        let document = InputDocument::new("bearing.toml", text);
-        let found = BearingFromFile::from_document(&document).unwrap();
-        QuasiStaticBearing::new(&found.definition).unwrap();
-        found.estimate.unwrap()
-    };
-    let found = estimate("6205");
-    assert_eq!(found.elements, 9);
-    close(found.diameter_m, 0.3126 * 25.4e-3, 0.03);
-    close(found.pitch_m, 1.537 * 25.4e-3, 0.02);
-    // Within the stated spread of any other bearing: the ratings that it was found from.
-    for name in ["6205", "6308", "NU 204", "7010 c"] {
-        let found = estimate(name);
-        close(found.dynamic_ratio, 1.0, 0.12);
-        close(found.static_ratio, 1.0, 0.08);
-        let [low, high] = found.elements_spread;
-        assert!(
-            low <= found.elements && found.elements <= high,
-            "{name}: {found:?}"
-        );
-        assert!(high - low <= 8, "{name}: {found:?}");
     }
 }
 

@@ -1,12 +1,17 @@
 //! Equilibrium of bearings against independent solutions (tools/reference/bearings.py), their tangents, their lives, and bad files.
 #![allow(clippy::unwrap_used, clippy::expect_used)] // test code
 
+mod catalogue;
 mod common;
 mod files;
+mod fits;
+mod friction;
 mod hard_cases;
 mod hertz;
 mod independent;
 mod lives;
+mod missing;
 mod published;
 mod rests;
+mod stress_risers;
 mod tangents;

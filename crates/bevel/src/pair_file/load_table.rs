@@ -14,13 +14,16 @@ use serde::Deserialize;
 pub(super) struct LoadTable {
     /// Torques on the gear, one to 20 of them.
     torques_Nm: Vec<f64>,
-    /// Slices along the face. Where not given those of the coarser model, more are not allowed; 31 without models.
+    /// Slices along the face. Where not given those of the coarser model, more are not allowed; without models 31, and up to 100 where a light
+    /// load touches few of them.
     slices: Option<usize>,
     /// Positions over a pitch, 24 where not given.
     positions_per_pitch: Option<usize>,
     /// Reduced models (.h5) of pinion and gear, relative to this file. Where not given, the gears are rigid, and their surfaces
     /// give way as half spaces do.
     models: Option<[PathBuf; 2]>,
+    /// Coefficient of friction of the teeth, for the efficiency; none printed where not given.
+    friction: Option<f64>,
     /// Without models: Young's modulus of both gears, 206 where not given (steel).
     young_GPa: Option<f64>,
     /// Without models: Poisson's ratio of both gears, 0.3 where not given.
@@ -36,6 +39,8 @@ pub struct LoadRequest {
     pub slices: Option<usize>,
     /// Positions over a pitch.
     pub positions: usize,
+    /// Coefficient of friction of the teeth, where stated.
+    pub friction: Option<f64>,
     /// Reduced models of pinion and gear, relative to the pair file; rigid gears without.
     pub models: Option<[PathBuf; 2]>,
     /// Young's modulus \[Pa\] and Poisson's ratio of rigid gears' surfaces.
@@ -67,6 +72,10 @@ impl LoadTable {
         let positions = self.positions_per_pitch.unwrap_or(24);
         let ok = (4..=500).contains(&positions);
         keys.require("positions_per_pitch", positions as f64, ok, "4 to 500")?;
+        if let Some(friction) = self.friction {
+            let ok = (0.0..=1.0).contains(&friction);
+            keys.require("friction", friction, ok, "0 to 1")?;
+        }
         if self.models.is_some() {
             let given = [("young_GPa", self.young_GPa), ("poisson", self.poisson)];
             if let Some((key, _)) = given.into_iter().find(|(_, value)| value.is_some()) {
@@ -85,6 +94,7 @@ impl LoadTable {
             torques_nm: self.torques_Nm.clone(),
             slices: self.slices,
             positions,
+            friction: self.friction,
             models: self.models.clone(),
             material: (young * 1e9, poisson),
         })

@@ -7,9 +7,11 @@ use gearmesh_geometry::input::{InputDocument, TableKeys};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::given_check;
 use super::settings_table::SettingsTable;
 use crate::basic_settings::Process;
 use crate::blank::{MemberBlank, PairBlank, ToothForm};
+use crate::cut_thickness::ThicknessFrom;
 use crate::grid_surface::GridSurface;
 use crate::hand::FlankSide;
 use crate::local_synthesis::Synthesis;
@@ -61,6 +63,9 @@ pub(super) struct MemberTable {
     concave: Option<SettingsTable>,
     /// "given": settings of the convex flank.
     convex: Option<SettingsTable>,
+    /// "given": which tooth thickness counts. Where not given that of the settings where they are the same for both flanks but for the
+    /// blades (one operation), else that of the blank.
+    thickness: Option<ThicknessFrom>,
 }
 
 /// `settings`.
@@ -214,6 +219,7 @@ impl MemberTable {
                 ("points_origin_mm", self.points_origin_mm.is_some(), POINTS),
                 ("concave", self.concave.is_some(), GIVEN),
                 ("convex", self.convex.is_some(), GIVEN),
+                ("thickness", self.thickness.is_some(), GIVEN),
             ],
         )
     }
@@ -263,10 +269,12 @@ impl MemberTable {
                 let by = "settings = \"given\"";
                 let concave = keys.needed("concave", self.concave.as_ref(), by)?;
                 let convex = keys.needed("convex", self.convex.as_ref(), by)?;
-                Cutting::Given([
+                let settings = [
                     concave.settings(document, &format!("{name}.concave"))?,
                     convex.settings(document, &format!("{name}.convex"))?,
-                ])
+                ];
+                given_check::check(keys, &settings, blank, (name, self.thickness))?;
+                Cutting::Given(settings, self.thickness)
             }
         })
     }

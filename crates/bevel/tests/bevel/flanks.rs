@@ -3,7 +3,7 @@
 use gearmesh_bevel::tooth::{pressure_angle_rad, spiral_angle_rad};
 use gearmesh_bevel::{
     BevelError, FaceMill, Flank, FlankSide, Hand, Located, MachineSettings, MemberBlank, PairData,
-    Process, Roll, Tool, Tooth, ToothForm, basic_settings, crown_settings,
+    Process, Roll, ThicknessFrom, Tool, Tooth, ToothForm, basic_settings, crown_settings,
 };
 
 use crate::common::{blank, data_13_35, data_20_20, near};
@@ -147,6 +147,7 @@ fn basic_settings_give_the_angles_of_the_blank() {
             let tooth = Tooth::cut(
                 member,
                 &basic_settings(member, &data, EDGE, Process::Generated).unwrap(),
+                None,
             )
             .unwrap();
             let spiral: Vec<f64> = tooth
@@ -196,7 +197,7 @@ fn basic_settings_give_the_angles_of_the_blank() {
                 member.outer_cone_m,
             ] {
                 near(
-                    tooth.slot_width_m(cone).unwrap().unwrap() / (outside - inside),
+                    tooth.slot_width_m(cone).unwrap().unwrap().point_m / (outside - inside),
                     1.0,
                     0.02,
                 );
@@ -308,7 +309,12 @@ fn printed_settings_of_a_gear_of_51_teeth() {
         work_offset_m: 0.0,
         roll: Some(Roll::constant(1.0 / 0.802465)),
     };
-    let tooth = Tooth::cut(&member, &[settings(96.265, 18.0), settings(94.235, 22.0)]).unwrap();
+    let tooth = Tooth::cut(
+        &member,
+        &[settings(96.265, 18.0), settings(94.235, 22.0)],
+        None,
+    )
+    .unwrap();
     tooth.check(0.0, 0.0).unwrap();
     for flank in &tooth.flanks {
         // Hand and spiral angle.
@@ -359,7 +365,7 @@ fn bad_teeth_are_refused_with_their_place() {
     };
     let pair = blank(&data);
     let settings = basic_settings(&pair.members[0], &data, 0.1e-3, Process::Generated).unwrap();
-    let error = Tooth::cut(&pair.members[0], &settings)
+    let error = Tooth::cut(&pair.members[0], &settings, Some(ThicknessFrom::Blank))
         .unwrap()
         .check(0.0, 0.0)
         .unwrap_err();
@@ -372,14 +378,14 @@ fn bad_teeth_are_refused_with_their_place() {
     let mut member = blank(&data).members[0].clone();
     let settings = basic_settings(&member, &data, EDGE, Process::Generated).unwrap();
     member.mean_thickness_m *= 0.5;
-    let error = Tooth::cut(&member, &settings)
+    let error = Tooth::cut(&member, &settings, Some(ThicknessFrom::Blank))
         .unwrap()
         .check(0.0, 0.0)
         .unwrap_err();
     assert!(matches!(error, BevelError::Pointed { .. }), "{error}");
     // A blade wider than the slot's bottom.
     let member = blank(&data).members[0].clone();
-    let tooth = Tooth::cut(&member, &settings).unwrap();
+    let tooth = Tooth::cut(&member, &settings, Some(ThicknessFrom::Blank)).unwrap();
     let slot = tooth.check(0.0, 0.0).unwrap().least_slot_m.unwrap();
     tooth.check(0.0, 0.9 * slot).unwrap();
     let error = tooth.check(0.0, 1.1 * slot).unwrap_err();

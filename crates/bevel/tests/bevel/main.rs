@@ -9,3 +9,4 @@ mod contacts;
 mod flanks;
 mod patches;
 mod points;
+mod thickness;

@@ -9,6 +9,13 @@ use clap::Args;
 pub struct BevelArguments {
     /// Bevel pair file
     pub pair: PathBuf,
+    /// Write nominal points and normals of all four flanks for a measuring machine into this folder: pinion-concave.csv and so on
+    #[arg(long, value_name = "FOLDER")]
+    pub grid: Option<PathBuf>,
+    /// Sectors along the face and heights up the flank of the nominal points
+    #[arg(long, num_args = 2, value_names = ["SECTORS", "HEIGHTS"], default_values_t = [9, 5], requires = "grid",
+        value_parser = clap::value_parser!(u16).range(3..=99))]
+    pub grid_size: Vec<u16>,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,

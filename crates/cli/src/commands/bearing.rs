@@ -1,6 +1,6 @@
 //! `gearmesh bearing`: a rolling bearing under a load.
 
-use super::bearing_page;
+use super::{bearing_clearance, bearing_friction, bearing_page};
 use crate::arguments::{BearingArguments, ControlWord};
 use crate::console;
 use crate::failure::Failure;
@@ -11,8 +11,8 @@ use gearmesh_bearings::life::Lubrication;
 use gearmesh_bearings::quasi_static::RowLoads;
 use gearmesh_bearings::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{
-    BearingError, Control, ElementLoad, Life, Operation, QuasiStaticBearing, Ratings, RingLoad,
-    RingPose,
+    BearingError, Control, ElementLoad, FrictionTorque, Life, Operation, QuasiStaticBearing,
+    Ratings, RingLoad, RingPose,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -21,6 +21,7 @@ use std::path::Path;
 pub fn read(path: &Path) -> Result<BearingFromFile, Failure> {
     let found = BearingFromFile::read(path)?;
     found.notes.iter().for_each(console::note);
+    found.warnings.iter().for_each(console::warning);
     Ok(found)
 }
 
@@ -33,6 +34,7 @@ pub(super) struct Answer<'a> {
     pub loads: RowLoads,
     pub ratings: Ratings,
     pub life: Life,
+    pub friction: Option<FrictionTorque>,
 }
 
 /// Runs the command.
@@ -60,7 +62,10 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
         &operation,
         lubrication.as_ref(),
     );
+    let friction = found.definition.friction;
+    let friction = friction.map(|f| f.torque(&found.definition, &loads, &operation));
     let answer = Answer {
+        friction,
         ratings: Ratings::of(&found.definition),
         found: &found,
         bearing: &bearing,
@@ -164,7 +169,7 @@ fn lubrication(a: &BearingArguments) -> Result<Option<Lubrication>, Failure> {
 }
 
 /// To so many decimals, without the sign of what is nothing then.
-fn rounded(value: f64, decimals: i32) -> f64 {
+pub(super) fn rounded(value: f64, decimals: i32) -> f64 {
     let unit = 10.0_f64.powi(decimals);
     (value * unit).round() / unit + 0.0
 }
@@ -181,7 +186,10 @@ impl Answer<'_> {
             .collect()
     }
 
-    fn element(&self, row: usize, e: &ElementLoad) -> Value {
+    fn element(&self, row: usize, number: usize, e: &ElementLoad) -> Value {
+        if !self.bearing.rows[row].has(number) {
+            return json!({ "angle_deg": e.angle_rad.to_degrees(), "missing": true });
+        }
         let [inner, outer] = self.bearing.rows[row].peak_pressures_pa(e);
         let mut value = json!({
             "angle_deg": e.angle_rad.to_degrees(),
@@ -218,7 +226,12 @@ impl Answer<'_> {
     fn figures(&self) -> Value {
         let q = self.pose.to_five();
         let rows: Vec<Value> = (self.loads.elements.iter().enumerate())
-            .map(|(row, list)| list.iter().map(|e| self.element(row, e)).collect())
+            .map(|(row, list)| {
+                let numbered = list.iter().enumerate();
+                numbered
+                    .map(|(number, e)| self.element(row, number, e))
+                    .collect()
+            })
             .collect();
         let finite = |value: f64| value.is_finite().then_some(value);
         let mut value = json!({
@@ -242,6 +255,12 @@ impl Answer<'_> {
                 "L10mr_Mrev": self.life.modified_mrev.and_then(finite),
             },
         });
+        if let Some(friction) = &self.friction {
+            value["friction"] = bearing_friction::figures(friction);
+        }
+        if let Some(clearance) = self.found.definition.operating_clearance() {
+            value["clearance"] = bearing_clearance::figures(&clearance);
+        }
         if let Some(e) = &self.found.estimate {
             value["estimate"] = json!({
                 "elements": e.elements,
@@ -251,6 +270,9 @@ impl Answer<'_> {
                 "length_mm": 1e3 * e.length_m,
                 "length_spread_mm": e.length_spread_m.map(|d| 1e3 * d),
                 "pitch_diameter_mm": 1e3 * e.pitch_m,
+                "dynamic_N": e.dynamic_n,
+                "static_N": e.static_n,
+                "poor_fit": e.poor_fit,
                 "dynamic_ratio": e.dynamic_ratio,
                 "static_ratio": e.static_ratio,
             });
@@ -277,6 +299,10 @@ impl Answer<'_> {
                 );
             }
             console::data(text);
+        }
+        if let Some(clearance) = self.found.definition.operating_clearance() {
+            let lines = bearing_clearance::lines(&clearance);
+            lines.into_iter().for_each(console::data);
         }
         if self.bearing.preload_m != 0.0 {
             console::data(format!(
@@ -311,7 +337,15 @@ impl Answer<'_> {
             console::data(
                 "    deg   load N: inner      outer   angle deg: inner   outer   pressure MPa: inner   outer",
             );
-            for e in list {
+            for (number, e) in list.iter().enumerate() {
+                if !self.bearing.rows[row].has(number) {
+                    console::data(format!(
+                        "{:>7.2} {:>15}",
+                        e.angle_rad.to_degrees(),
+                        "missing"
+                    ));
+                    continue;
+                }
                 let [inner, outer] = self.bearing.rows[row].peak_pressures_pa(e);
                 console::data(format!(
                     "{:>7.2} {:>15.3} {:>10.3} {:>18.4} {:>7.4} {:>21.1} {:>7.1}",
@@ -343,5 +377,8 @@ impl Answer<'_> {
             text += &format!(", L10mr {}", life(self.life.modified_mrev));
         }
         console::data(text);
+        if let Some(friction) = &self.friction {
+            console::data(bearing_friction::line(friction));
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! The page of `gearmesh bearing --report`: loads round the bearing, contact angles and pressures.
 
 use super::bearing::Answer;
+use super::{bearing_clearance, bearing_friction};
 use crate::arguments::BearingArguments;
 use crate::failure::Failure;
 use crate::page_file;
@@ -52,6 +53,9 @@ fn page(answer: &Answer<'_>, a: &BearingArguments) -> Page {
         };
         page = page.section(of_row(answer, row, loads, name));
     }
+    if let Some(clearance) = answer.found.definition.operating_clearance() {
+        page = page.section(bearing_clearance::section(&clearance));
+    }
     page.footer(format!(
         "{} by gearmesh {}",
         a.bearing.display(),
@@ -102,6 +106,10 @@ fn at_a_glance(answer: &Answer<'_>) -> Section {
         )
         .figure("L10", life(answer.life.basic_mrev), millions)
         .figure("L10r", life(Some(answer.life.reference_mrev)), millions);
+    let figures = match &answer.friction {
+        Some(friction) => bearing_friction::at_a_glance(friction, figures),
+        None => figures,
+    };
     let mut section = Section::new("At a glance").push(figures);
     if answer.found.estimate.is_some() {
         section = section.push(Text::note("Number and size of the elements are estimated from the line of a catalogue; gearmesh bearing prints the spread."));

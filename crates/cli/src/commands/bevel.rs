@@ -3,20 +3,57 @@
 use crate::arguments::BevelArguments;
 use crate::console;
 use crate::failure::Failure;
+use gearmesh_bevel::cut_thickness::{is_one_operation, normal_m, settings_of_thickness};
 use gearmesh_bevel::pair_file::settings_toml;
-use gearmesh_bevel::{FlankSide, GridFit, MemberBlank, PairDesign, PairFile, Tooth, ToothCheck};
+use gearmesh_bevel::{
+    BevelError, FlankSide, GridFit, MachineSettings, MemberBlank, PairDesign, PairFile,
+    ThicknessFrom, Tooth, ToothCheck,
+};
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_model::write_text;
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// Runs the command.
 pub fn run(a: &BevelArguments) -> Result<(), Failure> {
     let document = InputDocument::read(&a.pair)?;
     let file = PairFile::from_document(&document)?;
     let (design, checks) = file.checked_design(&document)?;
+    if let Some(folder) = &a.grid {
+        let size = [0, 1].map(|i: usize| usize::from(a.grid_size[i]));
+        write_grids(&design, folder, size).map_err(|error| match error {
+            Ok(fault) => fault.in_file(&document).into(),
+            Err(problem) => Failure::work(problem),
+        })?;
+    }
     if a.json {
         console::json(&figures(&file, &design, &checks));
     } else {
         table(&file, &design, &checks);
+    }
+    Ok(())
+}
+
+/// Writes nominal points and normals of all flanks; none where one cannot be made or written.
+fn write_grids(
+    design: &PairDesign,
+    folder: &Path,
+    size: [usize; 2],
+) -> Result<(), Result<BevelError, String>> {
+    let fault = |e: std::io::Error| Err(format!("{}: {e}", folder.display()));
+    std::fs::create_dir_all(folder).map_err(fault)?;
+    for tooth in &design.teeth {
+        for side in FlankSide::BOTH {
+            let table = tooth.nominal_grid_csv(side, size).map_err(Ok)?;
+            let path = folder.join(format!("{}-{}.csv", tooth.blank.name, side.word()));
+            write_text(&path, &table).map_err(|e| Err(e.to_string()))?;
+            console::note(format!(
+                "{}: {} x {} points",
+                path.display(),
+                size[0],
+                size[1]
+            ));
+        }
     }
     Ok(())
 }
@@ -94,15 +131,15 @@ fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) {
             1e6 * rms[1]
         ));
     }
+    for words in thickness_words(design, file) {
+        console::data(format!("# {words}"));
+    }
     for (i, name) in ["pinion", "gear"].into_iter().enumerate() {
         let Some(settings) = &design.settings[i] else {
             for flank in &design.teeth[i].flanks {
                 if let Some(fit) = flank.grid_fit() {
                     console::data(format!("# {}: {}", flank.name(), fit_words(fit)));
                 }
-            }
-            if let Some(words) = thickness_words(&design.teeth[i], file) {
-                console::data(format!("# {words}"));
             }
             continue;
         };
@@ -116,6 +153,11 @@ fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) {
             continue;
         }
         console::data(format!("[{name}]\nsettings = \"given\""));
+        // Read back, settings that are the same for both flanks would be those of one operation.
+        let apart = design.teeth[i].thickness.from == ThicknessFrom::Blank;
+        if apart && is_one_operation(&file.blank.members[i], settings) {
+            console::data("thickness = \"blank\"");
+        }
         tables.iter().for_each(|t| console::data(t.trim_end()));
     }
 }
@@ -140,8 +182,99 @@ pub(super) fn fit_words(fit: &GridFit) -> String {
     )
 }
 
+/// How thick the teeth of a pair are by what cuts them or by their points, beside the blank, and the backlash that this leaves. Nothing of
+/// members that two operations cut, whose thickness is the blank's.
+pub(super) fn thickness_words(design: &PairDesign, file: &PairFile) -> Vec<String> {
+    let members = design.teeth.iter().enumerate();
+    let mut lines: Vec<String> = members
+        .filter_map(|(i, tooth)| {
+            cut_thickness_words(tooth, design.settings[i].as_ref())
+                .or_else(|| table_thickness_words(tooth, file))
+        })
+        .collect();
+    let stated_m = file.blank.data.backlash_m;
+    let backlash_m = design.backlash_m(&file.blank);
+    if (backlash_m - stated_m).abs() > NO_DIFFERENCE_M {
+        let jam = if backlash_m < 0.0 {
+            "warning: the teeth jam in the pair as designed: "
+        } else {
+            ""
+        };
+        lines.push(format!(
+            "{jam}normal backlash at the mean point by these thicknesses {:.3} mm, by the file {:.3} mm",
+            1e3 * backlash_m,
+            1e3 * stated_m
+        ));
+    }
+    lines
+}
+
+/// Thicknesses that differ by less are the same in print.
+const NO_DIFFERENCE_M: f64 = 0.5e-6;
+
+/// How thick teeth are that one operation cuts.
+fn cut_thickness_words(tooth: &Tooth, settings: Option<&[MachineSettings; 2]>) -> Option<String> {
+    let of = &tooth.thickness;
+    let cut_m = of.cut_m?;
+    let normal = |m: f64| 1e3 * normal_m(&tooth.flanks, m);
+    let figures = format!(
+        "{}: {:.3} mm thick on the mean circle ({:.3} mm normal) as its settings cut both flanks, {:.3} mm ({:.3} mm) by the blank",
+        tooth.blank.name,
+        1e3 * cut_m,
+        normal(cut_m),
+        1e3 * of.blank_m,
+        normal(of.blank_m)
+    );
+    let off_m = cut_m - of.blank_m;
+    if off_m.abs() < NO_DIFFERENCE_M {
+        return Some(figures);
+    }
+    let counts = match of.from {
+        ThicknessFrom::Settings => "that of the settings counts",
+        ThicknessFrom::Blank => "that of the blank counts, the flanks cut one after the other",
+    };
+    let radii = point_radii_of_blank_mm(tooth, settings).map_or_else(String::new, |[a, b]| {
+        format!("; point radii {a:.4} and {b:.4} mm (concave, convex) would cut the blank's")
+    });
+    Some(format!(
+        "{figures}: {:+.3} mm, {counts}{radii}",
+        1e3 * off_m
+    ))
+}
+
+/// Point radii of the concave and convex flank that would leave the blank's thickness in one operation.
+fn point_radii_of_blank_mm(
+    tooth: &Tooth,
+    settings: Option<&[MachineSettings; 2]>,
+) -> Option<[f64; 2]> {
+    let found = settings_of_thickness(&tooth.blank, settings?, tooth.thickness.blank_m).ok()?;
+    Some(found.map(|s| {
+        s.face_mill()
+            .map_or(f64::NAN, |mill| 1e3 * mill.point_radius_m)
+    }))
+}
+
+/// Thickness of a member's teeth by name.
+pub(super) fn thickness_figures(
+    tooth: &Tooth,
+    settings: Option<&[MachineSettings; 2]>,
+    file: &PairFile,
+) -> Value {
+    let of = &tooth.thickness;
+    let points = tooth.table_thickness(file.blank.mean_normal_module_m);
+    json!({
+        "counts_mm": 1e3 * of.counts_m(),
+        "counts_from": of.from.word(),
+        "normal_mm": 1e3 * normal_m(&tooth.flanks, of.counts_m()),
+        "settings_mm": of.cut_m.map(|m| 1e3 * m),
+        "blank_mm": 1e3 * of.blank_m,
+        "points_mm": points.map(|found| 1e3 * found.found_m),
+        "point_radii_of_blank_mm": of.cut_m.and_then(|_| point_radii_of_blank_mm(tooth, settings)),
+    })
+}
+
 /// What the azimuths of a member's tables say of the blank and of their origin; nothing of a member that was cut.
-pub(super) fn thickness_words(tooth: &Tooth, file: &PairFile) -> Option<String> {
+fn table_thickness_words(tooth: &Tooth, file: &PairFile) -> Option<String> {
     let found = tooth.table_thickness(file.blank.mean_normal_module_m)?;
     let figures = format!(
         "{}: {:.3} mm thick on the mean circle by the azimuths of its points, {:.3} mm by the blank, which counts",
@@ -196,11 +329,7 @@ fn figures(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Va
             };
             value[flank.side.word()] = fit_figures(fit);
         }
-        value["thickness_of_points_mm"] = json!(
-            design.teeth[i]
-                .table_thickness(file.blank.mean_normal_module_m)
-                .map(|found| 1e3 * found.found_m)
-        );
+        value["thickness"] = thickness_figures(&design.teeth[i], design.settings[i].as_ref(), file);
         for (side, s) in FlankSide::BOTH
             .into_iter()
             .zip(design.settings[i].iter().flatten())
@@ -223,6 +352,7 @@ fn figures(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Va
         value
     };
     let mut value = object(&pair_lines(file));
+    value["backlash_mm"] = json!(1e3 * design.backlash_m(&file.blank));
     value["title"] = json!(file.title);
     value["taper"] = json!(file.blank.data.taper.word());
     value["pinion"] = member(0);

@@ -1,13 +1,14 @@
 //! `gearmesh check`: reads a file of any kind and says what it is, or what is wrong with it.
 
 use crate::arguments::CheckArguments;
-use crate::commands::{reduce, system_table};
+use crate::commands::{bevel, reduce, system_table};
 use crate::failure::Failure;
 use crate::{console, offline};
 use gearmesh_bearings::QuasiStaticBearing;
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bevel::{BevelGear, PairFile};
 use gearmesh_geometry::GearDefinition;
+use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
 use gearmesh_report::ReferenceRecord;
@@ -34,6 +35,10 @@ struct Finding {
     lines: Vec<String>,
     /// What is wrong with a file that can be read all the same.
     problem: Option<String>,
+    /// Remarks.
+    notes: Vec<String>,
+    /// Numbers that look like those of another unit.
+    slips: Vec<InputError>,
 }
 
 impl Finding {
@@ -45,6 +50,8 @@ impl Finding {
             facts: Map::new(),
             lines: Vec::new(),
             problem: None,
+            notes: Vec::new(),
+            slips: Vec::new(),
         }
     }
 
@@ -84,6 +91,8 @@ impl Finding {
 /// Runs the command.
 pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let found = found(&arguments.file)?;
+    found.notes.iter().for_each(console::note);
+    console::unit_slips(found.slips.clone());
     if arguments.json {
         found.print_json(&arguments.file);
     } else {
@@ -92,6 +101,18 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     found
         .problem
         .map_or(Ok(()), |text| Err(Failure::work(text)))
+}
+
+/// Demands that a file can be used: the same as the command, without a word. Numbers that look like those of another unit.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn demand(path: &Path) -> Result<Vec<InputError>, Failure> {
+    let found = found(path)?;
+    match found.problem {
+        Some(problem) => Err(Failure::work(problem)),
+        None => Ok(found.slips),
+    }
 }
 
 fn found(path: &Path) -> Result<Finding, Failure> {
@@ -126,21 +147,35 @@ fn found(path: &Path) -> Result<Finding, Failure> {
 
 fn bevel_pair(document: &InputDocument) -> Result<Finding, Failure> {
     let file = PairFile::from_document(document)?;
-    file.checked_design(document)?;
-    Ok(Finding::new("bevel pair", Some(&file.title)))
+    let (design, _) = file.checked_design(document)?;
+    let mut finding = Finding::new("bevel pair", Some(&file.title));
+    finding.lines = bevel::thickness_words(&design, &file);
+    (finding.facts).insert(
+        "backlash_mm".into(),
+        json!(1e3 * design.backlash_m(&file.blank)),
+    );
+    for (i, tooth) in design.teeth.iter().enumerate() {
+        let thickness = bevel::thickness_figures(tooth, design.settings[i].as_ref(), &file);
+        (finding.facts).insert(format!("{}_thickness", tooth.blank.name), thickness);
+    }
+    Ok(finding)
 }
 
 fn bevel_gear(document: &InputDocument, folder: &Path) -> Result<Finding, Failure> {
     let gear = BevelGear::from_document(document, folder)?;
-    console::unit_slips(document.unit_slips());
-    Ok(Finding::new("bevel gear", Some(&gear.name)))
+    let mut finding = Finding::new("bevel gear", Some(&gear.name));
+    finding.slips = document.unit_slips();
+    Ok(finding)
 }
 
 fn bearing(document: &InputDocument) -> Result<Finding, Failure> {
     let found = BearingFromFile::from_document(document)?;
     QuasiStaticBearing::new(&found.definition).map_err(Failure::work)?;
-    found.notes.iter().for_each(console::note);
-    Ok(Finding::new("bearing", Some(&found.definition.name)))
+    let mut finding = Finding::new("bearing", Some(&found.definition.name));
+    let warnings = found.warnings.iter();
+    let warnings = warnings.map(|text| format!("warning: {text}"));
+    finding.notes = found.notes.iter().cloned().chain(warnings).collect();
+    Ok(finding)
 }
 
 fn model(path: &Path) -> Result<Finding, Failure> {
@@ -183,23 +218,24 @@ fn scene(scene: SceneFile) -> Result<Finding, Failure> {
     match scene {
         SceneFile::Pair(scene) => {
             let loaded = load(*scene)?;
-            loaded.scene.notes.iter().for_each(console::note);
-            console::unit_slips(loaded.unit_slips());
-            Ok(Finding::new("scene", Some(&loaded.scene.title)))
+            let mut finding = Finding::new("scene", Some(&loaded.scene.title));
+            finding.slips = loaded.unit_slips();
+            finding.notes = loaded.scene.notes;
+            Ok(finding)
         }
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
-            loaded.scene.notes.iter().for_each(console::note);
-            console::unit_slips(loaded.unit_slips());
             let built = loaded.build()?;
             RunJob::from_scene(loaded.clone())?;
-            built.notes.iter().for_each(console::note);
             let (bodies, joints) = (built.bodies.len(), built.joints.len());
             let elements = built.elements.len();
-            Ok(Finding::new("scene", Some(&loaded.scene.title)).sized(
+            let mut finding = Finding::new("scene", Some(&loaded.scene.title)).sized(
                 format!("{bodies} bodies, {joints} joints and motions, {elements} force elements"),
                 json!({ "bodies": bodies, "joints": joints, "elements": elements }),
-            ))
+            );
+            finding.slips = loaded.unit_slips();
+            finding.notes = [loaded.scene.notes, built.notes].concat();
+            Ok(finding)
         }
     }
 }
@@ -261,7 +297,7 @@ fn record(folder: &Path) -> Result<Finding, Failure> {
 
 fn gear(document: &InputDocument) -> Result<Finding, Failure> {
     let gear = GearDefinition::from_document(document)?;
-    offline::judge_gear(&gear, document)?;
+    offline::demand_body_file(&gear, document)?;
     let p = &gear.profile;
     let form_radius_m = gearmesh_geometry::involute::radius_m(p.form_roll_rad, p.base_radius_m);
     let radii_mm = [
@@ -273,6 +309,7 @@ fn gear(document: &InputDocument) -> Result<Finding, Failure> {
     ]
     .map(|(name, radius_m)| (name, 1e3 * radius_m));
     let mut finding = Finding::new("gear", Some(&gear.name));
+    finding.slips = document.unit_slips();
     let words = radii_mm.map(|(name, mm)| format!("{name} {mm:.4}"));
     let undercut = if p.undercut { "; undercut" } else { "" };
     (finding.lines).push(format!("radii mm: {}{undercut}", words.join(", ")));
@@ -304,8 +341,9 @@ fn gear(document: &InputDocument) -> Result<Finding, Failure> {
         );
     }
     if gear.blank.openings().is_some() && gear.sectors() == 1 {
-        console::warning(
-            "the openings do not divide the teeth: the body does not repeat, and every tooth is solved",
+        finding.notes.push(
+            "warning: the openings do not divide the teeth: the body does not repeat, and every tooth is solved"
+                .to_owned(),
         );
     }
     Ok(finding)

@@ -1,15 +1,20 @@
 //! `gearmesh import`: a gearbox from a REXS file.
 
 use crate::arguments::ImportArguments;
+use crate::commands::import_trial::{SceneRow, Trial};
 use crate::console;
 use crate::failure::Failure;
 use crate::overwriting::apart;
 use gearmesh_geometry::input::read_bytes;
 use gearmesh_model::write_text;
+use gearmesh_report::short;
 use gearmesh_rexs::container::MOST_MB;
-use gearmesh_rexs::{Entry, Import, Meshes, import, model_file};
+use gearmesh_rexs::{Entry, Import, Meshes, Weight, import, model_file};
 use serde_json::{Value, json};
 use std::path::Path;
+
+/// Lines of one sort on the console; all are in the list.
+const MOST_LINES: usize = 20;
 
 /// Runs the command.
 pub fn run(a: &ImportArguments) -> Result<(), Failure> {
@@ -17,42 +22,115 @@ pub fn run(a: &ImportArguments) -> Result<(), Failure> {
     let bytes = read_bytes(&a.model, MOST_MB << 20)
         .map_err(|cause| Failure::input(format!("{shown}: {cause}")))?;
     let stem = a.model.file_stem().unwrap_or_default().to_string_lossy();
+    let made = |bytes, with| {
+        import(bytes, &stem, with).map_err(|cause| Failure::input(format!("{shown}: {cause}")))
+    };
+    let springs = a.reduced.then(|| bytes.clone());
     let with = if a.reduced {
         Meshes::Hybrid
     } else {
         Meshes::Iso6336
     };
-    let made =
-        import(bytes, &stem, with).map_err(|cause| Failure::input(format!("{shown}: {cause}")))?;
+    let found = made(bytes, with)?;
     let list = (
         "import.md".to_owned(),
-        made.ledger.page(&format!(
-            "Import of {}",
-            a.model.file_name().unwrap_or_default().to_string_lossy()
-        )),
+        found.ledger.page(
+            &format!(
+                "Import of {}",
+                a.model.file_name().unwrap_or_default().to_string_lossy()
+            ),
+            with,
+        ),
     );
-    std::fs::create_dir_all(&a.output)
-        .map_err(|cause| Failure::work(format!("{}: {cause}", a.output.display())))?;
-    let files = made.files.iter().map(|f| (f.name.clone(), f.text.clone()));
-    for (name, text) in files.chain([list]) {
-        write(&a.output.join(name), &text, &a.model)?;
+    write(&found, &a.output, Some(list), &a.model)?;
+    let mut trial = Trial::default();
+    if !a.no_run {
+        trial.check(&found, &a.output, !a.reduced);
+        match springs {
+            None => trial.run(&found, &a.output)?,
+            // The models of the gears are not there yet: the loads are those of the same scene with springs.
+            Some(bytes) => {
+                let scratch = tempfile::tempdir().map_err(Failure::work)?;
+                let springs = made(bytes, Meshes::Iso6336)?;
+                write(&springs, scratch.path(), None, &a.model)?;
+                trial.run(&springs, scratch.path())?;
+            }
+        }
+    }
+    let alarms = alarms(&found, with, &trial);
+    told(&alarms, |text| console::warning(text));
+    if let Some((last, others)) = trial.refused.split_first() {
+        let words =
+            |(file, cause): &(String, Failure)| cause.clone().about(&a.output.join(file)).message;
+        told(&others.iter().map(words).collect::<Vec<_>>(), |text| {
+            console::error(text);
+        });
+        return Err(Failure {
+            fault: last.1.fault,
+            message: format!(
+                "{shown}: its files are written, {} cannot be used: {}",
+                match trial.refused.len() {
+                    1 => "but one of them".to_owned(),
+                    n => format!("but {n} of them"),
+                },
+                words(last)
+            ),
+        });
     }
     if a.json {
-        console::json(&figures(&made));
+        console::json(&figures(&found, with, &alarms, &trial));
     } else {
-        table(&made, a);
+        table(&found, with, &alarms, &trial, a);
     }
     Ok(())
 }
 
-fn write(path: &Path, text: &str, model: &Path) -> Result<(), Failure> {
-    apart(path, &[model.to_owned()])?;
-    Ok(write_text(path, text)?)
+fn write(
+    made: &Import,
+    folder: &Path,
+    list: Option<(String, String)>,
+    model: &Path,
+) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder)
+        .map_err(|cause| Failure::work(format!("{}: {cause}", folder.display())))?;
+    let files = made.files.iter().map(|f| (f.name.clone(), f.text.clone()));
+    for (name, text) in files.chain(list) {
+        let path = folder.join(name);
+        apart(&path, &[model.to_owned()])?;
+        write_text(&path, &text)?;
+    }
+    Ok(())
 }
 
-fn table(made: &Import, a: &ImportArguments) {
+fn line(entry: &Entry) -> String {
+    format!("{}: {}", entry.subject, entry.text)
+}
+
+/// What makes the scenes another gearbox than that of the file.
+fn alarms(made: &Import, with: Meshes, trial: &Trial) -> Vec<String> {
+    let entries = made.ledger.of_weight(Weight::Warning, with).map(line);
+    entries.chain(trial.warnings.iter().cloned()).collect()
+}
+
+/// So many lines as a reader reads.
+fn told(lines: &[String], say: impl Fn(&str)) {
+    for line in lines.iter().take(MOST_LINES) {
+        say(line);
+    }
+    if lines.len() > MOST_LINES {
+        say(&format!(
+            "and {} more of this sort in import.md",
+            lines.len() - MOST_LINES
+        ));
+    }
+}
+
+fn table(made: &Import, with: Meshes, alarms: &[String], trial: &Trial, a: &ImportArguments) {
     let folder = &a.output;
     let ledger = &made.ledger;
+    if let Some(row) = trial.scenes.first() {
+        scene(row, a.reduced);
+    }
     console::data(format!(
         "REXS {}, {}: {} values taken, {} assumed, {} not represented ({})",
         made.version,
@@ -65,18 +143,38 @@ fn table(made: &Import, a: &ImportArguments) {
     for file in &made.files {
         console::data(folder.join(&file.name).display());
     }
-    let parts = ledger.not_represented.iter().filter(|e| !e.is_value);
-    for entry in parts {
+    trial.notes.iter().for_each(console::note);
+    let heavy: Vec<String> = ledger.of_weight(Weight::Heavy, with).map(line).collect();
+    if !heavy.is_empty() {
         console::note(format!(
-            "not represented: {}: {}",
-            entry.subject, entry.text
+            "assumptions that may change a torque, a force or a stiffness by more than 1 %: {}",
+            heavy.len()
+        ));
+        told(&heavy, |text| console::note(text));
+    }
+    let light = ledger.of_weight(Weight::Light, with);
+    let values = { light }.partition::<Vec<&Entry>, _>(|e| e.is_value);
+    console::note(format!(
+        "{} further assumptions and omissions of less than 1 %, and {} values that nothing asked for: {}",
+        values.1.len(),
+        values.0.len(),
+        folder.join("import.md").display()
+    ));
+    if alarms.is_empty() {
+        next(made, trial, a);
+    } else {
+        console::note(format!(
+            "next: put right in {} what the warnings say, and import it again",
+            a.model.display()
         ));
     }
-    for entry in &ledger.assumed {
-        console::note(format!("assumed: {}: {}", entry.subject, entry.text));
-    }
+}
+
+/// What works after this.
+fn next(made: &Import, trial: &Trial, a: &ImportArguments) {
+    let folder = &a.output;
     if a.reduced {
-        for gear in &made.gears {
+        for gear in made.gears.iter().filter(|gear| trial.works(gear)) {
             console::note(format!(
                 "next: gearmesh reduce {} -o {}",
                 folder.join(gear).display(),
@@ -84,7 +182,10 @@ fn table(made: &Import, a: &ImportArguments) {
             ));
         }
     }
-    if let Some(scene) = made.scenes.first() {
+    if let Some(scene) = made.scenes.first()
+        && trial.works(scene)
+        && made.gears.iter().all(|gear| trial.works(gear))
+    {
         console::note(format!(
             "next: gearmesh run {} -o result.h5",
             folder.join(scene).display()
@@ -92,16 +193,78 @@ fn table(made: &Import, a: &ImportArguments) {
     }
 }
 
-fn figures(made: &Import) -> Value {
+/// The figures of a scene at rest.
+fn scene(row: &SceneRow, reduced: bool) {
+    let springs = if reduced {
+        ", with springs of ISO 6336 for the reduced gears that are not there yet"
+    } else {
+        ""
+    };
+    console::data(format!("{} at rest under its loads{springs}:", row.scene));
+    let names = (row.ports.iter().map(|p| &p.name))
+        .chain(row.shafts.iter().map(|s| &s.0))
+        .chain(row.bearings.iter().map(|b| &b.0))
+        .chain(row.meshes.iter().map(|m| &m.0));
+    let width = names.map(|n| n.chars().count()).max().unwrap_or(0).max(8);
+    let print = |name: &str, cells: &[String]| {
+        let cells = cells.iter().map(|c| format!(" {c:>14}"));
+        console::data(format!("{name:width$}{}", cells.collect::<String>()));
+    };
+    let heads = |name: &str, heads: &[&str]| {
+        print(
+            name,
+            &heads.iter().map(|h| (*h).to_owned()).collect::<Vec<_>>(),
+        );
+    };
+    heads("load", &["speed 1/min", "torque N m", "power W"]);
+    for p in &row.ports {
+        print(
+            &p.name,
+            &[short(p.speed_rpm), short(p.torque_nm), short(p.power_w)],
+        );
+    }
+    let [input, output] = row.power_w();
+    console::data(format!(
+        "power in {} W, out {} W",
+        short(input),
+        short(output)
+    ));
+    heads("shaft", &["speed 1/min", "torque N m"]);
+    for (name, speed, torque) in row.shafts.iter().take(MOST_LINES) {
+        print(name, &[short(*speed), short(*torque)]);
+    }
+    heads("bearing", &["radial N", "axial N"]);
+    for (name, radial, axial) in row.bearings.iter().take(2 * MOST_LINES) {
+        print(name, &[short(*radial), short(*axial)]);
+    }
+    if !row.meshes.is_empty() {
+        heads("mesh", &["normal force N", "K_Hbeta"]);
+    }
+    for (name, force, k_h_beta) in row.meshes.iter().take(MOST_LINES) {
+        let k_h_beta = k_h_beta.map_or("-".to_owned(), |k| format!("{k:.4}"));
+        print(name, &[short(*force), k_h_beta]);
+    }
+}
+
+fn figures(made: &Import, with: Meshes, alarms: &[String], trial: &Trial) -> Value {
     let list = |entries: &[Entry]| -> Value {
         entries
             .iter()
-            .map(|e| json!({ "subject": e.subject, "text": e.text }))
+            .map(|e| {
+                let weight = match e.about.weight(with) {
+                    Weight::Warning => "warning",
+                    Weight::Heavy => "more than 1 %",
+                    Weight::Light => "less than 1 %",
+                };
+                json!({ "subject": e.subject, "text": e.text, "weight": weight })
+            })
             .collect()
     };
     json!({
         "version": made.version,
         "application": made.application,
+        "warnings": alarms,
+        "at_rest": trial.json(),
         "files": made.files.iter().map(|f| &f.name).collect::<Vec<_>>(),
         "scenes": made.scenes,
         "gears": made.gears,

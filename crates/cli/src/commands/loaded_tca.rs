@@ -31,11 +31,19 @@ pub struct Loaded {
     pub models: Option<[(ReducedGear, PathBuf); 2]>,
     /// One for each torque.
     pub found: Vec<LoadedContact>,
+    /// Coefficient of friction, where stated, and z₁/z₂.
+    friction: Option<f64>,
+    ratio: f64,
     /// At all gauges of the models.
     strain: Vec<GaugeStrain>,
 }
 
 impl Loaded {
+    /// Efficiency of the teeth in per cent under a torque, where friction is stated.
+    fn efficiency_percent(&self, of: &LoadedContact) -> Option<f64> {
+        Some(100.0 * of.efficiency(self.friction?, self.ratio))
+    }
+
     /// Width of a slice along the pinion's face \[m\].
     pub fn slice_width_m(&self) -> f64 {
         self.flanks.pair().face_widths_m()[0] / self.slices as f64
@@ -57,6 +65,10 @@ pub fn analyse(
         BevelLoadError::Slices { .. } => Failure::input(error).about(path),
         BevelLoadError::Contact(_) => Failure::work(error).about(path),
     })?;
+    let young_pa = members.map_or(load.material.0, |[a, b]| a.young_pa.min(b.young_pa));
+    if let Some(words) = loaded.too_much_pressure(young_pa) {
+        console::warning(words);
+    }
     let LoadedBevel {
         flanks,
         side,
@@ -73,7 +85,10 @@ pub fn analyse(
             Vec::new()
         }
     };
+    let [pinion, gear] = file.blank.data.teeth;
     Ok(Loaded {
+        friction: load.friction,
+        ratio: pinion as f64 / gear as f64,
         strain,
         side,
         slices,
@@ -174,9 +189,23 @@ pub fn table(file: &PairFile, loaded: &Loaded) {
     for of in &loaded.found {
         console::data(line(&row(loaded, of)));
     }
+    efficiency_words(loaded).into_iter().for_each(console::data);
     loaded_gauges::lines(&loaded.strain)
         .into_iter()
         .for_each(console::data);
+}
+
+/// Efficiency under each torque, where friction is stated.
+fn efficiency_words(loaded: &Loaded) -> Option<String> {
+    let friction = loaded.friction?;
+    let each = loaded.found.iter().filter_map(|of| {
+        let percent = loaded.efficiency_percent(of)?;
+        Some(format!("{percent:.3} % at {} N m", of.torque_nm))
+    });
+    let each = each.collect::<Vec<_>>().join(", ");
+    Some(format!(
+        "efficiency of the teeth with a coefficient of friction of {friction}: {each}"
+    ))
 }
 
 /// All of it for other programs.
@@ -213,6 +242,7 @@ pub fn figures(loaded: &Loaded) -> Value {
             "mean_urad": 1e6 * of.mean_rad(),
             "peak_to_peak_urad": 1e6 * of.peak_to_peak_rad(),
             "best_pair_share": of.load_shares(),
+            "efficiency_percent": loaded.efficiency_percent(of),
             "pairs": of.mean_pairs(),
             "pressure_MPa": 1e-6 * largest,
             "pressure_off_tips_MPa": 1e-6 * off_tips,
@@ -246,7 +276,11 @@ pub fn section(loaded: &Loaded) -> Section {
          inside: where the contact's whole width stands clear of the tips. Toe to heel, root to tip: where the pattern lies on the gear.",
         loaded.body, loaded.slices
     )));
-    section = section.push(table).push(error(loaded));
+    section = section.push(table);
+    if let Some(words) = efficiency_words(loaded) {
+        section = section.push(Text::paragraph(words));
+    }
+    section = section.push(error(loaded));
     if let Some(strain) = loaded_gauges::table(&loaded.strain) {
         section = section.push(strain);
     }

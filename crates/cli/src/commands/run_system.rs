@@ -3,7 +3,7 @@
 //! The table for people is in `system_table.rs`.
 
 use crate::arguments::RunArguments;
-use crate::commands::{ratings, system_table};
+use crate::commands::{losses, pressures, ratings, system_table};
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -55,6 +55,7 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     drop(stop);
     let result = SystemResult::open(&arguments.output).map_err(Failure::work)?;
     ratings::warn(&result.ratings);
+    warn_of_pressures(&result)?;
     if arguments.json {
         console::json(&figures(&result)?);
     } else {
@@ -67,6 +68,16 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
         Some(problem) => Err(Failure::work(problem)),
         None => Ok(()),
     }
+}
+
+/// Contacts of gears and bearings are elastic, whatever presses them.
+fn warn_of_pressures(result: &SystemResult) -> Result<(), Failure> {
+    let columns = result
+        .summaries(|name| name.contains("pressure"))
+        .map_err(Failure::work)?;
+    let pressures = columns.into_iter().filter(|c| c.unit == "Pa");
+    pressures::warn(pressures.map(|c| (c.name, c.figures.largest)));
+    Ok(())
 }
 
 /// The figures for machines.
@@ -83,6 +94,9 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
         value["run"] = run;
     }
     value["ratings"] = ratings::json(&result.ratings);
+    if let losses @ Value::Object(_) = losses::json(result)? {
+        value["losses"] = losses;
+    }
     match result.kind {
         ResultKind::Transient => {
             let passings = result.mesh_passings().map_err(Failure::work)?;

@@ -1,5 +1,6 @@
 //! `gearmesh study`: a scene again and again with some of its keys changed.
 
+use super::pressures;
 use super::study_elsewhere as elsewhere;
 use crate::arguments::StudyArguments;
 use crate::console::{self, RunBar};
@@ -68,6 +69,24 @@ fn here(study: &Study, arguments: &StudyArguments) -> Result<StudyOutcome, Failu
 fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Result<(), Failure> {
     let page = study_page(study, &outcome.cases);
     page_file::write(&page, &arguments.output.join("study.html"))?;
+    let figures = outcome.cases.iter().flat_map(|case| {
+        let columns = case.figures.iter().flatten();
+        columns.map(move |one| (format!("{}, {}", case.case.name(), one.column), one))
+    });
+    pressures::warn(figures.filter_map(|(name, one)| {
+        let to_pa = match one.unit.as_str() {
+            "Pa" => 1.0,
+            "MPa" => 1e6,
+            _ => return None,
+        };
+        let largest = match &one.value {
+            SelectedValue::Single(value) => *value,
+            SelectedValue::Series(figures) => figures.largest,
+        };
+        one.column
+            .contains("pressure")
+            .then_some((name, to_pa * largest))
+    }));
     let failed = outcome
         .cases
         .iter()

@@ -10,7 +10,7 @@ use gearmesh_scene::system_run::{
 };
 
 use crate::commands::periods::MARK;
-use crate::commands::{mesh_axes, ratings};
+use crate::commands::{losses, mesh_axes, ratings};
 use crate::failure::Failure;
 
 /// Lines of the table of columns; all are in the JSON and in the file.
@@ -31,6 +31,7 @@ pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
         ResultKind::Static => [equilibria(result)?, mesh_axes::lines(result)?].concat(),
         ResultKind::Eigen => result.eigen.iter().flat_map(|p| modes(result, p)).collect(),
     });
+    lines.extend(losses::lines(result)?);
     lines.extend(ratings::lines(&result.ratings));
     if let Some(record) = &result.record {
         lines.extend(effort(

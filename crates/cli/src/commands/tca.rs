@@ -5,9 +5,68 @@ use crate::commands::{bevel, bevel_stress, loaded_tca, tca_page};
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
-use gearmesh_bevel::{Flank, PairFile, Sensitivity, ToothContact, sensitivity, tooth_contact};
+use gearmesh_bevel::ease_off::EaseOffMap;
+use gearmesh_bevel::tca::{PathPoint, are_conjugate, ease_off_map};
+use gearmesh_bevel::{
+    AssemblyError, BevelError, Flank, FlankSide, PairDesign, PairFile, Sensitivity, ToothContact,
+    VhCheck, VhSetting, sensitivity, tooth_contact,
+};
 use gearmesh_geometry::input::InputDocument;
 use serde_json::{Value, json};
+
+/// One side of the teeth.
+pub struct Side<'a> {
+    /// Flanks of pinion and gear.
+    pub flanks: [&'a Flank; 2],
+    /// Their contact; none of flanks that touch along lines.
+    pub contact: Option<ToothContact>,
+    /// How further errors of assembly move it; none where only edges touch.
+    pub moved: Option<Sensitivity>,
+    /// What brings the mean contact to toe and heel; none where nothing does.
+    pub vh: Option<VhCheck>,
+    /// Ease-off over the pinion's flank.
+    pub ease_off: EaseOffMap,
+}
+
+impl Side<'_> {
+    /// In words.
+    pub fn name(&self) -> String {
+        let [pinion, gear] = self.flanks.map(|flank| flank.side.word());
+        format!("pinion {pinion} on gear {gear}")
+    }
+}
+
+/// Analyses one side of a pair.
+fn side<'a>(
+    file: &PairFile,
+    design: &'a PairDesign,
+    pinion: FlankSide,
+) -> Result<Side<'a>, BevelError> {
+    let flanks = design.flanks(pinion);
+    if file.tca.error == AssemblyError::default() && are_conjugate(flanks, &file.blank) {
+        return Ok(Side {
+            flanks,
+            contact: None,
+            moved: None,
+            vh: None,
+            ease_off: ease_off_map(flanks, &file.blank, &file.tca.error, file.tca.map)?,
+        });
+    }
+    let contact = tooth_contact(flanks, &file.blank, &file.tca)?;
+    let moved = contact
+        .mean
+        .and_then(|_| sensitivity(flanks, &file.blank, &file.tca.error).ok());
+    let vh = contact
+        .mean
+        .and_then(|_| design.vh_check(&file.blank, pinion, &file.tca.error).ok());
+    Ok(Side {
+        flanks,
+        moved,
+        vh,
+        ease_off: contact.ease_off.clone(),
+        contact: Some(contact),
+    })
+}
 
 /// Runs the command.
 pub fn run(a: &TcaArguments) -> Result<(), Failure> {
@@ -20,35 +79,53 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     let document = InputDocument::read(&a.pair)?;
     let file = PairFile::from_document(&document)?;
     let (design, _) = file.checked_design(&document)?;
-    let flanks = design.flanks(file.pinion_flank);
-    let found = tooth_contact(flanks, &file.blank, &file.tca)
-        .map_err(|error| Failure::work(error.in_file(&document)))?;
-    // Where only edges touch, or along a line, no contact moves with the errors.
-    let moved = found
-        .mean
-        .and_then(|_| sensitivity(flanks, &file.blank, &file.tca.error).ok());
+    let fault = |error: BevelError| Failure::work(error.in_file(&document));
+    let driving = side(&file, &design, file.pinion_flank).map_err(fault)?;
+    // The other side may be out of reach in assemblies in which this one touches.
+    let coast = side(&file, &design, file.pinion_flank.mate());
+    let backlash_m = assembled_backlash_m(&file, &design, &driving, &coast);
+    if let Some(backlash_m) = backlash_m {
+        let jam = design.check_jam(&file.blank, (file.pinion_flank, backlash_m));
+        if let Some(jam) = jam.map_err(fault)? {
+            console::warning(jam);
+        }
+    }
+    let sides: Vec<Side<'_>> = std::iter::once(driving).chain(coast.ok()).collect();
+    for side in &sides {
+        warn_of_edges(side);
+    }
     let loaded = match &file.load {
         Some(load) => Some(loaded_tca::analyse((&file, &design), load, &a.pair)?),
         None => None,
     };
     let (stress, stress_figures) = bevel_stress::asked(a, loaded.as_ref())?.unzip();
+    let thicknesses = bevel::thickness_words(&design, &file);
     if let Some(path) = &a.report {
         let analysed = tca_page::Analysed {
             file: &file,
-            flanks,
-            contact: &found,
-            moved: moved.as_ref(),
+            sides: &sides,
+            backlash_m,
+            thicknesses: &thicknesses,
             loaded: loaded.as_ref(),
             stress,
         };
         tca_page::write(&analysed, a, path)?;
     }
     if a.json {
-        let mut all = figures(&file, flanks, &found, moved.as_ref());
-        if let (Some(loaded), Some(all)) = (&loaded, all.as_object_mut()) {
-            all.insert("load".to_owned(), loaded_tca::figures(loaded));
+        let mut all = figures(&file, &sides[0]);
+        all["title"] = json!(file.title);
+        all["backlash_mm"] = json!(backlash_m.map(|m| 1e3 * m));
+        all["thickness"] = [0, 1]
+            .map(|i: usize| {
+                bevel::thickness_figures(&design.teeth[i], design.settings[i].as_ref(), &file)
+            })
+            .to_vec()
+            .into();
+        all["other_side"] = json!(sides.get(1).map(|side| figures(&file, side)));
+        if let Some(loaded) = &loaded {
+            all["load"] = loaded_tca::figures(loaded);
             if let Some(figures) = stress_figures {
-                all.insert("stress".to_owned(), figures.into());
+                all["stress"] = figures.into();
             }
         }
         console::json(&all);
@@ -56,13 +133,45 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
         if let Some(loaded) = &loaded {
             loaded_tca::table(&file, loaded);
         }
-        let teeth = design.teeth.iter();
-        let thicknesses: Vec<String> = teeth
-            .filter_map(|tooth| bevel::thickness_words(tooth, &file))
-            .collect();
-        table(&file, flanks, &thicknesses, &found, moved.as_ref());
+        table(&file, &sides, &thicknesses, backlash_m);
     }
     Ok(())
+}
+
+/// Least normal backlash of the pair in its assembly; none where one side has no contact that is known.
+fn assembled_backlash_m(
+    file: &PairFile,
+    design: &PairDesign,
+    driving: &Side<'_>,
+    coast: &Result<Side<'_>, BevelError>,
+) -> Option<f64> {
+    let [a, b] = [Some(driving), coast.as_ref().ok()].map(|side| side?.contact.as_ref());
+    match (a, b) {
+        (Some(a), Some(b)) => {
+            let sides = match file.pinion_flank {
+                FlankSide::Concave => [a, b],
+                FlankSide::Convex => [b, a],
+            };
+            Some(design.assembled_backlash_m(&file.blank, sides))
+        }
+        // Conjugate flanks have no transmission error.
+        (None, None) if coast.is_ok() => Some(design.backlash_m(&file.blank)),
+        _ => None,
+    }
+}
+
+/// Flanks that nowhere touch inside their limits are no mates, or stand far off their places.
+fn warn_of_edges(side: &Side<'_>) {
+    if side
+        .contact
+        .as_ref()
+        .is_some_and(|c| c.contact_ratio == 0.0)
+    {
+        console::warning(format!(
+            "{}: only edges touch, the flanks do not meet inside their limits: settings of one pair, and the errors of assembly?",
+            side.name()
+        ));
+    }
 }
 
 /// Said instead of sensitivities.
@@ -97,26 +206,118 @@ pub(super) fn worth_of_points(flanks: [&Flank; 2]) -> Vec<String> {
     flanks.into_iter().filter_map(words).collect()
 }
 
-fn table(
-    file: &PairFile,
-    flanks: [&Flank; 2],
-    thicknesses: &[String],
-    found: &ToothContact,
-    moved: Option<&Sensitivity>,
-) {
-    console::data(format!(
-        "{}: pinion {} on gear {}; transmission error peak to peak {:.3} urad of the gear, contact ratio of the path {:.4}, edges touch first on {:.1} % of it",
-        file.title,
-        file.pinion_flank.word(),
-        file.pinion_flank.mate().word(),
-        1e6 * found.peak_to_peak_rad,
-        found.contact_ratio,
-        100.0 * found.edge_share
-    ));
-    worth_of_points(flanks).into_iter().for_each(console::data);
+/// The first line of a side.
+pub(super) fn headline(side: &Side<'_>) -> String {
+    match &side.contact {
+        None => format!(
+            "{}: conjugate, the flanks touch along lines and have no path of contact and no transmission error; their ease-off is below",
+            side.name()
+        ),
+        Some(found) => format!(
+            "{}; transmission error peak to peak {:.3} urad of the gear, contact ratio of the path {:.4}, edges touch first on {:.1} % of it",
+            side.name(),
+            1e6 * found.peak_to_peak_rad,
+            found.contact_ratio,
+            100.0 * found.edge_share
+        ),
+    }
+}
+
+/// Rows of the V/H check: where the contact is brought and by what; E, P, G in mm, the shaft angle in mrad.
+pub(super) fn vh_rows(vh: &VhCheck) -> Vec<(&'static str, [f64; 6])> {
+    let row = |s: &VhSetting| {
+        let e = &s.error;
+        let mm = [
+            s.place_m[0],
+            s.place_m[1],
+            e.offset_m,
+            e.pinion_axial_m,
+            e.gear_axial_m,
+        ];
+        let [l, h, v, p, g] = mm.map(|x| 1e3 * x);
+        [l, h, v, p, g, 1e3 * e.shaft_angle_rad]
+    };
+    let [toe, heel] = &vh.by_offset;
+    let mut rows = vec![("toe by offset", row(toe)), ("heel by offset", row(heel))];
+    if let Some([toe, heel]) = &vh.by_shaft_angle {
+        rows.extend([
+            ("toe by shaft angle", row(toe)),
+            ("heel by shaft angle", row(heel)),
+        ]);
+    }
+    rows
+}
+
+/// What the assembly leaves between the flanks that do not drive.
+pub(super) fn backlash_words(backlash_m: f64) -> String {
+    format!(
+        "backlash in this assembly at least {:.4} mm along the normal at the gear's mean point",
+        1e3 * backlash_m
+    )
+}
+
+fn table(file: &PairFile, sides: &[Side<'_>], thicknesses: &[String], backlash_m: Option<f64>) {
+    let side = &sides[0];
+    console::data(format!("{}: {}", file.title, headline(side)));
+    worth_of_points(side.flanks)
+        .into_iter()
+        .for_each(console::data);
     thicknesses.iter().for_each(console::data);
+    if let Some(found) = &side.contact {
+        path_table(file, found);
+        match side.moved.as_ref() {
+            None => console::data(NO_MEAN),
+            Some(moved) => {
+                console::data(
+                    "mean contact moves on the gear by     along the tooth   up the flank",
+                );
+                for (name, [along, up]) in moves(moved) {
+                    console::data(format!("{name:<37} {along:>15.4} {up:>14.4}"));
+                }
+            }
+        }
+    }
+    for side in sides {
+        if let Some(vh) = &side.vh {
+            console::data(format!(
+                "V/H check, {}: further errors that bring the mean contact to a quarter of the face from toe and heel, backlash kept by G",
+                side.name()
+            ));
+            console::data(
+                "contact at            gear: L mm     h mm   offset E mm   pinion P mm   gear G mm   shaft angle mrad",
+            );
+            for (name, [l, h, v, p, g, angle]) in vh_rows(vh) {
+                console::data(format!(
+                    "{name:<20} {l:>11.4} {h:>8.4} {v:>13.4} {p:>13.4} {g:>11.4} {angle:>18.4}"
+                ));
+            }
+        }
+    }
+    if let Some(backlash_m) = backlash_m {
+        console::data(backlash_words(backlash_m));
+    }
+    for other in &sides[1..] {
+        console::data(format!("the other flanks: {}", headline(other)));
+    }
+    for side in sides {
+        console::data(format!(
+            "ease-off of the pinion, {}: L mm, h mm, um",
+            side.name()
+        ));
+        for ([cone, height], e) in &side.ease_off {
+            let gap = e.map_or_else(|| "-".to_owned(), |e| format!("{:.3}", 1e6 * e.gap_m));
+            console::data(format!(
+                "{:>12.4} {:>9.4} {gap:>9}",
+                1e3 * cone,
+                1e3 * height
+            ));
+        }
+    }
+}
+
+fn path_table(file: &PairFile, found: &ToothContact) {
     console::data(
-        "pinion deg   TE urad   gear: L mm     h mm   ellipse mm: long  short   first   touches",
+        "pinion deg   TE urad  with constant   gear: L mm     h mm   ellipse mm: long  short   first   touches",
     );
     for p in &found.path {
         let ellipse = p.ellipse.map_or_else(
@@ -127,75 +328,66 @@ fn table(
             },
         );
         console::data(format!(
-            "{:>10.4} {:>9.3} {:>12.4} {:>8.4} {ellipse}   {:<5}   {}",
+            "{:>10.4} {:>9.3} {:>14.3} {:>12.4} {:>8.4} {ellipse}   {:<5}   {}",
             p.pinion_turn_rad.to_degrees(),
             1e6 * p.error_rad,
+            1e6 * p.lead_rad,
             1e3 * p.places_m[1][0],
             1e3 * p.places_m[1][1],
             if p.leading { "yes" } else { "no" },
             p.kind.words()
         ));
     }
-    match moved {
-        None => console::data(NO_MEAN),
-        Some(moved) => {
-            console::data("mean contact moves on the gear by     along the tooth   up the flank");
-            for (name, [along, up]) in moves(moved) {
-                console::data(format!("{name:<37} {along:>15.4} {up:>14.4}"));
-            }
-        }
-    }
-    console::data("ease-off of the pinion: L mm, h mm, um");
-    for ([cone, height], e) in &found.ease_off {
-        let gap = e.map_or_else(|| "-".to_owned(), |e| format!("{:.3}", 1e6 * e.gap_m));
-        console::data(format!(
-            "{:>12.4} {:>9.4} {gap:>9}",
-            1e3 * cone,
-            1e3 * height
-        ));
-    }
 }
 
-fn figures(
-    file: &PairFile,
-    flanks: [&Flank; 2],
-    found: &ToothContact,
-    moved: Option<&Sensitivity>,
-) -> Value {
-    let path: Vec<Value> = found
-        .path
-        .iter()
-        .map(|p| {
-            let ellipse = p.ellipse.map(|e| {
-                e.half_lengths_m(file.tca.marking_m)
-                    .map(|x| x.is_finite().then_some(1e3 * x))
-            });
-            json!({
-                "pinion_deg": p.pinion_turn_rad.to_degrees(),
-                "error_urad": 1e6 * p.error_rad,
-                "touches": p.kind.words(),
-                "first": p.leading,
-                "pinion_place_mm": p.places_m[0].map(|x| 1e3 * x),
-                "gear_place_mm": p.places_m[1].map(|x| 1e3 * x),
-                "ellipse_half_lengths_mm": ellipse,
-            })
+fn figures(file: &PairFile, side: &Side<'_>) -> Value {
+    let point = |p: &PathPoint| {
+        let ellipse = p.ellipse.map(|e| {
+            e.half_lengths_m(file.tca.marking_m)
+                .map(|x| x.is_finite().then_some(1e3 * x))
+        });
+        json!({
+            "pinion_deg": p.pinion_turn_rad.to_degrees(),
+            "error_urad": 1e6 * p.error_rad,
+            "lead_urad": 1e6 * p.lead_rad,
+            "touches": p.kind.words(),
+            "first": p.leading,
+            "between_steps": p.is_between,
+            "pinion_place_mm": p.places_m[0].map(|x| 1e3 * x),
+            "gear_place_mm": p.places_m[1].map(|x| 1e3 * x),
+            "ellipse_half_lengths_mm": ellipse,
         })
-        .collect();
-    let map: Vec<Value> = found
+    };
+    let map: Vec<Value> = side
         .ease_off
         .iter()
         .map(|([l, h], e)| json!([1e3 * l, 1e3 * h, e.map(|e| 1e6 * e.gap_m)]))
         .collect();
-    json!({
-        "title": file.title,
-        "pinion_flank": file.pinion_flank.word(),
-        "peak_to_peak_urad": 1e6 * found.peak_to_peak_rad,
-        "contact_ratio": found.contact_ratio,
-        "edge_share": found.edge_share,
-        "fit_of_points": flanks.map(|flank| flank.grid_fit().map(bevel::fit_figures)),
-        "error_urad": found.error_rad.iter().map(|x| 1e6 * x).collect::<Vec<_>>(),
-        "path": path,
+    let vh = |vh: &VhCheck| {
+        let row = |(name, [l, h, v, p, g, angle]): (&str, [f64; 6])| {
+            json!({
+                "contact": name, "gear_place_mm": [l, h], "offset_mm": v, "pinion_axial_mm": p, "gear_axial_mm": g,
+                "shaft_angle_mrad": angle,
+            })
+        };
+        Value::from(vh_rows(vh).into_iter().map(row).collect::<Vec<_>>())
+    };
+    let mut all = json!({
+        "vh_check": side.vh.as_ref().map(vh),
+        "pinion_flank": side.flanks[0].side.word(),
+        "conjugate": side.contact.is_none(),
+        "fit_of_points": side.flanks.map(|flank| flank.grid_fit().map(bevel::fit_figures)),
         "ease_off_mm_mm_um": map,
-        "sensitivity": moved.map(|moved| moves(moved).into_iter().map(|(k, v)| (k.to_owned(), json!(v))).collect::<serde_json::Map<_, _>>()),
-    })
+        "sensitivity": side.moved.as_ref().map(|moved| moves(moved).into_iter().map(|(k, v)| (k.to_owned(), json!(v))).collect::<serde_json::Map<_, _>>()),
+    });
+    if let Some(found) = &side.contact {
+        all["peak_to_peak_urad"] = json!(1e6 * found.peak_to_peak_rad);
+        all["constant_urad"] = json!(1e6 * found.largest_rad);
+        all["contact_ratio"] = json!(found.contact_ratio);
+        all["edge_share"] = json!(found.edge_share);
+        let errors = found.error_rad.iter().map(|x| 1e6 * x);
+        all["error_urad"] = errors.collect::<Vec<_>>().into();
+        all["path"] = found.path.iter().map(point).collect();
+    }
+    all
 }

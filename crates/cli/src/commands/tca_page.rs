@@ -1,13 +1,13 @@
 //! The page of `gearmesh tca --report`: contact pattern, transmission error, ease-off, and what assembly errors do.
 
 use super::loaded_tca::{self, Loaded};
-use super::tca::{NO_MEAN, moves, worth_of_points};
+use super::tca::{NO_MEAN, Side, headline, moves, vh_rows, worth_of_points};
 use crate::arguments::TcaArguments;
 use crate::failure::Failure;
 use crate::page_file;
 use gearmesh_bevel::tca::{PathPoint, ease_off_map};
 use gearmesh_bevel::{
-    Assembly, BevelError, ContactKind, EaseOff, Flank, PairFile, Sensitivity, ToothContact,
+    Assembly, BevelError, ContactKind, EaseOff, Flank, MemberBlank, PairFile, ToothContact,
 };
 use gearmesh_report::page::{
     Align, Axis, FieldPicture, FieldValues, FlankChart, KeyFigures, LineChart, LineSeries, Page,
@@ -26,10 +26,12 @@ const CORNERS: usize = 48;
 /// What was analysed.
 pub struct Analysed<'a> {
     pub file: &'a PairFile,
-    /// Pinion and gear.
-    pub flanks: [&'a Flank; 2],
-    pub contact: &'a ToothContact,
-    pub moved: Option<&'a Sensitivity>,
+    /// The side that drives, and the other one where it has contacts.
+    pub sides: &'a [Side<'a>],
+    /// Least normal backlash in this assembly.
+    pub backlash_m: Option<f64>,
+    /// How thick the teeth are.
+    pub thicknesses: &'a [String],
     /// Under load, where the file asks for it.
     pub loaded: Option<&'a Loaded>,
     /// Pictures of both members' stress, where they are asked for.
@@ -45,21 +47,13 @@ pub fn write(of: &Analysed<'_>, a: &TcaArguments, path: &Path) -> Result<(), Fai
 }
 
 fn page(of: &Analysed<'_>, a: &TcaArguments) -> Result<Page, BevelError> {
-    let [pinion, gear] = of.flanks.map(|flank| flank.side.word());
-    let pattern = Section::new("Contact pattern")
-        .push(Text::paragraph(format!(
-            "What touches at the positions at which this pair of teeth leads: ellipses on which the flanks are nearer than {} µm, and the path. \
-             Across is the distance from the apex along the pitch cone, up the height above it.",
-            short(1e6 * of.file.tca.marking_m)
-        )))
-        .push(pattern(of, 1)?)
-        .push(pattern(of, 0)?);
     let load = of
         .loaded
         .map_or("without load", |_| "without and with load");
     let mut page = Page::new(of.file.title.clone())
         .subtitle(format!(
-            "Tooth contact analysis: pinion {pinion} on gear {gear}, {load}"
+            "Tooth contact analysis: {}, {load}",
+            of.sides[0].name()
         ))
         .section(at_a_glance(of));
     if let Some(loaded) = of.loaded {
@@ -68,11 +62,32 @@ fn page(of: &Analysed<'_>, a: &TcaArguments) -> Result<Page, BevelError> {
     if let Some(stress) = &of.stress {
         page = page.section(stress.clone());
     }
+    let mut pattern = Section::new("Contact pattern").push(Text::paragraph(format!(
+        "What touches at the positions at which this pair of teeth leads: ellipses on which the flanks are nearer than {} µm, and the path. \
+         Across is the distance from the apex along the pitch cone, up the height above it. The flanks that drive first, then the others.",
+        short(1e6 * of.file.tca.marking_m)
+    )));
+    let mut errors = Section::new("Transmission error");
+    let mut ease_offs = Section::new("Ease-off");
+    let mut moves = Section::new("Assembly errors");
+    for side in of.sides {
+        match &side.contact {
+            Some(contact) => {
+                for member in [1, 0] {
+                    pattern = pattern.push(self::pattern(of, (side.flanks, contact), member)?);
+                }
+                errors = errors.push(error(of, side, contact));
+                moves = assembly_errors(moves, side);
+            }
+            None => pattern = pattern.push(Text::paragraph(headline(side))),
+        }
+        ease_offs = ease_offs.push(ease_off(of, side)?);
+    }
     Ok(page
         .section(pattern)
-        .section(Section::new("Transmission error").push(error(of)))
-        .section(Section::new("Ease-off").push(ease_off(of)?))
-        .section(assembly_errors(of))
+        .section(errors)
+        .section(ease_offs)
+        .section(moves)
         .footer(format!(
             "{} by gearmesh {}",
             a.pair.display(),
@@ -93,26 +108,37 @@ fn at_a_glance(of: &Analysed<'_>) -> Section {
             "µrad of the gear",
         )
     });
-    let name = match of.loaded {
-        Some(_) => "transmission error without load, peak to peak",
-        None => "transmission error, peak to peak",
-    };
+    let figures = of
+        .sides
+        .iter()
+        .enumerate()
+        .fold(figures, |figures, (i, side)| {
+            let Some(contact) = &side.contact else {
+                return figures;
+            };
+            let whose = if i == 0 { "" } else { "other flanks: " };
+            let load = of.loaded.map_or("", |_| " without load");
+            figures
+                .figure(
+                    format!("{whose}transmission error{load}, peak to peak"),
+                    short(1e6 * contact.peak_to_peak_rad),
+                    "µrad of the gear",
+                )
+                .figure(
+                    format!("{whose}contact ratio of the path"),
+                    short(contact.contact_ratio),
+                    "",
+                )
+                .figure(
+                    format!("{whose}edges touch first on"),
+                    short(100.0 * contact.edge_share),
+                    "% of the path",
+                )
+        });
+    let figures = of.backlash_m.into_iter().fold(figures, |figures, m| {
+        figures.figure("least normal backlash", short(1e3 * m), "mm")
+    });
     let figures = figures
-        .figure(
-            name,
-            short(1e6 * of.contact.peak_to_peak_rad),
-            "µrad of the gear",
-        )
-        .figure(
-            "contact ratio of the path",
-            short(of.contact.contact_ratio),
-            "",
-        )
-        .figure(
-            "edges touch first on",
-            short(100.0 * of.contact.edge_share),
-            "% of the path",
-        )
         .figure(
             "assembled with offset, pinion axial, gear axial",
             [error.offset_m, error.pinion_axial_m, error.gear_axial_m]
@@ -126,16 +152,21 @@ fn at_a_glance(of: &Analysed<'_>) -> Section {
             "mrad",
         );
     let section = Section::new("At a glance").push(figures);
-    worth_of_points(of.flanks)
-        .into_iter()
+    let worth = of.sides.iter().flat_map(|s| worth_of_points(s.flanks));
+    worth
+        .chain(of.thicknesses.iter().cloned())
         .fold(section, |section, words| {
             section.push(Text::paragraph(words))
         })
 }
 
 /// The flank of a member with its ellipses and the path.
-fn pattern(of: &Analysed<'_>, member: usize) -> Result<FlankChart, BevelError> {
-    let flank = of.flanks[member];
+fn pattern(
+    of: &Analysed<'_>,
+    (flanks, contact): ([&Flank; 2], &ToothContact),
+    member: usize,
+) -> Result<FlankChart, BevelError> {
+    let flank = flanks[member];
     let blank = &flank.blank;
     let (toe, heel) = (blank.inner_cone_m(), blank.outer_cone_m);
     let mut outline = Vec::new();
@@ -151,18 +182,19 @@ fn pattern(of: &Analysed<'_>, member: usize) -> Result<FlankChart, BevelError> {
     let name = format!("{} of the {}", flank.side.word(), blank.name);
     let mut chart = FlankChart::new(format!("Flank: {name}"), mm(outline));
     let assembly = Assembly::new(&of.file.blank, &of.file.tca.error);
-    for point in of.contact.path.iter().filter(|point| point.leading) {
-        if let Some(corners) = ellipse(of, &assembly, member, point) {
+    let drawn = |point: &&PathPoint| point.leading && !point.is_between;
+    for point in contact.path.iter().filter(drawn) {
+        if let Some(corners) = ellipse((of, blank), &assembly, member, point) {
             chart = chart.patch(mm(corners));
         }
     }
     let places = |wanted: &dyn Fn(&PathPoint) -> bool| {
-        let path = of.contact.path.iter().filter(|p| wanted(p));
+        let path = contact.path.iter().filter(|p| wanted(p));
         mm(path.map(|p| p.places_m[member]).collect())
     };
     let on_flanks = |p: &PathPoint| p.kind == ContactKind::Flanks;
     chart = chart.line("path of contact", places(&on_flanks));
-    for (edge, points) in edges(&of.contact.path) {
+    for (edge, points) in edges(&contact.path) {
         chart = chart.line(
             edge,
             mm(points.iter().map(|p| p.places_m[member]).collect()),
@@ -187,12 +219,11 @@ fn edges(path: &[PathPoint]) -> Vec<(String, Vec<&PathPoint>)> {
 /// Corners of a contact's ellipse on a member: cone distance and height. None at edges, and where the flanks are nearer than the
 /// marking all along.
 fn ellipse(
-    of: &Analysed<'_>,
+    (of, blank): (&Analysed<'_>, &MemberBlank),
     assembly: &Assembly,
     member: usize,
     point: &PathPoint,
 ) -> Option<Vec<[f64; 2]>> {
-    let blank = &of.flanks[member].blank;
     let marking = of.file.tca.marking_m;
     let [long, short] = point.ellipse?.on_flank_m(
         marking,
@@ -208,41 +239,56 @@ fn ellipse(
 }
 
 /// The curve of this pair of teeth, and of the pairs before and after it.
-fn error(of: &Analysed<'_>) -> LineChart {
+fn error(of: &Analysed<'_>, side: &Side<'_>, contact: &ToothContact) -> LineChart {
     let pitch = 360.0 / of.file.blank.data.teeth[0] as f64;
-    let path = &of.contact.path;
-    let turns: Vec<f64> = path
-        .iter()
-        .map(|p| p.pinion_turn_rad.to_degrees())
-        .collect();
-    let values: Vec<f64> = path.iter().map(|p| 1e6 * p.error_rad).collect();
     let step = pitch / of.file.tca.per_pitch as f64;
-    let (first, last) = (turns[0], turns[turns.len() - 1]);
-    let number = |x: f64| (x / step).round() as i64;
-    let x: Vec<i64> = (number(first - pitch)..=number(last + pitch)).collect();
-    // Turns at which a pair does not touch stay empty.
-    let pair = |ahead: i64| {
-        x.iter()
-            .map(|i| {
-                let own = i - ahead * of.file.tca.per_pitch as i64;
-                let found = turns.iter().position(|turn| number(*turn) == own);
-                found.map_or(f64::NAN, |k| values[k])
-            })
-            .collect::<Vec<_>>()
+    let own: Vec<[f64; 2]> = contact
+        .path
+        .iter()
+        .map(|p| [p.pinion_turn_rad.to_degrees(), 1e6 * p.error_rad])
+        .collect();
+    let mut x: Vec<f64> = [-pitch, 0.0, pitch]
+        .into_iter()
+        .flat_map(|by| own.iter().map(move |p| p[0] + by))
+        .collect();
+    x.sort_by(f64::total_cmp);
+    x.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * pitch);
+    // Turns at which a pair does not touch stay empty; between its own positions a pair is drawn straight.
+    let pair = |ahead: f64| {
+        let at = |x: &f64| {
+            let turn = x - ahead * pitch;
+            let near = |p: &&[f64; 2]| (p[0] - turn).abs() < 1e-9 * pitch;
+            if let Some(p) = own.iter().find(near) {
+                return p[1];
+            }
+            let next = own.partition_point(|p| p[0] < turn);
+            let [Some(a), Some(b)] = [next.checked_sub(1), Some(next)].map(|i| own.get(i?)) else {
+                return f64::NAN;
+            };
+            if b[0] - a[0] > 1.5 * step {
+                return f64::NAN;
+            }
+            a[1] + (b[1] - a[1]) * (turn - a[0]) / (b[0] - a[0])
+        };
+        x.iter().map(at).collect::<Vec<_>>()
     };
-    LineChart::new(
-        "Transmission error of three pairs of teeth; the uppermost one leads",
+    let chart = LineChart::new(
+        format!(
+            "Transmission error of three pairs of teeth, {}; the uppermost one leads",
+            side.name()
+        ),
         Axis::new("turn of the pinion", "deg"),
         Axis::new("gear ahead of constant ratio", "µrad"),
-    )
-    .x_values(x.iter().map(|i| *i as f64 * step).collect())
-    .series(LineSeries::new("pair before", pair(-1)))
-    .series(LineSeries::new("this pair", pair(0)))
-    .series(LineSeries::new("pair after", pair(1)))
+    );
+    chart
+        .series(LineSeries::new("pair before", pair(-1.0)))
+        .series(LineSeries::new("this pair", pair(0.0)))
+        .series(LineSeries::new("pair after", pair(1.0)))
+        .x_values(x)
 }
 
-fn ease_off(of: &Analysed<'_>) -> Result<FieldPicture, BevelError> {
-    let map = ease_off_map(of.flanks, &of.file.blank, &of.file.tca.error, MAP)?;
+fn ease_off(of: &Analysed<'_>, side: &Side<'_>) -> Result<FieldPicture, BevelError> {
+    let map = ease_off_map(side.flanks, &of.file.blank, &of.file.tca.error, MAP)?;
     let nodes = map.iter().map(|(place, _)| place.map(|x| 1e3 * x));
     let gap = |e: &Option<EaseOff>| e.map_or(0.0, |e| 1e6 * e.gap_m);
     let values = map.iter().map(|(_, e)| gap(e));
@@ -254,7 +300,10 @@ fn ease_off(of: &Analysed<'_>) -> Result<FieldPicture, BevelError> {
         .filter(|quad| quad.iter().all(|n| map[*n as usize].1.is_some()))
         .collect();
     Ok(FieldPicture::new(
-        "What the pinion's flank lacks of the gear's conjugate, toe left, tip up",
+        format!(
+            "What the pinion's flank lacks of the gear's conjugate, toe left, tip up: {}",
+            side.name()
+        ),
         "ease-off",
         "µm",
     )
@@ -262,17 +311,42 @@ fn ease_off(of: &Analysed<'_>) -> Result<FieldPicture, BevelError> {
     .values(FieldValues::PerNode(values.collect())))
 }
 
-fn assembly_errors(of: &Analysed<'_>) -> Section {
-    let section = Section::new("Assembly errors");
-    let Some(moved) = of.moved else {
-        return section.push(Text::paragraph(NO_MEAN));
+fn assembly_errors(section: Section, side: &Side<'_>) -> Section {
+    let Some(moved) = &side.moved else {
+        return section.push(Text::paragraph(format!("{}: {NO_MEAN}", side.name())));
     };
-    let mut table = Table::new("How the mean contact moves on the gear")
-        .column("by", Align::Left)
-        .column("along the tooth", Align::Right)
-        .column("up the flank", Align::Right);
+    let mut table = Table::new(format!(
+        "How the mean contact moves on the gear: {}",
+        side.name()
+    ))
+    .column("by", Align::Left)
+    .column("along the tooth", Align::Right)
+    .column("up the flank", Align::Right);
     for (name, [along, up]) in moves(moved) {
         table.push_row([name.to_owned(), short(along), short(up)]);
+    }
+    let section = section.push(table);
+    let Some(vh) = &side.vh else {
+        return section;
+    };
+    let mut table = Table::new(format!(
+        "V/H check: further errors that bring the mean contact to a quarter of the face from toe and heel, backlash kept by G: {}",
+        side.name()
+    ))
+    .column("contact at", Align::Left);
+    for name in [
+        "gear: L mm",
+        "h mm",
+        "offset E mm",
+        "pinion P mm",
+        "gear G mm",
+        "shaft angle mrad",
+    ] {
+        table = table.column(name, Align::Right);
+    }
+    for (name, values) in vh_rows(vh) {
+        let [l, h, v, p, g, angle] = values.map(|x| format!("{x:.4}"));
+        table.push_row([name.to_owned(), l, h, v, p, g, angle]);
     }
     section.push(table)
 }

@@ -226,3 +226,90 @@ fn a_bearing_without_load_has_plain_zeros() {
         &["a second row, or turn the load round"],
     );
 }
+
+/// The clearance in operation stands in print, page and JSON, its terms sum up, and the balls have it.
+#[test]
+fn a_fit_is_printed_term_by_term() {
+    let desk = Desk::new();
+    let text = "kind = \"catalogue\"\ndesignation = \"6205\"\nradial_clearance_um = 20.0\n[fit]\nshaft_interference_um = 9.0\n\
+                inner_ring_temperature_C = 70.0\nouter_ring_temperature_C = 60.0\n";
+    let file = desk.file("fitted.toml", text);
+    let page = desk.path("fitted.html");
+    let load = ["bearing", argument(&file), "--load-N", "1000,0,0"];
+    let json = succeeds(&[&load[..], &["--json", "--report", argument(&page)]].concat()).json();
+    let clearance = &json["clearance"];
+    let um = |key: &str| clearance[key].as_f64().unwrap();
+    let terms = [
+        "stated_um",
+        "by_shaft_um",
+        "by_housing_um",
+        "by_inner_ring_heat_um",
+        "by_outer_ring_heat_um",
+        "by_element_heat_um",
+    ];
+    let sum: f64 = terms.into_iter().map(um).sum();
+    near(&clearance["operating_um"], sum, 1e-12);
+    assert!(um("operating_um") < 12.0 && um("by_shaft_um") < -7.0);
+    let print = succeeds(&load).stdout;
+    let page = std::fs::read_to_string(&page).unwrap();
+    for words in [&print, &page] {
+        assert!(words.contains("heat of the inner ring"), "{words}");
+        assert!(words.contains("pressure 12."), "{words}");
+    }
+    let plain = text
+        .split("[fit]")
+        .next()
+        .unwrap()
+        .replace("20.0", &um("operating_um").to_string());
+    let file = desk.file("plain.toml", plain);
+    let other = succeeds(&["bearing", argument(&file), "--load-N", "1000,0,0", "--json"]).json();
+    near(
+        &json["displacement_um"][0],
+        other["displacement_um"][0].as_f64().unwrap(),
+        1e-4,
+    );
+    assert!(other.get("clearance").is_none());
+}
+
+/// Friction stands in print, page and JSON; a missing ball is told by name.
+#[test]
+fn friction_and_missing_balls_are_printed() {
+    let desk = Desk::new();
+    let text = format!(
+        "{B218}[friction]\nviscosity_mm2_per_s = 30.0\nseal_torque_Nm = 0.1\n[[fault]]\nkind = \"missing\"\nelement = 3\n"
+    );
+    let file = desk.file("rubs.toml", text);
+    let page = desk.path("rubs.html");
+    let load = [
+        "bearing",
+        argument(&file),
+        "--load-N",
+        "0,0,17800",
+        "--speed-rpm",
+        "1500",
+    ];
+    let json = succeeds(&[&load[..], &["--json", "--report", argument(&page)]].concat()).json();
+    let friction = |key: &str| json["friction"][key].as_f64().unwrap();
+    near(
+        &json["friction"]["torque_Nm"],
+        friction("viscous_Nm") + friction("load_Nm") + 0.1,
+        1e-12,
+    );
+    near(
+        &json["friction"]["power_W"],
+        friction("torque_Nm") * 50.0 * std::f64::consts::PI,
+        1e-12,
+    );
+    assert_eq!(json["rows"][0][2]["missing"], true);
+    let print = succeeds(&load).stdout;
+    assert!(
+        print.contains("friction torque") && print.contains("power loss"),
+        "{print}"
+    );
+    assert!(print.contains("  45.00         missing"), "{print}");
+    assert!(
+        std::fs::read_to_string(&page)
+            .unwrap()
+            .contains("power loss")
+    );
+}

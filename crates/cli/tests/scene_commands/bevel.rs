@@ -17,6 +17,7 @@ fn printed_settings_are_read_back() {
         "bevel_13_35.toml",
         "bevel_31_36.toml",
         "bevel_38_51.toml",
+        "bevel_8_48.toml",
     ] {
         let file = shipped(name);
         succeeds(&["check", &file]);
@@ -31,7 +32,7 @@ fn printed_settings_are_read_back() {
         for (a, b) in first.into_iter().zip(second) {
             assert!((a - b).abs() < 1e-6 * a, "{name}: {a} {b}");
         }
-        assert!(first[1] > 0.9 && first[0] < 100.0, "{name}: {first:?}");
+        assert!(first[1] > 0.9 && first[0] < 300.0, "{name}: {first:?}");
     }
 }
 
@@ -264,19 +265,28 @@ fn the_page_of_a_contact_analysis_has_its_pattern() {
         "Contact pattern",
         "Flank: convex of the gear",
         "Flank: concave of the pinion",
+        "Flank: convex of the pinion",
+        "V/H check",
         ">toe</text>",
         "Ease-off",
         "pinion axial, mm per mm",
     ] {
         assert!(html.contains(part), "`{part}` is not in the page");
     }
-    let path = json["path"].as_array().unwrap();
-    let ellipses = path.iter().filter(|p| {
-        let lengths = p["ellipse_half_lengths_mm"].as_array();
-        p["first"] == true && lengths.is_some_and(|l| l.iter().all(|x| x.is_number()))
-    });
+    // Both sides of the teeth, at equal steps.
+    let ellipses = |side: &serde_json::Value| {
+        let path = side["path"].as_array().unwrap();
+        let drawn = path.iter().filter(|p| {
+            let lengths = p["ellipse_half_lengths_mm"].as_array();
+            p["first"] == true
+                && p["between_steps"] == false
+                && lengths.is_some_and(|l| l.iter().all(|x| x.is_number()))
+        });
+        drawn.count()
+    };
     let drawn = html.matches("fill-opacity=\"0.13\"").count();
-    assert_eq!(drawn, 2 * ellipses.count());
+    let expected = ellipses(&json) + ellipses(&json["other_side"]);
+    assert_eq!(drawn, 2 * expected);
     assert!(drawn > 20, "{drawn}");
     let other = desk.file("page.pdf", "");
     let wrong = ["tca", argument(&file), "--report", argument(&other)];
@@ -361,4 +371,108 @@ fn what_cannot_be_cut_is_refused() {
         2,
         &["scene.toml:", "gear_mesh.0.bevel_pair: ", at_fault],
     );
+}
+
+/// Stated settings make the tooth, and every command says by how much it is not the blank's; the nominal grid goes into a folder.
+#[test]
+fn the_thickness_that_settings_cut_is_said_everywhere() {
+    let desk = Desk::new();
+    let file = shipped("bevel_38_51.toml");
+    let page = desk.path("page.html");
+    let words = "4.656 mm thick on the mean circle (3.813 mm normal) as its settings cut both flanks, 4.893 mm";
+    for asked in [
+        vec!["check", &file],
+        vec!["bevel", &file],
+        vec!["tca", &file, "--report", argument(&page)],
+    ] {
+        let printed = succeeds(&asked).stdout;
+        assert!(printed.contains(words), "{printed}");
+        assert!(printed.contains(
+            "backlash at the mean point by these thicknesses 0.183 mm, by the file 0.000 mm"
+        ));
+    }
+    assert!(std::fs::read_to_string(&page).unwrap().contains(words));
+    for command in ["bevel", "tca", "check"] {
+        let json = succeeds(&[command, &file, "--json"]).json();
+        let thickness = match command {
+            "bevel" => &json["gear"]["thickness"],
+            "tca" => &json["thickness"][1],
+            _ => &json["gear_thickness"],
+        };
+        assert_eq!(thickness["counts_from"], "settings", "{command}");
+        let mm = ["counts_mm", "blank_mm"].map(|key| thickness[key].as_f64().unwrap());
+        assert!(
+            (mm[0] - 4.656).abs() < 1e-3 && (mm[1] - 4.893).abs() < 1e-3,
+            "{mm:?}"
+        );
+    }
+    let grids = desk.path("grids");
+    succeeds(&[
+        "bevel",
+        &file,
+        "--grid",
+        argument(&grids),
+        "--grid-size",
+        "5",
+        "4",
+    ]);
+    for name in [
+        "pinion-concave",
+        "pinion-convex",
+        "gear-concave",
+        "gear-convex",
+    ] {
+        let table = std::fs::read_to_string(grids.join(format!("{name}.csv"))).unwrap();
+        assert_eq!(table.lines().count(), 21, "{name}");
+    }
+}
+
+/// Assemblies that jam are refused, conjugate pairs show their ease-off, and pressures that no steel carries are warned of.
+#[test]
+fn contact_analysis_says_what_is_wrong() {
+    let desk = Desk::new();
+    let text = std::fs::read_to_string(shipped("bevel_20_20.toml")).unwrap();
+    let far = desk.file("far.toml", format!("{text}\n[tca]\noffset_um = -5000.0\n"));
+    refused(
+        &gearmesh(&["tca", argument(&far)]),
+        1,
+        &[
+            "far.toml:",
+            "teeth jam: while the pinion's concave flanks touch",
+        ],
+    );
+    let near = desk.file(
+        "near.toml",
+        format!("{text}\n[tca]\ngear_axial_um = -100.0\n"),
+    );
+    let run = succeeds(&["tca", argument(&near)]);
+    assert!(run.stderr.contains("warning: teeth jam"), "{}", run.stderr);
+    let loaded = std::fs::read_to_string(shipped("bevel_20_20_loaded.toml")).unwrap();
+    let heavy = changed(&loaded, "[50.0, 100.0, 200.0]", "[5000.0]")
+        .replace("positions_per_pitch = 16", "positions_per_pitch = 4");
+    let heavy = desk.file("heavy.toml", heavy);
+    let run = succeeds(&["tca", argument(&heavy)]);
+    assert!(
+        run.stderr.contains("above 2 % (4.12 GPa) steel yields"),
+        "{}",
+        run.stderr
+    );
+    let head = text.split("[gear]").next().unwrap();
+    let crown = "[gear]\nsettings = \"crown\"\nedge_radius_mm = 0.2\n[pinion]\nsettings = \"crown\"\nedge_radius_mm = 0.2\n";
+    let conjugate = desk.file("crown.toml", format!("{head}{crown}"));
+    let page = desk.path("crown.html");
+    let run = succeeds(&["tca", argument(&conjugate), "--report", argument(&page)]).stdout;
+    let first = run.lines().next().unwrap();
+    assert!(
+        first.contains("conjugate, the flanks touch along lines"),
+        "{first}"
+    );
+    let ease_off = run.lines().skip_while(|line| !line.starts_with("ease-off"));
+    let values = ease_off.skip(1).take(45).map(|line| {
+        let cell = line.split_whitespace().nth(2).unwrap();
+        cell.parse::<f64>().unwrap().abs()
+    });
+    assert!(values.fold(0.0, f64::max) < 1e-3, "{run}");
+    let json = succeeds(&["tca", argument(&conjugate), "--json"]).json();
+    assert!(json["conjugate"] == true && json["ease_off_mm_mm_um"].as_array().unwrap().len() == 45);
 }

@@ -17,6 +17,7 @@ mod export;
 mod first_steps;
 mod hard_bevel;
 mod import;
+mod import_trial;
 mod loaded_bevel;
 mod measured;
 mod modal_bevel;

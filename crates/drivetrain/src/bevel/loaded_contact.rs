@@ -39,6 +39,8 @@ pub struct LoadedPatch {
     pub pressure_pa: f64,
     /// Whether the tip of either gear holds it.
     pub on_tip: bool,
+    /// Sliding speed of both flanks there over the pinion's speed \[m/rad\], gears turning at the teeth's ratio.
+    pub sliding_m: f64,
     /// How far from its middle the nearer tip of both gears is \[m\], up the flank.
     pub to_tip_m: f64,
 }
@@ -156,6 +158,18 @@ impl LoadedContact {
         (sum(true) + 0.0) / sum(false)
     }
 
+    /// Share of the power that reaches the gear's shaft over the positions, with a coefficient of friction μ of the teeth: at each position
+    /// 1/(1 + μ Σ F v/(T z₁/z₂)), F the normal forces and v their sliding for each radian of the pinion. Friction moves no load here.
+    #[must_use]
+    pub fn efficiency(&self, friction: f64, ratio: f64) -> f64 {
+        let output = self.torque_nm * ratio;
+        let of = |p: &LoadedPosition| {
+            let lost: f64 = p.patches.iter().map(|at| at.force_n * at.sliding_m).sum();
+            1.0 / (1.0 + friction * lost / output)
+        };
+        self.positions.iter().map(of).sum::<f64>() / self.positions.len() as f64
+    }
+
     /// Where the pattern begins and ends on the gear's flank: along the face and up the flank, as shares, of all patches that press with at least a
     /// hundredth of the largest pressure, whole slices counted.
     #[must_use]
@@ -247,7 +261,7 @@ impl LoadedPair<'_> {
                         pinion_turn_rad: turn,
                         error_rad: state.transmission_error_m / lever_m,
                         unloaded_rad: state.unloaded_m / lever_m,
-                        patches: self.patches(&at_rest),
+                        patches: self.patches(&at_rest, turn),
                     };
                     // Whatever closes by this approach was looked at: gaps count from the pose, not from the first touch.
                     approach_m = -state.transmission_error_m;
@@ -284,12 +298,24 @@ impl LoadedPair<'_> {
     fn patches<F: gearmesh_contact::FlanksAtRest>(
         &self,
         at_rest: &StaticContact<F>,
+        turn_rad: f64,
     ) -> Vec<LoadedPatch> {
         let (pair, side) = (self.flanks.pair(), self.side());
         let widths_m = pair.face_widths_m();
         let to_tip_m = |gear: usize, [s, v]: [f64; 2]| {
             let [here, tip] = [v, 1.0].map(|v| pair.flank_point_m(side, gear, [s, v]));
             (tip - here).norm()
+        };
+        let assembly = Assembly::new(self.blank, &self.error);
+        let [pinion, gear] = &assembly.members;
+        let azimuth = pair.azimuths_rad(side)[0];
+        let step = TAU / self.blank.data.teeth[0] as f64;
+        let sliding_m = |tooth: usize, at: [f64; 2]| {
+            let turned = about_z(turn_rad - azimuth + tooth as f64 * step);
+            let r = pinion.axes * (turned * pair.flank_point_m(side, 0, at)) + pinion.apex_m;
+            let v = pinion.axis().cross(&(r - pinion.apex_m))
+                + gear.axis().cross(&(r - gear.apex_m)) * assembly.ratio;
+            v.norm()
         };
         let loaded = |(number, patch): (usize, &ContactPatch)| {
             let force_n = at_rest.force_n(patch);
@@ -301,6 +327,7 @@ impl LoadedPair<'_> {
             (force_n > 0.0).then(|| LoadedPatch {
                 teeth: patch.teeth,
                 places,
+                sliding_m: sliding_m(patch.teeth[0], places[0]),
                 to_tip_m: f64::min(to_tip_m(0, places[0]), to_tip_m(1, places[1])),
                 force_n,
                 length_m: patch.length_m,

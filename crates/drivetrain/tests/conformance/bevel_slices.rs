@@ -416,3 +416,49 @@ fn bevel_slices_converge() {
         }
     }
 }
+
+/// Flanks slide as the pitch cones would that roll on each other: by the relative speed of turning times the distance from the cones' common
+/// generator, taken here from the gear's side of each contact. Without friction nothing is lost, twice the friction loses twice as much.
+#[test]
+fn bevel_flanks_slide_about_the_common_generator() {
+    let pair = pair("bevel_13_35.toml");
+    let found = &loaded(&pair, 15, &[100.0])[0];
+    let flanks = slices(&pair, 15);
+    let [pinion, gear] = &pair.blank.members;
+    let side = match FlankSide::Concave.facing(pinion.hand) < 0.0 {
+        true => Flank::Right,
+        false => Flank::Left,
+    };
+    let ratio = pinion.teeth as f64 / gear.teeth as f64;
+    let assembly = gearmesh_bevel::Assembly::new(&pair.blank, &assembly(AS_DESIGNED));
+    let axes = assembly.members.map(|m| m.axis());
+    let relative = axes[0] + axes[1] * ratio;
+    let (sin, cos) = pinion.pitch_angle_rad.sin_cos();
+    let generator = nalgebra::Vector3::new(sin, 0.0, cos);
+    assert!((relative.normalize() - generator).norm() < 1e-12);
+    let mut most = 0.0f64;
+    for position in &found.positions {
+        for patch in position.patches.iter().filter(|patch| !patch.on_tip) {
+            let own = flanks.pair().flank_point_m(side, 1, patch.places[1]);
+            let turn = -ratio * position.pinion_turn_rad - flanks.pair().azimuths_rad(side)[1]
+                + std::f64::consts::TAU * patch.teeth[1] as f64 / gear.teeth as f64;
+            let (s, c) = turn.sin_cos();
+            let turned =
+                nalgebra::Vector3::new(own.x * c - own.y * s, own.x * s + own.y * c, own.z);
+            let r = assembly.members[1].axes * turned;
+            let distance = (r - generator * r.dot(&generator)).norm();
+            let expected = relative.norm() * distance;
+            most = most.max(expected);
+            // The teeth give way by some micrometres, and slices lie beside their places on the gear.
+            assert!(
+                (patch.sliding_m - expected).abs() < 5e-5,
+                "{patch:?} {expected}"
+            );
+        }
+    }
+    assert!(most > 1e-3, "{most}");
+    assert_eq!(found.efficiency(0.0, ratio), 1.0);
+    let lost = [0.05, 0.1].map(|friction| 1.0 / found.efficiency(friction, ratio) - 1.0);
+    assert!(lost[0] > 1e-3 && lost[0] < 0.05, "{lost:?}");
+    assert!((lost[1] / lost[0] - 2.0).abs() < 0.01, "{lost:?}");
+}

@@ -110,6 +110,9 @@ const USUAL: [Usual; 29] = [
     ),
 ];
 
+/// Young's modulus of bodies that are meant as rigid, a hundred times that of steel \[GPa\]: no slip.
+const RIGID_GPA: f64 = 20_000.0;
+
 impl InputDocument {
     /// Numbers of the file that look like those of another unit, each told as a complaint at its key. Zero is never
     /// one; a list is judged by its largest magnitude. None for a text that is no TOML.
@@ -134,7 +137,8 @@ impl InputDocument {
         if let Some(usual) = USUAL.iter().find(|usual| usual.key == key)
             && let Some(size) = largest(value)
         {
-            if size != 0.0 && !(usual.low..=usual.high).contains(&size) {
+            let is_rigid = key == "young_GPa" && size == RIGID_GPA;
+            if size != 0.0 && !is_rigid && !(usual.low..=usual.high).contains(&size) {
                 let Usual {
                     low, high, hint, ..
                 } = usual;

@@ -10,6 +10,7 @@ mod hub_patterns;
 mod imported_mesh;
 mod natural_modes;
 mod near_field;
+mod random_blanks;
 mod reduction;
 mod root_crack;
 mod small_gears;

@@ -109,6 +109,7 @@ fn section(
     let mut section = Section::new(format!("{}: teeth of {}", r.head.title, mesh.name))
         .push(figures)
         .push(forces(r, passing, touches)?)
+        .push(Text::paragraph(moved(mesh, touches)))
         .push(Text::paragraph(text));
     let path = last_passage(r, touches)?;
     for gear in 0..2 {
@@ -124,6 +125,42 @@ fn section(
         }
     }
     Ok(section)
+}
+
+/// Places this near to the tip, as shares of the height, are the tip's.
+const AT_TIP: f64 = 0.995;
+
+/// Place of the contact on the first gear in the mean, weighted with the force: L and h \[mm\], and the share of the force at tips.
+fn mean_place(flank: &Flank, touches: &[Touch]) -> ([f64; 2], f64) {
+    let (mut sum, mut at, mut tips) = (0.0, [0.0; 2], 0.0);
+    for touch in touches {
+        let place = flank.place_mm(touch.places[flank.gear]);
+        sum += touch.force_n;
+        (0..2).for_each(|k| at[k] += touch.force_n * place[k]);
+        if touch.places.iter().any(|place| place[1] > AT_TIP) {
+            tips += touch.force_n;
+        }
+    }
+    (at.map(|x| x / sum), tips / sum)
+}
+
+/// Where the force acted in the mean beside the mean point, for which the formulas of statics hold.
+fn moved(mesh: &MeshRecord, touches: &[Touch]) -> String {
+    let flanks = [0, 1].map(|gear: usize| Flank::new(&mesh.flank_corners_m, gear));
+    // Both faces end at the heel, the mean point is in the middle of the narrower one.
+    let toe = f64::max(flanks[0].corners_mm[0][0], flanks[1].corners_mm[0][0]);
+    let mean = 0.5 * (toe + flanks[0].corners_mm[3][0]);
+    let ([along, up], tips) = mean_place(&flanks[0], touches);
+    format!(
+        "Formulas of tooth forces at the mean point (here {mean:.2} mm from the apex along the pitch cone) hold for a force that acts there. In this run the \
+         contact on {} was in the mean, weighted with the force, {:+.2} mm from it towards the heel and {up:+.2} mm above the pitch cone, and tips carried \
+         {:.1} % of the force: lever arms are longer by about {:.1} % by the place along the cone, and normals are those of that place. What moves the contact is the ease-off of the \
+         flanks, where bodies and bearings let the members stand, and edges that touch first.",
+        mesh.bodies[0],
+        along - mean,
+        100.0 * tips,
+        100.0 * (along / mean - 1.0)
+    )
 }
 
 /// Forces of the pairs over the last pitches, a curve for each tooth of gear 1.
@@ -298,6 +335,23 @@ mod tests {
         assert!((covered - area).abs() < 0.03 * area, "{covered} of {area}");
         let largest = cells.iter().copied().fold(0.0, f64::max);
         assert!((largest - 1000.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_mean_place_is_that_of_the_force() {
+        let corners = [0.1, 0.0, 0.1, 0.01, 0.2, 0.01, 0.2, 0.0].repeat(2);
+        let touch = |force_n: f64, place: [f64; 2]| Touch {
+            row: 0,
+            tooth: 0,
+            force_n,
+            places: [place; 2],
+            pressure_pa: 0.0,
+            axes: [[[0.0; 2]; 2]; 2],
+        };
+        let touches = [touch(1.0, [0.2, 1.0]), touch(3.0, [0.6, 0.2])];
+        let (place, tips) = mean_place(&Flank::new(&corners, 0), &touches);
+        assert!((place[0] - 150.0).abs() < 1e-9 && (place[1] - 4.0).abs() < 1e-9);
+        assert!((tips - 0.25).abs() < 1e-12);
     }
 
     #[test]

@@ -26,6 +26,10 @@ fn what_is_no_rexs_file() {
         "{\"model\": {\"version\": \"1.4\", \"components\": 3}}",
         &["`components` is no list"],
     );
+    // Cut in the middle: the line at which it ends.
+    let half = &GEARBOX[..GEARBOX.len() / 2];
+    let line = format!("line {}:", half.lines().count());
+    refused(half, &[&line, "the text ends here, before </model>"]);
     let found = message(vec![b'<', 0xff, b'>']);
     assert!(found.contains("from byte 1 on"), "{found}");
     let found = message(b"PK\x03\x04 broken".to_vec());
@@ -35,6 +39,13 @@ fn what_is_no_rexs_file() {
         found.contains("without a member that ends in .rexs"),
         "{found}"
     );
+    for name in ["../x.rexs", "/etc/x.rexs", "a/../../x.rexs", "..\\x.rexs"] {
+        let found = message(zipped(&[(name, b"<model/>")]));
+        assert!(
+            found.contains(name) && found.contains("outside of the archive"),
+            "{found}"
+        );
+    }
     let found = message(zipped(&[("a.rexs", b"<model/>"), ("b.rexs", b"<model/>")]));
     assert!(found.contains("a zip file of 2 models"), "{found}");
     refused("<model version=\"1.4\"/>", &["nothing to import"]);
@@ -43,7 +54,20 @@ fn what_is_no_rexs_file() {
 #[test]
 fn entities_and_depth() {
     let bomb = "<?xml version=\"1.0\"?><!DOCTYPE m [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\">]><model version=\"1.4\">&b;</model>";
-    refused(bomb, &["broken XML"]);
+    refused(bomb, &["line 1", "document type", "<!DOCTYPE m"]);
+    let named = changed(
+        GEARBOX,
+        "<model ",
+        "<!DOCTYPE model SYSTEM \"rexs.dtd\">\n<model ",
+    );
+    refused(
+        &named,
+        &[
+            "line 2:",
+            "`<!DOCTYPE model SYSTEM \"rexs.dtd\"`",
+            "Take it out",
+        ],
+    );
     let deep = format!("<model version=\"1.4\">{}", "<relations>\n".repeat(100_000));
     refused(&deep, &["line 6", "deep in each other"]);
     let deep = format!("{{\"model\":{}", "[".repeat(100_000));
@@ -118,6 +142,24 @@ fn numbers_and_units() {
     refused(
         &change("id=\"normal_module\" unit=\"mm\">3<"),
         &["first stage", "modules of pinion 17 and wheel 59"],
+    );
+}
+
+#[test]
+fn what_is_no_place() {
+    let vector = "<attribute id=\"support_vector\" unit=\"mm\"><array><c>0</c><c>0</c><c>0</c></array></attribute>";
+    let text = small().replacen(
+        vector,
+        "<attribute id=\"support_vector\" unit=\"mm\">false</attribute>",
+        1,
+    );
+    refused(
+        &text,
+        &[
+            "support_vector",
+            "`false` is no number",
+            "allowed are three numbers",
+        ],
     );
 }
 

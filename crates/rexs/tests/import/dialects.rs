@@ -141,6 +141,21 @@ fn din_3967_codes_thin_the_teeth() {
         file(&made, "box_pinion.toml")
     );
     assert!(!file(&made, "box_wheel.toml").contains("thickness_allowance_mm"));
+    // Allowances of the chordal thickness, normal and transverse.
+    for kind in ["", "transverse_"] {
+        let ends = [("upper", "-0.06"), ("lower", "-0.1")];
+        let both = ends.map(|(end, mm)| {
+            format!("<attribute id=\"chordal_{kind}tooth_thickness_{end}_deviation\" unit=\"mm\">{mm}</attribute>")
+        });
+        let teeth = "<attribute id=\"number_of_teeth\" unit=\"none\">20<";
+        let made = read(&changed(
+            &small(),
+            teeth,
+            &format!("{}{teeth}", both.concat()),
+        ));
+        let gear = file(&made, "box_pinion.toml");
+        assert!(gear.contains("thickness_allowance_mm = 0.08\n"), "{gear}");
+    }
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod containers;
 mod dialects;
 mod incomplete;
 mod loose_gears;
+mod lost_loads;
 mod other_gearboxes;
 mod planetary;
 mod power;

@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 
+/// Pressure over Young's modulus above which steel yields under the contact.
+pub const ELASTIC_SHARE: f64 = 0.02;
+
 /// Assumptions that a load can break.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Assumption {
@@ -39,7 +42,7 @@ impl Assumption {
     fn limit(self) -> f64 {
         match self {
             Self::NarrowContact => 0.1,
-            Self::ElasticMaterial => 0.02,
+            Self::ElasticMaterial => ELASTIC_SHARE,
             Self::SmallDeflection => 0.01,
             Self::LocalTermCapped => 0.5,
         }

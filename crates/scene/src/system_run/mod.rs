@@ -10,6 +10,7 @@
 //! | how an unfinished run is kept and resumed | [`PartFolder`] | `part_folder.rs`, `stored_checkpoint.rs` |
 //! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
 //! | what is judged after the run | [`RatingResult`](crate::rating::RatingResult) | `rating.rs` |
+//! | what friction takes, part by part | [`PowerLosses`] | `losses.rs` |
 //! | its figures at a glance, what of each period it saw | [`ColumnSummary`], [`MeshPassing`] | `summary.rs`, `column_names.rs`, `mesh_passing.rs` |
 
 mod column_names;
@@ -21,6 +22,7 @@ mod error;
 mod from_scene;
 mod in_time;
 mod job;
+mod losses;
 mod mesh_misalignment;
 mod mesh_pace;
 mod mesh_passing;
@@ -49,6 +51,7 @@ pub use job::{
     Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
+pub use losses::{PowerLoss, PowerLosses};
 pub use mesh_misalignment::MeshAxes;
 pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};

@@ -18,6 +18,7 @@ mod lost_meshes;
 mod made_up_gears;
 mod pair_stiffness;
 mod pairs_at_rest;
+mod power_losses;
 mod provenance;
 mod rolling_bearings;
 mod run_out;

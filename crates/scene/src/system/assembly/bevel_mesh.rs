@@ -111,7 +111,10 @@ impl SceneBevel<'_> {
         let flank_corners_m = corners.into_iter().flatten().flatten().collect();
         let modulus = |table| contact_modulus(table, &self.keys, "tooth_pairs");
         let tooth_pairs = self.table.tooth_pairs.as_ref().map(modulus).transpose()?;
-        self.effects((&file, models.is_some()), parts);
+        self.effects(
+            (&file, design.backlash_m(&file.blank), models.is_some()),
+            parts,
+        );
         Ok(PreparedMesh {
             name: self.table.name.clone(),
             key: key.to_owned(),
@@ -270,12 +273,12 @@ impl SceneBevel<'_> {
     }
 
     /// What is computed, in words for the plan.
-    fn effects(&self, (file, reduced): (&PairFile, bool), parts: &mut Parts) {
+    fn effects(&self, (file, backlash_m, reduced): (&PairFile, f64, bool), parts: &mut Parts) {
         let name = |what: &str| format!("mesh `{}`: {what}", self.table.name);
         let both = self.teeth.flanks == TouchingFlanks::Both;
         let backlash = format!(
             "both sides, {:.1} um of normal backlash at the mean point",
-            file.blank.data.backlash_m / UM
+            backlash_m / UM
         );
         parts.effect(name("backlash"), both.then_some(backlash));
         let damping = match &self.table.model {

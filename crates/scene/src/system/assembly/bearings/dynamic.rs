@@ -53,7 +53,8 @@ pub(super) fn add(
         named,
         |keys, ends| {
             let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
-            let definition = rolling_bearing::definition("model.file", &model.file, folder, keys)?;
+            let definition =
+                rolling_bearing::without_friction("model.file", &model.file, folder, keys)?;
             let bearing =
                 QuasiStaticBearing::new(&definition).map_err(|e| keys.error("model", e))?;
             let mut effects = DynamicEffects {

@@ -189,7 +189,7 @@ fn by_tangent(
     let keys = TableKeys::new(connections.document, &key);
     let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
     let frame = bodies.stated_frame(&keys, ends[1], table.at_mm, table.axis)?;
-    let definition = rolling_bearing::definition("model.tangent_of", &file, folder, &keys)?;
+    let definition = rolling_bearing::without_friction("model.tangent_of", &file, folder, &keys)?;
     let rolling = QuasiStaticBearing::new(&definition).map_err(|e| keys.error("model", e))?;
     let at = rolling.ring_markers(pair(bodies, ends, &frame));
     let seat = TangentSeat::new(number, (at, rolling), model);

@@ -28,6 +28,7 @@ pub(super) fn add(
             housing::add(number, table, housing, connections)?;
         }
         let table = &*housing::seated(table);
+        warn(number, table, connections)?;
         match &table.model {
             // A joint.
             BearingModel::Rigid(_) => {}
@@ -46,6 +47,27 @@ pub(super) fn add(
             BearingModel::Dynamic(model) => dynamic::add(number, table, model, connections)?,
         }
     }
+    Ok(())
+}
+
+/// Passes on what the bearing's file warns of.
+fn warn(
+    number: usize,
+    table: &BearingTable,
+    connections: &mut Connections<'_>,
+) -> Result<(), InputError> {
+    let file = match &table.model {
+        BearingModel::QuasiStatic(model) => &model.file,
+        BearingModel::Dynamic(model) => &model.file,
+        BearingModel::Rigid(_) | BearingModel::Linear(_) => return Ok(()),
+    };
+    let key = format!("bearing.{number}");
+    let keys = TableKeys::new(connections.document, &key);
+    let found = rolling_bearing::read("model.file", file, connections.folder, &keys)?;
+    let name = &table.name;
+    let told = found.warnings.iter();
+    let notes = told.map(|warning| format!("warning: bearing `{name}`: {warning}"));
+    connections.parts.notes.extend(notes);
     Ok(())
 }
 

@@ -16,6 +16,7 @@ pub(super) fn add(
 ) -> Result<(), InputError> {
     let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
     let (bodies, folder) = (connections.bodies, connections.folder);
+    let at_rest = connections.manner.at_rest;
     connections.add(
         ("bearing", number),
         "quasi-static bearing",
@@ -32,6 +33,11 @@ pub(super) fn add(
             let pair = pair(bodies, ends, &frame);
             let element = QuasiStaticElement::new(&table.name, pair, &definition, control, damping)
                 .map_err(|e| keys.error("model", e))?;
+            let element = if at_rest {
+                element.without_friction_torque()
+            } else {
+                element
+            };
             Ok(Ok(if model.element_loads {
                 element.with_element_loads()
             } else {

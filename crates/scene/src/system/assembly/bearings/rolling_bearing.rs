@@ -7,6 +7,23 @@ use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
+/// As [`definition`], for a model that applies no friction torque.
+pub(in crate::system::assembly) fn without_friction(
+    key: &str,
+    file: &str,
+    folder: &Path,
+    keys: &TableKeys<'_>,
+) -> Result<BearingDefinition, InputError> {
+    let found = definition(key, file, folder, keys)?;
+    if found.friction.is_some() {
+        let problem = format!(
+            "the bearing file {file} has [friction], which acts in `quasi-static` bearings only: remove the table, or take that model; balls of `dynamic` bearings rub by `traction`"
+        );
+        return Err(keys.error(key, problem));
+    }
+    Ok(found)
+}
+
 /// Reads it; `key` names it.
 pub(in crate::system::assembly) fn definition(
     key: &str,
@@ -14,10 +31,20 @@ pub(in crate::system::assembly) fn definition(
     folder: &Path,
     keys: &TableKeys<'_>,
 ) -> Result<BearingDefinition, InputError> {
+    Ok(read(key, file, folder, keys)?.definition)
+}
+
+/// Everything that the file says.
+pub(super) fn read(
+    key: &str,
+    file: &str,
+    folder: &Path,
+    keys: &TableKeys<'_>,
+) -> Result<BearingFromFile, InputError> {
     let path = folder.join(file);
     if !path.exists() {
         let problem = format!("the bearing file {} does not exist", path.display());
         return Err(keys.error(key, problem));
     }
-    Ok(BearingFromFile::from_document(&InputDocument::read(&path)?)?.definition)
+    BearingFromFile::from_document(&InputDocument::read(&path)?)
 }

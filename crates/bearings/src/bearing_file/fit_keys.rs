@@ -1,0 +1,361 @@
+//! Keys of `[fit]`: how the rings are seated and how warm everything is.
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::ball_keys::MOST_INTERFERENCE;
+use super::{MM, UM};
+use crate::definition::{BearingDefinition, BearingGeometry, BearingMaterial};
+use crate::fit::{Fit, Seat, raceways_m};
+
+/// Temperature at which sizes are stated \[°C\].
+const COLD_C: f64 = 20.0;
+
+/// Thermal expansion of steel where the file names none \[µm/(m K)\].
+const STEEL_EXPANSION: f64 = 12.0;
+
+/// Micrometres a metre and kelvin in 1/K.
+const PER_K: f64 = 1e-6;
+
+/// `[fit]`: fits and temperatures, from which the clearance in operation follows.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub(super) struct FitTable {
+    /// Shaft's diameter less the bore of the inner ring at 20 °C, smoothing of the surfaces taken off; negative: loose. Not given: the shaft does not
+    /// press the ring, whatever the temperatures.
+    shaft_interference_um: Option<f64>,
+    /// Bore of a hollow shaft; 0, solid, where not given.
+    shaft_bore_mm: Option<f64>,
+    /// Material of the shaft; steel where not given.
+    shaft_material: Option<SeatMaterial>,
+    /// Outside diameter of the outer ring less the housing's bore at 20 °C, smoothing taken off; negative: loose. Not given: the housing does not press the
+    /// ring, whatever the temperatures.
+    housing_interference_um: Option<f64>,
+    /// Outside diameter of the housing; needed with `housing_interference_um`.
+    housing_outside_diameter_mm: Option<f64>,
+    /// Material of the housing; steel where not given.
+    housing_material: Option<SeatMaterial>,
+    /// Temperature of the inner ring in operation; 20 where neither ring has one.
+    inner_ring_temperature_C: Option<f64>,
+    /// Temperature of the outer ring; needed with that of the inner one.
+    outer_ring_temperature_C: Option<f64>,
+    /// Temperature of balls or rollers; the mean of the rings where not given.
+    element_temperature_C: Option<f64>,
+    /// Temperature of the shaft; that of the inner ring where not given.
+    shaft_temperature_C: Option<f64>,
+    /// Temperature of the housing; that of the outer ring where not given.
+    housing_temperature_C: Option<f64>,
+    /// Thermal expansion of the rings; 12, steel, where not given.
+    ring_expansion_um_per_m_K: Option<f64>,
+    /// Thermal expansion of balls or rollers; that of the rings where not given.
+    element_expansion_um_per_m_K: Option<f64>,
+}
+
+/// `[fit.shaft_material]`, `[fit.housing_material]`: linear elastic, isotropic.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+struct SeatMaterial {
+    /// Young's modulus.
+    young_GPa: f64,
+    /// Poisson's ratio.
+    poisson: f64,
+    /// Thermal expansion; 12, steel, where not given.
+    expansion_um_per_m_K: Option<f64>,
+}
+
+/// Checks the table.
+pub(super) fn fit(
+    table: &FitTable,
+    document: &InputDocument,
+    (bore_m, outside_m): (Option<f64>, Option<f64>),
+    geometry: &BearingGeometry,
+) -> Result<Fit, InputError> {
+    let top = TableKeys::new(document, "");
+    let keys = TableKeys::new(document, "fit");
+    let bore_m = top.needed("bore_mm", bore_m, "[fit]")?;
+    let outside_m = top.needed("outside_diameter_mm", outside_m, "[fit]")?;
+    let [inner_m, outer_m] = raceways_m(geometry);
+    refuse_unused(table, &keys)?;
+    if !(0.0 < bore_m && bore_m < inner_m && outer_m < outside_m) {
+        return Err(keys.error(
+            "",
+            format!(
+                "found a bore of {} and an outside diameter of {} mm; the inner ring must lie below its raceway of {:.3}, the outer one above {:.3} mm",
+                bore_m / MM,
+                outside_m / MM,
+                inner_m / MM,
+                outer_m / MM
+            ),
+        ));
+    }
+    let rises = Rises::of(table, &keys)?;
+    let expansion = |key: &str, value: Option<f64>, usual: f64| {
+        let value = value.unwrap_or(usual);
+        keys.require(key, value, (-5.0..=100.0).contains(&value), "-5 to 100")?;
+        Ok::<_, InputError>(value)
+    };
+    let ring = expansion(
+        "ring_expansion_um_per_m_K",
+        table.ring_expansion_um_per_m_K,
+        STEEL_EXPANSION,
+    )?;
+    let element = expansion(
+        "element_expansion_um_per_m_K",
+        table.element_expansion_um_per_m_K,
+        ring,
+    )?;
+    let interference = |key: &str, value: f64, seated_m: f64| {
+        let most = 0.01 * seated_m / UM;
+        keys.require(
+            key,
+            value,
+            value.abs() <= most,
+            &format!("-{most:.0} to {most:.0}, a hundredth of the seat's diameter"),
+        )
+    };
+    let shaft = match table.shaft_interference_um {
+        None => None,
+        Some(value) => {
+            interference("shaft_interference_um", value, bore_m)?;
+            let bore = table.shaft_bore_mm.unwrap_or(0.0);
+            let most = bore_m / MM;
+            keys.require(
+                "shaft_bore_mm",
+                bore,
+                (0.0..most).contains(&bore),
+                &format!("0 (solid) up to, not including, {most}, the bore of the bearing"),
+            )?;
+            let (material, far_m) = (&table.shaft_material, MM * bore);
+            Some(seat(
+                document,
+                "fit.shaft_material",
+                material,
+                (value, far_m, rises.shaft),
+            )?)
+        }
+    };
+    let housing = match table.housing_interference_um {
+        None => None,
+        Some(value) => {
+            interference("housing_interference_um", value, outside_m)?;
+            let outside = keys.needed(
+                "housing_outside_diameter_mm",
+                table.housing_outside_diameter_mm,
+                "housing_interference_um",
+            )?;
+            let least = outside_m / MM;
+            keys.require(
+                "housing_outside_diameter_mm",
+                outside,
+                outside > least,
+                &format!("more than {least}, the outside diameter of the bearing"),
+            )?;
+            let (material, far_m) = (&table.housing_material, MM * outside);
+            Some(seat(
+                document,
+                "fit.housing_material",
+                material,
+                (value, far_m, rises.housing),
+            )?)
+        }
+    };
+    Ok(Fit {
+        bore_m,
+        outside_m,
+        shaft,
+        housing,
+        ring_expansion_per_k: PER_K * ring,
+        element_expansion_per_k: PER_K * element,
+        inner_rise_k: rises.inner,
+        outer_rise_k: rises.outer,
+        element_rise_k: rises.element,
+    })
+}
+
+/// Keys that describe a seat whose interference is not given.
+fn refuse_unused(table: &FitTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
+    let (shaft, housing) = ("shaft_interference_um", "housing_interference_um");
+    let (has_shaft, has_housing) = (
+        table.shaft_interference_um.is_some(),
+        table.housing_interference_um.is_some(),
+    );
+    for (key, given, needs, there) in [
+        (
+            "shaft_bore_mm",
+            table.shaft_bore_mm.is_some(),
+            shaft,
+            has_shaft,
+        ),
+        (
+            "shaft_material",
+            table.shaft_material.is_some(),
+            shaft,
+            has_shaft,
+        ),
+        (
+            "shaft_temperature_C",
+            table.shaft_temperature_C.is_some(),
+            shaft,
+            has_shaft,
+        ),
+        (
+            "housing_outside_diameter_mm",
+            table.housing_outside_diameter_mm.is_some(),
+            housing,
+            has_housing,
+        ),
+        (
+            "housing_material",
+            table.housing_material.is_some(),
+            housing,
+            has_housing,
+        ),
+        (
+            "housing_temperature_C",
+            table.housing_temperature_C.is_some(),
+            housing,
+            has_housing,
+        ),
+    ] {
+        if given && !there {
+            return Err(keys.error(
+                key,
+                format!("is not used without {needs}; remove it, or state the fit"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Temperatures above 20 °C \[K\].
+struct Rises {
+    inner: f64,
+    outer: f64,
+    element: f64,
+    shaft: f64,
+    housing: f64,
+}
+
+impl Rises {
+    fn of(table: &FitTable, keys: &TableKeys<'_>) -> Result<Self, InputError> {
+        let rise = |key: &str, value: f64| {
+            keys.require(key, value, (-200.0..=500.0).contains(&value), "-200 to 500")?;
+            Ok::<_, InputError>(value - COLD_C)
+        };
+        let (inner, outer) = (
+            table.inner_ring_temperature_C,
+            table.outer_ring_temperature_C,
+        );
+        let others = [
+            ("element_temperature_C", table.element_temperature_C),
+            ("shaft_temperature_C", table.shaft_temperature_C),
+            ("housing_temperature_C", table.housing_temperature_C),
+        ];
+        let (inner, outer) = match (inner, outer) {
+            (None, None) => {
+                if let Some((key, _)) = others.iter().find(|(_, value)| value.is_some()) {
+                    return Err(keys.error(
+                        key,
+                        "is given without inner_ring_temperature_C and outer_ring_temperature_C; give them, too",
+                    ));
+                }
+                (0.0, 0.0)
+            }
+            (inner, outer) => {
+                let by = "a bearing with temperatures";
+                let inner = keys.needed("inner_ring_temperature_C", inner, by)?;
+                let outer = keys.needed("outer_ring_temperature_C", outer, by)?;
+                (
+                    rise("inner_ring_temperature_C", inner)?,
+                    rise("outer_ring_temperature_C", outer)?,
+                )
+            }
+        };
+        let [element, shaft, housing] = others.map(|(key, value)| value.map(|v| rise(key, v)));
+        Ok(Self {
+            inner,
+            outer,
+            element: element.transpose()?.unwrap_or(0.5 * (inner + outer)),
+            shaft: shaft.transpose()?.unwrap_or(inner),
+            housing: housing.transpose()?.unwrap_or(outer),
+        })
+    }
+}
+
+/// A seat of the interference \[µm\], far diameter \[m\] and temperature above 20 °C \[K\].
+fn seat(
+    document: &InputDocument,
+    path: &str,
+    material: &Option<SeatMaterial>,
+    (interference_um, far_diameter_m, rise_k): (f64, f64, f64),
+) -> Result<Seat, InputError> {
+    let keys = TableKeys::new(document, path);
+    let (young_pa, poisson, expansion) = match material {
+        None => (
+            BearingMaterial::STEEL.young_pa,
+            BearingMaterial::STEEL.poisson,
+            STEEL_EXPANSION,
+        ),
+        Some(m) => {
+            let expansion = m.expansion_um_per_m_K.unwrap_or(STEEL_EXPANSION);
+            let is_metal = (1.0..=1000.0).contains(&m.young_GPa);
+            keys.require("young_GPa", m.young_GPa, is_metal, "1 to 1000")?;
+            let allowed = "0 up to, not including, 0.5";
+            keys.require(
+                "poisson",
+                m.poisson,
+                (0.0..0.5).contains(&m.poisson),
+                allowed,
+            )?;
+            let within = (-5.0..=100.0).contains(&expansion);
+            keys.require("expansion_um_per_m_K", expansion, within, "-5 to 100")?;
+            (1e9 * m.young_GPa, m.poisson, expansion)
+        }
+    };
+    Ok(Seat {
+        interference_m: UM * interference_um,
+        far_diameter_m,
+        young_pa,
+        poisson,
+        expansion_per_k: PER_K * expansion,
+        rise_k,
+    })
+}
+
+/// The clearance in operation must be one that a bearing can have.
+pub(super) fn require_operating(
+    definition: &BearingDefinition,
+    document: &InputDocument,
+) -> Result<(), InputError> {
+    let Some(clearance) = definition.operating_clearance() else {
+        return Ok(());
+    };
+    let (diameter_m, most_m) = match &definition.geometry {
+        BearingGeometry::Ball(g) => (g.ball_diameter_m, 2.0 * g.groove_distance_m()),
+        BearingGeometry::Roller(g) => (g.diameter_m, 1e-3),
+    };
+    let (found, least_m) = (clearance.operating_m(), -MOST_INTERFERENCE * diameter_m);
+    if (least_m..most_m).contains(&found) {
+        return Ok(());
+    }
+    Err(TableKeys::new(document, "fit").error(
+        "",
+        format!(
+            "the radial clearance in operation is {:.1} um: stated {:.1}, shaft {:+.1}, housing {:+.1}, heat of the inner ring {:+.1}, of the outer one \
+             {:+.1}, of the elements {:+.1}; allowed is {:.1} (interference of a hundredth of an element's diameter) up to, not including, {:.1}",
+            found / UM,
+            clearance.stated_m / UM,
+            clearance.by_shaft_m / UM,
+            clearance.by_housing_m / UM,
+            clearance.by_inner_heat_m / UM,
+            clearance.by_outer_heat_m / UM,
+            clearance.by_element_heat_m / UM,
+            least_m / UM,
+            most_m / UM
+        ),
+    ))
+}

@@ -1,0 +1,40 @@
+//! A ball or roller that is not there: lost with its pocket of the cage, or left out in assembly.
+//!
+//! Its place in the row stays empty: the others keep their angles, as the cage holds them, and the rings feel nothing there.
+
+use super::Fault;
+use crate::error::BearingError;
+
+/// The empty places of a row of so many balls or rollers, each once, in rising order.
+///
+/// # Errors
+/// [`BearingError::Parameter`] for an element that the row does not have; [`BearingError::NotCarried`] where fewer than two are left.
+pub(crate) fn missing(
+    faults: &[Fault],
+    number: usize,
+    elements: usize,
+) -> Result<Vec<usize>, BearingError> {
+    let mut found = Vec::new();
+    for fault in faults {
+        if let Fault::Missing { row, element } = *fault
+            && row == number
+        {
+            if element >= elements {
+                return Err(BearingError::Parameter {
+                    what: "the number of a missing ball or roller, from 1,",
+                    found: (element + 1) as f64,
+                    allowed: "at most the number of balls or rollers of the row",
+                });
+            }
+            found.push(element);
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    if found.len() + 2 > elements {
+        return Err(BearingError::NotCarried(
+            "fewer than two balls or rollers of a row are left: take some of the `missing` faults away",
+        ));
+    }
+    Ok(found)
+}

@@ -1,0 +1,151 @@
+//! What drives and loads a scene: the spring that holds each train, torques and forces.
+
+use crate::ledger::About;
+use crate::placement::Frame;
+use crate::source::Source;
+use crate::text::{number, numbers, quoted};
+use crate::train::Train;
+use std::collections::BTreeMap;
+
+/// A torque on a shaft about z, at a place along u.
+struct Torque {
+    shaft: i64,
+    u_mm: f64,
+    nm: f64,
+    name: String,
+}
+
+/// A spring that holds a train where its power goes in.
+#[derive(Debug, Clone)]
+pub struct Held {
+    /// Its name in the scene.
+    pub spring: String,
+    /// The load, or the member of a stage, in whose place it stands.
+    pub at: String,
+    /// The torque about z that it must put on the shaft, by the balance of power \[N m\].
+    pub torque_nm: f64,
+}
+
+/// Stiffness with which each train is held where power goes in \[N m/rad\].
+const HELD_NM_PER_RAD: f64 = 1e6;
+
+/// Each train is held by a spring about its axis where most power goes in; all other torques and forces are loads.
+///
+/// Returns the springs.
+pub fn drive(
+    text: &mut String,
+    source: &Source<'_>,
+    train: &Train,
+    groups: &BTreeMap<i64, usize>,
+) -> Vec<Held> {
+    let mut held = Vec::new();
+    let transmitting = train.loads.iter().filter(|l| l.transmits);
+    let mut torques: Vec<Torque> = transmitting
+        .zip(&train.flow.torque_nm)
+        .map(|(load, &nm)| Torque {
+            shaft: load.shaft,
+            u_mm: load.u_mm,
+            nm,
+            name: load.name.clone(),
+        })
+        .collect();
+    for seat in train.torque_seats() {
+        // What the shaft brings to the link, the link takes from the shaft.
+        let Some(link) = train.flow.link_nm.get(seat.link.0).copied().flatten() else {
+            if let Some(component) = source.model.component(seat.shaft) {
+                source.leave_out(component, About::Lost, format!("the torque at {}, which is part of a loop: it depends on stiffness, which a stage without a mesh in the scene does not have. Nothing acts there, what is behind it bears no load", seat.name));
+            }
+            continue;
+        };
+        torques.push(Torque {
+            shaft: seat.shaft,
+            u_mm: seat.u_mm,
+            nm: -link[seat.link.1],
+            name: format!("torque at {}", seat.name),
+        });
+    }
+    let mut done: Vec<usize> = Vec::new();
+    for shaft in &train.shafts {
+        let Some(&group) = groups.get(&shaft.id) else {
+            continue;
+        };
+        if done.contains(&group) {
+            continue;
+        }
+        done.push(group);
+        let is_mine = |t: &&Torque| groups.get(&t.shaft) == Some(&group);
+        let power = |t: &Torque| t.nm * train.flow.speed_rpm.get(&t.shaft).copied().unwrap_or(1.0);
+        let input = torques
+            .iter()
+            .filter(is_mine)
+            .max_by(|a, b| power(a).total_cmp(&power(b)));
+        let (body, name) = match input {
+            Some(t) => (train.shaft(t.shaft).map(|s| s.body(t.u_mm)), t.name.clone()),
+            None => {
+                if let Some(component) = source.model.component(shaft.id) {
+                    source.assume(
+                        component,
+                        About::Torque,
+                        "no torque acts on its train: held at its first station",
+                    );
+                }
+                (Some(shaft.station_body(0)), shaft.name.clone())
+            }
+        };
+        let Some(body) = body else { continue };
+        held.push(Held {
+            spring: format!("held at {name}"),
+            at: name.clone(),
+            torque_nm: input.map_or(0.0, |t| t.nm),
+        });
+        text.push_str(&format!(
+            "\n# Holds the train where its power goes in; its torque is that of the input.\n[[torsion_spring]]\nname = {}\nbody_2 = {}\nstiffness_Nm_per_rad = {}\n",
+            quoted(&format!("held at {name}")),
+            quoted(&body),
+            number(HELD_NM_PER_RAD)
+        ));
+        for t in torques.iter().filter(is_mine) {
+            let is_input = input.is_some_and(|i| std::ptr::eq(i, t));
+            if is_input || t.nm == 0.0 {
+                continue;
+            }
+            let Some(on) = train.shaft(t.shaft) else {
+                continue;
+            };
+            text.push_str(&format!(
+                "\n[[load]]\nname = {}\nbody = {}\ntorque_Nm = {}\n",
+                quoted(&t.name),
+                quoted(&on.body(t.u_mm)),
+                number(t.nm)
+            ));
+        }
+    }
+    forces(text, train);
+    held
+}
+
+fn forces(text: &mut String, train: &Train) {
+    for load in &train.loads {
+        let Some(shaft) = train.shaft(load.shaft) else {
+            continue;
+        };
+        let frame = shaft.frame.unwrap_or(Frame::WORLD);
+        let body = quoted(&shaft.body(load.u_mm));
+        let mut table = |kind: &str, axis: usize, key: &str, value: f64| {
+            if value != 0.0 {
+                let name = quoted(&format!("{} {kind} {}", load.name, ["u", "v", "w"][axis]));
+                text.push_str(&format!(
+                    "\n[[load]]\nname = {name}\nbody = {body}\n{key} = {}\nalong = {}\n",
+                    number(value),
+                    numbers(&frame.axes[axis])
+                ));
+            }
+        };
+        for (axis, &force) in load.force_n.iter().enumerate() {
+            table("force", axis, "force_N", force);
+        }
+        for (axis, &moment) in load.moment_nm.iter().enumerate() {
+            table("moment", axis + 1, "torque_Nm", moment);
+        }
+    }
+}
