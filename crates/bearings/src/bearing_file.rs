@@ -256,7 +256,7 @@ impl BearingFromFile {
             }
             Kind::Catalogue => {
                 let found = catalogue_keys::geometry(&file, document, &keys, &mut notes)?;
-                boundary = (Some(found.line.bore_m), Some(found.line.outside_m));
+                boundary = (Some(found.boundary_m.0), Some(found.boundary_m.1));
                 (
                     found.geometry,
                     Some(found.estimate),

@@ -17,6 +17,8 @@ use crate::estimate::Estimate;
 /// A bearing estimated from its line.
 pub(super) struct FromCatalogue {
     pub geometry: BearingGeometry,
+    /// Bore and outside diameter \[m\].
+    pub boundary_m: (f64, f64),
     /// Rows within its rings, where there are several.
     pub rows: Option<Arrangement>,
     /// Ratings of one bearing that the line states.
@@ -63,6 +65,7 @@ pub(super) fn geometry(
     );
     Ok(FromCatalogue {
         geometry,
+        boundary_m: (line.bore_m, line.outside_m),
         rows: rows(file, keys, &line, &estimate, notes)?,
         ratings: StatedRatings {
             dynamic_n: line.dynamic_n,
