@@ -1,6 +1,7 @@
 //! Tooth thickness by settings and by blank, settings that cannot be, and assemblies that jam.
 
 use gearmesh_bevel::cut_thickness::{normal_m, settings_of_thickness};
+use gearmesh_bevel::tca::PathPoint;
 use gearmesh_bevel::{
     AssemblyError, BevelError, ContactKind, FlankSide, PairDesign, PairFile, TcaRequest,
     ThicknessFrom, tooth_contact,
@@ -305,15 +306,23 @@ fn the_contact_goes_to_toe_and_heel() {
                 };
                 let flanks = design.flanks(side);
                 let found = tooth_contact(flanks, blank, &request).unwrap();
-                // Where the gear leads most the ratio of speeds is that of the teeth.
-                let ahead = found
-                    .path
-                    .iter()
-                    .max_by(|a, b| a.lead_rad.total_cmp(&b.lead_rad));
-                let place = ahead.unwrap().places_m[1];
+                // The path comes by there, and the lead has its largest value: the ratio of speeds is that of the teeth.
                 let sign = [-2.0, 2.0][i % 2];
-                near(place[0], blank.mean_cone_m + sign * quarter, 5e-5);
-                near(place[1], 0.0, 5e-5);
+                let wanted = [blank.mean_cone_m + sign * quarter, 0.0];
+                near(setting.place_m[0], wanted[0], 1e-6);
+                near(setting.place_m[1], wanted[1], 1e-6);
+                let path = found.path.iter();
+                let path: Vec<_> = path.filter(|p| p.kind == ContactKind::Flanks).collect();
+                let apart = |p: &PathPoint| {
+                    let [l, h] = p.places_m[1];
+                    (l - wanted[0]).hypot(h - wanted[1])
+                };
+                let order = |a: &usize, b: &usize| apart(path[*a]).total_cmp(&apart(path[*b]));
+                let k = (0..path.len()).min_by(order).unwrap();
+                assert!(apart(path[k]) < 2e-4, "{name} {:e}", apart(path[k]));
+                for beside in [k - 3, k + 3] {
+                    assert!(path[beside].lead_rad < path[k].lead_rad, "{name} {i}");
+                }
                 assert!(found.contact_ratio > 0.5, "{name} {}", found.contact_ratio);
                 // G keeps the backlash to the first order; without it some micrometres would be lost or won.
                 let part = setting.error.scaled(0.05);
