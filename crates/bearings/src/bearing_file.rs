@@ -63,6 +63,9 @@ struct BearingFile {
     radial_clearance_um: Option<f64>,
     /// "deep-groove", "angular-contact": diameters of the grooves' bottoms, inner and outer, instead of clearance or contact angle.
     raceway_diameters_mm: Option<[f64; 2]>,
+    /// "deep-groove", "angular-contact", "catalogue": heights of the shoulders above the bottoms of the inner and outer groove, of the higher one where they differ; estimated where not
+    /// given (0.2 of the ball's diameter or 30° beyond the contact angle). Contact ellipses that reach beyond are warned of.
+    shoulder_heights_mm: Option<[f64; 2]>,
     /// "cylindrical-roller", "tapered-roller": number of rollers in a row. "catalogue": where it is known.
     rollers: Option<usize>,
     /// "cylindrical-roller", "tapered-roller": diameter of the rollers, in their middle. "catalogue": where it is known.
@@ -209,6 +212,8 @@ pub struct BearingFromFile {
     pub notes: Vec<String>,
     /// What the user should look at: estimates that fit badly.
     pub warnings: Vec<String>,
+    /// Numbers that look like those of another unit.
+    pub unit_slips: Vec<InputError>,
 }
 
 impl BearingFromFile {
@@ -321,6 +326,7 @@ impl BearingFromFile {
             estimate,
             notes,
             warnings,
+            unit_slips: document.unit_slips(),
         })
     }
 }
@@ -415,6 +421,11 @@ fn refuse_unused(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputEr
                 "raceway_diameters_mm",
                 file.raceway_diameters_mm.is_some(),
                 BALLS,
+            ),
+            (
+                "shoulder_heights_mm",
+                file.shoulder_heights_mm.is_some(),
+                &["deep-groove", "angular-contact", "catalogue"],
             ),
             ("rollers", file.rollers.is_some(), ROLLERS_OR_LISTED),
             (

@@ -103,6 +103,8 @@ pub struct BallGeometry {
     pub free_angle_rad: f64,
     /// By how much the balls of a deep-groove bearing are too large for its rings, across the axis from one side to the other; 0 where there is play \[m\].
     pub interference_m: f64,
+    /// Heights of the shoulders above the bottoms of the inner and outer groove; estimated where none are stated \[m\].
+    pub stated_shoulder_heights_m: Option<[f64; 2]>,
 }
 
 impl BallGeometry {

@@ -12,6 +12,7 @@
 //! | fits and heat: the clearance in operation | [`OperatingClearance`] | `fit.rs` |
 //! | what may be wrong with it | [`faults::Fault`] | `faults/` |
 //! | friction torque | [`friction::Friction`] | `friction.rs` |
+//! | static safety, and what is beyond its limit | [`StaticSafety`], [`warnings::Judged`] | `static_safety.rs`, `warnings.rs`, `shoulder.rs` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
 //! | what the ends of rollers suffer | [`stress_riser::stress_riser`] | `stress_riser.rs` |
 //! | life over the loads of a run | [`LoadHistory`] | `load_history.rs` |
@@ -53,7 +54,10 @@ pub mod ring_load;
 pub mod ring_pose;
 mod roller_equilibrium;
 pub mod roller_row;
+mod shoulder;
+pub mod static_safety;
 pub mod stress_riser;
+pub mod warnings;
 
 pub use ball_kinematics::RaceControl;
 pub use ball_row::BallRow;
@@ -79,3 +83,5 @@ pub use ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 pub use ring_load::RingLoad;
 pub use ring_pose::RingPose;
 pub use roller_row::RollerRow;
+pub use static_safety::StaticSafety;
+pub use warnings::BearingWarning;

@@ -59,6 +59,7 @@ pub(super) fn geometry(
         outer_conformity: outer,
         free_angle_rad,
         interference_m: MM * interference_mm,
+        stated_shoulder_heights_m: shoulder_heights_m(file, keys, ball)?,
     };
     if file.raceway_diameters_mm.is_some() {
         notes.push(format!(
@@ -70,9 +71,35 @@ pub(super) fn geometry(
     Ok(geometry)
 }
 
+/// `shoulder_heights_mm`, for balls of a diameter \[mm\].
+pub(super) fn shoulder_heights_m(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    ball: f64,
+) -> Result<Option<[f64; 2]>, InputError> {
+    let Some(heights) = file.shoulder_heights_mm else {
+        return Ok(None);
+    };
+    for height in heights {
+        keys.require(
+            "shoulder_heights_mm",
+            height,
+            height > 0.0 && height <= 0.5 * ball,
+            &format!(
+                "more than 0 and at most {}, half of the ball's diameter",
+                0.5 * ball
+            ),
+        )?;
+    }
+    Ok(Some(heights.map(|height| MM * height)))
+}
+
 /// Balls and rollers may be too large for their rings by this share of their diameter: for balls of 8 mm 80 um, several times what tight fits take
 /// away.
 pub(super) const MOST_INTERFERENCE: f64 = 0.01;
+
+/// Share of a limit of the clearance within which a number counts as the limit: 0.52 + 0.53 − 1 is not 0.05 to the last digit.
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// α₀ from the contact angle, the clearance or the raceways' diameters: cos α₀ = 1 − P_d/(2A); and how far P_d lies below zero \[mm\].
 fn free_angle(
@@ -116,7 +143,7 @@ fn free_angle(
                 ),
             ));
         }
-        if clearance >= most {
+        if clearance >= most * (1.0 - ROUNDING) {
             return Err(keys.error(
                 "raceway_diameters_mm",
                 format!(
@@ -159,7 +186,7 @@ fn free_angle(
     keys.require(
         "radial_clearance_um",
         clearance_um,
-        clearance_um >= 1e3 * least_mm && clearance_um < most_um,
+        clearance_um >= 1e3 * least_mm && clearance_um < most_um * (1.0 - ROUNDING),
         &format!(
             "{:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most_um:.1}: with more no ball touches both grooves",
             1e3 * least_mm

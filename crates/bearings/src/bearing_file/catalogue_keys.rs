@@ -3,7 +3,7 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
-use super::ball_keys::MOST_INTERFERENCE;
+use super::ball_keys::{MOST_INTERFERENCE, ROUNDING, shoulder_heights_m};
 use super::roller_keys::{require_clearance, usual_taper};
 use super::{BearingFile, MM, UM};
 use crate::catalogue::{CatalogueLine, CatalogueType, KnownInside};
@@ -203,6 +203,7 @@ fn roller_geometry(
     for (key, given) in [
         ("inner_conformity", file.inner_conformity.is_some()),
         ("outer_conformity", file.outer_conformity.is_some()),
+        ("shoulder_heights_mm", file.shoulder_heights_mm.is_some()),
     ] {
         if given {
             return Err(keys.error(key, "is not used by a roller bearing; remove it"));
@@ -263,7 +264,7 @@ fn ball_geometry(
         keys.require(
             "radial_clearance_um",
             clearance_m / UM,
-            (least..most).contains(&(clearance_m / UM)),
+            (least..most * (1.0 - ROUNDING)).contains(&(clearance_m / UM)),
             &format!("{least:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most:.1}"),
         )?;
         let half_sine = (0.25 * clearance_m.max(0.0) / distance_m).sqrt();
@@ -289,6 +290,7 @@ fn ball_geometry(
             BallBearingKind::DeepGroove => (-clearance_m).max(0.0),
             BallBearingKind::AngularContact => 0.0,
         },
+        stated_shoulder_heights_m: shoulder_heights_m(file, keys, estimate.diameter_m / MM)?,
     }))
 }
 

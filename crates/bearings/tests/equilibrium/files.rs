@@ -120,6 +120,30 @@ fn values_out_of_range_are_answered_with_the_range() {
         ("balls = 9", "balls = 9\nradial_clearance_um = 900.0"),
         &["793.8"],
     );
+    // The limit itself is excluded, whatever 0.52 + 0.53 - 1 is to the last digit.
+    for key in [
+        "radial_clearance_um = 794.0",
+        "raceway_diameters_mm = [31.1, 47.774]",
+    ] {
+        refused(
+            &B6205.replace("7.938", "7.94"),
+            ("balls = 9", &format!("balls = 9\n{key}")),
+            &["no ball touches both"],
+        );
+    }
+    refused(
+        B6205,
+        ("balls = 9", "balls = 9\nshoulder_heights_mm = [1.5, 4.0]"),
+        &["shoulder_heights_mm", "found 4", "3.969"],
+    );
+    refused(
+        ROLLERS,
+        (
+            "rollers = 12",
+            "rollers = 12\nshoulder_heights_mm = [1.5, 1.5]",
+        ),
+        &["shoulder_heights_mm", "deep-groove"],
+    );
     refused(
         B6205,
         ("balls = 9", "balls = 9\nbore_mm = 32.0"),

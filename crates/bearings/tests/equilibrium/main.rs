@@ -15,3 +15,4 @@ mod published;
 mod rests;
 mod stress_risers;
 mod tangents;
+mod warnings;

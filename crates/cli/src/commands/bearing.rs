@@ -9,10 +9,11 @@ use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingGeometry;
 use gearmesh_bearings::life::Lubrication;
 use gearmesh_bearings::quasi_static::RowLoads;
+use gearmesh_bearings::warnings::Judged;
 use gearmesh_bearings::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{
-    BearingError, Control, ElementLoad, FrictionTorque, Life, Operation, QuasiStaticBearing,
-    Ratings, RingLoad, RingPose,
+    BearingError, BearingWarning, Control, ElementLoad, FrictionTorque, Life, Operation,
+    QuasiStaticBearing, Ratings, RingLoad, RingPose, StaticSafety,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -20,6 +21,7 @@ use std::path::Path;
 /// Reads a bearing file and tells its notes.
 pub fn read(path: &Path) -> Result<BearingFromFile, Failure> {
     let found = BearingFromFile::read(path)?;
+    console::unit_slips(found.unit_slips.clone());
     found.notes.iter().for_each(console::note);
     found.warnings.iter().for_each(console::warning);
     Ok(found)
@@ -35,6 +37,8 @@ pub(super) struct Answer<'a> {
     pub ratings: Ratings,
     pub life: Life,
     pub friction: Option<FrictionTorque>,
+    pub safety: Option<StaticSafety>,
+    pub warnings: Vec<BearingWarning>,
 }
 
 /// Runs the command.
@@ -64,9 +68,20 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
     );
     let friction = found.definition.friction;
     let friction = friction.map(|f| f.torque(&found.definition, &loads, &operation));
+    let ratings = Ratings::of(&found.definition);
+    let judged = Judged {
+        definition: &found.definition,
+        bearing: &bearing,
+        loads: &loads,
+        force_n: load.force_n,
+        operation: &operation,
+        life: &life,
+    };
     let answer = Answer {
         friction,
-        ratings: Ratings::of(&found.definition),
+        warnings: judged.warnings(),
+        safety: StaticSafety::of(&found.definition, &ratings, load.force_n),
+        ratings,
         found: &found,
         bearing: &bearing,
         pose,
@@ -77,6 +92,7 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
     if let Some(path) = &a.report {
         bearing_page::write(&answer, a, path)?;
     }
+    answer.warnings.iter().for_each(console::warning);
     if a.json {
         console::json(&answer.figures());
     } else {
@@ -254,6 +270,16 @@ impl Answer<'_> {
                 "reference_equivalent_N": self.life.reference_equivalent_n,
                 "L10mr_Mrev": self.life.modified_mrev.and_then(finite),
             },
+            "static_safety": self.safety.map(|safety| json!({
+                "equivalent_N": safety.equivalent_n,
+                "s0": finite(safety.factor),
+            })),
+            "warnings": self.warnings.iter().map(|warning| json!({
+                "concern": warning.concern.word(),
+                "value": warning.value,
+                "limit": warning.limit,
+                "text": warning.text,
+            })).collect::<Vec<_>>(),
         });
         if let Some(friction) = &self.friction {
             value["friction"] = bearing_friction::figures(friction);
@@ -359,10 +385,17 @@ impl Answer<'_> {
                 ));
             }
         }
-        console::data(format!(
+        let mut ratings = format!(
             "ratings: C {:.0} N, C0 {:.0} N, Cu {:.0} N",
             self.ratings.dynamic_n, self.ratings.static_n, self.ratings.fatigue_n
-        ));
+        );
+        if let Some(safety) = self.safety.filter(|safety| safety.factor.is_finite()) {
+            ratings += &format!(
+                "; static safety s0 = C0/P0 {:.3}, P0 {:.0} N",
+                safety.factor, safety.equivalent_n
+            );
+        }
+        console::data(ratings);
         let life = |value: Option<f64>| match value {
             Some(v) if v.is_finite() => format!("{v:.5e}"),
             Some(_) => "unlimited".to_owned(),

@@ -168,3 +168,17 @@ fn a_free_shaft_between_two_rows_comes_to_rest() {
         );
     }
 }
+
+/// Numbers of a bearing file that look like those of another unit are told with those of the scene, once for a file.
+#[test]
+fn slips_of_units_in_bearing_files_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let slipped = format!("{PAIR}[ratings]\ndynamic_N = 14.0\n");
+    fs::write(folder.path().join("pair.toml"), slipped).unwrap();
+    let loaded = load(SCENE, folder.path()).unwrap();
+    let told: Vec<String> = (loaded.unit_slips().iter())
+        .map(ToString::to_string)
+        .collect();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].contains("pair.toml") && told[0].contains("ratings.dynamic_N: 14 is unusual"));
+}

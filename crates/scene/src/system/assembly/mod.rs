@@ -48,11 +48,12 @@ pub(super) use self::bearings::tangent::TangentSeat;
 pub use gears_in_motion::{GearState, GearsInMotion, MovingGear, MovingShape, SliceLoad};
 pub(crate) use mesh_frequency::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use gearmesh_dynamics::{Motion, System, SystemBuilder};
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
 
 use self::bearings::tangent::Tangent;
 use self::bearings::{cages, housing, rigid};
@@ -120,7 +121,7 @@ impl SystemScene {
 }
 
 impl LoadedSystem {
-    /// Numbers of the scene and of its gears' files that look like those of another unit.
+    /// Numbers of the scene and of its gears' and bearings' files that look like those of another unit.
     #[must_use]
     pub fn unit_slips(&self) -> Vec<InputError> {
         let mut slips = self.scene.document.unit_slips();
@@ -131,6 +132,15 @@ impl LoadedSystem {
                 slips.extend(gear.unit_slips());
             }
         }
+        let bearings = self.scene.tables.bearing.iter();
+        let files: BTreeSet<&str> = bearings.filter_map(|b| b.model.file()).collect();
+        // Files that cannot be read are complained about where the system is built.
+        let documents = files.into_iter().map(|file| self.scene.folder.join(file));
+        slips.extend(
+            documents
+                .filter_map(|path| InputDocument::read(&path).ok())
+                .flat_map(|document| document.unit_slips()),
+        );
         slips
     }
 
