@@ -57,6 +57,7 @@ pub mod roller_row;
 mod shoulder;
 pub mod static_safety;
 pub mod stress_riser;
+mod tilted_equilibrium;
 pub mod warnings;
 
 pub use ball_kinematics::RaceControl;

@@ -239,6 +239,21 @@ impl Answer<'_> {
         value
     }
 
+    /// Warnings of the file and of the equilibrium.
+    fn told(&self) -> Vec<Value> {
+        let of_file = self.found.warnings.iter();
+        let of_file = of_file.map(|text| json!({"concern": "estimate", "text": text}));
+        let own = self.warnings.iter().map(|warning| {
+            json!({
+                "concern": warning.concern.word(),
+                "value": warning.value,
+                "limit": warning.limit,
+                "text": warning.text,
+            })
+        });
+        of_file.chain(own).collect()
+    }
+
     fn figures(&self) -> Value {
         let q = self.pose.to_five();
         let rows: Vec<Value> = (self.loads.elements.iter().enumerate())
@@ -274,12 +289,7 @@ impl Answer<'_> {
                 "equivalent_N": safety.equivalent_n,
                 "s0": finite(safety.factor),
             })),
-            "warnings": self.warnings.iter().map(|warning| json!({
-                "concern": warning.concern.word(),
-                "value": warning.value,
-                "limit": warning.limit,
-                "text": warning.text,
-            })).collect::<Vec<_>>(),
+            "warnings": self.told(),
         });
         if let Some(friction) = &self.friction {
             value["friction"] = bearing_friction::figures(friction);

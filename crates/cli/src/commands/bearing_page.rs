@@ -121,6 +121,9 @@ fn at_a_glance(answer: &Answer<'_>) -> Section {
         _ => figures,
     };
     let mut section = Section::new("At a glance").push(figures);
+    for warning in &answer.found.warnings {
+        section = section.push(Text::note(format!("Warning: {warning}")));
+    }
     for warning in &answer.warnings {
         section = section.push(Text::note(format!("Warning: {warning}")));
     }

@@ -327,7 +327,11 @@ impl Bodies {
             None => {
                 let mut known = vec![GROUND_NAME];
                 known.extend(self.list.iter().map(|placed| placed.body.name.as_str()));
-                Err(keys.error(key, names::unknown("body", name, &known)))
+                let mut problem = names::unknown("body", name, &known);
+                if name.ends_with("/ring") && !known.iter().any(|known| known.ends_with("/ring")) {
+                    problem += "; outer rings are bodies of bearings with a `housing`, which joints and other bearings cannot name";
+                }
+                Err(keys.error(key, problem))
             }
         }
     }
