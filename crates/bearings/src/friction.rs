@@ -77,7 +77,10 @@ pub fn usual_factors(geometry: &BearingGeometry) -> (f64, LoadFactor) {
                     power: 0.55,
                 },
             ),
-            BallBearingKind::AngularContact => (
+            // Files do not have the friction of the last two.
+            BallBearingKind::AngularContact
+            | BallBearingKind::FourPoint { .. }
+            | BallBearingKind::Thrust => (
                 3.3,
                 LoadFactor::OfStaticLoad {
                     factor: 0.001,
@@ -115,7 +118,7 @@ fn load_n(geometry: &BearingGeometry, (radial, axial): (f64, f64)) -> f64 {
     let thrust = match geometry {
         BearingGeometry::Ball(g) => match g.kind {
             BallBearingKind::DeepGroove => 3.0 * axial - 0.1 * radial,
-            BallBearingKind::AngularContact => 0.9 * axial / g.free_angle_rad.tan() - 0.1 * radial,
+            _ => 0.9 * axial / g.free_angle_rad.tan() - 0.1 * radial,
         },
         BearingGeometry::Roller(g) => g.taper.map_or(0.0, |taper| {
             let angle = taper.contact_angle_rad - half_taper_rad(g);

@@ -42,7 +42,7 @@ impl QuasiStaticBearing {
     /// Where the inner ring comes to rest under a load.
     ///
     /// Newton's method with the exact tangent; steps that do not lessen the unbalanced load are turned towards it (Levenberg and
-    /// Marquardt). At speed the loads of the rest position are the start.
+    /// Marquardt). At speed the loads of the rest position are the start. Self-aligning bearings resist no tilt: they are held without one where none is stated.
     ///
     /// # Errors
     /// [`BearingError`] where there is none, or a cylindrical roller bearing is loaded along its axis.
@@ -51,6 +51,21 @@ impl QuasiStaticBearing {
         load: &AppliedBearingLoad,
         operation: &Operation,
     ) -> Result<RingPose, BearingError> {
+        let held = AppliedBearingLoad {
+            tilt: TiltCondition::Held([0.0; 2]),
+            ..*load
+        };
+        let load = match load.tilt {
+            TiltCondition::Moments([x, y]) if self.aligns() => {
+                if x != 0.0 || y != 0.0 {
+                    return Err(BearingError::NotCarried(
+                        "a spherical roller bearing tilts freely and carries no moment; remove it, or state the tilt",
+                    ));
+                }
+                &held
+            }
+            _ => load,
+        };
         if !self.locates && load.force_n[2] != 0.0 {
             return Err(BearingError::NotCarried(
                 "the load has an axial part, which cylindrical rollers do not bear in this model; set it to 0, another bearing bears it",

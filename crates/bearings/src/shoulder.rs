@@ -26,8 +26,9 @@ impl BallGeometry {
     pub fn shoulder_heights_m(&self) -> [f64; 2] {
         self.stated_shoulder_heights_m.unwrap_or_else(|| {
             let steep = match self.kind {
-                BallBearingKind::DeepGroove => 0.0,
-                BallBearingKind::AngularContact => {
+                // Washers are judged by nothing here: their grooves face along the axis.
+                BallBearingKind::DeepGroove | BallBearingKind::Thrust => 0.0,
+                BallBearingKind::AngularContact | BallBearingKind::FourPoint { .. } => {
                     0.5 * (1.0 - (self.free_angle_rad + BEYOND_CONTACT_RAD).cos())
                 }
             };

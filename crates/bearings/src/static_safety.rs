@@ -14,7 +14,7 @@
 //! Moments, clearance and preload are not in it: largest pressures say what they do.
 
 use crate::definition::{Arrangement, BallBearingKind, BearingDefinition, BearingGeometry};
-use crate::ratings::{Ratings, nominal_angle_rad};
+use crate::ratings::{Ratings, nominal_angle_rad, outer_angle_rad};
 
 /// s₀ and what it is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +40,7 @@ const BY_ANGLE: [[f64; 2]; 7] = [
 const BESIDE_DEG: f64 = 0.5;
 
 impl StaticSafety {
-    /// Under a force on the inner ring; none where ISO 76 gives no factors: contact angles of balls outside 15 to 45 degrees.
+    /// Under a force on the inner ring; none where ISO 76 gives no factors: four-point bearings, thrust bearings with a radial load, contact angles of balls outside 15 to 45 degrees.
     #[must_use]
     pub fn of(
         definition: &BearingDefinition,
@@ -58,13 +58,18 @@ impl StaticSafety {
                 BallBearingKind::AngularContact => {
                     inclined(axial_factor(nominal_angle_rad(g).to_degrees())?)
                 }
+                BallBearingKind::FourPoint { .. } => return None,
+                // P₀ₐ = F_a of 90°.
+                BallBearingKind::Thrust => (0.0, 1.0),
             },
-            BearingGeometry::Roller(g) => match g.taper {
-                None => (1.0, 0.0),
-                Some(taper) => inclined(0.22 / taper.contact_angle_rad.tan()),
-            },
+            BearingGeometry::Roller(g) if outer_angle_rad(g) == 0.0 => (1.0, 0.0),
+            BearingGeometry::Roller(g) => inclined(0.22 / outer_angle_rad(g).tan()),
         };
         let radial = force_n[0].hypot(force_n[1]);
+        let thrust = matches!(&definition.geometry, BearingGeometry::Ball(g) if g.kind == BallBearingKind::Thrust);
+        if thrust && radial > 1e-6 * force_n[2].abs() {
+            return None;
+        }
         let equivalent_n = (x * radial + y * force_n[2].abs()).max(radial);
         Some(Self {
             equivalent_n,

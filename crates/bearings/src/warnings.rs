@@ -13,7 +13,7 @@
 use std::f64::consts::PI;
 use std::fmt;
 
-use crate::definition::{BearingDefinition, BearingGeometry};
+use crate::definition::{BallBearingKind, BearingDefinition, BearingGeometry};
 use crate::life::Life;
 use crate::operation::Operation;
 use crate::quasi_static::{QuasiStaticBearing, RowLoads};
@@ -203,6 +203,9 @@ impl Judged<'_> {
         let BearingGeometry::Ball(g) = &self.definition.geometry else {
             return;
         };
+        if g.kind == BallBearingKind::Thrust {
+            return;
+        }
         let mut highest = [0.0_f64; 2];
         for (row, elements) in self.bearing.rows.iter().zip(&self.loads.elements) {
             for element in elements {
@@ -259,7 +262,9 @@ impl Judged<'_> {
     fn speed(&self, found: &mut Found) {
         let (pitch_m, limit) = match &self.definition.geometry {
             BearingGeometry::Ball(g) => (g.pitch_diameter_m, 500_000.0),
-            BearingGeometry::Roller(g) if g.taper.is_some() => (g.pitch_diameter_m, 350_000.0),
+            BearingGeometry::Roller(g) if g.taper.is_some() || g.barrel.is_some() => {
+                (g.pitch_diameter_m, 350_000.0)
+            }
             BearingGeometry::Roller(g) => (g.pitch_diameter_m, 450_000.0),
         };
         let rad_per_s = (self.operation.inner_rad_per_s - self.operation.outer_rad_per_s).abs();

@@ -44,12 +44,25 @@ pub(super) fn geometry(
         balls >= 3 && (balls as f64) <= room,
         &format!("3 to {room}, as many balls of {ball} mm as go round on {pitch} mm"),
     )?;
-    let kind = if file.kind == Kind::DeepGroove {
-        BallBearingKind::DeepGroove
-    } else {
-        BallBearingKind::AngularContact
+    if matches!(file.kind, Kind::FourPoint | Kind::ThrustBall) && file.arrangement.is_some() {
+        let problem = format!(
+            "is not used by kind = \"{}\", which has one row; remove it",
+            file.kind.word()
+        );
+        return Err(keys.error("arrangement", problem));
+    }
+    let (kind, (free_angle_rad, interference_mm)) = match file.kind {
+        Kind::FourPoint => four_point_angle(file, keys, (inner + outer - 1.0) * ball, ball)?,
+        Kind::ThrustBall => (BallBearingKind::Thrust, (std::f64::consts::FRAC_PI_2, 0.0)),
+        kind => (
+            if kind == Kind::DeepGroove {
+                BallBearingKind::DeepGroove
+            } else {
+                BallBearingKind::AngularContact
+            },
+            free_angle(file, keys, (ball, pitch), (inner, outer))?,
+        ),
     };
-    let (free_angle_rad, interference_mm) = free_angle(file, keys, (ball, pitch), (inner, outer))?;
     let geometry = BallGeometry {
         kind,
         balls,
@@ -92,6 +105,52 @@ pub(super) fn shoulder_heights_m(
         )?;
     }
     Ok(Some(heights.map(|height| MM * height)))
+}
+
+/// Contact angle of the four arcs, and play.
+fn four_point_angle(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    distance_mm: f64,
+    ball_mm: f64,
+) -> Result<(BallBearingKind, (f64, f64)), InputError> {
+    let degrees = keys.needed(
+        "contact_angle_deg",
+        file.contact_angle_deg,
+        "kind = \"four-point\"",
+    )?;
+    keys.require(
+        "contact_angle_deg",
+        degrees,
+        degrees > 0.0 && degrees <= 60.0,
+        "more than 0 and at most 60",
+    )?;
+    let angle = degrees.to_radians();
+    let clearance_um = file.radial_clearance_um.unwrap_or(0.0);
+    let kind = four_point_kind(keys, clearance_um, (MM * ball_mm, MM * distance_mm), angle)?;
+    Ok((kind, (angle, 0.0)))
+}
+
+/// Play up to that at which balls touch two arcs only under thrust, or interference up to a hundredth of the ball's diameter.
+pub(super) fn four_point_kind(
+    keys: &TableKeys<'_>,
+    clearance_um: f64,
+    (ball_m, distance_m): (f64, f64),
+    angle_rad: f64,
+) -> Result<BallBearingKind, InputError> {
+    let least_um = -MOST_INTERFERENCE * ball_m / UM;
+    let most_um = 2.0 * distance_m * angle_rad.cos() / UM;
+    keys.require(
+        "radial_clearance_um",
+        clearance_um,
+        (least_um..most_um).contains(&clearance_um),
+        &format!(
+            "{least_um:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most_um:.1}: with more no ball touches both rings"
+        ),
+    )?;
+    Ok(BallBearingKind::FourPoint {
+        clearance_m: UM * clearance_um,
+    })
 }
 
 /// Balls and rollers may be too large for their rings by this share of their diameter: for balls of 8 mm 80 um, several times what tight fits take

@@ -52,6 +52,11 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
     let lubrication = lubrication(a)?;
     let bearing = QuasiStaticBearing::new(&found.definition).map_err(Failure::work)?;
     refuse_faults_in_motion(&bearing)?;
+    if bearing.aligns() && a.moment_Nm.iter().any(|moment| *moment != 0.0) {
+        return Err(Failure::input(
+            "--moment-Nm: a spherical roller bearing tilts freely and carries no moment; remove it, or give --tilt-mrad",
+        ));
+    }
     let pose = bearing
         .equilibrium(&load, &operation)
         .map_err(|e| match e {
@@ -220,6 +225,14 @@ impl Answer<'_> {
             "orbit_rad_per_s": e.orbit_rad_per_s,
             "spin_rad_per_s": e.spin_rad_per_s,
         });
+        if let Some(other) = &e.other_side {
+            value["other_side"] = json!({
+                "inner_load_N": other.inner_load_n,
+                "outer_load_N": other.outer_load_n,
+                "inner_contact_angle_deg": other.inner_contact_angle_rad.to_degrees(),
+                "outer_contact_angle_deg": other.outer_contact_angle_rad.to_degrees(),
+            });
+        }
         if self.of_rollers() {
             value["tilt_mrad"] = json!(1e3 * e.tilt_rad);
             value["rib_load_N"] = json!(e.rib_load_n);
@@ -393,6 +406,15 @@ impl Answer<'_> {
                     1e-6 * inner,
                     1e-6 * outer
                 ));
+                if let Some(other) = &e.other_side {
+                    console::data(format!(
+                        "  other side {:>12.3} {:>10.3} {:>18.4} {:>7.4}",
+                        other.inner_load_n,
+                        other.outer_load_n,
+                        rounded(other.inner_contact_angle_rad.to_degrees(), 4),
+                        rounded(other.outer_contact_angle_rad.to_degrees(), 4),
+                    ));
+                }
             }
         }
         let mut ratings = format!(

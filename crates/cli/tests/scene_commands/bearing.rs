@@ -254,7 +254,10 @@ fn a_fit_is_printed_term_by_term() {
     let page = std::fs::read_to_string(&page).unwrap();
     for words in [&print, &page] {
         assert!(words.contains("heat of the inner ring"), "{words}");
-        assert!(words.contains("shaft: interference in operation 9.00 um, pressure "), "{words}");
+        assert!(
+            words.contains("shaft: interference in operation 9.00 um, pressure "),
+            "{words}"
+        );
     }
     let plain = text
         .split("[fit]")
