@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | read the gears that bodies name | `gears.rs` |
 //! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
-//! | shafts | `shafts.rs` |
+//! | shafts; gears that are cut into them | `shafts.rs`, `cut_into_shaft.rs` |
 //! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs`; of bevel gears `bevel_mesh.rs` |
 //! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `carriers.rs` |
 //! | angles that nobody states | `start.rs` |
@@ -22,6 +22,7 @@ mod bevel_mesh;
 mod bodies;
 mod carriers;
 mod consistency;
+mod cut_into_shaft;
 mod elements;
 mod gear_mesh;
 mod gears;
@@ -115,7 +116,8 @@ impl SystemScene {
             let keys = TableKeys::new(&self.document, &key);
             let read = |path| files.get(&self.folder.join(path), &keys);
             let gear = table.gear.as_ref().map(read).transpose()?;
-            gears.push(gears::with_own_microgeometry(gear, &self, i)?);
+            let gear = gears::with_own_microgeometry(gear, &self, i)?;
+            gears.push(cut_into_shaft::on_its_shaft(gear, &self, i)?);
         }
         Ok(LoadedSystem { scene: self, gears })
     }
