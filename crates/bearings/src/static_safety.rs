@@ -7,7 +7,7 @@
 //! | bearing | X₀, Y₀ of one row, or of rows in tandem | of two rows O or X |
 //! | --- | --- | --- |
 //! | deep groove | 0.6, 0.5 | |
-//! | angular contact, 15, 20, 25, 30, 35, 40, 45 degrees | 0.5, 0.46, 0.42, 0.38, 0.33, 0.29, 0.26, 0.22 | 1, twice as much |
+//! | angular contact, 5, 10, … 45 degrees | 0.5 and 0.52, 0.5, 0.46, 0.42, 0.38, 0.33, 0.29, 0.26, 0.22 | 1, twice as much |
 //! | tapered roller | 0.5, 0.22 cot α | 1, 0.44 cot α |
 //! | cylindrical roller | 1, 0 | |
 //!
@@ -26,7 +26,9 @@ pub struct StaticSafety {
 }
 
 /// Y₀ of single rows of balls by degrees.
-const BY_ANGLE: [[f64; 2]; 7] = [
+const BY_ANGLE: [[f64; 2]; 9] = [
+    [5.0, 0.52],
+    [10.0, 0.50],
     [15.0, 0.46],
     [20.0, 0.42],
     [25.0, 0.38],
@@ -40,7 +42,7 @@ const BY_ANGLE: [[f64; 2]; 7] = [
 const BESIDE_DEG: f64 = 0.5;
 
 impl StaticSafety {
-    /// Under a force on the inner ring; none where ISO 76 gives no factors: four-point bearings, thrust bearings with a radial load, contact angles of balls outside 15 to 45 degrees.
+    /// Under a force on the inner ring; none where ISO 76 gives no factors: four-point bearings, thrust bearings with a radial load, contact angles of balls outside 5 to 45 degrees.
     #[must_use]
     pub fn of(
         definition: &BearingDefinition,
@@ -79,7 +81,7 @@ impl StaticSafety {
 }
 
 /// Y₀ between the angles of the table.
-fn axial_factor(degrees: f64) -> Option<f64> {
+pub(crate) fn axial_factor(degrees: f64) -> Option<f64> {
     let [first, last] = [BY_ANGLE[0][0], BY_ANGLE[BY_ANGLE.len() - 1][0]];
     if !(first - BESIDE_DEG..=last + BESIDE_DEG).contains(&degrees) {
         return None;
