@@ -1,7 +1,8 @@
 //! The equilibrium of one ball between two grooves, and what it does to the inner ring.
 //!
 //! Each ball stays in its axial plane (the cage holds it there) and has two unknowns, the place of its centre b in that plane. A
-//! groove is half a torus: a circle of radius R, the line of the groove's centres, and round it the groove's radius r, up to contact angles of 90°. With
+//! groove is half a torus: a circle of radius R, the line of the groove's centres, and round it the groove's radius r, up to contact angles of 90° (in thrust bearings
+//! from 0° to 180°). With
 //! the distance ℓ of b from that circle the approach is δ = ℓ − (r − D/2), the force Q = k δ^1.5 points to the circle. Formulas (3) to (7)
 //! of docs/theory/rolling_bearings.md.
 
@@ -146,7 +147,9 @@ impl Ball<'_> {
         let distance = between.norm();
         let approach = distance - inner.arm_m - outer.arm_m;
         // In the outer groove under its centrifugal force alone.
-        let pressed_m = self.operation.is_turning().then(|| {
+        // Washers of a thrust bearing have no bottom on the way out.
+        let has_bottom = outer.reaches(1.0, 0.0);
+        let pressed_m = (has_bottom && self.operation.is_turning()).then(|| {
             let angles = ContactAngles {
                 inner: (1.0, 0.0),
                 outer: (1.0, 0.0),
@@ -200,7 +203,7 @@ impl Ball<'_> {
         let outer = self.outer_contact(place);
         let motion = self.operation.is_turning().then(|| {
             let outer = (outer.n[0], outer.n[1]);
-            if inner.cosine > 0.0 {
+            if self.inner.reaches(inner.cosine, inner.sine) {
                 let inner = (inner.cosine, inner.sine);
                 let angles = ContactAngles { inner, outer };
                 return (self.motion_at(&angles, control), control);
@@ -240,7 +243,7 @@ impl Ball<'_> {
         let length = (out * out + up * up).sqrt().max(f64::MIN_POSITIVE);
         let (cosine, sine) = (-out / length, -up / length);
         // A groove is the half of its torus that faces the ball.
-        let approach = if out < 0.0 {
+        let approach = if groove.reaches(cosine, sine) {
             length - groove.arm_m
         } else {
             0.0
@@ -266,7 +269,7 @@ impl Ball<'_> {
         let d = place - Vector2::new(groove.centre_radius_m, groove.centre_z_m);
         let length = d.norm().max(f64::MIN_POSITIVE);
         let n = d / length;
-        let approach = if d[0] > 0.0 {
+        let approach = if groove.reaches(n[0], n[1]) {
             length - groove.arm_m
         } else {
             0.0
@@ -472,7 +475,7 @@ impl Ball<'_> {
             angle_rad: row.angle_rad(self.number, self.operation),
             inner_load_n: state.inner.load,
             outer_load_n: state.outer.load,
-            inner_contact_angle_rad: if state.inner.cosine > 0.0 {
+            inner_contact_angle_rad: if self.inner.reaches(state.inner.cosine, state.inner.sine) {
                 state.inner.sine.atan2(state.inner.cosine)
             } else {
                 row.free_angle_rad

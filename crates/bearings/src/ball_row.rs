@@ -23,6 +23,16 @@ pub struct Groove {
     pub arm_m: f64,
     /// Contact with a ball.
     pub contact: PointContact,
+    /// Direction (cosine, sine of a contact angle) in the middle of the half of the torus that is there.
+    pub faces: (f64, f64),
+}
+
+impl Groove {
+    /// Whether the half of the torus that is there has a contact at the angle with this cosine and sine.
+    #[inline]
+    pub(crate) fn reaches(&self, cosine: f64, sine: f64) -> bool {
+        self.faces.0 * cosine + self.faces.1 * sine > 0.0
+    }
 }
 
 /// A row of balls.

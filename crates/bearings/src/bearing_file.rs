@@ -2,11 +2,13 @@
 
 mod arrangement_keys;
 mod ball_keys;
+mod barrel_keys;
 mod catalogue_keys;
 mod fault_keys;
 mod fit_keys;
 mod friction_keys;
 mod roller_keys;
+mod unused_keys;
 
 use std::path::Path;
 
@@ -16,7 +18,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::catalogue::CatalogueType;
-use crate::definition::{BearingDefinition, BearingGeometry, BearingMaterial, StatedRatings};
+use crate::definition::{
+    BallBearingKind, BearingDefinition, BearingGeometry, BearingMaterial, StatedRatings,
+};
 use crate::estimate::Estimate;
 
 pub use fault_keys::{FaultTable, SideWord};
@@ -47,31 +51,38 @@ struct BearingFile {
     outside_diameter_mm: Option<f64>,
     /// Width, as `bore_mm`.
     width_mm: Option<f64>,
-    /// "deep-groove", "angular-contact": number of balls in a row. "catalogue": where it is known.
+    /// Ball bearings: number of balls in a row. "catalogue": where it is known.
     balls: Option<usize>,
-    /// "deep-groove", "angular-contact": diameter of the balls. "catalogue": where it is known.
+    /// Ball bearings: diameter of the balls. "catalogue": where it is known.
     ball_diameter_mm: Option<f64>,
     /// Diameter of the circle of the balls' or rollers' middles. "catalogue": where it is known; the middle between bore and outside diameter otherwise.
     pitch_diameter_mm: Option<f64>,
-    /// "deep-groove", "angular-contact": radius of the inner groove over the ball's diameter, more than 0.5.
+    /// Ball bearings: radius of the inner groove over the ball's diameter, more than 0.5; of a thrust bearing that of the washer on the shaft.
     inner_conformity: Option<f64>,
-    /// "deep-groove", "angular-contact": radius of the outer groove over the ball's diameter, more than 0.5.
+    /// Ball bearings: radius of the outer groove over the ball's diameter, more than 0.5; of a thrust bearing that of the washer in the housing.
     outer_conformity: Option<f64>,
-    /// "angular-contact": contact angle without load. "tapered-roller": angle of the outer race against the axis. "catalogue": of angular-contact and tapered roller bearings.
+    /// "angular-contact": contact angle without load. "four-point": that of a ball that touches at all four points. "tapered-roller": angle of the outer race against the axis. "spherical-roller": of the load lines. "catalogue": of angular-contact, four-point and tapered roller bearings.
     contact_angle_deg: Option<f64>,
-    /// "deep-groove", "cylindrical-roller", "catalogue": play across the axis from one side to the other; negative: interference, as fits leave it; 0 where not given.
+    /// "deep-groove", "four-point", "cylindrical-roller", "spherical-roller", "catalogue": play across the axis from one side to the other; negative: interference, as fits leave it; 0 where not given.
     radial_clearance_um: Option<f64>,
     /// "deep-groove", "angular-contact": diameters of the grooves' bottoms, inner and outer, instead of clearance or contact angle.
     raceway_diameters_mm: Option<[f64; 2]>,
-    /// "cylindrical-roller", "tapered-roller": number of rollers in a row. "catalogue": where it is known.
+    /// "deep-groove", "angular-contact", "four-point", "catalogue": heights of the shoulders above the bottoms of the inner and outer groove, of the higher one where they differ; estimated where not
+    /// given (0.2 of the ball's diameter or 30° beyond the contact angle). Contact ellipses that reach beyond are warned of.
+    shoulder_heights_mm: Option<[f64; 2]>,
+    /// Roller bearings: number of rollers in a row. "catalogue": where it is known.
     rollers: Option<usize>,
-    /// "cylindrical-roller", "tapered-roller": diameter of the rollers, in their middle. "catalogue": where it is known.
+    /// Roller bearings: diameter of the rollers, in their middle. "catalogue": where it is known.
     roller_diameter_mm: Option<f64>,
-    /// "cylindrical-roller", "tapered-roller": length of the rollers that carries. "catalogue": where it is known.
+    /// Roller bearings: length of the rollers that carries. "catalogue": where it is known.
     roller_length_mm: Option<f64>,
+    /// "spherical-roller": radius of the rollers' profile; 0.97 of the radius of the sphere inside the outer ring where not given.
+    roller_profile_radius_mm: Option<f64>,
+    /// "spherical-roller": radius of the profile of the inner ring's groove; that of the sphere inside the outer ring where not given.
+    inner_groove_radius_mm: Option<f64>,
     /// "cylindrical-roller", "tapered-roller": end profile; logarithmic by ISO/TS 16281 where not given.
     profile: Option<ProfileTable>,
-    /// "cylindrical-roller", "tapered-roller": laminae of a roller; 40 where not given.
+    /// Roller bearings: laminae of a roller; 40 where not given.
     laminae: Option<usize>,
     /// "tapered-roller": radius of the roller's spherical end over the distance of that end from the apex; 0.95 where not given.
     end_radius_ratio: Option<f64>,
@@ -85,10 +96,10 @@ struct BearingFile {
     arrangement: Option<ArrangementWord>,
     /// Distance of the two rows. "catalogue" with two rows in its rings: half the width where not given.
     row_distance_mm: Option<f64>,
-    /// "angular-contact", "tapered-roller": axial force that the rows of a pair bear at rest without load; of a single row that which its place without
+    /// "angular-contact", "thrust-ball", "tapered-roller": axial force that the rows of a pair bear at rest without load; of a single row that which its place without
     /// load stands for.
     preload_N: Option<f64>,
-    /// "angular-contact", "tapered-roller": axial displacement by which each row's inner ring is pressed in; negative for play.
+    /// "angular-contact", "thrust-ball", "tapered-roller": axial displacement by which each row's inner ring is pressed in; negative for play.
     preload_um: Option<f64>,
     /// Place of the first ball or roller, from x towards y; 0 where not given.
     first_angle_deg: Option<f64>,
@@ -116,10 +127,16 @@ enum Kind {
     DeepGroove,
     /// Ball bearing that bears axial loads one way.
     AngularContact,
+    /// Ball bearing whose grooves have two arcs each: a ball touches at up to four points.
+    FourPoint,
+    /// Balls between two washers.
+    ThrustBall,
     /// Bears no axial loads.
     CylindricalRoller,
     /// Roller bearing that bears axial loads one way.
     TaperedRoller,
+    /// Two rows of barrels in a sphere: bears axial loads both ways and tilts freely.
+    SphericalRoller,
     /// Estimated from a line of a catalogue.
     Catalogue,
 }
@@ -129,8 +146,11 @@ impl Kind {
         match self {
             Self::DeepGroove => "deep-groove",
             Self::AngularContact => "angular-contact",
+            Self::FourPoint => "four-point",
+            Self::ThrustBall => "thrust-ball",
             Self::CylindricalRoller => "cylindrical-roller",
             Self::TaperedRoller => "tapered-roller",
+            Self::SphericalRoller => "spherical-roller",
             Self::Catalogue => "catalogue",
         }
     }
@@ -209,6 +229,8 @@ pub struct BearingFromFile {
     pub notes: Vec<String>,
     /// What the user should look at: estimates that fit badly.
     pub warnings: Vec<String>,
+    /// Numbers that look like those of another unit.
+    pub unit_slips: Vec<InputError>,
 }
 
 impl BearingFromFile {
@@ -241,18 +263,23 @@ impl BearingFromFile {
     pub fn from_document(document: &InputDocument) -> Result<Self, InputError> {
         let file: BearingFile = document.parse()?;
         let keys = TableKeys::new(document, "");
-        refuse_unused(&file, &keys)?;
+        unused_keys::refuse(&file, &keys)?;
         let mut notes = Vec::new();
         let stated = |mm: Option<f64>| mm.map(|value| MM * value);
         let mut boundary = (stated(file.bore_mm), stated(file.outside_diameter_mm));
         let (geometry, estimate, name, from_catalogue) = match file.kind {
-            Kind::DeepGroove | Kind::AngularContact => {
+            Kind::DeepGroove | Kind::AngularContact | Kind::FourPoint | Kind::ThrustBall => {
                 let geometry = ball_keys::geometry(&file, &keys, &mut notes)?;
                 (BearingGeometry::Ball(geometry), None, None, None)
             }
             Kind::CylindricalRoller | Kind::TaperedRoller => {
                 let geometry = roller_keys::geometry(&file, document, &keys)?;
                 (BearingGeometry::Roller(geometry), None, None, None)
+            }
+            Kind::SphericalRoller => {
+                let (geometry, rows) = barrel_keys::geometry(&file, &keys)?;
+                let own = (Some(rows), StatedRatings::default());
+                (BearingGeometry::Roller(geometry), None, None, Some(own))
             }
             Kind::Catalogue => {
                 let found = catalogue_keys::geometry(&file, document, &keys, &mut notes)?;
@@ -321,6 +348,7 @@ impl BearingFromFile {
             estimate,
             notes,
             warnings,
+            unit_slips: document.unit_slips(),
         })
     }
 }
@@ -363,90 +391,6 @@ fn material(
     })
 }
 
-/// Keys that the chosen kind does not use are errors.
-fn refuse_unused(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    const BALLS: &[&str] = &["deep-groove", "angular-contact"];
-    const ROLLERS: &[&str] = &["cylindrical-roller", "tapered-roller"];
-    const OR_LISTED: &[&str] = &["deep-groove", "angular-contact", "catalogue"];
-    const ROLLERS_OR_LISTED: &[&str] = &["cylindrical-roller", "tapered-roller", "catalogue"];
-    const LISTED: &[&str] = &["catalogue"];
-    const PRELOADED: &[&str] = &["angular-contact", "tapered-roller", "catalogue"];
-    keys.refuse_unused(
-        ("kind", file.kind.word()),
-        &[
-            ("balls", file.balls.is_some(), OR_LISTED),
-            (
-                "ball_diameter_mm",
-                file.ball_diameter_mm.is_some(),
-                OR_LISTED,
-            ),
-            (
-                "pitch_diameter_mm",
-                file.pitch_diameter_mm.is_some(),
-                &[
-                    "deep-groove",
-                    "angular-contact",
-                    "cylindrical-roller",
-                    "tapered-roller",
-                    "catalogue",
-                ],
-            ),
-            (
-                "inner_conformity",
-                file.inner_conformity.is_some(),
-                &["deep-groove", "angular-contact", "catalogue"],
-            ),
-            (
-                "outer_conformity",
-                file.outer_conformity.is_some(),
-                &["deep-groove", "angular-contact", "catalogue"],
-            ),
-            (
-                "contact_angle_deg",
-                file.contact_angle_deg.is_some(),
-                &["angular-contact", "tapered-roller", "catalogue"],
-            ),
-            (
-                "radial_clearance_um",
-                file.radial_clearance_um.is_some(),
-                &["deep-groove", "cylindrical-roller", "catalogue"],
-            ),
-            (
-                "raceway_diameters_mm",
-                file.raceway_diameters_mm.is_some(),
-                BALLS,
-            ),
-            ("rollers", file.rollers.is_some(), ROLLERS_OR_LISTED),
-            (
-                "roller_diameter_mm",
-                file.roller_diameter_mm.is_some(),
-                ROLLERS_OR_LISTED,
-            ),
-            (
-                "roller_length_mm",
-                file.roller_length_mm.is_some(),
-                ROLLERS_OR_LISTED,
-            ),
-            ("profile", file.profile.is_some(), ROLLERS),
-            ("laminae", file.laminae.is_some(), ROLLERS),
-            (
-                "end_radius_ratio",
-                file.end_radius_ratio.is_some(),
-                &["tapered-roller"],
-            ),
-            (
-                "rib_height_mm",
-                file.rib_height_mm.is_some(),
-                &["tapered-roller"],
-            ),
-            ("designation", file.designation.is_some(), LISTED),
-            ("type", file.r#type.is_some(), LISTED),
-            ("preload_N", file.preload_N.is_some(), PRELOADED),
-            ("preload_um", file.preload_um.is_some(), PRELOADED),
-        ],
-    )
-}
-
 /// The races must lie between bore and outside diameter where these are given.
 fn check_boundary(
     file: &BearingFile,
@@ -457,6 +401,10 @@ fn check_boundary(
         return Ok(());
     }
     let (inner_m, outer_m) = match &definition.geometry {
+        // Washers reach beyond the middles of the balls.
+        BearingGeometry::Ball(g) if g.kind == BallBearingKind::Thrust => {
+            (g.pitch_diameter_m, g.pitch_diameter_m)
+        }
         BearingGeometry::Ball(g) => g.raceway_diameters_m(),
         BearingGeometry::Roller(g) => (
             g.pitch_diameter_m - g.diameter_m,

@@ -3,9 +3,11 @@
 use std::f64::consts::PI;
 
 use crate::ball_row::{BallRow, Groove};
+use crate::barrel_row::{BarrelLamina, BarrelRow};
 use crate::definition::{
-    BallBearingKind, BallGeometry, BearingDefinition, BearingGeometry, RollerGeometry,
+    BallBearingKind, BallGeometry, BarrelShape, BearingDefinition, BearingGeometry, RollerGeometry,
 };
+use crate::four_point_row::{Arc, FourPointRow};
 use crate::line_contact::LineContact;
 use crate::point_contact::{PointContact, contact_modulus_pa};
 use crate::roller_row::{Lamina, Race, Rib, RollerRow};
@@ -43,8 +45,12 @@ pub(crate) fn ball_row(
     let (sine, cosine) = (g.free_angle_rad.sin(), g.groove_cosine());
     // The grooves of a deep-groove bearing face each other; its rings stand in the middle of their axial play.
     let apart = match g.kind {
-        BallBearingKind::DeepGroove => 0.0,
-        BallBearingKind::AngularContact => sense * sine,
+        BallBearingKind::DeepGroove | BallBearingKind::FourPoint { .. } => 0.0,
+        BallBearingKind::AngularContact | BallBearingKind::Thrust => sense * sine,
+    };
+    let faces = match g.kind {
+        BallBearingKind::Thrust => (0.0, sense),
+        _ => (1.0, 0.0),
     };
     let arms = [g.inner_conformity, g.outer_conformity].map(|f| (f - 0.5) * d);
     BallRow {
@@ -58,16 +64,51 @@ pub(crate) fn ball_row(
             centre_z_m: middle_z_m + arms[0] * apart,
             arm_m: arms[0],
             contact: inner,
+            faces,
         },
         outer: Groove {
             centre_radius_m: pitch_radius_m - arms[1] * cosine,
             centre_z_m: middle_z_m - arms[1] * apart,
             arm_m: arms[1],
             contact: outer,
+            faces,
         },
         free_angle_rad: apart.asin(),
         first_angle_rad: definition.first_angle_rad,
         faults: None,
+    }
+}
+
+/// A row of balls between grooves of two arcs each.
+pub(crate) fn four_point_row(definition: &BearingDefinition, g: &BallGeometry) -> FourPointRow {
+    let contacts = groove_contacts(g, modulus_pa(definition));
+    let (d, pitch_radius_m) = (g.ball_diameter_m, 0.5 * g.pitch_diameter_m);
+    let (sine, cosine) = (g.free_angle_rad.sin(), g.groove_cosine());
+    let arcs = |conformity: f64, contact: PointContact, inwards: f64| {
+        let arm_m = (conformity - 0.5) * d;
+        [1.0, -1.0].map(|side| Arc {
+            groove: Groove {
+                centre_radius_m: pitch_radius_m + inwards * arm_m * cosine,
+                centre_z_m: inwards * side * arm_m * sine,
+                arm_m,
+                contact,
+                faces: (1.0, 0.0),
+            },
+            side,
+            // Both arcs meet in the middle plane: (f − ½) D sin α = f D sin of the end.
+            end_sine: (conformity - 0.5) / conformity * sine,
+        })
+    };
+    FourPointRow {
+        balls: g.balls,
+        ball_diameter_m: d,
+        pitch_radius_m,
+        ball_mass_kg: definition.element_material.density_kg_per_m3 * PI / 6.0 * d.powi(3),
+        middle_z_m: 0.0,
+        inner: arcs(g.inner_conformity, contacts[0], 1.0),
+        outer: arcs(g.outer_conformity, contacts[1], -1.0),
+        free_angle_rad: g.free_angle_rad,
+        first_angle_rad: definition.first_angle_rad,
     }
 }
 
@@ -185,13 +226,72 @@ pub(crate) fn roller_row(
     }
 }
 
+/// A row of barrels; `sense` is 1 where the inner ring bears axial loads along +z on it.
+pub(crate) fn barrel_row(
+    definition: &BearingDefinition,
+    g: &RollerGeometry,
+    shape: &BarrelShape,
+    sense: f64,
+) -> BarrelRow {
+    let (sine, cosine) = shape.contact_angle_rad.sin_cos();
+    let across = (cosine, sense * sine);
+    let pitch_radius_m = 0.5 * g.pitch_diameter_m;
+    let middle = (pitch_radius_m, pitch_radius_m * across.1 / cosine);
+    let gap = 0.25 * g.radial_clearance_m * cosine;
+    let to_groove = shape.groove_radius_m - 0.5 * g.diameter_m - gap;
+    let length = g.length_m / g.laminae as f64;
+    let radius = shape.profile_radius_m;
+    let laminae = (0..g.laminae)
+        .map(|number| {
+            let place_m = (number as f64 + 0.5) * length - 0.5 * g.length_m;
+            // R − √(R² − x²) without cancellation.
+            let sagitta =
+                place_m * place_m / (radius + (radius * radius - place_m * place_m).sqrt());
+            BarrelLamina {
+                place_m,
+                reach_m: 0.5 * g.diameter_m - sagitta,
+            }
+        })
+        .collect();
+    let sphere =
+        BarrelShape::sphere_radius_m(shape.contact_angle_rad, g.pitch_diameter_m, g.diameter_m);
+    let modulus = modulus_pa(definition);
+    let roller = 2.0 / g.diameter_m;
+    // Normal radii of curvature along the way: of the inner race its distance from the axis along the load line.
+    let inner = 1.0 / (pitch_radius_m / cosine - 0.5 * g.diameter_m);
+    let contact = |curvature: f64| LineContact::new(g.length_m, curvature, modulus);
+    BarrelRow {
+        rollers: g.rollers,
+        first_angle_rad: definition.first_angle_rad,
+        pitch_radius_m,
+        diameter_m: g.diameter_m,
+        middle_m: middle,
+        across,
+        laminae,
+        lamina_length_m: length,
+        groove_centre_m: (
+            middle.0 + across.0 * to_groove,
+            middle.1 + across.1 * to_groove,
+        ),
+        groove_radius_m: shape.groove_radius_m,
+        sphere_radius_m: sphere + gap,
+        contacts: [contact(roller + inner), contact(roller - 1.0 / sphere)],
+    }
+}
+
 /// The rows of a bearing, not yet preloaded.
 pub(crate) fn rows(definition: &BearingDefinition) -> Vec<crate::quasi_static::Row> {
     use crate::quasi_static::Row;
     let places = definition.arrangement.rows();
     let make = |place: (f64, f64)| match &definition.geometry {
+        BearingGeometry::Ball(g) if matches!(g.kind, BallBearingKind::FourPoint { .. }) => {
+            Row::FourPoint(Box::new(four_point_row(definition, g)))
+        }
         BearingGeometry::Ball(g) => Row::Ball(ball_row(definition, g, place)),
-        BearingGeometry::Roller(g) => Row::Roller(roller_row(definition, g, place)),
+        BearingGeometry::Roller(g) => match &g.barrel {
+            None => Row::Roller(roller_row(definition, g, place)),
+            Some(shape) => Row::Barrel(Box::new(barrel_row(definition, g, shape, place.1))),
+        },
     };
     places.into_iter().map(make).collect()
 }

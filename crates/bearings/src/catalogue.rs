@@ -10,10 +10,16 @@ pub enum CatalogueType {
     AngularContact,
     /// Angular-contact ball bearing with two rows in one pair of rings.
     AngularContactDoubleRow,
+    /// Four-point contact ball bearing.
+    FourPoint,
+    /// Thrust ball bearing, one way; its width is its height.
+    ThrustBall,
     /// Cylindrical roller bearing.
     CylindricalRoller,
     /// Tapered roller bearing; its width is that of the assembled bearing (T).
     TaperedRoller,
+    /// Spherical roller bearing.
+    SphericalRoller,
 }
 
 impl CatalogueType {
@@ -24,22 +30,28 @@ impl CatalogueType {
             Self::DeepGroove => "deep-groove",
             Self::AngularContact => "angular-contact",
             Self::AngularContactDoubleRow => "angular-contact-double-row",
+            Self::FourPoint => "four-point",
+            Self::ThrustBall => "thrust-ball",
             Self::CylindricalRoller => "cylindrical-roller",
             Self::TaperedRoller => "tapered-roller",
+            Self::SphericalRoller => "spherical-roller",
         }
     }
 
     /// Whether it has rollers.
     #[must_use]
     pub fn has_rollers(self) -> bool {
-        matches!(self, Self::CylindricalRoller | Self::TaperedRoller)
+        matches!(
+            self,
+            Self::CylindricalRoller | Self::TaperedRoller | Self::SphericalRoller
+        )
     }
 
     /// Rows within one pair of rings.
     #[must_use]
     pub fn rows(self) -> usize {
         match self {
-            Self::AngularContactDoubleRow => 2,
+            Self::AngularContactDoubleRow | Self::SphericalRoller => 2,
             _ => 1,
         }
     }
@@ -48,9 +60,12 @@ impl CatalogueType {
     #[must_use]
     pub fn angles_deg(self) -> Option<[f64; 2]> {
         match self {
-            Self::DeepGroove | Self::CylindricalRoller => None,
-            Self::AngularContact | Self::AngularContactDoubleRow => Some([1.0, 60.0]),
+            Self::DeepGroove | Self::ThrustBall | Self::CylindricalRoller => None,
+            Self::AngularContact | Self::AngularContactDoubleRow | Self::FourPoint => {
+                Some([1.0, 60.0])
+            }
             Self::TaperedRoller => Some([5.0, 45.0]),
+            Self::SphericalRoller => Some([3.0, 45.0]),
         }
     }
 }

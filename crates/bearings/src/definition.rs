@@ -58,9 +58,9 @@ impl BearingMaterial {
 /// Balls or rollers.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BearingGeometry {
-    /// Deep-groove and angular-contact ball bearings.
+    /// Ball bearings.
     Ball(BallGeometry),
-    /// Cylindrical and tapered roller bearings.
+    /// Cylindrical, tapered and spherical roller bearings.
     Roller(RollerGeometry),
 }
 
@@ -75,13 +75,34 @@ impl BearingGeometry {
     }
 }
 
+impl BearingGeometry {
+    /// Whether it is a deep-groove, angular-contact, cylindrical or tapered roller bearing: those that fits, friction and faults are known of.
+    #[must_use]
+    pub fn is_classic(&self) -> bool {
+        match self {
+            Self::Ball(g) => matches!(
+                g.kind,
+                BallBearingKind::DeepGroove | BallBearingKind::AngularContact
+            ),
+            Self::Roller(g) => g.barrel.is_none(),
+        }
+    }
+}
+
 /// Which ball bearing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BallBearingKind {
     /// Bears axial loads both ways; the grooves face each other.
     DeepGroove,
     /// Bears axial loads one way.
     AngularContact,
+    /// Grooves of two arcs each, which a ball touches at four points; bears axial loads both ways.
+    FourPoint {
+        /// Play of the inner ring across the axis from one side to the other; negative: interference \[m\].
+        clearance_m: f64,
+    },
+    /// Bears axial loads one way, between two washers: contact angle 90°.
+    Thrust,
 }
 
 /// Balls and grooves.
@@ -99,10 +120,13 @@ pub struct BallGeometry {
     pub inner_conformity: f64,
     /// f_o = r_o/D.
     pub outer_conformity: f64,
-    /// α₀: that of a ball which just touches both grooves, the rings moved apart along the axis \[rad\].
+    /// α₀: that of a ball which just touches both grooves, the rings moved apart along the axis; of a four-point bearing that of a ball which just touches all
+    /// four arcs \[rad\].
     pub free_angle_rad: f64,
     /// By how much the balls of a deep-groove bearing are too large for its rings, across the axis from one side to the other; 0 where there is play \[m\].
     pub interference_m: f64,
+    /// Heights of the shoulders above the bottoms of the inner and outer groove; estimated where none are stated \[m\].
+    pub stated_shoulder_heights_m: Option<[f64; 2]>,
 }
 
 impl BallGeometry {
@@ -115,14 +139,21 @@ impl BallGeometry {
     /// P_d = 2 A (1 − cos α₀), play of the inner ring across the axis from one side to the other; negative: interference \[m\].
     #[must_use]
     pub fn radial_clearance_m(&self) -> f64 {
+        if let BallBearingKind::FourPoint { clearance_m } = self.kind {
+            return clearance_m;
+        }
         // 1 − cos α = 2 sin²(α/2) keeps the digits of a small clearance.
         4.0 * self.groove_distance_m() * (0.5 * self.free_angle_rad).sin().powi(2)
             - self.interference_m
     }
 
-    /// 1 − P_d/(2A): the cosine of the free contact angle, above 1 with interference.
+    /// 1 − P_d/(2A): the cosine of the free contact angle, above 1 with interference; of a four-point bearing cos α − P_d/(2A). With A it gives how far
+    /// the circles of the grooves' centres stand from each other across the axis.
     #[must_use]
     pub fn groove_cosine(&self) -> f64 {
+        if let BallBearingKind::FourPoint { clearance_m } = self.kind {
+            return self.free_angle_rad.cos() - 0.5 * clearance_m / self.groove_distance_m();
+        }
         self.free_angle_rad.cos() + 0.5 * self.interference_m / self.groove_distance_m()
     }
 
@@ -151,12 +182,34 @@ pub struct RollerGeometry {
     pub pitch_diameter_m: f64,
     /// Play of the inner ring across the axis from one side to the other, negative: interference; of tapered bearings 0 \[m\].
     pub radial_clearance_m: f64,
-    /// Taper and rib; none for cylindrical rollers.
+    /// Taper and rib; none for other rollers.
     pub taper: Option<Taper>,
+    /// Curved profiles of barrels; none for other rollers.
+    pub barrel: Option<BarrelShape>,
     /// End profile.
     pub profile: RollerProfile,
     /// Number of laminae.
     pub laminae: usize,
+}
+
+/// What makes a spherical roller bearing: barrels in the groove of the inner ring and the sphere of the outer one, whose radius follows from
+/// pitch diameter, roller and contact angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BarrelShape {
+    /// α \[rad\].
+    pub contact_angle_rad: f64,
+    /// Radius of the roller's profile \[m\].
+    pub profile_radius_m: f64,
+    /// Radius of the inner groove's profile \[m\].
+    pub groove_radius_m: f64,
+}
+
+impl BarrelShape {
+    /// d_m/(2 cos α) + D/2: the sphere inside the outer ring, without play \[m\].
+    #[must_use]
+    pub fn sphere_radius_m(contact_angle_rad: f64, pitch_m: f64, diameter_m: f64) -> f64 {
+        0.5 * pitch_m / contact_angle_rad.cos() + 0.5 * diameter_m
+    }
 }
 
 /// What makes a tapered bearing.

@@ -35,6 +35,41 @@ pub struct ElementLoad {
     pub spin_rad_per_s: f64,
     /// Whether a ball rolls without spin on the inner race; otherwise on the outer one.
     pub controlled_by_inner: bool,
+    /// Of a four-point contact bearing: the contacts on the side that bears less.
+    pub other_side: Option<OtherSide>,
+}
+
+impl ElementLoad {
+    /// Loads at the inner and outer race where contact angles are positive (or zero), or negative \[N\].
+    pub(crate) fn on_track(&self, positive: bool) -> (f64, f64) {
+        if self.other_side.is_none() {
+            // One track, whichever its angle.
+            return if positive {
+                (self.inner_load_n, self.outer_load_n)
+            } else {
+                (0.0, 0.0)
+            };
+        }
+        let other = self.other_side.unwrap_or_default();
+        if (self.inner_contact_angle_rad >= 0.0) == positive {
+            (self.inner_load_n, self.outer_load_n)
+        } else {
+            (other.inner_load_n, other.outer_load_n)
+        }
+    }
+}
+
+/// The second pair of contacts of a ball with four.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OtherSide {
+    /// Normal load at the inner race \[N\].
+    pub inner_load_n: f64,
+    /// Normal load at the outer race \[N\].
+    pub outer_load_n: f64,
+    /// Contact angle at the inner race \[rad\].
+    pub inner_contact_angle_rad: f64,
+    /// Contact angle at the outer race \[rad\].
+    pub outer_contact_angle_rad: f64,
 }
 
 impl ElementLoad {

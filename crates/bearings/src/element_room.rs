@@ -1,7 +1,7 @@
 //! What can be built between bore, outside diameter and width: how wide a bearing is, which elements go in, which ratings they reach.
 //!
-//! Rings need a twentieth of D_a − d on either side of the elements, balls no more than the width, rollers nine tenths of it. Widths
-//! lie between those of the dimension series of ISO 15 (radial) and ISO 355 (tapered) with a margin. Ratings reach from those of half the
+//! Rings need a twentieth of D_a − d on either side of the elements, balls no more than the width, between washers and as rollers nine tenths of it. Widths
+//! lie between those of the dimension series of ISO 15 (radial), ISO 104 (thrust) and ISO 355 (tapered) with a margin. Ratings reach from those of half the
 //! usual number of elements of half the usual size to those of the largest elements that go in, with a margin for makers' figures.
 //! docs/theory/rolling_bearings.md.
 
@@ -35,10 +35,13 @@ pub(crate) fn most_elements(kind: CatalogueType, diameter_m: f64, pitch_m: f64) 
     let each = 2.0 * ratio.asin();
     match kind {
         CatalogueType::DeepGroove => 1.0 + ASSEMBLY_ARC_DEG.to_radians() / each,
-        CatalogueType::AngularContact | CatalogueType::AngularContactDoubleRow => {
-            2.0 * PI / (1.05 * each)
-        }
-        CatalogueType::CylindricalRoller | CatalogueType::TaperedRoller => 2.0 * PI / (1.08 * each),
+        CatalogueType::AngularContact
+        | CatalogueType::AngularContactDoubleRow
+        | CatalogueType::FourPoint
+        | CatalogueType::ThrustBall => 2.0 * PI / (1.05 * each),
+        CatalogueType::CylindricalRoller
+        | CatalogueType::TaperedRoller
+        | CatalogueType::SphericalRoller => 2.0 * PI / (1.08 * each),
     }
 }
 
@@ -61,9 +64,24 @@ impl ElementRoom {
         let beside = (line.pitch_m() - line.bore_m).min(line.outside_m - line.pitch_m());
         let across = (beside - wall).min(MOST_OF_SECTION * line.section_m());
         let rows = line.kind.rows() as f64;
+        let beside_washers = match line.kind {
+            CatalogueType::ThrustBall => MOST_OF_WIDTH,
+            _ => 1.0,
+        };
         let least = LEAST_OF_USUAL * usual.diameter.0 * line.section_m();
         if line.kind.has_rollers() {
-            let most = MOST_OF_WIDTH * line.width_m / rows;
+            let most = match line.kind {
+                // Rollers of both rows must not meet in the middle plane.
+                CatalogueType::SphericalRoller => {
+                    let cosine = line.contact_angle_rad.cos();
+                    let diameter = line.known.diameter_m;
+                    let usual = usual.diameter.0 * line.section_m();
+                    (line.pitch_m() - diameter.unwrap_or(usual) * cosine)
+                        * line.contact_angle_rad.tan()
+                        / cosine
+                }
+                _ => MOST_OF_WIDTH * line.width_m / rows,
+            };
             let least_length = LEAST_OF_USUAL * usual.length.0 * line.width_m;
             Self {
                 diameter_m: [least, across],
@@ -71,7 +89,7 @@ impl ElementRoom {
             }
         } else {
             Self {
-                diameter_m: [least, across.min(line.width_m / rows)],
+                diameter_m: [least, across.min(beside_washers * line.width_m / rows)],
                 length_m: [0.0; 2],
             }
         }
@@ -115,12 +133,14 @@ impl CatalogueLine {
     /// Narrowest and widest bearings of the series over (D_a − d)/2, with a margin of about a fifth: ISO 15 (ISO 355 for tapered ones).
     fn widths_over_height(&self) -> ([f64; 2], &'static str) {
         match self.kind {
-            CatalogueType::DeepGroove | CatalogueType::AngularContact => {
-                ([0.5, 2.4], "the width series of ISO 15")
-            }
+            CatalogueType::DeepGroove
+            | CatalogueType::AngularContact
+            | CatalogueType::FourPoint => ([0.5, 2.4], "the width series of ISO 15"),
+            CatalogueType::ThrustBall => ([0.8, 2.4], "the series of ISO 104"),
             CatalogueType::AngularContactDoubleRow => ([1.0, 3.0], "ISO 15 for two rows"),
             CatalogueType::CylindricalRoller => ([0.5, 4.0], "the width series of ISO 15"),
             CatalogueType::TaperedRoller => ([0.7, 2.4], "the series of ISO 355"),
+            CatalogueType::SphericalRoller => ([0.8, 2.6], "ISO 15 for two rows of rollers"),
         }
     }
 

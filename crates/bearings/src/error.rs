@@ -40,6 +40,16 @@ pub enum BearingError {
         /// What to do.
         hint: &'static str,
     },
+    /// A tilted ring finds no equilibrium.
+    #[error(
+        "the bearing finds no equilibrium under this load with its inner ring held at {asked_mrad:.3} mrad; one was found up to {found_mrad:.3} mrad: hold it straighter, or give another load"
+    )]
+    NoEquilibriumAtTilt {
+        /// The tilt that is held.
+        asked_mrad: f64,
+        /// The largest one with an equilibrium.
+        found_mrad: f64,
+    },
     /// Balls of an angular-contact bearing on the side where it has no groove.
     #[error(
         "the load pulls the rings of an angular-contact bearing apart: a single row bears axial loads along +z only; give it a preload, a second row, or turn the load round"

@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::catalogue::{CatalogueLine, CatalogueType};
 use crate::element_room::{ElementRoom, most_elements};
 use crate::ratings;
+use crate::thrust_ratings::{thrust_ball_dynamic_n, thrust_ball_static_n};
 
 /// Scatter of makers' C about ISO 281 and of C₀ about ISO 76, in logarithms.
 const SCATTER_DYNAMIC: f64 = 0.06;
@@ -36,9 +37,13 @@ impl CatalogueType {
     pub(crate) fn usual(self) -> UsualShares {
         let (diameter, length, number) = match self {
             Self::DeepGroove => ((0.3, 0.08), (1.0, 1.0), 0.97),
-            Self::AngularContact | Self::AngularContactDoubleRow => ((0.3, 0.08), (1.0, 1.0), 0.88),
+            Self::AngularContact | Self::AngularContactDoubleRow | Self::FourPoint => {
+                ((0.3, 0.08), (1.0, 1.0), 0.88)
+            }
+            Self::ThrustBall => ((0.36, 0.12), (1.0, 1.0), 0.93),
             Self::CylindricalRoller => ((0.275, 0.08), (0.64, 0.12), 0.93),
             Self::TaperedRoller => ((0.24, 0.1), (0.62, 0.15), 0.92),
+            Self::SphericalRoller => ((0.25, 0.1), (0.36, 0.1), 0.92),
         };
         UsualShares {
             diameter,
@@ -85,9 +90,18 @@ pub(crate) fn ratings_of(line: &CatalogueLine, count: usize, size: (f64, f64)) -
         line.kind.rows() as f64,
     );
     if line.kind.has_rollers() {
+        let made = match line.kind {
+            CatalogueType::SphericalRoller => ratings::BARREL_SHARE,
+            _ => 1.0,
+        };
         [
-            ratings::roller_row_dynamic_n(count, size, pitch, angle) * rows.powf(7.0 / 9.0),
+            made * ratings::roller_row_dynamic_n(count, size, pitch, angle) * rows.powf(7.0 / 9.0),
             ratings::roller_row_static_n(count, size, pitch, angle) * rows,
+        ]
+    } else if line.kind == CatalogueType::ThrustBall {
+        [
+            thrust_ball_dynamic_n(count, size.0, pitch),
+            thrust_ball_static_n(count, size.0),
         ]
     } else {
         [

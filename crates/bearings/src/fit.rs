@@ -116,6 +116,8 @@ impl OperatingClearance {
                 row.inner.centre_radius_m += inner;
                 row.outer.centre_radius_m += outer;
             }
+            // Files do not have the fits of these.
+            Row::FourPoint(_) | Row::Barrel(_) => {}
             Row::Roller(row) => {
                 row.inner.offset_m += row.inner.normal.0 * inner;
                 row.outer.offset_m += row.outer.normal.0 * outer;

@@ -49,16 +49,20 @@ impl BearingDefinition {
                 pitch_diameter_m: g.pitch_diameter_m,
                 contact_angle_rad: match g.kind {
                     BallBearingKind::DeepGroove => 0.0,
-                    BallBearingKind::AngularContact => g.free_angle_rad,
+                    BallBearingKind::AngularContact
+                    | BallBearingKind::FourPoint { .. }
+                    | BallBearingKind::Thrust => g.free_angle_rad,
                 },
             },
             BearingGeometry::Roller(g) => RollingSizes {
                 elements: g.rollers,
                 element_diameter_m: g.diameter_m,
                 pitch_diameter_m: g.pitch_diameter_m,
-                contact_angle_rad: g.taper.map_or(0.0, |t| {
-                    t.contact_angle_rad - crate::build_rows::half_taper_rad(g)
-                }),
+                contact_angle_rad: match (g.taper, g.barrel) {
+                    (Some(t), _) => t.contact_angle_rad - crate::build_rows::half_taper_rad(g),
+                    (None, Some(barrel)) => barrel.contact_angle_rad,
+                    (None, None) => 0.0,
+                },
             },
         }
     }

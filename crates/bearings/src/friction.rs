@@ -10,6 +10,7 @@ use crate::element_load::ElementLoad;
 use crate::operation::Operation;
 use crate::quasi_static::RowLoads;
 use crate::ratings::Ratings;
+use crate::static_safety::axial_factor;
 
 /// What the friction of a bearing depends on beside its loads.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,7 +78,10 @@ pub fn usual_factors(geometry: &BearingGeometry) -> (f64, LoadFactor) {
                     power: 0.55,
                 },
             ),
-            BallBearingKind::AngularContact => (
+            // Files do not have the friction of the last two.
+            BallBearingKind::AngularContact
+            | BallBearingKind::FourPoint { .. }
+            | BallBearingKind::Thrust => (
                 3.3,
                 LoadFactor::OfStaticLoad {
                     factor: 0.001,
@@ -115,7 +119,7 @@ fn load_n(geometry: &BearingGeometry, (radial, axial): (f64, f64)) -> f64 {
     let thrust = match geometry {
         BearingGeometry::Ball(g) => match g.kind {
             BallBearingKind::DeepGroove => 3.0 * axial - 0.1 * radial,
-            BallBearingKind::AngularContact => 0.9 * axial / g.free_angle_rad.tan() - 0.1 * radial,
+            _ => 0.9 * axial / g.free_angle_rad.tan() - 0.1 * radial,
         },
         BearingGeometry::Roller(g) => g.taper.map_or(0.0, |taper| {
             let angle = taper.contact_angle_rad - half_taper_rad(g);
@@ -125,26 +129,12 @@ fn load_n(geometry: &BearingGeometry, (radial, axial): (f64, f64)) -> f64 {
     radial.max(thrust)
 }
 
-/// Y₀ of ISO 76 for balls: contact angle in degrees, factor.
-const STATIC_AXIAL: [[f64; 2]; 8] = [
-    [5.0, 0.52],
-    [10.0, 0.50],
-    [15.0, 0.46],
-    [20.0, 0.42],
-    [25.0, 0.38],
-    [30.0, 0.33],
-    [35.0, 0.29],
-    [40.0, 0.26],
-];
-
-/// P₀ = X₀ F_r + Y₀ F_a of a row of balls by ISO 76, at least F_r; Y₀ of the next angle of its table \[N\].
+/// P₀ = X₀ F_r + Y₀ F_a of a row of balls by ISO 76, at least F_r; Y₀ = 0.5 where its table has no angle \[N\].
 fn static_load_n(geometry: &BearingGeometry, (radial, axial): (f64, f64)) -> f64 {
     let (x, y) = match geometry {
         BearingGeometry::Ball(g) if g.kind == BallBearingKind::AngularContact => {
-            let degrees = g.free_angle_rad.to_degrees();
-            let off = |row: &[f64; 2]| (row[0] - degrees).abs();
-            let nearest = STATIC_AXIAL.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-            (0.5, nearest.map_or(0.5, |row| row[1]))
+            let factor = axial_factor(g.free_angle_rad.to_degrees());
+            (0.5, factor.unwrap_or(0.5))
         }
         _ => (0.6, 0.5),
     };

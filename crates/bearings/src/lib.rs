@@ -4,7 +4,7 @@
 //! | --- | --- | --- |
 //! | what a bearing is | [`BearingDefinition`] | `definition.rs`, read by `bearing_file.rs` |
 //! | ball in a groove, roller on a race | [`PointContact`], [`LineContact`] | `point_contact.rs`, `line_contact.rs` |
-//! | one row of balls or rollers | [`BallRow`], [`RollerRow`] | `ball_row.rs`, `roller_row.rs` |
+//! | one row of balls or rollers | [`BallRow`], [`FourPointRow`], [`RollerRow`], [`BarrelRow`] | `ball_row.rs`, `four_point_row.rs`, `roller_row.rs`, `barrel_row.rs` |
 //! | how balls orbit and spin | | `ball_kinematics.rs` |
 //! | all rows: load on the inner ring and its tangent | [`QuasiStaticBearing`] | `quasi_static.rs` |
 //! | the same between two bodies of a system | [`QuasiStaticElement`] | `quasi_static_element.rs` |
@@ -12,6 +12,7 @@
 //! | fits and heat: the clearance in operation | [`OperatingClearance`] | `fit.rs` |
 //! | what may be wrong with it | [`faults::Fault`] | `faults/` |
 //! | friction torque | [`friction::Friction`] | `friction.rs` |
+//! | static safety, and what is beyond its limit | [`StaticSafety`], [`warnings::Judged`] | `static_safety.rs`, `warnings.rs`, `shoulder.rs` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
 //! | what the ends of rollers suffer | [`stress_riser::stress_riser`] | `stress_riser.rs` |
 //! | life over the loads of a run | [`LoadHistory`] | `load_history.rs` |
@@ -24,11 +25,14 @@
 mod ball_equilibrium;
 mod ball_kinematics;
 pub mod ball_row;
+mod barrel_equilibrium;
+pub mod barrel_row;
 pub mod bearing_file;
 mod build_rows;
 pub mod catalogue;
 pub mod definition;
 pub mod designations;
+mod double_row_load;
 mod dual;
 pub mod dynamic;
 pub mod element_load;
@@ -38,6 +42,8 @@ mod error;
 pub mod estimate;
 pub mod faults;
 pub mod fit;
+mod four_point_ball;
+pub mod four_point_row;
 pub mod frequencies;
 pub mod friction;
 pub mod life;
@@ -53,10 +59,16 @@ pub mod ring_load;
 pub mod ring_pose;
 mod roller_equilibrium;
 pub mod roller_row;
+mod shoulder;
+pub mod static_safety;
 pub mod stress_riser;
+pub mod thrust_ratings;
+mod tilted_equilibrium;
+pub mod warnings;
 
 pub use ball_kinematics::RaceControl;
 pub use ball_row::BallRow;
+pub use barrel_row::BarrelRow;
 pub use catalogue::CatalogueLine;
 pub use definition::BearingDefinition;
 pub use dynamic::{DynamicBearing, DynamicEffects};
@@ -64,6 +76,7 @@ pub use element_load::ElementLoad;
 pub use element_place::ElementPlaces;
 pub use error::BearingError;
 pub use fit::OperatingClearance;
+pub use four_point_row::FourPointRow;
 pub use frequencies::BearingFrequencies;
 pub use friction::{Friction, FrictionTorque};
 pub use gearmesh_geometry::point_contact::PointContact;
@@ -79,3 +92,5 @@ pub use ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 pub use ring_load::RingLoad;
 pub use ring_pose::RingPose;
 pub use roller_row::RollerRow;
+pub use static_safety::StaticSafety;
+pub use warnings::BearingWarning;

@@ -1,6 +1,7 @@
 //! Rating life: L10 by ISO 281, L10r of the true load distribution by ISO/TS 16281, L10mr with lubrication and contamination.
 
-use crate::definition::{BearingDefinition, BearingGeometry};
+use crate::definition::{BallBearingKind, BearingDefinition, BearingGeometry};
+use crate::double_row_load::equivalent_of_two_rows_n;
 use crate::element_load::ElementLoad;
 use crate::operation::Operation;
 use crate::quasi_static::RowLoads;
@@ -18,7 +19,7 @@ pub struct Life {
     pub reference_mrev: f64,
     /// P_ref = C/L10r^(1/p) \[N\].
     pub reference_equivalent_n: f64,
-    /// L10mr = a_ISO L10r where a lubricant is stated.
+    /// L10mr = a_ISO L10r where a lubricant is stated; none for thrust bearings.
     pub modified_mrev: Option<f64>,
 }
 
@@ -54,11 +55,16 @@ impl Life {
             equivalent_n: equivalent,
             reference_mrev: reference,
             reference_equivalent_n: reference_equivalent,
-            modified_mrev: lubrication.map(|l| {
+            modified_mrev: lubrication.filter(|_| !is_thrust(definition)).map(|l| {
                 reference * life_factor(definition, &ratings, reference_equivalent, operation, l)
             }),
         }
     }
+}
+
+/// Whether it is a thrust bearing: ISO 281's life factors of those are others, which are not built in.
+fn is_thrust(definition: &BearingDefinition) -> bool {
+    matches!(&definition.geometry, BearingGeometry::Ball(g) if g.kind == BallBearingKind::Thrust)
 }
 
 /// A ring that turns by less than this share of the other one's speed stands still: housings on springs rock.
@@ -109,19 +115,27 @@ fn reference_mrev(
             let gamma = g.ball_diameter_m * angle.cos() / g.pitch_diameter_m;
             let groove = |f: f64| (2.0 * f - 1.0) / f;
             let grooves = (groove(g.outer_conformity) / groove(g.inner_conformity)).powf(0.41);
-            let ratio = 1.044 * ((1.0 - gamma) / (1.0 + gamma)).powf(1.72) * grooves;
+            let is_thrust = g.kind == BallBearingKind::Thrust;
+            // Both washers are alike, and all balls bear the same.
+            let zone = if is_thrust { 1.0 } else { 1.044 };
+            let ratio = zone * ((1.0 - gamma) / (1.0 + gamma)).powf(1.72) * grooves;
             let share = |sign: f64| (1.0 + ratio.powf(sign * 10.0 / 3.0)).powf(0.3);
-            let row = ratings.dynamic_n
-                / (ratings.rows as f64).powf(0.7)
-                / (g.balls as f64 * angle.cos().powf(0.7));
-            let (inner, outer) = (row / 0.407 * share(1.0), row / 0.389 * share(-1.0));
+            let row = ratings.dynamic_n / (ratings.rows as f64).powf(0.7) / g.balls as f64;
+            let zones = if is_thrust {
+                [1.0; 2]
+            } else {
+                [0.407, 0.389].map(|zone| zone * angle.cos().powf(0.7))
+            };
+            let (inner, outer) = (row / zones[0] * share(1.0), row / zones[1] * share(-1.0));
             let powers = turns.map(|turns| if turns { 3.0 } else { 10.0 / 3.0 });
             let damage: f64 = loads
                 .elements
                 .iter()
-                .map(|row| {
-                    let q_i = mean_of(row.iter().map(|e| e.inner_load_n), powers[0]);
-                    let q_o = mean_of(row.iter().map(|e| e.outer_load_n), powers[1]);
+                // The two tracks of a four-point bearing's race are stressed by themselves, as those of two rows.
+                .flat_map(|row| [true, false].map(|positive| (row, positive)))
+                .map(|(row, positive)| {
+                    let q_i = mean_of(row.iter().map(|e| e.on_track(positive).0), powers[0]);
+                    let q_o = mean_of(row.iter().map(|e| e.on_track(positive).1), powers[1]);
                     (q_i / inner).powf(10.0 / 3.0) + (q_o / outer).powf(10.0 / 3.0)
                 })
                 .sum();
@@ -205,7 +219,7 @@ fn between<const N: usize>(table: &[[f64; N]], x: f64) -> [f64; N] {
     std::array::from_fn(|i| a[i] + share * (b[i] - a[i]))
 }
 
-/// P = X F_r + Y F_a of a single row; none for pairs and for angles that ISO 281 does not list.
+/// P = X F_r + Y F_a; none for tandem rows, four-point bearings, thrust bearings with a radial load and angles that ISO 281 does not list.
 fn equivalent_n(
     definition: &BearingDefinition,
     ratings: &Ratings,
@@ -214,7 +228,17 @@ fn equivalent_n(
     let radial = force_n[0].hypot(force_n[1]);
     let axial = force_n[2].abs();
     if ratings.rows > 1 {
-        return None;
+        return equivalent_of_two_rows_n(definition, (radial, axial));
+    }
+    if let BearingGeometry::Ball(g) = &definition.geometry {
+        match g.kind {
+            BallBearingKind::FourPoint { .. } => return None,
+            // P = F_a, no radial load.
+            BallBearingKind::Thrust => {
+                return (axial > 0.0 && radial <= 1e-6 * axial).then_some(axial);
+            }
+            BallBearingKind::DeepGroove | BallBearingKind::AngularContact => {}
+        }
     }
     let (x, y, limit) = match &definition.geometry {
         BearingGeometry::Ball(g) => {

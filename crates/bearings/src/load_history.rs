@@ -159,7 +159,12 @@ impl LoadHistory {
             let load = AppliedBearingLoad {
                 // Cylindrical rollers bear no axial load; what damping leaves of it is none.
                 force_n: [radial, 0.0, if bearing.locates { axial } else { 0.0 }],
-                tilt: TiltCondition::Moments([along, across]),
+                // What a self-aligning bearing passes on as a moment is its force beside the ring's middle.
+                tilt: if bearing.aligns() {
+                    TiltCondition::Held([0.0; 2])
+                } else {
+                    TiltCondition::Moments([along, across])
+                },
             };
             let mut equivalent_n = None;
             // An element under the load, and a gap there.

@@ -4,6 +4,7 @@ use gearmesh_dynamics::{Marker, MarkerPair};
 use nalgebra::Vector3;
 
 use crate::ball_row::BallRow;
+use crate::barrel_row::BarrelRow;
 use crate::build_rows;
 use crate::definition::{BearingDefinition, Preload};
 use crate::element_load::ElementLoad;
@@ -11,6 +12,7 @@ use crate::element_place::{ElementPlace, ElementPlaces};
 use crate::error::BearingError;
 use crate::faults::missing_element::missing;
 use crate::faults::{Fault, MisalignedRing, RowFaults, Side};
+use crate::four_point_row::FourPointRow;
 use crate::operation::Operation;
 use crate::point_contact::ContactEllipse;
 use crate::ring_load::RingLoad;
@@ -22,8 +24,12 @@ use crate::roller_row::RollerRow;
 pub enum Row {
     /// Of balls.
     Ball(BallRow),
-    /// Of rollers.
+    /// Of balls between grooves of two arcs each.
+    FourPoint(Box<FourPointRow>),
+    /// Of cylindrical or tapered rollers.
     Roller(RollerRow),
+    /// Of barrels.
+    Barrel(Box<BarrelRow>),
 }
 
 impl Row {
@@ -32,7 +38,9 @@ impl Row {
     pub fn elements(&self) -> usize {
         match self {
             Self::Ball(row) => row.balls,
+            Self::FourPoint(row) => row.balls,
             Self::Roller(row) => row.rollers,
+            Self::Barrel(row) => row.rollers,
         }
     }
 
@@ -41,6 +49,7 @@ impl Row {
     pub fn has(&self, element: usize) -> bool {
         match self {
             Self::Ball(row) => row.has(element),
+            Self::FourPoint(_) | Self::Barrel(_) => true,
             Self::Roller(row) => !row.missing.contains(&element),
         }
     }
@@ -50,7 +59,9 @@ impl Row {
     pub fn pitch_radius_m(&self) -> f64 {
         match self {
             Self::Ball(row) => row.pitch_radius_m,
+            Self::FourPoint(row) => row.pitch_radius_m,
             Self::Roller(row) => row.pitch_radius_m,
+            Self::Barrel(row) => row.pitch_radius_m,
         }
     }
 
@@ -62,7 +73,11 @@ impl Row {
                 Some(row.inner.contact.ellipse(load.inner_load_n)),
                 Some(row.outer.contact.ellipse(load.outer_load_n)),
             ],
-            Self::Roller(_) => [None; 2],
+            Self::FourPoint(row) => [
+                Some(row.inner[0].groove.contact.ellipse(load.inner_load_n)),
+                Some(row.outer[0].groove.contact.ellipse(load.outer_load_n)),
+            ],
+            Self::Roller(_) | Self::Barrel(_) => [None; 2],
         }
     }
 
@@ -70,15 +85,12 @@ impl Row {
     #[must_use]
     pub fn peak_pressures_pa(&self, load: &ElementLoad) -> [f64; 2] {
         match self {
-            Self::Ball(row) => [
-                row.inner
-                    .contact
-                    .ellipse(load.inner_load_n)
-                    .peak_pressure_pa,
-                row.outer
-                    .contact
-                    .ellipse(load.outer_load_n)
-                    .peak_pressure_pa,
+            Self::Ball(_) | Self::FourPoint(_) => self
+                .ellipses(load)
+                .map(|ellipse| ellipse.map_or(0.0, |ellipse| ellipse.peak_pressure_pa)),
+            Self::Barrel(row) => [
+                row.contacts[0].peak_pressure_pa(load.inner_line_load_n_per_m),
+                row.contacts[1].peak_pressure_pa(load.outer_line_load_n_per_m),
             ],
             Self::Roller(row) => [
                 row.inner
@@ -102,7 +114,9 @@ impl Row {
     ) -> Result<(), BearingError> {
         match self {
             Self::Ball(row) => row.add(pose, operation, places, ring, each),
+            Self::FourPoint(row) => row.add(pose, operation, places, ring, each),
             Self::Roller(row) => row.add(pose, operation, places, ring, each, each_lamina),
+            Self::Barrel(row) => row.add(pose, operation, places, ring, each, each_lamina),
         }
     }
 
@@ -110,6 +124,13 @@ impl Row {
     fn shift_inner(&mut self, shift_m: f64) {
         match self {
             Self::Ball(row) => row.inner.centre_z_m += shift_m,
+            Self::FourPoint(row) => {
+                for arc in &mut row.inner {
+                    arc.groove.centre_z_m += shift_m;
+                }
+            }
+            // Both rows of barrels share one sphere: nothing presses them against each other.
+            Self::Barrel(_) => {}
             Self::Roller(row) => {
                 row.inner.offset_m += row.inner.normal.1 * shift_m;
                 if let Some(rib) = &mut row.rib {
@@ -150,9 +171,15 @@ impl QuasiStaticBearing {
     pub fn new(definition: &BearingDefinition) -> Result<Self, BearingError> {
         let mut rows = build_rows::rows(definition);
         let locates = match &rows[0] {
-            Row::Ball(_) => true,
+            Row::Ball(_) | Row::FourPoint(_) | Row::Barrel(_) => true,
             Row::Roller(row) => row.rib.is_some(),
         };
+        let barrels = matches!(&rows[0], Row::Barrel(_));
+        if barrels && definition.preload != Preload::None {
+            return Err(BearingError::NotCarried(
+                "both rows of a spherical roller bearing share one sphere, so that no preload presses them against each other; give radial_clearance_um (negative: interference)",
+            ));
+        }
         let preload_m = match definition.preload {
             Preload::None => 0.0,
             Preload::Displacement(m) => m,
@@ -170,6 +197,7 @@ impl QuasiStaticBearing {
         for (number, row) in rows.iter_mut().enumerate() {
             match row {
                 Row::Ball(row) => row.faults = RowFaults::of(&definition.faults, number, row)?,
+                Row::FourPoint(_) | Row::Barrel(_) => refuse_all_but_rings(&definition.faults)?,
                 Row::Roller(row) => {
                     refuse_faults_of_balls(&definition.faults)?;
                     row.missing = missing(&definition.faults, number, row.rollers)?;
@@ -182,6 +210,12 @@ impl QuasiStaticBearing {
             locates,
             misaligned: [Side::Outer, Side::Inner].map(|side| misaligned(definition, side)),
         })
+    }
+
+    /// Whether its inner ring tilts freely: loads then do not depend on the tilt.
+    #[must_use]
+    pub fn aligns(&self) -> bool {
+        matches!(&self.rows[0], Row::Barrel(_))
     }
 
     /// The markers of the rings, given those of their seats: outer, inner.
@@ -204,7 +238,7 @@ impl QuasiStaticBearing {
     pub fn refuse_spalled_balls(&self) -> Result<(), BearingError> {
         let spalled = |row: &Row| match row {
             Row::Ball(row) => row.faults.as_ref().is_some_and(|f| !f.spalled().is_empty()),
-            Row::Roller(_) => false,
+            Row::FourPoint(_) | Row::Roller(_) | Row::Barrel(_) => false,
         };
         if self.rows.iter().any(spalled) {
             return Err(BearingError::NotCarried(
@@ -283,12 +317,22 @@ impl QuasiStaticBearing {
     }
 }
 
+fn refuse_all_but_rings(faults: &[Fault]) -> Result<(), BearingError> {
+    let other = |fault: &Fault| !matches!(fault, Fault::MisalignedRing { .. });
+    if faults.iter().any(other) {
+        return Err(BearingError::NotCarried(
+            "of the faults four-point, thrust and spherical roller bearings can have a misaligned ring only",
+        ));
+    }
+    Ok(())
+}
+
 fn refuse_faults_of_balls(faults: &[Fault]) -> Result<(), BearingError> {
     let of_balls =
         |fault: &Fault| !matches!(fault, Fault::MisalignedRing { .. } | Fault::Missing { .. });
     if faults.iter().any(of_balls) {
         return Err(BearingError::NotCarried(
-            "of the faults a roller bearing can have a misaligned ring and missing rollers only; spalls, waviness and off-size balls are those of ball bearings",
+            "of the faults a roller bearing can have a misaligned ring and missing rollers only; spalls, waviness and off-size balls are those of deep-groove and angular-contact bearings",
         ));
     }
     Ok(())

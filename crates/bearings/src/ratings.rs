@@ -7,6 +7,7 @@ use crate::definition::{
     StatedRatings,
 };
 use crate::point_contact::{PointContact, contact_modulus_pa};
+use crate::thrust_ratings::{thrust_ball_dynamic_n, thrust_ball_static_n};
 
 /// Ratings of a bearing as a whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,6 +110,9 @@ pub fn roller_row_dynamic_n(
         * (diameter_m * 1e3).powf(29.0 / 27.0)
 }
 
+/// b_m of spherical roller bearings over that of the others, ISO 281, table 6.
+pub(crate) const BARREL_SHARE: f64 = 1.15 / 1.1;
+
 /// C₀ of one row of rollers \[N\]: 44 (1 − D cos α/d_m) Z L D cos α.
 #[must_use]
 pub fn roller_row_static_n(
@@ -131,6 +135,11 @@ impl Ratings {
     pub fn of(definition: &BearingDefinition) -> Self {
         let rows = definition.arrangement.rows().len();
         let (dynamic_row, static_row, more_rows) = match &definition.geometry {
+            BearingGeometry::Ball(g) if g.kind == BallBearingKind::Thrust => (
+                thrust_ball_dynamic_n(g.balls, g.ball_diameter_m, g.pitch_diameter_m),
+                thrust_ball_static_n(g.balls, g.ball_diameter_m),
+                0.7,
+            ),
             BearingGeometry::Ball(g) => {
                 let angle = nominal_angle_rad(g);
                 (
@@ -142,8 +151,14 @@ impl Ratings {
             BearingGeometry::Roller(g) => {
                 let size = (g.diameter_m, g.length_m);
                 let angle = outer_angle_rad(g);
+                // b_m is 1.15 for spherical roller bearings, 1.1 for the others.
+                let made = if g.barrel.is_some() {
+                    BARREL_SHARE
+                } else {
+                    1.0
+                };
                 (
-                    roller_row_dynamic_n(g.rollers, size, g.pitch_diameter_m, angle),
+                    made * roller_row_dynamic_n(g.rollers, size, g.pitch_diameter_m, angle),
                     roller_row_static_n(g.rollers, size, g.pitch_diameter_m, angle),
                     7.0 / 9.0,
                 )
@@ -200,11 +215,14 @@ fn fatigue_limit_n(geometry: &BearingGeometry, static_n: f64) -> f64 {
 pub(crate) fn nominal_angle_rad(g: &BallGeometry) -> f64 {
     match g.kind {
         BallBearingKind::DeepGroove => 0.0,
-        BallBearingKind::AngularContact => g.free_angle_rad,
+        BallBearingKind::AngularContact
+        | BallBearingKind::FourPoint { .. }
+        | BallBearingKind::Thrust => g.free_angle_rad,
     }
 }
 
 /// Angle of the outer race of a roller bearing \[rad\].
 pub(crate) fn outer_angle_rad(g: &RollerGeometry) -> f64 {
-    g.taper.map_or(0.0, |t| t.contact_angle_rad)
+    let of_barrel = g.barrel.map_or(0.0, |b| b.contact_angle_rad);
+    g.taper.map_or(of_barrel, |t| t.contact_angle_rad)
 }

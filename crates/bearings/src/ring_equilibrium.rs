@@ -33,7 +33,7 @@ const MOST_STEPS: usize = 200;
 const MOST_PROXIMAL_STEPS: usize = 200;
 
 /// Springs that hold the ring to a place; about x and y by the pitch radius' square.
-struct Anchor {
+pub(crate) struct Anchor {
     at: Vector5<f64>,
     spring_n_per_m: f64,
 }
@@ -42,7 +42,7 @@ impl QuasiStaticBearing {
     /// Where the inner ring comes to rest under a load.
     ///
     /// Newton's method with the exact tangent; steps that do not lessen the unbalanced load are turned towards it (Levenberg and
-    /// Marquardt). At speed the loads of the rest position are the start.
+    /// Marquardt). At speed the loads of the rest position are the start. Self-aligning bearings resist no tilt: they are held without one where none is stated.
     ///
     /// # Errors
     /// [`BearingError`] where there is none, or a cylindrical roller bearing is loaded along its axis.
@@ -51,6 +51,21 @@ impl QuasiStaticBearing {
         load: &AppliedBearingLoad,
         operation: &Operation,
     ) -> Result<RingPose, BearingError> {
+        let held = AppliedBearingLoad {
+            tilt: TiltCondition::Held([0.0; 2]),
+            ..*load
+        };
+        let load = match load.tilt {
+            TiltCondition::Moments([x, y]) if self.aligns() => {
+                if x != 0.0 || y != 0.0 {
+                    return Err(BearingError::NotCarried(
+                        "a spherical roller bearing tilts freely and carries no moment; remove it, or state the tilt",
+                    ));
+                }
+                &held
+            }
+            _ => load,
+        };
         if !self.locates && load.force_n[2] != 0.0 {
             return Err(BearingError::NotCarried(
                 "the load has an axial part, which cylindrical rollers do not bear in this model; set it to 0, another bearing bears it",
@@ -64,7 +79,9 @@ impl QuasiStaticBearing {
         let start = self.first_guess(load);
         let mut pose = match self.iterate(start, load, &resting, None) {
             Ok(found) => found,
-            Err(error) => self.settle(start, load, &resting, error)?,
+            Err(error) => self
+                .settle(start, load, &resting, error)
+                .or_else(|error| self.tilt_up(load, &resting, error))?,
         };
         if operation.is_turning() {
             pose = self.speed_up(pose, load, operation)?;
@@ -76,7 +93,7 @@ impl QuasiStaticBearing {
     ///
     /// One proximal step after the other: each ends where the ring would rest if springs held it to where it stood. Energy falls in every step, and
     /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it.
-    fn settle(
+    pub(crate) fn settle(
         &self,
         start: RingPose,
         load: &AppliedBearingLoad,
@@ -151,7 +168,7 @@ impl QuasiStaticBearing {
     }
 
     /// Moved towards the load, through the clearance.
-    fn first_guess(&self, load: &AppliedBearingLoad) -> RingPose {
+    pub(crate) fn first_guess(&self, load: &AppliedBearingLoad) -> RingPose {
         let [x, y, z] = load.force_n;
         let mut q = Vector5::zeros();
         if let TiltCondition::Held(tilt) = load.tilt {
@@ -179,7 +196,7 @@ impl QuasiStaticBearing {
         RingPose::from_five(&(q + direction * reach))
     }
 
-    fn iterate(
+    pub(crate) fn iterate(
         &self,
         start: RingPose,
         load: &AppliedBearingLoad,
@@ -282,8 +299,19 @@ impl QuasiStaticBearing {
         Err(BearingError::NoEquilibrium {
             unbalanced_n: r.norm(),
             iterations: MOST_STEPS,
-            hint: "A single row that bears axial loads one way needs an axial load towards +z, a preload or a second row; a moment needs \
-                   something that resists it.",
+            hint: hint(&applied, arm),
         })
     }
+}
+
+/// Load \[N\] below which what rounding leaves of the elements' places may be more.
+const SMALL_LOAD_N: f64 = 1e-3;
+
+/// What to do about a load without equilibrium.
+fn hint(applied: &Vector5<f64>, arm_m: f64) -> &'static str {
+    let size = applied.fixed_rows::<3>(0).norm() + applied.fixed_rows::<2>(3).norm() / arm_m;
+    if size < SMALL_LOAD_N {
+        return "So small a load is lost in the rounding of the elements' places: give 0 or at least 0.001 N.";
+    }
+    "A single row that bears axial loads one way needs an axial load towards +z, a preload or a second row; a moment needs something that resists it."
 }

@@ -69,6 +69,7 @@ fn model(gear: &GearDefinition, profile: &ToothGeometry, slices: usize) -> Reduc
         modes: None,
         crack: None,
         hub_patterns: None,
+        shaft_faces: None,
         bevel: None,
         grid,
         flanks: vec![Flank::Right],

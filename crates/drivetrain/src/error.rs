@@ -75,6 +75,32 @@ pub enum DrivetrainError {
         /// Name of the gear.
         gear: String,
     },
+    /// A gear cut into its shaft whose faces are wanted one by one.
+    #[error(
+        "the model of gear `{gear}` does not know the faces of its shaft one by one: it was reduced with one face (shaft_diameter_mm has a 0), or by an older \
+         version; state the shaft's diameter at both faces and reduce the gear again"
+    )]
+    NoShaftFaces {
+        /// Name of the gear.
+        gear: String,
+    },
+    /// A crack beside the faces of a shaft.
+    #[error(
+        "gear `{gear}` has a crack and is cut into its shaft: on beams its faces move against each other, which the rows of the crack do not know; take a gear \
+         without [crack], or one with a bore"
+    )]
+    CrackOnFaces {
+        /// Name of the gear.
+        gear: String,
+    },
+    /// A matrix of the faces that no body has.
+    #[error(
+        "stiffness or mass of the faces of gear `{gear}` is not positive: reduce the gear again"
+    )]
+    FaceMatrix {
+        /// Name of the gear.
+        gear: String,
+    },
     /// A spring for the whole mesh between flanks of which each pair has its own gap.
     #[error(
         "the iso6336 mesh is one spring at the pitch point, which these flanks do not have: take another mesh model"

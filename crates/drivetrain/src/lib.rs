@@ -13,6 +13,7 @@
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
 //! | root strain at gauges while a run goes on | [`StrainGauges`] | `strain_gauges.rs` |
 //! | errors and faults of teeth | [`FlankError`] | `flank_error.rs`, `errors/` |
+//! | a gear cut into its shaft, its frame on one face, the other moving by modes | [`GearOnFaces`] | `gear_on_faces.rs` |
 //! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`], [`modal_gear_body`] | `gear_inertia.rs`, `gear_body.rs` |
 //!
 //! An effect that is not asked for is not called: friction, damping, the coast side and flank errors are absent unless given. Spur and helical gears on
@@ -33,6 +34,7 @@ mod gap_curvature;
 pub mod gear_body;
 pub mod gear_inertia;
 pub mod gear_mesh;
+pub mod gear_on_faces;
 mod involute_mesh;
 mod mesh_channels;
 pub mod mesh_element;
@@ -72,6 +74,7 @@ pub use friction::Friction;
 pub use gear_body::{gear_body, modal_gear_body, modes_up_to};
 pub use gear_inertia::GearInertia;
 pub use gear_mesh::{GearMesh, MeshEffort, MeshLoad};
+pub use gear_on_faces::GearOnFaces;
 pub use mesh_element::MeshElement;
 pub use mesh_kinematics::MeshKinematics;
 pub use models::analytic::BeamTeeth;

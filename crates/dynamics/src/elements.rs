@@ -6,6 +6,7 @@
 //! | weight | `gravity.rs` |
 //! | force or torque as a function of time | `applied_load.rs` |
 //! | what acts between two markers, as a 6-component law | `marker_element.rs` |
+//! | an end of it that moves with the modes of its body | `moving_end.rs` |
 //! | spring and damper along a line | `spring_damper.rs` |
 //! | torsion spring and damper, any number of turns | `torsion_spring.rs` |
 //! | bushing, 6×6 | `bushing.rs` |
@@ -22,6 +23,7 @@ mod host_element;
 mod linear_bearing;
 mod marker_element;
 mod matrix_bearing;
+mod moving_end;
 mod spring_damper;
 mod torsion_spring;
 
@@ -33,6 +35,7 @@ pub use host_element::{HostElement, HostLaw, HostMotion};
 pub use linear_bearing::{AxialSupport, LinearBearing};
 pub use marker_element::{Law, LawTangent, MarkerElement, PairLoad, load_channels};
 pub use matrix_bearing::MatrixBearing;
+pub use moving_end::MovingEnd;
 pub use spring_damper::SpringDamper;
 pub use torsion_spring::TorsionSpring;
 

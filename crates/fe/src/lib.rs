@@ -126,7 +126,7 @@ pub use factor::{Factor, FactorInfo, SymbolicFactor};
 pub use gearmesh_elements::Element;
 pub use graph::NodeGraph;
 pub use hex8::CORNERS;
-pub use mass::{assemble_mass, mass_moments, mass_product};
+pub use mass::{assemble_mass, mass_moments, mass_product, stiffness_product};
 pub use material::{LameParameters, Material, von_mises};
 pub use model::{ElementBlock, FeModel};
 pub use modes::{

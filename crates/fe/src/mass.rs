@@ -73,9 +73,29 @@ pub fn mass_product(
     x: MatRef<'_, f64>,
 ) -> Result<Mat<f64>, FeError> {
     check_density(density_kg_per_m3)?;
+    product_by_elements(model, x, |element| {
+        element_mass(model, element, density_kg_per_m3)
+    })
+}
+
+/// K X over all degrees of freedom of a model, held or not, element by element: the forces on all nodes (N) that go with
+/// displacements X (m).
+///
+/// # Errors
+/// [`FeError::SizeMismatch`] when X has other rows; [`FeError::Element`].
+pub fn stiffness_product(model: &FeModel, x: MatRef<'_, f64>) -> Result<Mat<f64>, FeError> {
+    product_by_elements(model, x, |element| model.element_stiffness(element))
+}
+
+/// Sum over all elements of their matrix times X.
+fn product_by_elements(
+    model: &FeModel,
+    x: MatRef<'_, f64>,
+    matrix_of: impl Fn(usize) -> Result<ElementMatrix, FeError> + Sync,
+) -> Result<Mat<f64>, FeError> {
     if x.nrows() != model.dof_count() {
         return Err(FeError::SizeMismatch {
-            what: "the vectors for the mass matrix",
+            what: "the vectors for the matrix of a model",
             found: x.nrows(),
             expected: model.dof_count(),
         });
@@ -87,10 +107,10 @@ pub fn mass_product(
             .par_iter()
             .map(|&element| {
                 let dofs = model.element_dofs(element)?;
-                let mass = element_mass(model, element, density_kg_per_m3)?;
+                let matrix = matrix_of(element)?;
                 let part = Mat::from_fn(dofs.len(), x.ncols(), |i, column| {
                     (0..dofs.len())
-                        .map(|j| mass[(i, j)] * x[(dofs[j], column)])
+                        .map(|j| matrix[(i, j)] * x[(dofs[j], column)])
                         .sum::<f64>()
                 });
                 Ok((dofs, part))

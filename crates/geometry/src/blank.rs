@@ -106,6 +106,13 @@ impl Blank {
         }
     }
 
+    /// How it is cut into its shaft where that goes on at both faces.
+    #[must_use]
+    pub fn two_faced_shaft(&self) -> Option<&CutIntoShaft> {
+        let shaft = self.cut_into_shaft()?;
+        (shaft.end_radii_m.iter().all(|radius| *radius > 0.0)).then_some(shaft)
+    }
+
     /// Where the whole gear was meshed elsewhere.
     #[must_use]
     pub fn meshed(&self) -> Option<&MeshedBody> {

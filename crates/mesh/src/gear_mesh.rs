@@ -16,7 +16,7 @@ use crate::solid_body::SolidBody;
 use crate::tet_split;
 use crate::twist::Twist;
 use gearmesh_elements::CellKind;
-use gearmesh_geometry::{Blank, Element, Flank, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Blank, CutIntoShaft, Element, Flank, GearDefinition, ProfileCurve};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
@@ -218,22 +218,28 @@ impl GearMesh {
     /// Nodes at which the gear is held: those of the bore, or of a gear cut into its shaft those of the end faces within the
     /// shaft's outline.
     pub fn held(&self, blank: &Blank) -> Vec<u32> {
-        let Some(shaft) = blank.cut_into_shaft() else {
-            return self.bore();
-        };
-        let last = self.levels_m.len() - 1;
-        let ends = [(0, shaft.end_radii_m[0]), (last, shaft.end_radii_m[1])];
-        let within = |node: &u32, radius: f64| {
-            let [x, y, _] = self.nodes[*node as usize];
-            x.hypot(y) <= radius * (1.0 + SAME_RADIUS)
-        };
-        let mut held: Vec<u32> = (0..self.section.nodes.len())
-            .flat_map(|n| ends.map(|(level, radius)| (self.node(n, level), radius)))
-            .filter_map(|(node, radius)| node.filter(|node| within(node, radius)))
-            .collect();
-        held.sort_unstable();
-        held.dedup();
-        held
+        match blank.cut_into_shaft() {
+            None => self.bore(),
+            Some(shaft) => self.shaft_faces(shaft).concat(),
+        }
+    }
+
+    /// Nodes of the back and of the front face within the shaft's outline; none of a face where the shaft does not go on.
+    pub fn shaft_faces(&self, shaft: &CutIntoShaft) -> [Vec<u32>; 2] {
+        let levels = [0, self.levels_m.len() - 1];
+        [0, 1].map(|face| {
+            let radius = shaft.end_radii_m[face] * (1.0 + SAME_RADIUS);
+            let within = |node: &u32| {
+                let [x, y, _] = self.nodes[*node as usize];
+                x.hypot(y) <= radius
+            };
+            let mut nodes: Vec<u32> = (0..self.section.nodes.len())
+                .filter_map(|n| self.node(n, levels[face]))
+                .filter(within)
+                .collect();
+            nodes.sort_unstable();
+            nodes
+        })
     }
 
     /// Nodes of the bore.

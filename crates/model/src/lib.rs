@@ -47,6 +47,8 @@ mod rigid_body;
 mod root_crack;
 mod row_log;
 mod seal;
+mod shaft_faces;
+mod shaft_faces_file;
 mod stored_gear;
 #[doc(hidden)]
 pub mod synthetic;
@@ -77,5 +79,6 @@ pub use rigid_body::{ReferencePoint, RigidBody};
 pub use root_crack::RootCrack;
 pub use row_log::{LockedLog, RowLog};
 pub use seal::{bytes_digest, file_digest};
+pub use shaft_faces::{FaceMass, ShaftFaces};
 pub use stored_gear::StoredGear;
 pub use timestamp::utc_now;

@@ -11,6 +11,7 @@ use crate::near_field::NearField;
 use crate::reduced_gear_error::ReducedGearError;
 use crate::rigid_body::{ReferencePoint, RigidBody};
 use crate::root_crack::RootCrack;
+use crate::shaft_faces::ShaftFaces;
 use crate::stored_gear::StoredGear;
 
 /// The points of a flank at which unit loads act. Loads are numbered roll-major: load = roll station · `z_m.len()` +
@@ -171,6 +172,8 @@ pub struct ReducedGear {
     pub reference_point: Option<ReferencePoint>,
     /// Natural modes; none where none were asked for.
     pub modes: Option<ModalBasis>,
+    /// The two end faces of a gear cut into a shaft that goes on at both, which are held in all other figures; none of other gears.
+    pub shaft_faces: Option<ShaftFaces>,
     /// Crack in a tooth's root, whose compliance is not in `c_hub`; the gauges' rows have it. None where there is none.
     pub crack: Option<RootCrack>,
     /// What a bevel gear has besides; none of a cylindrical gear. Its `near_field` stands there, not in `near_field`.

@@ -86,7 +86,7 @@ impl ReducedGear {
             check_array(&item, &gauge.own_tooth, flanks * loads, "flanks * loads")?;
         }
         self.check_dynamics()?;
-        self.check_crack()?;
+        self.check_crack().and(self.check_shaft_faces())?;
         self.check_bevel()?;
         let times = self
             .provenance

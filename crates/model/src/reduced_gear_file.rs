@@ -11,23 +11,26 @@ use crate::record::{Fields, OPEN, Record, read_record, write_record};
 use crate::reduced_gear::{GaugeRows, Provenance, ReducedGear};
 use crate::rigid_body::{ReferencePoint, RigidBody};
 use crate::root_crack::RootCrack;
+use crate::shaft_faces_file::shaft_faces_fields;
 use gearmesh_geometry::Flank;
 
 /// Name and version of the reduced gear file.
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {
     name: "gearmesh reduced gear",
-    // 2: near field; 3: rigid body, reference point, modes; 4: crack; 5: definition of the gear; 6: bevel body; 7: C_hub by patterns
-    version: 7,
+    // 2: near field; 3: rigid body, reference point, modes; 4: crack; 5: definition of the gear; 6: bevel body; 7: C_hub by patterns;
+    // 8: faces of a gear cut into its shaft
+    version: 8,
 };
 
 /// The first version that holds what the gear file says, besides its text.
 const TYPED_DEFINITION: u32 = 5;
 
-const GEAR_FRAME: &str = "gear: right-handed, z the axis, zero at mid-face, tooth 0 centred on +x, teeth counter-clockwise";
+pub(crate) const GEAR_FRAME: &str = "gear: right-handed, z the axis, zero at mid-face, tooth 0 centred on +x, teeth counter-clockwise";
 const NORMAL: &str = "inward normal of the flank at each point, positive into the material";
-const FLANK_COMPONENTS: &str = "flank: inward normal, profile tangential towards the tip, axial +z";
-const LOAD: &str = "load: roll station, axial station";
-const MOTION: &str = "motion: x, y, z, rotations about x, y, z";
+pub(crate) const FLANK_COMPONENTS: &str =
+    "flank: inward normal, profile tangential towards the tip, axial +z";
+pub(crate) const LOAD: &str = "load: roll station, axial station";
+pub(crate) const MOTION: &str = "motion: x, y, z, rotations about x, y, z";
 
 /// Writes a reduced gear, atomically.
 ///
@@ -105,6 +108,15 @@ impl Record for ReducedGear {
             reference_point_fields(it, f, sizes)
         })?;
         f.optional("modes", &mut self.modes, |it, f| mode_fields(it, f, sizes))?;
+        let mode_count = self.modes.as_ref().map_or(0, ModalBasis::count);
+        f.optional("shaft_faces", &mut self.shaft_faces, |it, f| {
+            let rows = (
+                [sizes.teeth, sizes.hands, sizes.loads],
+                sizes.gauges,
+                mode_count,
+            );
+            shaft_faces_fields(it, f, rows)
+        })?;
         f.optional("crack", &mut self.crack, |it, f| crack_fields(it, f, sizes))?;
         let bevel_sizes = BevelSizes {
             flanks: sizes.hands,

@@ -10,6 +10,7 @@ use crate::near_field::NearField;
 use crate::reduced_gear::{FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 use crate::rigid_body::{ReferencePoint, RigidBody};
 use crate::root_crack::RootCrack;
+use crate::shaft_faces::{FaceMass, ShaftFaces};
 use crate::stored_gear::StoredGear;
 use gearmesh_elements::CellKind;
 use gearmesh_geometry::Flank;
@@ -180,6 +181,7 @@ pub fn small_reduced_gear() -> ReducedGear {
         }),
         crack: None,
         hub_patterns: None,
+        shaft_faces: None,
         bevel: None,
         provenance: Provenance {
             program: "gearmesh".to_owned(),
@@ -198,6 +200,36 @@ pub fn small_reduced_gear() -> ReducedGear {
             pattern_identity: 2e-12,
             further: vec![("residual".to_owned(), 3e-13)],
         },
+    }
+}
+
+/// The same as [`small_reduced_gear`], cut into a shaft that goes on at both faces.
+pub fn small_two_faced_gear() -> ReducedGear {
+    let gear = small_reduced_gear();
+    let numbers = |count: usize, scale: f64| -> Vec<f64> {
+        (0..count).map(|i| scale * (0.3 * i as f64).cos()).collect()
+    };
+    let modes = gear.modes.as_ref().map_or(0, ModalBasis::count);
+    let spread = |scale: f64| -> Vec<f64> {
+        let entry = |i: usize| if i / 6 == i % 6 { scale } else { 0.0 };
+        (0..36).map(entry).collect()
+    };
+    ReducedGear {
+        shaft_faces: Some(ShaftFaces {
+            front_m: [0.0, 0.0, 0.5 * gear.face_width_m],
+            stiffness: spread(1e8),
+            flank: numbers(
+                6 * 3 * gear.teeth * gear.flanks.len() * gear.grid.len(),
+                0.5,
+            ),
+            gauges: numbers(6 * gear.gauges.len(), 0.1),
+            mass: Some(FaceMass {
+                mass: spread(0.05),
+                coupling: numbers(36, 0.01),
+                modes: numbers(6 * modes, 0.02),
+            }),
+        }),
+        ..gear
     }
 }
 

@@ -8,21 +8,25 @@ use crate::gear_body::GearBody;
 use crate::gear_modes::GearModes;
 use crate::repeated_mesh::RepeatedMesh;
 use crate::rigid_mass::REFERENCE_M;
+use crate::shaft_faces::{ConstraintModes, RIGID_MOTION};
 use crate::tooth_vectors::on_all_teeth;
 use crate::{Progress, ReductionError};
 use faer::MatRef;
+use gearmesh_fe::mass_product;
 use gearmesh_geometry::{HubSupport, ModeRange};
-use gearmesh_model::{ModalBasis, ReferencePoint, RigidBody};
+use gearmesh_model::{FaceMass, ModalBasis, ReferencePoint, RigidBody, ShaftFaces};
 use rayon::prelude::*;
 
 /// What is asked for.
-pub struct DynamicsRequest {
+pub struct DynamicsRequest<'a> {
     /// Density; where it is not known, nothing is computed.
     pub density_kg_per_m3: Option<f64>,
     /// How the bore is held.
     pub hub: HubSupport,
     /// Natural modes; none where not asked for.
     pub modes: Option<ModeRange>,
+    /// Motions of the two faces of a gear that is cut into its shaft.
+    pub faces: Option<&'a ConstraintModes>,
 }
 
 /// Parts of the reduced gear for the dynamics.
@@ -33,6 +37,8 @@ pub struct Dynamics {
     pub reference_point: Option<ReferencePoint>,
     /// Modal basis, where modes were asked for.
     pub modes: Option<ModalBasis>,
+    /// The two faces of a gear that is cut into its shaft, with their mass where the density is known.
+    pub shaft_faces: Option<ShaftFaces>,
     /// Checks by name.
     pub checks: Vec<(String, f64)>,
     /// Vectors that K was solved for.
@@ -45,7 +51,7 @@ pub struct Dynamics {
 /// # Errors
 /// [`ReductionError`] when there are no modes in the range or the search does not converge.
 pub fn dynamics(
-    request: &DynamicsRequest,
+    request: &DynamicsRequest<'_>,
     body: &GearBody<impl RepeatedMesh>,
     loads: &[Vec<GridLoad>],
     gauges: &[SparseVector],
@@ -55,25 +61,48 @@ pub fn dynamics(
         rigid_body: None,
         reference_point: None,
         modes: None,
+        shaft_faces: None,
         checks: Vec::new(),
         solves: None,
     };
-    let Some(density) = request.density_kg_per_m3 else {
-        return Ok(result);
-    };
-    progress.stage("mass");
-    if request.hub == HubSupport::Fixed && request.modes.is_none() {
-        result.rigid_body = Some(body.rigid_body(density)?);
-        return Ok(result);
-    }
-    let rigid = body.rigid_mass(density)?;
-    result.rigid_body = Some(rigid.body.clone());
     let directions: Vec<&SparseVector> = loads
         .iter()
         .flatten()
         .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
         .collect();
-    let rows = on_all_teeth(&body.mesh, &directions);
+    let rows = || on_all_teeth(&body.mesh, &directions);
+    if let Some(faces) = request.faces {
+        let check = (RIGID_MOTION.to_string(), faces.rigid_residual);
+        result.checks.push(check);
+        result.shaft_faces = Some(faces.faces(&rows(), gauges));
+    }
+    let Some(density) = request.density_kg_per_m3 else {
+        return Ok(result);
+    };
+    progress.stage("mass");
+    let alone = request.modes.is_none() && request.faces.is_none();
+    if request.hub == HubSupport::Fixed && alone {
+        result.rigid_body = Some(body.rigid_body(density)?);
+        return Ok(result);
+    }
+    let rigid = body.rigid_mass(density)?;
+    result.rigid_body = Some(rigid.body.clone());
+    let momenta = request
+        .faces
+        .map(|faces| mass_product(&body.model, density, faces.front()))
+        .transpose()?;
+    let mut face_mass = request.faces.zip(momenta.as_ref()).map(|(faces, momenta)| {
+        let product = |with: MatRef<'_, f64>| -> Vec<f64> {
+            let matrix = momenta.transpose() * with;
+            (0..36).map(|n| matrix[(n / 6, n % 6)]).collect()
+        };
+        FaceMass {
+            mass: product(faces.front()),
+            coupling: product(rigid.motions.as_ref()),
+            modes: Vec::new(),
+        }
+    });
+    let rows = rows();
     if request.hub == HubSupport::ReferencePoint {
         let flank = rows
             .par_iter()
@@ -100,6 +129,10 @@ pub fn dynamics(
             flank.par_extend(rows.par_iter().map(|row| dot(row, field)));
             readings.extend(gauges.iter().map(|row| dot(row, field)));
             coupling.extend(mode.coupling);
+            if let (Some(mass), Some(momenta)) = (&mut face_mass, &momenta) {
+                let at = |q: usize| momenta.col(q).iter().zip(field).map(|(m, u)| m * u).sum();
+                mass.modes.extend((0..6).map(at).collect::<Vec<f64>>());
+            }
         })?;
         let worst = modes
             .iter()
@@ -115,6 +148,9 @@ pub fn dynamics(
             coupling,
         });
         result.solves = Some(solves);
+    }
+    if let Some(faces) = &mut result.shaft_faces {
+        faces.mass = face_mass;
     }
     Ok(result)
 }

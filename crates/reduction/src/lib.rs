@@ -20,6 +20,7 @@
 //! | points in the frame of a tooth | `tooth_frame.rs` |
 //! | what all of them ask of a mesh | `toothed_mesh.rs`, `repeated_mesh.rs` |
 //! | mass, rigid motions, natural modes for the dynamics | `rigid_mass.rs`, `dynamics.rs` |
+//! | two faces of a gear that is cut into its shaft | `shaft_faces.rs` |
 //! | natural modes: the search, one harmonic of it, what a shape is like | `gear_modes.rs`, `harmonic_problem.rs`, `mode_figures.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
 //! | memory that all this will take, before it is taken | `memory_estimate.rs`, `mode_count.rs` |
@@ -63,6 +64,7 @@ pub mod root_crack;
 mod sector_stiffness;
 pub mod sector_substructure;
 mod separating_circle;
+pub mod shaft_faces;
 mod single_sector;
 pub mod skin;
 mod tooth_frame;

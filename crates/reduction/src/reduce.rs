@@ -10,6 +10,7 @@ use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
 use crate::near_field::calibrate;
 use crate::root_crack::{CRACK_SYMMETRY, root_crack};
+use crate::shaft_faces::ConstraintModes;
 use crate::tooth_submodel::Deformation;
 use crate::{Progress, ReductionError};
 use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
@@ -95,10 +96,15 @@ pub fn reduce(
         .collect::<Result<_, ReductionError>>()?;
     let mut gauges = gauge_readings(&body, &loads, &submodels, &asked, progress);
     lap("gauges");
+    let faces = ConstraintModes::new(gear, &body, progress)?;
+    if faces.is_some() {
+        lap("faces of the shaft");
+    }
     let request = DynamicsRequest {
         density_kg_per_m3: gear.material.density_kg_per_m3,
         hub: gear.hub,
         modes: gear.modes,
+        faces: faces.as_ref(),
     };
     let dynamics = dynamics(&request, &body, &loads, &gauge_rows, progress)?;
     if dynamics.rigid_body.is_some() {
@@ -153,6 +159,7 @@ pub fn reduce(
     reduced.rigid_body = dynamics.rigid_body;
     reduced.reference_point = dynamics.reference_point;
     reduced.modes = dynamics.modes;
+    reduced.shaft_faces = dynamics.shaft_faces;
     reduced.crack = crack.map(|rows| rows.crack);
     if let Some((patterns, left_out)) = patterns {
         let name = "C_hub by patterns, largest entry left out".to_string();
@@ -201,6 +208,7 @@ pub(crate) fn assembled(
         modes: None,
         crack: None,
         hub_patterns: None,
+        shaft_faces: None,
         bevel: None,
         provenance: Provenance {
             program: "gearmesh".into(),

@@ -226,7 +226,6 @@ const LEAST_END: f64 = 0.1;
 /// Bores, and gears that are cut into their shafts.
 fn bores(source: &Source<'_>, train: &mut Train) {
     for i in 0..train.gears.len() {
-        let sides = torque_sides(train, i);
         let seated = &mut train.gears[i];
         let gear = &mut seated.gear;
         let Some(component) = source.model.component(gear.id) else {
@@ -258,25 +257,21 @@ fn bores(source: &Source<'_>, train: &mut Train) {
                 let beyond = shaft.reaches(u).then(|| shaft.diameters_mm(u)[0].min(most));
                 beyond.filter(|d| *d >= LEAST_END * root).unwrap_or(0.0)
             });
-            let held = match sides {
-                [true, false] if ends[0] > 0.0 => [ends[0], 0.0],
-                [false, true] if ends[1] > 0.0 => [0.0, ends[1]],
-                _ => ends,
+            let faces = match ends.map(|d| d > 0.0) {
+                [true, true] => "at both faces",
+                [true, false] => "at its back face",
+                _ => "at its front face",
             };
-            let faces = match held.map(|d| d > 0.0) {
-                [true, true] => "both faces",
-                [true, false] => "its back face",
-                _ => "its front face",
-            };
-            if held != [0.0; 2] && shaft.cut_in(seated.mid_mm, gear.face_width_mm) {
+            if ends != [0.0; 2] && shaft.cut_in(seated.mid_mm, gear.face_width_mm) {
                 source.assume(
                     component,
-                    About::Blank, format!(
-                        "cut into its shaft ({outer} mm thick, root {root:.3} mm): no bore, held at {faces} within the shaft; beams begin at its faces, so that the \
-                         core's mass and torsion count once"
+                    About::Blank,
+                    format!(
+                        "cut into its shaft ({outer} mm thick, root {root:.3} mm): no bore, the shaft goes on {faces}; beams begin at its faces, so that the \
+                         core's mass, bending and torsion count once"
                     ),
                 );
-                (gear.bore_mm, gear.shaft_mm) = (Some(0.0), Some(held));
+                (gear.bore_mm, gear.shaft_mm) = (Some(0.0), Some(ends));
                 continue;
             }
         }
@@ -303,32 +298,6 @@ fn bores(source: &Source<'_>, train: &mut Train) {
         );
         gear.bore_mm = Some(bore);
     }
-}
-
-/// Whether torque enters or leaves the shaft of a gear at lower, and at higher z than the gear.
-fn torque_sides(train: &Train, gear: usize) -> [bool; 2] {
-    let own = &train.gears[gear];
-    let sign = train.shaft(own.shaft).map_or(1.0, Shaft::sign);
-    let gears = train.gears.iter().enumerate();
-    let gears = gears
-        .filter(|(i, _)| *i != gear)
-        .map(|(_, g)| (g.shaft, g.mid_mm));
-    let others = train.torque_seats().map(|t| (t.shaft, t.u_mm));
-    let loads = train
-        .loads
-        .iter()
-        .filter(|l| l.transmits)
-        .map(|l| (l.shaft, l.u_mm));
-    let couplings = train.couplings.iter().flat_map(|c| {
-        let places = c.sides.into_iter().zip(c.u_mm);
-        places.filter_map(|(shaft, u)| Some((shaft, u?)))
-    });
-    let all = gears.chain(others).chain(loads).chain(couplings);
-    let mut sides = [false; 2];
-    for (_, u) in all.filter(|(shaft, _)| *shaft == own.shaft) {
-        sides[usize::from(sign * (u - own.mid_mm) > 0.0)] = true;
-    }
-    sides
 }
 
 /// Speeds and torques by the ratios.

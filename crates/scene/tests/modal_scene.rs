@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod common;
+#[path = "made_up_pinion/core_of_a_beam.rs"]
+mod core_of_a_beam;
 mod made_up_gears;
 mod system_runs;
 

@@ -44,12 +44,25 @@ pub(super) fn geometry(
         balls >= 3 && (balls as f64) <= room,
         &format!("3 to {room}, as many balls of {ball} mm as go round on {pitch} mm"),
     )?;
-    let kind = if file.kind == Kind::DeepGroove {
-        BallBearingKind::DeepGroove
-    } else {
-        BallBearingKind::AngularContact
+    if matches!(file.kind, Kind::FourPoint | Kind::ThrustBall) && file.arrangement.is_some() {
+        let problem = format!(
+            "is not used by kind = \"{}\", which has one row; remove it",
+            file.kind.word()
+        );
+        return Err(keys.error("arrangement", problem));
+    }
+    let (kind, (free_angle_rad, interference_mm)) = match file.kind {
+        Kind::FourPoint => four_point_angle(file, keys, (inner + outer - 1.0) * ball, ball)?,
+        Kind::ThrustBall => (BallBearingKind::Thrust, (std::f64::consts::FRAC_PI_2, 0.0)),
+        kind => (
+            if kind == Kind::DeepGroove {
+                BallBearingKind::DeepGroove
+            } else {
+                BallBearingKind::AngularContact
+            },
+            free_angle(file, keys, (ball, pitch), (inner, outer))?,
+        ),
     };
-    let (free_angle_rad, interference_mm) = free_angle(file, keys, (ball, pitch), (inner, outer))?;
     let geometry = BallGeometry {
         kind,
         balls,
@@ -59,6 +72,7 @@ pub(super) fn geometry(
         outer_conformity: outer,
         free_angle_rad,
         interference_m: MM * interference_mm,
+        stated_shoulder_heights_m: shoulder_heights_m(file, keys, ball)?,
     };
     if file.raceway_diameters_mm.is_some() {
         notes.push(format!(
@@ -70,9 +84,81 @@ pub(super) fn geometry(
     Ok(geometry)
 }
 
+/// `shoulder_heights_mm`, for balls of a diameter \[mm\].
+pub(super) fn shoulder_heights_m(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    ball: f64,
+) -> Result<Option<[f64; 2]>, InputError> {
+    let Some(heights) = file.shoulder_heights_mm else {
+        return Ok(None);
+    };
+    for height in heights {
+        keys.require(
+            "shoulder_heights_mm",
+            height,
+            height > 0.0 && height <= 0.5 * ball,
+            &format!(
+                "more than 0 and at most {}, half of the ball's diameter",
+                0.5 * ball
+            ),
+        )?;
+    }
+    Ok(Some(heights.map(|height| MM * height)))
+}
+
+/// Contact angle of the four arcs, and play.
+fn four_point_angle(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    distance_mm: f64,
+    ball_mm: f64,
+) -> Result<(BallBearingKind, (f64, f64)), InputError> {
+    let degrees = keys.needed(
+        "contact_angle_deg",
+        file.contact_angle_deg,
+        "kind = \"four-point\"",
+    )?;
+    keys.require(
+        "contact_angle_deg",
+        degrees,
+        degrees > 0.0 && degrees <= 60.0,
+        "more than 0 and at most 60",
+    )?;
+    let angle = degrees.to_radians();
+    let clearance_um = file.radial_clearance_um.unwrap_or(0.0);
+    let kind = four_point_kind(keys, clearance_um, (MM * ball_mm, MM * distance_mm), angle)?;
+    Ok((kind, (angle, 0.0)))
+}
+
+/// Play up to that at which balls touch two arcs only under thrust, or interference up to a hundredth of the ball's diameter.
+pub(super) fn four_point_kind(
+    keys: &TableKeys<'_>,
+    clearance_um: f64,
+    (ball_m, distance_m): (f64, f64),
+    angle_rad: f64,
+) -> Result<BallBearingKind, InputError> {
+    let least_um = -MOST_INTERFERENCE * ball_m / UM;
+    let most_um = 2.0 * distance_m * angle_rad.cos() / UM;
+    keys.require(
+        "radial_clearance_um",
+        clearance_um,
+        (least_um..most_um).contains(&clearance_um),
+        &format!(
+            "{least_um:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most_um:.1}: with more no ball touches both rings"
+        ),
+    )?;
+    Ok(BallBearingKind::FourPoint {
+        clearance_m: UM * clearance_um,
+    })
+}
+
 /// Balls and rollers may be too large for their rings by this share of their diameter: for balls of 8 mm 80 um, several times what tight fits take
 /// away.
 pub(super) const MOST_INTERFERENCE: f64 = 0.01;
+
+/// Share of a limit of the clearance within which a number counts as the limit: 0.52 + 0.53 − 1 is not 0.05 to the last digit.
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// α₀ from the contact angle, the clearance or the raceways' diameters: cos α₀ = 1 − P_d/(2A); and how far P_d lies below zero \[mm\].
 fn free_angle(
@@ -116,7 +202,7 @@ fn free_angle(
                 ),
             ));
         }
-        if clearance >= most {
+        if clearance >= most * (1.0 - ROUNDING) {
             return Err(keys.error(
                 "raceway_diameters_mm",
                 format!(
@@ -159,7 +245,7 @@ fn free_angle(
     keys.require(
         "radial_clearance_um",
         clearance_um,
-        clearance_um >= 1e3 * least_mm && clearance_um < most_um,
+        clearance_um >= 1e3 * least_mm && clearance_um < most_um * (1.0 - ROUNDING),
         &format!(
             "{:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most_um:.1}: with more no ball touches both grooves",
             1e3 * least_mm

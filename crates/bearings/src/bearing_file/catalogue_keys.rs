@@ -3,7 +3,8 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
-use super::ball_keys::MOST_INTERFERENCE;
+use super::ball_keys::{MOST_INTERFERENCE, ROUNDING, four_point_kind, shoulder_heights_m};
+use super::barrel_keys::usual_shape;
 use super::roller_keys::{require_clearance, usual_taper};
 use super::{BearingFile, MM, UM};
 use crate::catalogue::{CatalogueLine, CatalogueType, KnownInside};
@@ -40,6 +41,14 @@ pub(super) fn geometry(
     };
     read_ratings(file, document, &mut line, name.is_some())?;
     line.known = known(file, keys, line.kind)?;
+    if line.kind == CatalogueType::SphericalRoller && line.contact_angle_rad == 0.0 {
+        // Rows whose middles stand half the width apart.
+        line.contact_angle_rad = (0.5 * line.width_m / line.pitch_m()).atan();
+        notes.push(format!(
+            "the contact angle is assumed as {:.2} deg, with which the rows stand half the width apart; give contact_angle_deg where it is known (atan(e/1.5))",
+            line.contact_angle_rad.to_degrees()
+        ));
+    }
     line.check().map_err(|no| {
         let table = TableKeys::new(document, if no.in_ratings { "ratings" } else { "" });
         // Metres in millimetres again: without what rounding leaves.
@@ -164,6 +173,14 @@ fn rows(
     if line.kind.rows() == 1 {
         return Ok(None);
     }
+    if line.kind == CatalogueType::SphericalRoller {
+        if file.arrangement.is_some() || file.row_distance_mm.is_some() {
+            let problem = "and row_distance_mm are not used by type = \"spherical-roller\", whose two rows face one sphere; remove them";
+            return Err(keys.error("arrangement", problem));
+        }
+        let distance_m = estimate.pitch_m * line.contact_angle_rad.tan();
+        return Ok(Some(Arrangement::X { distance_m }));
+    }
     let most_m = line.width_m - estimate.diameter_m;
     // Balls of both rows side by side, were they not staggered.
     let least_m = 0.5 * estimate.diameter_m;
@@ -203,23 +220,31 @@ fn roller_geometry(
     for (key, given) in [
         ("inner_conformity", file.inner_conformity.is_some()),
         ("outer_conformity", file.outer_conformity.is_some()),
+        ("shoulder_heights_mm", file.shoulder_heights_mm.is_some()),
     ] {
         if given {
             return Err(keys.error(key, "is not used by a roller bearing; remove it"));
         }
     }
     let size = (estimate.diameter_m, estimate.length_m, estimate.pitch_m);
-    let (taper, share) = if line.kind == CatalogueType::TaperedRoller {
+    let (taper, barrel, share) = if line.kind == CatalogueType::TaperedRoller {
         if file.radial_clearance_um.is_some() {
             return Err(keys.error(
                 "radial_clearance_um",
                 "is not used by a tapered roller bearing, whose play is its preload_um; remove it",
             ));
         }
-        (Some(usual_taper(line.contact_angle_rad, size)), 0.45e-3)
+        (
+            Some(usual_taper(line.contact_angle_rad, size)),
+            None,
+            0.45e-3,
+        )
     } else {
         require_clearance(keys, clearance_m / UM, estimate.diameter_m / UM)?;
-        (None, 0.35e-3)
+        let barrel = (line.kind == CatalogueType::SphericalRoller)
+            .then(|| usual_shape(line.contact_angle_rad, size.2, size.0));
+        let share = if barrel.is_some() { 0.0 } else { 0.35e-3 };
+        (None, barrel, share)
     };
     Ok(BearingGeometry::Roller(RollerGeometry {
         rollers: estimate.elements,
@@ -228,6 +253,7 @@ fn roller_geometry(
         pitch_diameter_m: estimate.pitch_m,
         radial_clearance_m: clearance_m,
         taper,
+        barrel,
         profile: RollerProfile::Logarithmic {
             scale_m: share * estimate.diameter_m,
         },
@@ -252,8 +278,12 @@ fn ball_geometry(
         )?;
         Ok::<_, InputError>(value)
     };
-    let inner = conformity("inner_conformity", file.inner_conformity, 0.52)?;
-    let outer = conformity("outer_conformity", file.outer_conformity, 0.53)?;
+    let usual = match line.kind {
+        CatalogueType::ThrustBall => [0.54; 2],
+        _ => [0.52, 0.53],
+    };
+    let inner = conformity("inner_conformity", file.inner_conformity, usual[0])?;
+    let outer = conformity("outer_conformity", file.outer_conformity, usual[1])?;
     let (kind, free_angle_rad) = if line.kind == CatalogueType::DeepGroove {
         let distance_m = (inner + outer - 1.0) * estimate.diameter_m;
         let (least, most) = (
@@ -263,20 +293,46 @@ fn ball_geometry(
         keys.require(
             "radial_clearance_um",
             clearance_m / UM,
-            (least..most).contains(&(clearance_m / UM)),
+            (least..most * (1.0 - ROUNDING)).contains(&(clearance_m / UM)),
             &format!("{least:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most:.1}"),
         )?;
         let half_sine = (0.25 * clearance_m.max(0.0) / distance_m).sqrt();
         (BallBearingKind::DeepGroove, 2.0 * half_sine.asin())
+    } else if line.kind == CatalogueType::FourPoint {
+        let distance_m = (inner + outer - 1.0) * estimate.diameter_m;
+        let sizes = (estimate.diameter_m, distance_m);
+        let kind = four_point_kind(keys, clearance_m / UM, sizes, line.contact_angle_rad)?;
+        (kind, line.contact_angle_rad)
     } else {
         if file.radial_clearance_um.is_some() {
             return Err(keys.error(
                 "radial_clearance_um",
-                "is not used by an angular-contact bearing, whose contact angle says it; remove it",
+                "is not used by an angular-contact or thrust bearing, whose contact angle says it; remove it",
             ));
         }
-        (BallBearingKind::AngularContact, line.contact_angle_rad)
+        if line.kind == CatalogueType::ThrustBall {
+            (BallBearingKind::Thrust, std::f64::consts::FRAC_PI_2)
+        } else {
+            (BallBearingKind::AngularContact, line.contact_angle_rad)
+        }
     };
+    if line.kind == CatalogueType::ThrustBall && file.shoulder_heights_mm.is_some() {
+        return Err(keys.error(
+            "shoulder_heights_mm",
+            "is not used by a thrust bearing; remove it",
+        ));
+    }
+    let one_row = matches!(
+        line.kind,
+        CatalogueType::FourPoint | CatalogueType::ThrustBall
+    );
+    if one_row && file.arrangement.is_some() {
+        let problem = format!(
+            "is not used by type = \"{}\", which has one row; remove it",
+            line.kind.word()
+        );
+        return Err(keys.error("arrangement", problem));
+    }
     Ok(BearingGeometry::Ball(BallGeometry {
         kind,
         balls: estimate.elements,
@@ -287,8 +343,9 @@ fn ball_geometry(
         free_angle_rad,
         interference_m: match kind {
             BallBearingKind::DeepGroove => (-clearance_m).max(0.0),
-            BallBearingKind::AngularContact => 0.0,
+            _ => 0.0,
         },
+        stated_shoulder_heights_m: shoulder_heights_m(file, keys, estimate.diameter_m / MM)?,
     }))
 }
 
@@ -353,6 +410,8 @@ fn contact_angle(
 ) -> Result<f64, InputError> {
     let key = "contact_angle_deg";
     match (kind.angles_deg(), file.contact_angle_deg) {
+        // Follows from the width where it is not known.
+        (Some(_), None) if kind == CatalogueType::SphericalRoller => Ok(0.0),
         (Some([least, most]), angle) => {
             let needed_by = match kind {
                 CatalogueType::TaperedRoller => {

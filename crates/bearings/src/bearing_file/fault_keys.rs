@@ -169,12 +169,12 @@ impl FaultTable {
         rows: usize,
     ) -> Result<Fault, InputError> {
         let balls = match geometry {
-            BearingGeometry::Ball(g) => Some(g),
-            BearingGeometry::Roller(_) => None,
+            BearingGeometry::Ball(g) if geometry.is_classic() => Some(g),
+            BearingGeometry::Ball(_) | BearingGeometry::Roller(_) => None,
         };
         let needed = || {
             balls.ok_or_else(|| {
-                keys.error("kind", "is a fault of ball bearings; a roller bearing can have \"misaligned-ring\" and \"missing\" only")
+                keys.error("kind", "is a fault of deep-groove and angular-contact ball bearings; roller bearings can have \"misaligned-ring\" and \"missing\", others \"misaligned-ring\" only")
             })
         };
         match self {
@@ -201,6 +201,10 @@ impl FaultTable {
                 };
                 Ok(Fault::OffSizeBall { row, ball, size })
             }
+            Self::Missing { .. } if !geometry.is_classic() => Err(keys.error(
+                "kind",
+                "found \"missing\", which four-point, thrust and spherical roller bearings do not have; they can have \"misaligned-ring\" only",
+            )),
             Self::Missing { row, element } => missing(keys, (*row, rows), *element, geometry),
             Self::MisalignedRing {
                 ring,

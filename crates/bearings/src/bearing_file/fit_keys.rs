@@ -76,6 +76,12 @@ pub(super) fn fit(
 ) -> Result<Fit, InputError> {
     let top = TableKeys::new(document, "");
     let keys = TableKeys::new(document, "fit");
+    if !geometry.is_classic() {
+        return Err(keys.error(
+            "",
+            "is not used by four-point, thrust and spherical roller bearings: state the clearance in operation (radial_clearance_um) and remove the table",
+        ));
+    }
     let bore_m = top.needed("bore_mm", bore_m, "[fit]")?;
     let outside_m = top.needed("outside_diameter_mm", outside_m, "[fit]")?;
     let [inner_m, outer_m] = raceways_m(geometry);

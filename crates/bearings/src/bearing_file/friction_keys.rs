@@ -32,6 +32,12 @@ pub(super) fn friction(
     geometry: &BearingGeometry,
 ) -> Result<Friction, InputError> {
     let keys = TableKeys::new(document, "friction");
+    if !geometry.is_classic() {
+        return Err(keys.error(
+            "",
+            "Palmgren's factors of four-point, thrust and spherical roller bearings are not built in; remove the table",
+        ));
+    }
     let within = |key: &str, value: f64, most: f64| {
         let allowed = format!("0 to {most}");
         keys.require(key, value, (0.0..=most).contains(&value), &allowed)

@@ -9,7 +9,7 @@ use crate::build_rows::half_taper_of;
 use crate::definition::{RollerGeometry, RollerProfile, Taper};
 
 /// Laminae where the file names none.
-const LAMINAE: usize = 40;
+pub(super) const LAMINAE: usize = 40;
 
 /// Rollers and races.
 pub(super) fn geometry(
@@ -62,6 +62,7 @@ pub(super) fn geometry(
         pitch_diameter_m: MM * pitch,
         radial_clearance_m: UM * clearance_um,
         taper,
+        barrel: None,
         profile: profile(file, document, diameter)?,
         laminae,
     })

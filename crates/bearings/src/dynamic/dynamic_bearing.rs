@@ -76,8 +76,13 @@ impl DynamicBearing {
         let mut rows = Vec::with_capacity(bearing.rows.len());
         for row in &bearing.rows {
             match row {
-                Row::Ball(row) => rows.push(row.clone()),
-                Row::Roller(_) => {
+                Row::Ball(row) if row.inner.reaches(1.0, 0.0) => rows.push(row.clone()),
+                Row::Ball(_) | Row::FourPoint(_) => {
+                    return Err(BearingError::NotCarried(
+                        "thrust and four-point bearings have no model `dynamic`; take `quasi-static`",
+                    ));
+                }
+                Row::Roller(_) | Row::Barrel(_) => {
                     return Err(BearingError::NotCarried(
                         "only ball bearings have the model `dynamic`; take `quasi-static` for rollers",
                     ));

@@ -297,3 +297,46 @@ fn the_equilibrium_has_the_faults_of_the_balls() {
         );
     }
 }
+
+/// Forces on the shaft at each multiple of 10 µs, steps of `step_s`.
+fn history(faults: &str, end_s: f64, step_s: f64) -> Vec<[f64; 3]> {
+    let bearing = bearing(&format!("{B6205}{faults}"));
+    let system = system(&bearing, effects(), &pose(), SPEED, &Held::Fast);
+    let mut run = Simulation::new(system, Params::fixed(step_s)).unwrap();
+    let stride = (STEP_S / step_s).round() as usize;
+    let (mut values, mut count) = (Vec::new(), 0);
+    run.run(end_s, |step| {
+        count += 1;
+        if count % stride == 0 {
+            let channels = Channels::of(step.system, step.to);
+            values
+                .push(["x", "y", "z"].map(|a| channels.get(&format!("bearing.force_shaft_{a}_N"))));
+        }
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    values
+}
+
+/// Balls that leave and strike: with halved steps the force over time tends to one course.
+#[test]
+fn the_history_over_a_spall_converges_with_the_step() {
+    let deep = OUTER.replace("depth_um = 4.0", "depth_um = 20.0");
+    for faults in [OUTER, &deep, &OUTER.replace("outer", "inner")] {
+        let all = [1e-5, 5e-6, 2.5e-6, 1.25e-6].map(|step| history(faults, 0.02, step));
+        let apart: Vec<f64> = all
+            .windows(2)
+            .map(|pair| {
+                let squares = pair[0].iter().zip(&pair[1]);
+                let sum: f64 = squares
+                    .flat_map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)))
+                    .sum();
+                (sum / pair[0].len() as f64).sqrt()
+            })
+            .collect();
+        // Of second order: a quarter with each halving, of forces that swing by hundreds of newtons.
+        for pair in apart.windows(2) {
+            assert!(pair[1] < 0.35 * pair[0], "{faults} {apart:?}");
+        }
+    }
+}

@@ -216,10 +216,12 @@ fn poor_fits_are_warned_of() {
 fn every_designation_can_be_built() {
     let mut count = 0;
     for name in designations::all() {
-        let angle = if name.starts_with('7') {
-            "contact_angle_deg = 15.0\n"
-        } else {
-            ""
+        let four_digits = name.len() == 4;
+        let angle = match name.as_bytes()[0] {
+            b'7' => "contact_angle_deg = 15.0\n",
+            b'Q' => "contact_angle_deg = 35.0\n",
+            b'3' if four_digits => "contact_angle_deg = 30.0\n",
+            _ => "",
         };
         let found = accepted(&format!(
             "kind = \"catalogue\"\ndesignation = \"{name}\"\n{angle}"
@@ -229,6 +231,19 @@ fn every_designation_can_be_built() {
         let ratings = Ratings::of(&found.definition);
         close(ratings.dynamic_n, estimate.dynamic_n, 1e-12);
         close(ratings.static_n, estimate.static_n, 1e-12);
+        QuasiStaticBearing::new(&found.definition).unwrap();
+        // Its own ratings as a maker's: the same inside.
+        let text = format!(
+            "kind = \"catalogue\"\ndesignation = \"{name}\"\n{angle}[ratings]\ndynamic_N = {}\nstatic_N = {}\n",
+            ratings.dynamic_n, ratings.static_n
+        );
+        let again = accepted(&text);
+        assert!(again.warnings.is_empty(), "{name}: {:?}", again.warnings);
+        let again = again.estimate.unwrap();
+        close(again.dynamic_ratio, 1.0, 0.06);
+        close(again.static_ratio, 1.0, 0.06);
+        // Another number may fit as well.
+        close(again.diameter_m, estimate.diameter_m, 0.15);
         count += 1;
     }
     assert!(count > 200, "{count}");

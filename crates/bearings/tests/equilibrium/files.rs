@@ -1,5 +1,7 @@
 //! Bad bearing files: each is answered with line, key, what was found and what is allowed.
 
+use crate::ball_types::{FOUR_POINT, THRUST};
+use crate::barrels::BARRELS;
 use crate::common::{B218, B6205, ROLLERS, TAPERED};
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_geometry::input::InputDocument;
@@ -120,6 +122,30 @@ fn values_out_of_range_are_answered_with_the_range() {
         ("balls = 9", "balls = 9\nradial_clearance_um = 900.0"),
         &["793.8"],
     );
+    // The limit itself is excluded, whatever 0.52 + 0.53 - 1 is to the last digit.
+    for key in [
+        "radial_clearance_um = 794.0",
+        "raceway_diameters_mm = [31.1, 47.774]",
+    ] {
+        refused(
+            &B6205.replace("7.938", "7.94"),
+            ("balls = 9", &format!("balls = 9\n{key}")),
+            &["no ball touches both"],
+        );
+    }
+    refused(
+        B6205,
+        ("balls = 9", "balls = 9\nshoulder_heights_mm = [1.5, 4.0]"),
+        &["shoulder_heights_mm", "found 4", "3.969"],
+    );
+    refused(
+        ROLLERS,
+        (
+            "rollers = 12",
+            "rollers = 12\nshoulder_heights_mm = [1.5, 1.5]",
+        ),
+        &["shoulder_heights_mm", "deep-groove"],
+    );
     refused(
         B6205,
         ("balls = 9", "balls = 9\nbore_mm = 32.0"),
@@ -160,6 +186,72 @@ fn values_out_of_range_are_answered_with_the_range() {
         TAPERED,
         ("rollers = 17", "rollers = 17\nrib_height_mm = 9.0"),
         &["rib_height_mm", "large end"],
+    );
+}
+
+/// Keys of four-point, thrust and spherical roller bearings.
+#[test]
+fn other_types_are_checked() {
+    refused(
+        FOUR_POINT,
+        ("contact_angle_deg = 35.0\n", ""),
+        &["contact_angle_deg", "missing", "four-point"],
+    );
+    refused(
+        FOUR_POINT,
+        ("radial_clearance_um = 20.0", "radial_clearance_um = 1100.0"),
+        &["radial_clearance_um", "found 1100", "1040.3"],
+    );
+    for (text, kind) in [(FOUR_POINT, "four-point"), (THRUST, "thrust-ball")] {
+        let pair = format!("{text}arrangement = \"O\"\nrow_distance_mm = 20.0\n");
+        let found = complaint(&pair);
+        assert!(
+            found.contains("arrangement") && found.contains(kind) && found.contains("one row"),
+            "{found}"
+        );
+        let faulty =
+            format!("{text}[[fault]]\nkind = \"off-size-ball\"\nball = 1\noversize_um = 1.0\n");
+        let found = complaint(&faulty);
+        assert!(
+            found.contains("fault.0.kind") && found.contains("misaligned-ring"),
+            "{found}"
+        );
+    }
+    refused(
+        THRUST,
+        ("balls = 14", "balls = 14\ncontact_angle_deg = 90.0"),
+        &["contact_angle_deg", "only by"],
+    );
+    refused(
+        BARRELS,
+        ("roller_length_mm = 17.0", "roller_length_mm = 19.0"),
+        &["roller_length_mm", "found 19", "18.8", "middle plane"],
+    );
+    refused(
+        BARRELS,
+        (
+            "rollers = 19",
+            "rollers = 19\nroller_profile_radius_mm = 90.0",
+        ),
+        &["roller_profile_radius_mm", "found 90", "82.37", "sphere"],
+    );
+    refused(
+        BARRELS,
+        (
+            "rollers = 19",
+            "rollers = 19\ninner_groove_radius_mm = 70.0",
+        ),
+        &["inner_groove_radius_mm", "found 70", "profile"],
+    );
+    refused(
+        BARRELS,
+        ("rollers = 19", "rollers = 19\nrow_distance_mm = 22.0"),
+        &["row_distance_mm", "one sphere"],
+    );
+    refused(
+        BARRELS,
+        ("rollers = 19", "rollers = 19\npreload_N = 22.0"),
+        &["preload_N", "only by"],
     );
 }
 

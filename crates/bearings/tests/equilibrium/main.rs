@@ -1,6 +1,8 @@
 //! Equilibrium of bearings against independent solutions (tools/reference/bearings.py), their tangents, their lives, and bad files.
 #![allow(clippy::unwrap_used, clippy::expect_used)] // test code
 
+mod ball_types;
+mod barrels;
 mod catalogue;
 mod common;
 mod files;
@@ -15,3 +17,4 @@ mod published;
 mod rests;
 mod stress_risers;
 mod tangents;
+mod warnings;

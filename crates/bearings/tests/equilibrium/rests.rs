@@ -300,3 +300,56 @@ fn rows_that_hardly_turn_may_be_unloaded() {
     };
     rests(&pair, load, &slow);
 }
+
+/// A large tilt that is held: sought from the straight ring on, and where there is none, the tilt is named, not the direction of the load.
+#[test]
+fn large_tilts_are_reached_from_the_straight_ring() {
+    let steep = bearing(crate::common::B218);
+    let load = |force_n: [f64; 3], mrad: f64| AppliedBearingLoad {
+        force_n,
+        tilt: TiltCondition::Held([1e-3 * mrad, 0.0]),
+    };
+    let still = Operation::default();
+    for force in [
+        [1000.0, 0.0, 0.0],
+        [0.0, 0.0, 1000.0],
+        [4000.0, 0.0, 8000.0],
+    ] {
+        rests(&steep, load(force, 8.0), &still);
+    }
+    let pair = bearing(crate::common::PAIR);
+    for force in [[1000.0, 0.0, 0.0], [0.0, 0.0, 2000.0]] {
+        for mrad in [8.0, 10.0, 12.0] {
+            rests(&pair, load(force, mrad), &still);
+        }
+        let error = pair.equilibrium(&load(force, 20.0), &still).unwrap_err();
+        let text = error.to_string();
+        assert!(
+            text.contains("held at 20.000 mrad; one was found up to 12."),
+            "{text}"
+        );
+    }
+}
+
+/// Loads in the rounding of the elements' places are refused with that reason; a thousandth of a newton is borne.
+#[test]
+fn tiny_loads_are_refused_with_their_reason() {
+    for text in [B6205, TAPERED, crate::common::B218] {
+        let bearing = bearing(text);
+        for force in [[1e-9, 0.0, 0.0], [0.0, 0.0, 1e-9]] {
+            match bearing.equilibrium(&free(force, [0.0; 2]), &Operation::default()) {
+                Ok(_) => {}
+                Err(error) => assert!(error.to_string().contains("at least 0.001 N"), "{error}"),
+            }
+        }
+        rests(
+            &bearing,
+            free([1e-3, 0.0, 1e-3], [0.0; 2]),
+            &Operation::default(),
+        );
+    }
+    let error = bearing(TAPERED)
+        .equilibrium(&free([0.0, 0.0, 1e-9], [0.0; 2]), &Operation::default())
+        .unwrap_err();
+    assert!(error.to_string().contains("rounding"), "{error}");
+}

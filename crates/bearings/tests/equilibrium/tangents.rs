@@ -1,5 +1,7 @@
 //! Tangents against differences.
 
+use crate::ball_types::{FOUR_POINT, THRUST};
+use crate::barrels::BARRELS;
 use crate::common::{B218, B6205, PAIR, ROLLERS, TAPERED, bearing};
 use gearmesh_bearings::{Control, Operation, QuasiStaticBearing, RingLoad, RingPose};
 use nalgebra::{Matrix6, Vector5, Vector6};
@@ -141,6 +143,17 @@ fn tangents_of_balls_at_rest_are_derivatives() {
 }
 
 #[test]
+fn tangents_of_four_point_and_thrust_balls_are_derivatives() {
+    let rest = Operation::default();
+    let fast = at_rpm(8000.0, Control::OuterRace);
+    let mixed = check(FOUR_POINT, &rest, 60, ([40e-6, 0.0, 60e-6], 1e-3))
+        + check(FOUR_POINT, &fast, 40, ([40e-6, 0.0, 60e-6], 1e-3))
+        + check(THRUST, &rest, 40, ([40e-6, 20e-6, 10e-6], 1e-3))
+        + check(THRUST, &fast, 20, ([20e-6, 30e-6, 5e-6], 2e-4));
+    assert!(mixed > 40, "{mixed} states with lifted-off balls");
+}
+
+#[test]
 fn tangents_of_balls_at_speed_are_derivatives() {
     let groove = format!("{B6205}radial_clearance_um = 12.0\n");
     let mixed = check(
@@ -169,6 +182,7 @@ fn tangents_of_rollers_are_derivatives() {
     let mixed = check(ROLLERS, &rest, 40, ([25e-6, 0.0, 0.0], 2e-3))
         + check(ROLLERS, &fast, 20, ([25e-6, 0.0, 0.0], 2e-3))
         + check(TAPERED, &rest, 20, ([10e-6, 15e-6, 10e-6], 5e-4))
-        + check(TAPERED, &fast, 20, ([10e-6, 15e-6, 10e-6], 5e-4));
+        + check(TAPERED, &fast, 20, ([10e-6, 15e-6, 10e-6], 5e-4))
+        + check(BARRELS, &rest, 20, ([60e-6, 0.0, 60e-6], 5e-3));
     assert!(mixed > 50, "{mixed} states with lifted-off rollers");
 }

@@ -9,10 +9,11 @@ use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingGeometry;
 use gearmesh_bearings::life::Lubrication;
 use gearmesh_bearings::quasi_static::RowLoads;
+use gearmesh_bearings::warnings::Judged;
 use gearmesh_bearings::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{
-    BearingError, Control, ElementLoad, FrictionTorque, Life, Operation, QuasiStaticBearing,
-    Ratings, RingLoad, RingPose,
+    BearingError, BearingWarning, Control, ElementLoad, FrictionTorque, Life, Operation,
+    QuasiStaticBearing, Ratings, RingLoad, RingPose, StaticSafety,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -20,6 +21,7 @@ use std::path::Path;
 /// Reads a bearing file and tells its notes.
 pub fn read(path: &Path) -> Result<BearingFromFile, Failure> {
     let found = BearingFromFile::read(path)?;
+    console::unit_slips(found.unit_slips.clone());
     found.notes.iter().for_each(console::note);
     found.warnings.iter().for_each(console::warning);
     Ok(found)
@@ -35,6 +37,8 @@ pub(super) struct Answer<'a> {
     pub ratings: Ratings,
     pub life: Life,
     pub friction: Option<FrictionTorque>,
+    pub safety: Option<StaticSafety>,
+    pub warnings: Vec<BearingWarning>,
 }
 
 /// Runs the command.
@@ -48,6 +52,11 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
     let lubrication = lubrication(a)?;
     let bearing = QuasiStaticBearing::new(&found.definition).map_err(Failure::work)?;
     refuse_faults_in_motion(&bearing)?;
+    if bearing.aligns() && a.moment_Nm.iter().any(|moment| *moment != 0.0) {
+        return Err(Failure::input(
+            "--moment-Nm: a spherical roller bearing tilts freely and carries no moment; remove it, or give --tilt-mrad",
+        ));
+    }
     let pose = bearing
         .equilibrium(&load, &operation)
         .map_err(|e| match e {
@@ -64,9 +73,20 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
     );
     let friction = found.definition.friction;
     let friction = friction.map(|f| f.torque(&found.definition, &loads, &operation));
+    let ratings = Ratings::of(&found.definition);
+    let judged = Judged {
+        definition: &found.definition,
+        bearing: &bearing,
+        loads: &loads,
+        force_n: load.force_n,
+        operation: &operation,
+        life: &life,
+    };
     let answer = Answer {
         friction,
-        ratings: Ratings::of(&found.definition),
+        warnings: judged.warnings(),
+        safety: StaticSafety::of(&found.definition, &ratings, load.force_n),
+        ratings,
         found: &found,
         bearing: &bearing,
         pose,
@@ -77,6 +97,7 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
     if let Some(path) = &a.report {
         bearing_page::write(&answer, a, path)?;
     }
+    answer.warnings.iter().for_each(console::warning);
     if a.json {
         console::json(&answer.figures());
     } else {
@@ -204,6 +225,14 @@ impl Answer<'_> {
             "orbit_rad_per_s": e.orbit_rad_per_s,
             "spin_rad_per_s": e.spin_rad_per_s,
         });
+        if let Some(other) = &e.other_side {
+            value["other_side"] = json!({
+                "inner_load_N": other.inner_load_n,
+                "outer_load_N": other.outer_load_n,
+                "inner_contact_angle_deg": other.inner_contact_angle_rad.to_degrees(),
+                "outer_contact_angle_deg": other.outer_contact_angle_rad.to_degrees(),
+            });
+        }
         if self.of_rollers() {
             value["tilt_mrad"] = json!(1e3 * e.tilt_rad);
             value["rib_load_N"] = json!(e.rib_load_n);
@@ -221,6 +250,21 @@ impl Answer<'_> {
             });
         }
         value
+    }
+
+    /// Warnings of the file and of the equilibrium.
+    fn told(&self) -> Vec<Value> {
+        let of_file = self.found.warnings.iter();
+        let of_file = of_file.map(|text| json!({"concern": "estimate", "text": text}));
+        let own = self.warnings.iter().map(|warning| {
+            json!({
+                "concern": warning.concern.word(),
+                "value": warning.value,
+                "limit": warning.limit,
+                "text": warning.text,
+            })
+        });
+        of_file.chain(own).collect()
     }
 
     fn figures(&self) -> Value {
@@ -254,6 +298,11 @@ impl Answer<'_> {
                 "reference_equivalent_N": self.life.reference_equivalent_n,
                 "L10mr_Mrev": self.life.modified_mrev.and_then(finite),
             },
+            "static_safety": self.safety.map(|safety| json!({
+                "equivalent_N": safety.equivalent_n,
+                "s0": finite(safety.factor),
+            })),
+            "warnings": self.told(),
         });
         if let Some(friction) = &self.friction {
             value["friction"] = bearing_friction::figures(friction);
@@ -357,12 +406,28 @@ impl Answer<'_> {
                     1e-6 * inner,
                     1e-6 * outer
                 ));
+                if let Some(other) = &e.other_side {
+                    console::data(format!(
+                        "  other side {:>12.3} {:>10.3} {:>18.4} {:>7.4}",
+                        other.inner_load_n,
+                        other.outer_load_n,
+                        rounded(other.inner_contact_angle_rad.to_degrees(), 4),
+                        rounded(other.outer_contact_angle_rad.to_degrees(), 4),
+                    ));
+                }
             }
         }
-        console::data(format!(
+        let mut ratings = format!(
             "ratings: C {:.0} N, C0 {:.0} N, Cu {:.0} N",
             self.ratings.dynamic_n, self.ratings.static_n, self.ratings.fatigue_n
-        ));
+        );
+        if let Some(safety) = self.safety.filter(|safety| safety.factor.is_finite()) {
+            ratings += &format!(
+                "; static safety s0 = C0/P0 {:.3}, P0 {:.0} N",
+                safety.factor, safety.equivalent_n
+            );
+        }
+        console::data(ratings);
         let life = |value: Option<f64>| match value {
             Some(v) if v.is_finite() => format!("{v:.5e}"),
             Some(_) => "unlimited".to_owned(),

@@ -110,7 +110,23 @@ fn at_a_glance(answer: &Answer<'_>) -> Section {
         Some(friction) => bearing_friction::at_a_glance(friction, figures),
         None => figures,
     };
+    let figures = match answer.life.modified_mrev {
+        None => figures,
+        modified => figures.figure("L10mr", life(modified), millions),
+    };
+    let figures = match answer.safety {
+        Some(safety) if safety.factor.is_finite() => {
+            figures.figure("static safety s₀ = C₀/P₀", short(safety.factor), "")
+        }
+        _ => figures,
+    };
     let mut section = Section::new("At a glance").push(figures);
+    for warning in &answer.found.warnings {
+        section = section.push(Text::note(format!("Warning: {warning}")));
+    }
+    for warning in &answer.warnings {
+        section = section.push(Text::note(format!("Warning: {warning}")));
+    }
     if answer.found.estimate.is_some() {
         section = section.push(Text::note("Number and size of the elements are estimated from the line of a catalogue; gearmesh bearing prints the spread."));
     }

@@ -174,6 +174,8 @@ fn bearing(document: &InputDocument) -> Result<Finding, Failure> {
     let mut finding = Finding::new("bearing", Some(&found.definition.name));
     let warnings = found.warnings.iter();
     let warnings = warnings.map(|text| format!("warning: {text}"));
+    let slips = found.unit_slips.iter();
+    let warnings = warnings.chain(slips.map(|slip| format!("warning: {slip}")));
     finding.notes = found.notes.iter().cloned().chain(warnings).collect();
     Ok(finding)
 }

@@ -254,7 +254,10 @@ fn a_fit_is_printed_term_by_term() {
     let page = std::fs::read_to_string(&page).unwrap();
     for words in [&print, &page] {
         assert!(words.contains("heat of the inner ring"), "{words}");
-        assert!(words.contains("pressure 12."), "{words}");
+        assert!(
+            words.contains("shaft: interference in operation 9.00 um, pressure "),
+            "{words}"
+        );
     }
     let plain = text
         .split("[fit]")
@@ -312,4 +315,82 @@ fn friction_and_missing_balls_are_printed() {
             .unwrap()
             .contains("power loss")
     );
+}
+
+/// Figures beyond their limits are warned of on the console, in JSON and on the page, each with figure and limit; slips of units when the file is read.
+#[test]
+fn limits_and_slips_of_units_are_warned_of() {
+    let desk = Desk::new();
+    let file = desk.file("218.toml", B218);
+    let page = desk.path("218.html");
+    let answer = succeeds(&[
+        "bearing",
+        argument(&file),
+        "--load-N",
+        "0,0,400000",
+        "--speed-rpm",
+        "5000",
+        "--viscosity-mm2-per-s",
+        "20",
+        "--contamination",
+        "0.5",
+        "--report",
+        argument(&page),
+        "--json",
+    ]);
+    let json = answer.json();
+    let found = json["warnings"].as_array().unwrap();
+    let concerns: Vec<&str> = found
+        .iter()
+        .map(|warning| warning["concern"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        concerns,
+        [
+            "static-safety",
+            "shoulder",
+            "shoulder",
+            "life-load",
+            "speed"
+        ]
+    );
+    // P0 = 0.26 F_a; n d_m = 5000 x 125.3.
+    near(&json["static_safety"]["equivalent_N"], 104_000.0, 1e-12);
+    near(&found[4]["value"], 626_500.0, 1e-12);
+    near(&found[4]["limit"], 500_000.0, 1e-12);
+    let text = std::fs::read_to_string(&page).unwrap();
+    for warning in found {
+        let sentence = warning["text"].as_str().unwrap();
+        assert!(
+            answer.stderr.contains(&format!("warning: {sentence}")),
+            "{sentence}"
+        );
+        let concern = sentence.split(':').next().unwrap();
+        assert!(text.contains(&format!("Warning: {concern}")), "{concern}");
+    }
+    assert!(text.contains("L10mr"));
+    let sound = succeeds(&["bearing", argument(&file), "--load-N", "0,0,20000"]);
+    assert!(!sound.stderr.contains("warning"), "{}", sound.stderr);
+    let slipped = format!(
+        "{B218}[ratings]\ndynamic_N = 14.0\n[element_material]\nyoung_GPa = 206000.0\npoisson = 0.3\ndensity_kg_per_m3 = 7.85\n"
+    );
+    let file = desk.file("slipped.toml", slipped);
+    for command in [
+        &["check", argument(&file)][..],
+        &["bearing", argument(&file), "--load-N", "0,0,100"],
+    ] {
+        let answer = succeeds(command);
+        for part in [
+            "ratings.dynamic_N: 14 is unusual",
+            "14 kN are 14000 N",
+            "element_material.young_GPa: 206000 is unusual",
+            "element_material.density_kg_per_m3: 7.85 is unusual",
+        ] {
+            assert!(
+                answer.stderr.contains(part),
+                "`{part}` is not in {}",
+                answer.stderr
+            );
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! `gearmesh import`: the shipped REXS gearbox becomes files that the program accepts, and its bearings carry what hand statics say.
 
 use super::shipped_gearboxes::coarse;
-use crate::common::{Desk, argument, gearmesh, names_in, refused, succeeds};
+use crate::common::{Desk, argument, changed, gearmesh, names_in, refused, succeeds};
 use gearmesh_scene::system_run::SystemResult;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -52,51 +52,98 @@ fn a_gearbox_of_three_stages_is_imported_and_runs() {
     assert!((input / 28.2068 - 1.0).abs() < 1e-4, "{input}");
 }
 
-/// The same gearbox imported, its six gears reduced (on coarse meshes), and run.
+/// The same gearbox imported, its six gears reduced (on coarse meshes), and run: with its first pinion on a bore, and cut into its shaft, which goes on at
+/// both faces, with three pairs of diameters: half to eight tenths of the root.
 #[test]
 fn an_imported_gearbox_of_reduced_gears_runs() {
     let desk = Desk::new();
-    let model =
+    let shipped =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models/gearbox_three_stage.rexs");
+    let shipped = std::fs::read_to_string(shipped).unwrap();
     let folder = desk.path("imported");
-    let words = [
-        "import",
-        argument(&model),
-        "-o",
-        argument(&folder),
-        "--reduced",
-        "--json",
-    ];
-    let told = succeeds(&words).json();
-    let gears = told["gears"].as_array().unwrap();
-    assert_eq!(gears.len(), 6);
-    for gear in gears {
-        let gear = folder.join(gear.as_str().unwrap());
-        let text = coarse(&std::fs::read_to_string(&gear).unwrap());
-        // The intermediate shafts' second pinion drives on the other side.
-        let text = text.replace("flanks = [\"right\"]", "flanks = [\"right\", \"left\"]");
-        std::fs::write(&gear, text).unwrap();
-        let model = gear.with_extension("h5");
+    for (number, diameters) in [None, Some([16, 18]), Some([23, 21]), Some([25, 20])]
+        .into_iter()
+        .enumerate()
+    {
+        let text = diameters.map_or(shipped.clone(), |of| with_sections(&shipped, of));
+        let model = desk.file("gearbox_three_stage.rexs", text);
         let words = [
-            "reduce",
-            "--no-error-estimate",
-            argument(&gear),
-            "-o",
+            "import",
             argument(&model),
+            "-o",
+            argument(&folder),
+            "--reduced",
+            "--json",
         ];
-        succeeds(&words);
+        let told = succeeds(&words).json();
+        let gears = told["gears"].as_array().unwrap();
+        assert_eq!(gears.len(), 6);
+        for gear in gears {
+            let gear = folder.join(gear.as_str().unwrap());
+            let text = std::fs::read_to_string(&gear).unwrap();
+            let changes = text.contains("teeth = 17\n");
+            assert_eq!(changes && number > 0, text.contains("shaft_diameter_mm"));
+            let model = gear.with_extension("h5");
+            if model.exists() && !changes {
+                continue;
+            }
+            // The intermediate shafts' second pinion drives on the other side.
+            let text =
+                coarse(&text).replace("flanks = [\"right\"]", "flanks = [\"right\", \"left\"]");
+            std::fs::write(&gear, text).unwrap();
+            let words = [
+                "reduce",
+                "--no-error-estimate",
+                argument(&gear),
+                "-o",
+                argument(&model),
+            ];
+            succeeds(&words);
+        }
+        let scene = folder.join("gearbox_three_stage.toml");
+        assert!(
+            std::fs::read_to_string(&scene)
+                .unwrap()
+                .contains("kind = \"hybrid\"")
+        );
+        let output = desk.path("result.h5");
+        succeeds(&["run", argument(&scene), "-o", argument(&output)]);
+        // Webs tilt, and the teeth carry towards one end of the face: one bearing of a shaft carries more than statics say of a
+        // load in the middle, the other less. The shipped gearbox of reduced gears has helix corrections against it.
+        bearings_carry_what_statics_say(&SystemResult::open(&output).unwrap(), 0.12);
     }
-    let scene = folder.join("gearbox_three_stage.toml");
-    assert!(
-        std::fs::read_to_string(&scene)
-            .unwrap()
-            .contains("kind = \"hybrid\"")
+}
+
+/// The exchange file with the first pinion cut into its shaft: a section of 28 mm under its face, others before and behind it.
+fn with_sections(shipped: &str, [before, behind]: [u32; 2]) -> String {
+    let mut text = changed(
+        shipped,
+        "\"inner_diameter\" unit=\"mm\">18<",
+        "\"inner_diameter\" unit=\"mm\">0<",
     );
-    let output = desk.path("result.h5");
-    succeeds(&["run", argument(&scene), "-o", argument(&output)]);
-    // Webs tilt, and the teeth carry towards one end of the face: one bearing of a shaft bears more than statics say of a
-    // load in the middle, the other less. The shipped gearbox of reduced gears has helix corrections against it.
-    bearings_carry_what_statics_say(&SystemResult::open(&output).unwrap(), 0.12);
+    for end in ["begin", "end"] {
+        let [old, first, second] =
+            [26, before, behind].map(|d| format!("\"outer_diameter_{end}\" unit=\"mm\">{d}<"));
+        assert_eq!(text.matches(&old).count(), 2);
+        text = text.replacen(&old, &first, 1).replacen(&old, &second, 1);
+    }
+    // From u = 30 to 48 and from 72 to 90 mm, in place of 60 mm.
+    let place = |u: u32, length: u32| {
+        let [u, length] = [("u_coordinate_on_shaft", u), ("length", length)]
+            .map(|(id, value)| format!("<attribute id=\"{id}\" unit=\"mm\">{value}</attribute>"));
+        format!("{u}\n      {length}")
+    };
+    let text = changed(&text, &place(30, 30), &place(30, 18));
+    let text = changed(&text, &place(60, 30), &place(72, 18));
+    let section = format!(
+        "<component id=\"103\" type=\"shaft_section\" name=\"\">{}<attribute id=\"outer_diameter_begin\" unit=\"mm\">28</attribute>\
+         <attribute id=\"outer_diameter_end\" unit=\"mm\">28</attribute></component>\n    ",
+        place(48, 24)
+    );
+    let next = "<component id=\"11\" type=\"shaft\"";
+    let text = changed(&text, next, &format!("{section}{next}"));
+    let relation = "<relation id=\"9007\" type=\"assembly\"><ref id=\"10\" role=\"assembly\"/><ref id=\"103\" role=\"part\"/></relation>\n  ";
+    changed(&text, "</relations>", &format!("{relation}</relations>"))
 }
 
 /// Both bearings of a shaft together within 2 % of hand statics, each within a share.

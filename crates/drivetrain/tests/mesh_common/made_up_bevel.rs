@@ -90,6 +90,7 @@ pub fn made_up_bevel(flanks: &BevelSlices, member: usize) -> ReducedGear {
         modes: None,
         crack: None,
         hub_patterns: None,
+        shaft_faces: None,
         bevel: Some(BevelBody {
             member: [BevelMember::Pinion, BevelMember::Gear][member],
             points_m: all()

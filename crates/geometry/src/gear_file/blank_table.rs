@@ -35,7 +35,7 @@ kinds!(BlankTable, "kind");
 pub(super) struct SolidTable {
     /// Bore; 0 for a gear that is cut into its shaft.
     bore_diameter_mm: f64,
-    /// Diameter of the shaft at the back and the front face, where a gear without bore is held; 0 where the shaft does not go
+    /// Diameter of the shaft at the back and the front face, where a gear without bore joins it; 0 where the shaft does not go
     /// on.
     shaft_diameter_mm: Option<[f64; 2]>,
     /// Annular slots through the disc; none where not given.
@@ -226,7 +226,7 @@ impl SolidTable {
             }
         }
         let ends = self.shaft_diameter_mm.ok_or_else(|| {
-            let problem = "found 0; a gear that is cut into its shaft needs shaft_diameter_mm = [back, front] as well, the faces at which it is held";
+            let problem = "found 0; a gear that is cut into its shaft needs shaft_diameter_mm = [back, front] as well, the faces at which it joins the shaft";
             keys.error("bore_diameter_mm", problem)
         })?;
         // Teeth and the ring below them are condensed by themselves.

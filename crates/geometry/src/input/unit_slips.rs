@@ -23,7 +23,9 @@ const fn usual(key: &'static str, low: f64, high: f64, hint: &'static str) -> Us
 const MICRO: &str = "the key is in micrometres, 0.012 mm are 12 um";
 const STIFFNESS: &str = "the key is in N/mm, 1e9 N/m are 1e6 N/mm";
 
-const USUAL: [Usual; 29] = [
+const NEWTON: &str = "the key is in newtons, 14 kN are 14000 N";
+
+const USUAL: [Usual; 40] = [
     usual(
         "young_GPa",
         0.1,
@@ -107,6 +109,32 @@ const USUAL: [Usual; 29] = [
         0.1,
         20_000.0,
         "the key is in millimetres",
+    ),
+    usual("dynamic_N", 100.0, 1e8, NEWTON),
+    usual("static_N", 20.0, 1e9, NEWTON),
+    usual("fatigue_N", 1.0, 1e8, NEWTON),
+    usual("ball_diameter_mm", 0.25, 500.0, "the key is in millimetres"),
+    usual(
+        "roller_diameter_mm",
+        0.5,
+        500.0,
+        "the key is in millimetres",
+    ),
+    usual("roller_length_mm", 0.5, 1000.0, "the key is in millimetres"),
+    usual(
+        "pitch_diameter_mm",
+        1.0,
+        20_000.0,
+        "the key is in millimetres",
+    ),
+    usual("radial_clearance_um", 0.1, 2000.0, MICRO),
+    usual("preload_um", 0.05, 2000.0, MICRO),
+    usual("scale_um", 0.05, 1000.0, MICRO),
+    usual(
+        "contact_angle_deg",
+        0.8,
+        90.0,
+        "the key is in degrees, 0.26 rad are 15 deg",
     ),
 ];
 

@@ -163,6 +163,7 @@ pub fn reduce_bevel(
         density_kg_per_m3: gear.material.density_kg_per_m3,
         hub: gear.hub,
         modes: gear.modes,
+        faces: None,
     };
     let dynamics = dynamics(&request, &body, &loads, &rows, progress)?;
     if dynamics.rigid_body.is_some() {
@@ -206,6 +207,7 @@ pub fn reduce_bevel(
         modes: dynamics.modes,
         crack: None,
         hub_patterns: None,
+        shaft_faces: None,
         bevel: Some(BevelBody {
             near_field: Some(near_field),
             ..surface(gear, &patches, &grid)

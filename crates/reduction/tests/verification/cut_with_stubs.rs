@@ -1,51 +1,107 @@
-//! A pinion cut into its shaft, with stubs of the shaft on its faces in one finite element model, against the reduced pinion on beams.
+//! A pinion cut into its shaft, with stubs of the shaft on its faces in one finite element model, against the reduced pinion between beams.
 
-use crate::small_gears::{COARSE, body};
-use crate::whole_compliance::products;
-use gearmesh_fe::{DofMap, FeModel, RigidGroup};
+use crate::small_gears::body;
+use faer::Mat;
+use gearmesh_fe::{DofMap, Factor, FeModel, RigidGroup, assemble_stiffness};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{Flank, GearDefinition};
 use gearmesh_reduction::flank_loads::{SparseVector, flank_grid, flank_loads};
+use gearmesh_reduction::shaft_faces::ConstraintModes;
 use gearmesh_reduction::{GearBody, Silent};
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6};
 use std::f64::consts::PI;
 
-/// 17 teeth of module 3 mm, 30 mm wide.
-fn pinion(blank: &str) -> GearDefinition {
-    let text = format!(
-        "name = \"pinion\"\n[tooth]\nteeth = 17\nmodule_mm = 3.0\nprofile_shift = 0.2\nface_width_mm = 30.0\n[material]\nyoung_GPa = 210.0\npoisson = 0.3\n\
-         [reduction]\nroll_stations = 3\nslices = 2\nflanks = [\"right\"]\n[mesh]\n{COARSE}[blank]\nkind = \"solid\"\n{blank}"
-    );
-    GearDefinition::from_document(&InputDocument::new("pinion.toml", text)).unwrap()
+/// A pinion 30 mm wide between stubs of its shaft.
+struct Case {
+    teeth: usize,
+    module_mm: f64,
+    /// Diameters on back and front face.
+    shaft_mm: [f64; 2],
+    /// Lengths of the stubs there.
+    stub_m: [f64; 2],
+    /// Share of the deflection by which the rigid faces may be too stiff: more, the nearer their outlines come to the teeth.
+    allowed: f64,
 }
 
-const SHAFT_M: f64 = 0.5 * 32e-3;
-const STUB_M: [f64; 2] = [40e-3, 50e-3];
+/// Half of the root diameter, seven tenths and nine tenths of it.
+const CASES: [Case; 3] = [
+    Case {
+        teeth: 17,
+        module_mm: 3.0,
+        shaft_mm: [22.0, 24.0],
+        stub_m: [40e-3, 50e-3],
+        allowed: 0.02,
+    },
+    Case {
+        teeth: 17,
+        module_mm: 3.0,
+        shaft_mm: [32.0, 30.0],
+        stub_m: [40e-3, 50e-3],
+        allowed: 0.02,
+    },
+    Case {
+        teeth: 34,
+        module_mm: 2.0,
+        shaft_mm: [57.0, 54.0],
+        stub_m: [80e-3, 100e-3],
+        allowed: 0.045,
+    },
+];
+const WIDTH_M: f64 = 30e-3;
+
+impl Case {
+    /// `lengths_mm`: of elements on flank and fillet, in the body, along the axis.
+    fn gear(&self, [flank, fillet, body, axial]: [f64; 4]) -> GearDefinition {
+        let Self {
+            teeth,
+            module_mm,
+            shaft_mm,
+            ..
+        } = self;
+        let text = format!(
+            "name = \"pinion\"\n[tooth]\nteeth = {teeth}\nmodule_mm = {module_mm}\nprofile_shift = 0.2\nface_width_mm = 30.0\n[material]\nyoung_GPa = 210.0\n\
+             poisson = 0.3\n[reduction]\nroll_stations = 3\nslices = 2\nflanks = [\"right\"]\n[mesh]\n\
+             flank_mm = {flank}\nfillet_mm = {fillet}\nbody_mm = {body}\naxial_mm = {axial}\n[blank]\nkind = \"solid\"\nbore_diameter_mm = 0\n\
+             shaft_diameter_mm = {shaft_mm:?}\n"
+        );
+        GearDefinition::from_document(&InputDocument::new("pinion.toml", text)).unwrap()
+    }
+
+    fn radius_m(&self, face: usize) -> f64 {
+        0.5e-3 * self.shaft_mm[face]
+    }
+}
+
+/// Deflection at each load under each, and the force that the bearing behind the back stub takes of it, across the axis.
+struct Answers {
+    deflections: DMatrix<f64>,
+    bearing: Vec<[f64; 2]>,
+}
 
 /// The pinion's model with a stub of the shaft on its back (0) and front (1), and the nodes at their far ends.
-fn with_stubs(gear: &GearDefinition, body: &GearBody) -> (FeModel, [Vec<usize>; 2]) {
+fn with_stubs(case: &Case, body: &GearBody) -> (FeModel, [Vec<usize>; 2]) {
     let mesh = &body.mesh;
     let section = &mesh.section;
-    let inside = |n: usize| {
-        let [x, y] = section.nodes[n];
-        x.hypot(y) <= SHAFT_M * (1.0 + 1e-6)
-    };
-    let quads: Vec<[usize; 4]> = (section.quads.iter().copied())
-        .filter(|quad| quad.iter().all(|&n| inside(n)))
-        .collect();
     let mut nodes = mesh.nodes.clone();
     let mut connectivity = mesh.elements.connectivity().to_vec();
-    let half = 0.5 * gear.tooth.face_width_m;
     let planes = mesh.layers.planes_m.len();
     let ends = [0, 1].map(|side| {
+        let inside = |n: usize| {
+            let [x, y] = section.nodes[n];
+            x.hypot(y) <= case.radius_m(side) * (1.0 + 1e-6)
+        };
+        let quads: Vec<[usize; 4]> = (section.quads.iter().copied())
+            .filter(|quad| quad.iter().all(|&n| inside(n)))
+            .collect();
         let sign = [-1.0, 1.0][side];
         let face = [0, planes - 1][side];
-        let count = 10;
+        let count = 12;
         let mut last: Vec<Option<u32>> = (0..section.nodes.len())
             .map(|n| mesh.node(n, face))
             .collect();
         for layer in 1..=count {
-            let z = sign * (half + STUB_M[side] * f64::from(layer) / f64::from(count));
+            let z =
+                sign * (0.5 * WIDTH_M + case.stub_m[side] * f64::from(layer) / f64::from(count));
             let mut next = vec![None; last.len()];
             for &n in quads.iter().flatten() {
                 if next[n].is_none() {
@@ -65,11 +121,7 @@ fn with_stubs(gear: &GearDefinition, body: &GearBody) -> (FeModel, [Vec<usize>; 
             }
             last = next;
         }
-        last.into_iter()
-            .enumerate()
-            .filter(|(n, _)| inside(*n))
-            .filter_map(|(_, n)| Some(n? as usize))
-            .collect()
+        last.into_iter().flatten().map(|n| n as usize).collect()
     });
     let (material, element) = (*body.model.material(), body.model.element_of(0));
     (
@@ -78,28 +130,12 @@ fn with_stubs(gear: &GearDefinition, body: &GearBody) -> (FeModel, [Vec<usize>; 
     )
 }
 
-/// Force and moment about a point on the axis of a load on nodes.
-fn resultant(nodes: &[[f64; 3]], load: &SparseVector, z: f64) -> Vector6<f64> {
-    let mut sum = Vector6::zeros();
-    for &(dof, value) in load {
-        let mut force = Vector3::zeros();
-        force[dof % 3] = value;
-        let [x, y, height] = nodes[dof / 3];
-        let moment = Vector3::new(x, y, height - z).cross(&force);
-        for k in 0..3 {
-            sum[k] += force[k];
-            sum[3 + k] += moment[k];
-        }
-    }
-    sum
-}
-
-/// Compliance of a cantilever of the shaft at its free end; `towards` is the sign of z from there to its clamp.
-fn cantilever(length: f64, towards: f64) -> Matrix6<f64> {
+/// Stiffness at the end of a cantilever of the shaft; `towards` is the sign of z from there to its clamp.
+fn cantilever(radius: f64, length: f64, towards: f64) -> Matrix6<f64> {
     let (young, poisson) = (210e9, 0.3);
     let shear = young / (2.0 * (1.0 + poisson));
-    let area = PI * SHAFT_M * SHAFT_M;
-    let second = 0.25 * PI * SHAFT_M.powi(4);
+    let area = PI * radius * radius;
+    let second = 0.25 * PI * radius.powi(4);
     let kappa = 6.0 * (1.0 + poisson) / (7.0 + 6.0 * poisson);
     let across = length.powi(3) / (3.0 * young * second) + length / (kappa * shear * area);
     let mixed = towards * length * length / (2.0 * young * second);
@@ -109,140 +145,177 @@ fn cantilever(length: f64, towards: f64) -> Matrix6<f64> {
     (h[(3, 3)], h[(4, 4)], h[(5, 5)]) = (turn, turn, length / (2.0 * shear * second));
     (h[(0, 4)], h[(4, 0)]) = (-mixed, -mixed);
     (h[(1, 3)], h[(3, 1)]) = (mixed, mixed);
-    h
+    h.try_inverse().unwrap()
 }
 
-/// How the far ends of the stubs stand.
-#[derive(Clone, Copy, PartialEq)]
-enum Ends {
-    /// The front one clamped, the back one free.
-    Cantilever,
-    /// The front one clamped, the back one held across the axis: a bearing.
-    Supported,
-}
-
-/// Deflections along the normal under a unit force at each load point of tooth 0, by beams of the shaft and the gear's own body.
-/// The gear stands on the front face where it is cut into the shaft, otherwise on its middle, to which the shaft goes on.
+/// The reduced pinion: its faces joined by K_bb, the front one clamped behind its stub, the back one on its stub in a bearing that holds it
+/// across the axis.
 fn on_beams(
+    case: &Case,
     gear: &GearDefinition,
     body: &GearBody,
     loads: &[SparseVector],
-    ends: Ends,
-) -> Vec<f64> {
-    let half = 0.5 * gear.tooth.face_width_m;
-    let (place, within) = match gear.blank.cut_into_shaft() {
-        Some(_) => (half, 0.0),
-        None => (0.0, half),
-    };
-    let front = cantilever(STUB_M[1] + within, 1.0);
-    let mut stiffness = front.try_inverse().unwrap();
-    if ends == Ends::Supported {
-        let spring = 1.0 / cantilever(STUB_M[0] + within, 1.0)[(0, 0)];
-        let arm = -half - STUB_M[0] - place;
-        for (axis, turn, sign) in [(0, 4, 1.0), (1, 3, -1.0)] {
-            let mut row = Vector6::zeros();
-            (row[axis], row[turn]) = (1.0, sign * arm);
-            stiffness += spring * row * row.transpose();
-        }
+) -> Answers {
+    let modes = ConstraintModes::new(gear, body, &Silent).unwrap().unwrap();
+    println!("a rigid motion leaves {:e}", modes.rigid_residual);
+    assert!(modes.rigid_residual < 1e-9);
+    let mut stiffness = DMatrix::from_fn(12, 12, |i, j| modes.stiffness[(i, j)]);
+    let mut front = stiffness.view_mut((6, 6), (6, 6));
+    front += cantilever(case.radius_m(1), case.stub_m[1], 1.0);
+    let stub = cantilever(case.radius_m(0), case.stub_m[0], 1.0)
+        .try_inverse()
+        .unwrap();
+    let spring = 1.0 / stub[(0, 0)];
+    let mut rows = Vec::new();
+    for (axis, turn, sign) in [(0, 4, 1.0), (1, 3, -1.0)] {
+        let mut row = DVector::zeros(12);
+        (row[axis], row[turn]) = (1.0, -sign * case.stub_m[0]);
+        stiffness += spring * &row * row.transpose();
+        rows.push(row);
     }
-    let beams = stiffness.try_inverse().unwrap();
+    let compliance = stiffness.try_inverse().unwrap();
     let vectors: Vec<&SparseVector> = loads.iter().collect();
     let own = body.compliance(1, &vectors, &Silent);
     let row = gear.tooth.teeth * loads.len();
-    (loads.iter().enumerate())
-        .map(|(i, load)| {
-            let at = resultant(&body.mesh.nodes, load, place);
-            own[i * row + i] + at.dot(&(beams * at))
-        })
-        .collect()
+    let at = DMatrix::from_fn(12, loads.len(), |q, load| {
+        let terms = loads[load].iter();
+        terms
+            .map(|&(dof, value)| value * modes.motions[(dof, q)])
+            .sum::<f64>()
+    });
+    let moved = &compliance * &at;
+    let held = DMatrix::from_fn(loads.len(), loads.len(), |i, j| own[i * row + j]);
+    let bearing = moved.column_iter().map(|moved| {
+        let moved = moved.into_owned();
+        [0, 1].map(|axis| spring * rows[axis].dot(&moved))
+    });
+    Answers {
+        deflections: held + at.transpose() * &moved,
+        bearing: bearing.collect(),
+    }
 }
 
 /// The same by finite elements of pinion and stubs.
-fn in_one_model(
-    gear: &GearDefinition,
-    body: &GearBody,
-    loads: &[SparseVector],
-    ends: Ends,
-) -> Vec<f64> {
-    let (model, [back, front]) = with_stubs(gear, body);
+fn in_one_model(case: &Case, body: &GearBody, loads: &[SparseVector]) -> Answers {
+    let (model, [back, front]) = with_stubs(case, body);
     let group = RigidGroup {
-        nodes: back,
-        reference_m: [0.0, 0.0, -0.5 * gear.tooth.face_width_m - STUB_M[0]],
-        fixed: [true, true, false, false, false, false],
+        nodes: back.clone(),
+        reference_m: [0.0, 0.0, -0.5 * WIDTH_M - case.stub_m[0]],
+        fixed: [false; 6],
     };
-    let groups: Vec<RigidGroup> = (ends == Ends::Supported)
-        .then_some(group)
-        .into_iter()
-        .collect();
     let fixed: Vec<usize> = front
         .iter()
         .flat_map(|&n| [3 * n, 3 * n + 1, 3 * n + 2])
         .collect();
-    let dofs = DofMap::with_rigid_groups(model.nodes(), &fixed, &groups).unwrap();
-    let vectors: Vec<&SparseVector> = loads.iter().collect();
-    let full = products(&model, &dofs, &vectors);
-    (0..loads.len()).map(|i| full[(i, i)]).collect()
+    let dofs = DofMap::with_rigid_groups(model.nodes(), &fixed, &[group]).unwrap();
+    let k = assemble_stiffness(&model, &dofs).unwrap();
+    let factor = Factor::of_model(&model, &dofs, &k).unwrap();
+    let mut right = Mat::zeros(dofs.free_count(), 2 + loads.len());
+    for axis in 0..2 {
+        // A force on the bearing's reference point.
+        right[(dofs.free_of_reference(0, axis).unwrap(), axis)] = 1.0;
+    }
+    for (column, load) in loads.iter().enumerate() {
+        let mut full = vec![0.0; dofs.dof_count()];
+        for &(dof, value) in load {
+            full[dof] = value;
+        }
+        for (free, value) in dofs.restrict(&full).into_iter().enumerate() {
+            right[(free, 2 + column)] = value;
+        }
+    }
+    let mut solved = right.clone();
+    factor.solve_in_place(solved.as_mut());
+    let free = right.transpose() * &solved;
+    // The bearing takes what brings its place back.
+    let held = nalgebra::Matrix2::from_fn(|i, j| free[(i, j)])
+        .try_inverse()
+        .unwrap();
+    let moved = |load: usize| nalgebra::Vector2::new(free[(0, 2 + load)], free[(1, 2 + load)]);
+    let force = |load: usize| held * moved(load);
+    Answers {
+        deflections: DMatrix::from_fn(loads.len(), loads.len(), |i, j| {
+            free[(2 + i, 2 + j)] - moved(i).dot(&force(j))
+        }),
+        bearing: (0..loads.len()).map(|load| force(load).into()).collect(),
+    }
 }
 
-fn loaded(blank: &str) -> (GearDefinition, GearBody, Vec<SparseVector>) {
-    let gear = pinion(blank);
+/// Deflection along the flank's normal at every load point under each load, and the force of the bearing, at three proportions of shaft and root, with
+/// unequal faces: the force within 2 %, deflections within 2 % but for the thickest shaft. What is left is the joint of stub and gear: the face within
+/// the shaft is rigid, a stub's end is not.
+#[test]
+fn a_pinion_between_beams_deflects_as_one_with_its_shaft() {
+    let mut all = Vec::new();
+    for case in &CASES {
+        let gear = case.gear([0.8 * case.module_mm, 0.4 * case.module_mm, 6.0, 6.0]);
+        let body = body(&gear);
+        let grid = flank_grid(&gear);
+        let loads = flank_loads(&gear, &body.mesh, &grid, 0, Flank::Right);
+        let loads: Vec<SparseVector> = loads.into_iter().map(|load| load.normal).collect();
+        let found = on_beams(case, &gear, &body, &loads);
+        let expected = in_one_model(case, &body, &loads);
+        let root_mm = 2e3 * gear.profile.root_radius_m;
+        let own = expected.deflections.diagonal();
+        let off = DMatrix::from_fn(loads.len(), loads.len(), |i, j| {
+            (found.deflections[(i, j)] - expected.deflections[(i, j)]) / (own[i] * own[j]).sqrt()
+        });
+        let (mean, worst) = (off.diagonal().mean(), off.amax());
+        let reactions = (found.bearing.iter().zip(&expected.bearing)).map(|(a, b)| {
+            let left = (a[0] - b[0]).hypot(a[1] - b[1]);
+            left / b[0].hypot(b[1])
+        });
+        let reaction = reactions.fold(0.0, f64::max);
+        println!(
+            "shaft {:?} of root {root_mm:.1} mm: deflections {:+.2} % in the mean, {:.2} % at most; bearing {:.2} %",
+            case.shaft_mm,
+            1e2 * mean,
+            1e2 * worst,
+            1e2 * reaction
+        );
+        all.push((worst / case.allowed).max(reaction / 0.02));
+    }
+    assert!(all.iter().all(|share| *share < 1.0), "{all:?}");
+}
+
+/// Deflections under loads at five places along the face (nm/N) and force of the bearing (N/N): tools/reference/pinion_shaft.py.
+const INDEPENDENT: &str = include_str!("../../../../reference/pinion_shaft/data.csv");
+
+/// The second one against finite elements that share no mesh, no element and no assembly with these.
+#[test]
+fn a_pinion_between_beams_deflects_as_an_independent_program_says() {
+    let case = &CASES[1];
+    let gear = case.gear([1.2, 0.6, 4.0, 3.0]);
     let body = body(&gear);
     let grid = flank_grid(&gear);
     let loads = flank_loads(&gear, &body.mesh, &grid, 0, Flank::Right);
-    (
-        gear,
-        body,
-        loads.into_iter().map(|load| load.normal).collect(),
-    )
-}
-
-/// Mean of the relative differences, and the largest.
-fn off(found: &[f64], expected: &[f64]) -> (f64, f64) {
-    let each = || found.iter().zip(expected).map(|(a, b)| a / b - 1.0);
-    (
-        each().sum::<f64>() / found.len() as f64,
-        each().fold(0.0, |m: f64, x| m.max(x.abs())),
-    )
-}
-
-/// Shaft of 32 mm, root of 43 mm. What is left is the joint of stub and gear (the held face is rigid, a stub's end is not) and, between
-/// two supports, the core's bending beyond the face. A bore that is not there adds deflection of its own, as much as it pleases.
-#[test]
-fn a_pinion_on_beams_gives_way_as_one_with_its_shaft() {
-    let shaft = 2e3 * SHAFT_M;
-    let (gear, body, loads) = loaded(&format!(
-        "bore_diameter_mm = 0\nshaft_diameter_mm = [0, {shaft}]\n"
-    ));
-    let both = loaded(&format!(
-        "bore_diameter_mm = 0\nshaft_diameter_mm = [{shaft}, {shaft}]\n"
-    ));
-    let bores = ["13.0", "31.0"].map(|bore| loaded(&format!("bore_diameter_mm = {bore}\n")));
-    for (ends, mean_allowed, allowed) in [
-        (Ends::Cantilever, 0.02, 0.025),
-        (Ends::Supported, 0.04, 0.08),
-    ] {
-        // The stubs stand on the nodes of the faces, which lie on the shaft's outline in both blanks.
-        let expected = in_one_model(&both.0, &both.1, &both.2, ends);
-        let (mean, worst) = off(&on_beams(&gear, &body, &loads, ends), &expected);
-        println!(
-            "cut into the shaft, held in front: mean {:+.2} %, worst {:.2} %",
-            1e2 * mean,
-            1e2 * worst
-        );
-        assert!(
-            mean.abs() < mean_allowed && worst < allowed,
-            "{mean} {worst}"
-        );
-        let (held_at_both, _) = off(&on_beams(&both.0, &both.1, &both.2, ends), &expected);
-        println!("held at both faces: mean {:+.2} %", 1e2 * held_at_both);
-        for (gear, body, loads) in &bores {
-            let (invented, _) = off(&on_beams(gear, body, loads, ends), &expected);
-            println!(
-                "bore {:.1} mm: mean {:+.2} %",
-                2e3 * gear.blank.bore_radius_m(),
-                1e2 * invented
-            );
-            assert!(invented > 3.0 * mean.abs(), "{invented} {mean}");
+    let loads: Vec<SparseVector> = loads.into_iter().map(|load| load.normal).collect();
+    let found = on_beams(case, &gear, &body, &loads);
+    let rows: Vec<Vec<f64>> = (INDEPENDENT.lines().skip(1))
+        .map(|row| row.split(',').map(|value| value.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), grid.z_m.len());
+    let ends = [0, rows.len() - 1];
+    let mut wrong = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        let load = grid.load(1, i);
+        assert!((row[0] - 1e3 * grid.z_m[i]).abs() < 1e-9);
+        for j in 0..rows.len() {
+            let off = 1e9 * found.deflections[(load, grid.load(1, j))] - row[1 + j];
+            let own = (row[1 + i] * rows[j][1 + j]).sqrt();
+            println!("{i} {j}: {:+.2} %", 1e2 * off / own);
+            // Under a load on the edge of a face both meshes have errors of their own.
+            let allowed = if i == j && ends.contains(&i) {
+                0.03
+            } else {
+                0.02
+            };
+            wrong.extend((off.abs() > allowed * own).then_some((i, j)));
         }
+        let [x, y] = [row[6], row[7]];
+        let off = (found.bearing[load][0] - x).hypot(found.bearing[load][1] - y) / x.hypot(y);
+        println!("bearing {:.2} %", 1e2 * off);
+        wrong.extend((off > 0.02).then_some((i, rows.len())));
     }
+    assert!(wrong.is_empty(), "{wrong:?}");
 }

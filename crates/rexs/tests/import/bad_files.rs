@@ -63,7 +63,7 @@ fn entities_and_depth() {
     refused(
         &named,
         &[
-            "line 2:",
+            "line 3:",
             "`<!DOCTYPE model SYSTEM \"rexs.dtd\"`",
             "Take it out",
         ],

@@ -1,6 +1,6 @@
 //! The columns of bevel pairs and of bearings that are studied by themselves: a number each.
 
-use gearmesh_bearings::{BearingError, Life, QuasiStaticBearing, Ratings};
+use gearmesh_bearings::{BearingError, Life, QuasiStaticBearing, Ratings, StaticSafety};
 use gearmesh_bevel::{PairDesign, sensitivity, tooth_contact};
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 use gearmesh_geometry::InputError;
@@ -106,7 +106,11 @@ pub(super) fn bearing_names(subject: &BearingSubject) -> Vec<String> {
         "pressure_outer_largest_MPa",
         "rating_dynamic_N",
         "rating_static_N",
+        "static_safety",
+        "life_L10_Mrev",
+        "equivalent_load_N",
         "life_L10r_Mrev",
+        "reference_equivalent_load_N",
     ]
     .map(str::to_owned)
     .into();
@@ -149,7 +153,12 @@ pub(super) fn of_bearing(subject: &BearingSubject) -> Result<Vec<f64>, BearingEr
     values.extend([0, 1, 2].map(|k| 1e-6 * stiffness(k)));
     values.extend([3, 4].map(stiffness));
     values.extend([most[0], most[1], loaded, 1e-6 * most[2], 1e-6 * most[3]]);
-    values.extend([ratings.dynamic_n, ratings.static_n, life.reference_mrev]);
+    // Not a number where ISO 76 or ISO 281 give no factors for the bearing.
+    let safety = StaticSafety::of(definition, &ratings, force).map(|safety| safety.factor);
+    let of_standards = [safety, life.basic_mrev, life.equivalent_n];
+    values.extend([ratings.dynamic_n, ratings.static_n]);
+    values.extend(of_standards.map(|value| value.unwrap_or(f64::NAN)));
+    values.extend([life.reference_mrev, life.reference_equivalent_n]);
     values.extend(life.modified_mrev.filter(|_| lubrication.is_some()));
     Ok(values)
 }

@@ -52,7 +52,14 @@ fn name_problem(name: &str) -> Option<String> {
 
 /// What to say of a name that is not among the known ones: the nearest, and all of them.
 pub(crate) fn unknown<S: AsRef<str>>(what: &str, found: &str, known: &[S]) -> String {
-    let hint = nearest(found, known)
+    // Of `bearing/ring` the last part alone, or other cases of letters, are near, too.
+    let same = |name: &&S| {
+        let (name, found) = (name.as_ref().to_lowercase(), found.to_lowercase());
+        name == found || name.ends_with(&format!("/{found}"))
+    };
+    let near = known.iter().find(same).map(AsRef::as_ref);
+    let hint = near
+        .or_else(|| nearest(found, known))
         .map(|name| format!("did you mean `{name}`? "))
         .unwrap_or_default();
     let list: Vec<String> = known
@@ -109,6 +116,13 @@ mod tests {
 
     #[test]
     fn the_nearest_name_is_offered() {
+        for found in ["pair/rng", "pear/ring", "pair_ring", "ring", "PAIR/Ring"] {
+            let text = unknown("body", found, &["ground", "shaft", "pair/ring"]);
+            assert!(
+                text.contains("did you mean `pair/ring`?"),
+                "{found}: {text}"
+            );
+        }
         let text = unknown("body", "pinoin", &["ground", "pinion", "wheel"]);
         assert_eq!(
             text,

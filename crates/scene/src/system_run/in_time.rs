@@ -297,7 +297,9 @@ pub(super) fn run_in_time(
         }
     }
     tape.finish();
-    let record = RunRecord::new(simulation.info(), simulation.state().time_s, wall_s);
+    // The last step may go past the end: rows are interpolated, and nothing behind it is used.
+    let simulated_s = simulation.state().time_s.min(run.end_s);
+    let record = RunRecord::new(simulation.info(), simulated_s, wall_s);
     let mut contents = Contents::of_run(kind, head);
     contents.record = Some(record);
     if run.windows.is_empty() {

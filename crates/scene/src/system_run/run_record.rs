@@ -6,7 +6,7 @@ use gearmesh_model::{Fields, FileError, Record};
 /// Effort and accuracy of a run in time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RunRecord {
-    /// End of the last step \[s\].
+    /// Time that was simulated, to the end of the run \[s\].
     pub simulated_s: f64,
     /// Wall time, that of all legs of a resumed run \[s\].
     pub wall_s: f64,
@@ -64,9 +64,12 @@ type Field = (
 );
 
 const FIELDS: [Field; 18] = [
-    ("simulated_s", "s", "end of the last step", |r| {
-        &mut r.simulated_s
-    }),
+    (
+        "simulated_s",
+        "s",
+        "time that was simulated, to the end of the run",
+        |r| &mut r.simulated_s,
+    ),
     ("wall_s", "s", "wall time of the run", |r| &mut r.wall_s),
     ("steps", "1", "accepted steps", |r| &mut r.steps),
     (

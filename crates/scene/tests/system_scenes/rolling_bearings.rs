@@ -48,30 +48,67 @@ along = [0.6, 0.0, 0.8]
 kind = "static"
 "#;
 
-/// The shaft comes to rest where `gearmesh bearing` has the ring, and balls bear what they do there.
+const FOUR_POINT: &str = r#"name = "QJ"
+kind = "four-point"
+balls = 15
+ball_diameter_mm = 12.7
+pitch_diameter_mm = 70.0
+inner_conformity = 0.52
+outer_conformity = 0.53
+contact_angle_deg = 35.0
+"#;
+
+const THRUST: &str = r#"name = "thrust"
+kind = "thrust-ball"
+balls = 14
+ball_diameter_mm = 7.938
+pitch_diameter_mm = 36.0
+inner_conformity = 0.54
+outer_conformity = 0.54
+"#;
+
+/// The shaft comes to rest where `gearmesh bearing` has the ring, and balls bear what they do there; whatever the bearing.
 #[test]
 fn a_shaft_rests_where_its_bearing_file_says() {
+    for (text, push) in [
+        (PAIR, [0.6, 0.8]),
+        (FOUR_POINT, [0.6, 0.8]),
+        (THRUST, [0.03, 0.9]),
+    ] {
+        rests(text, push);
+    }
+}
+
+fn rests(text: &str, [across, along]: [f64; 2]) {
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("pair.toml"), PAIR).unwrap();
-    let mut built = build_in(SCENE, folder.path()).unwrap();
+    fs::write(folder.path().join("pair.toml"), text).unwrap();
+    let size = across.hypot(along);
+    let scene = changed(
+        SCENE,
+        "[0.6, 0.0, 0.8]",
+        &format!("[{across}, 0.0, {along}]"),
+    );
+    let mut built = build_in(&scene, folder.path()).unwrap();
     let start = built.system.start().clone();
     let found = equilibrium(&mut built.system, &start, &StaticParams::default()).unwrap();
-    let document = InputDocument::new("pair.toml", PAIR);
+    let document = InputDocument::new("pair.toml", text);
     let definition = BearingFromFile::from_document(&document)
         .unwrap()
         .definition;
     let bearing = QuasiStaticBearing::new(&definition).unwrap();
+    let force_n = [500.0 * across / size, 0.0, 500.0 * along / size];
     let load = AppliedBearingLoad {
-        force_n: [300.0, 0.0, 400.0],
+        force_n,
         tilt: TiltCondition::Moments([0.0; 2]),
     };
     let rest = Operation::default();
     let pose = bearing.equilibrium(&load, &rest).unwrap();
     let moved = found.state.positions_m[0] - start.positions_m[0];
-    assert!((moved - pose.centre_m).norm() < 1e-7 * pose.centre_m.norm());
+    let apart = (moved - pose.centre_m).norm() / pose.centre_m.norm();
+    assert!(apart < 1e-7, "{apart:e}: {text}");
     let (_, loads) = bearing.loads(&pose, &rest).unwrap();
     let values = Outputs::at(&mut built.system, &found.state);
-    assert!((values.value("pair", "force_shaft_x_N") + 300.0).abs() < 1e-4);
+    assert!((values.value("pair", "force_shaft_x_N") + force_n[0]).abs() < 1e-4);
     for (number, ball) in loads.elements.iter().flatten().enumerate() {
         let seen = values.value("pair", &format!("element_{}_inner_N", number + 1));
         assert!((seen - ball.inner_load_n).abs() < 1e-4, "{seen} {ball:?}");
@@ -167,4 +204,18 @@ fn a_free_shaft_between_two_rows_comes_to_rest() {
                 && (free[0][2] + free[1][2] + 800.0).abs() < 1e-3
         );
     }
+}
+
+/// Numbers of a bearing file that look like those of another unit are told with those of the scene, once for a file.
+#[test]
+fn slips_of_units_in_bearing_files_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let slipped = format!("{PAIR}[ratings]\ndynamic_N = 14.0\n");
+    fs::write(folder.path().join("pair.toml"), slipped).unwrap();
+    let loaded = load(SCENE, folder.path()).unwrap();
+    let told: Vec<String> = (loaded.unit_slips().iter())
+        .map(ToString::to_string)
+        .collect();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].contains("pair.toml") && told[0].contains("ratings.dynamic_N: 14 is unusual"));
 }

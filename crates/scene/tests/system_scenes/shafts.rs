@@ -205,7 +205,7 @@ fn a_beam_shaft_twists_as_the_closed_form_says() {
 }
 
 const CUT: &str = "name = \"cut\"\n[tooth]\nteeth = 17\nmodule_mm = 3.0\nprofile_shift = 0.2\nface_width_mm = 30.0\n[blank]\nkind = \"solid\"\n\
-    bore_diameter_mm = 0\nshaft_diameter_mm = [0, 32]\n[material]\nyoung_GPa = 210.0\npoisson = 0.3\ndensity_kg_per_m3 = 7850.0\n";
+    bore_diameter_mm = 0\nshaft_diameter_mm = [28, 32]\n[material]\nyoung_GPa = 210.0\npoisson = 0.3\ndensity_kg_per_m3 = 7850.0\n";
 
 const CUT_SCENE: &str = r#"
 title = "Pinion shaft"

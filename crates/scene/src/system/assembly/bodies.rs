@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use gearmesh_drivetrain::{modal_gear_body, modes_up_to};
 use gearmesh_dynamics::state::BodyMotion;
-use gearmesh_dynamics::{Body, BodyId, GROUND, Marker};
+use gearmesh_dynamics::{Body, BodyId, GROUND, Marker, Modes};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_model::ReducedGear;
@@ -191,8 +191,13 @@ fn modes(
             ),
         ],
     )?;
+    let on_faces = gear.and_then(|gear| gear.cylindrical()?.on_faces.as_ref());
     if table.flexibility != Some(Flexibility::Modal) {
-        return Ok(0);
+        let Some(faces) = on_faces else {
+            return Ok(0);
+        };
+        let modes = faces.gear.modes(|omega| 0.5 * faces.damping_s * omega);
+        return Ok(give(body, modes));
     }
     let model = gear.and_then(BodyGear::model).ok_or_else(|| {
         keys.error(
@@ -208,6 +213,9 @@ fn modes(
         (0.0..1.0).contains(&ratio),
         allowed,
     )?;
+    if let Some(faces) = on_faces {
+        return Ok(give(body, faces.gear.modes(|_| ratio)));
+    }
     let count = match table.modes_up_to_hz {
         Some(up_to_hz) => {
             modes_up_to(model, up_to_hz).map_err(|e| keys.error("modes_up_to_Hz", e))?
@@ -226,6 +234,12 @@ fn modes(
     let modal = modal_gear_body(model, count, ratio).map_err(|e| keys.error("flexibility", e))?;
     body.modes = modal.modes;
     Ok(count)
+}
+
+/// Gives a body modes; how many they are.
+fn give(body: &mut Body, modes: Modes) -> usize {
+    body.modes = Some(modes);
+    body.mode_count()
 }
 
 fn stated_mass(table: &BodyTable, keys: &TableKeys<'_>) -> Result<Body, InputError> {
@@ -327,7 +341,11 @@ impl Bodies {
             None => {
                 let mut known = vec![GROUND_NAME];
                 known.extend(self.list.iter().map(|placed| placed.body.name.as_str()));
-                Err(keys.error(key, names::unknown("body", name, &known)))
+                let mut problem = names::unknown("body", name, &known);
+                if name.ends_with("/ring") && !known.iter().any(|known| known.ends_with("/ring")) {
+                    problem += "; outer rings are bodies of bearings with a `housing`, which joints and other bearings cannot name";
+                }
+                Err(keys.error(key, problem))
             }
         }
     }

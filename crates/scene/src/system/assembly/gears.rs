@@ -13,6 +13,7 @@ use gearmesh_geometry::{GearDefinition, InputError, Material};
 use gearmesh_model::{ReducedGear, read_reduced_gear};
 use nalgebra::{Matrix3, Vector3};
 
+use super::cut_into_shaft::OnFaces;
 use crate::microgeometry_words::microgeometry_words;
 use crate::system::scene::SystemScene;
 
@@ -24,6 +25,8 @@ pub(super) struct Gear {
     pub model: Option<Arc<ReducedGear>>,
     /// Whether the scene states the microgeometry of the definition, not the gear's file.
     pub microgeometry_of_scene: bool,
+    /// The faces of a gear that is cut into a beam shaft, where they are joined one by one; the model is then that of [`OnFaces::gear`].
+    pub on_faces: Option<OnFaces>,
 }
 
 /// A reduced bevel gear.
@@ -148,6 +151,7 @@ impl BodyGear {
                     definition: GearDefinition::read(path)?,
                     model: None,
                     microgeometry_of_scene: false,
+                    on_faces: None,
                 }
             }
             Some("h5") => {
@@ -167,6 +171,7 @@ impl BodyGear {
                     definition: model.input.definition_in(shown)?.clone(),
                     model: Some(model),
                     microgeometry_of_scene: false,
+                    on_faces: None,
                 }
             }
             _ => {
@@ -225,6 +230,7 @@ impl Gear {
             definition,
             model: self.model.clone(),
             microgeometry_of_scene: true,
+            on_faces: None,
         })
     }
 
@@ -254,8 +260,12 @@ impl Gear {
         } else {
             "gear file"
         };
+        let faces = match &self.on_faces {
+            Some(_) => ", cut into its shaft at both faces",
+            None => "",
+        };
         format!(
-            "{kind} {}, z {}",
+            "{kind} {}, z {}{faces}",
             self.file.display(),
             self.definition.profile.teeth
         )

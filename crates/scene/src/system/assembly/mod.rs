@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | read the gears that bodies name | `gears.rs` |
 //! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
-//! | shafts | `shafts.rs` |
+//! | shafts; gears that are cut into them | `shafts.rs`, `cut_into_shaft.rs` |
 //! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs`; of bevel gears `bevel_mesh.rs` |
 //! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `carriers.rs` |
 //! | angles that nobody states | `start.rs` |
@@ -22,6 +22,7 @@ mod bevel_mesh;
 mod bodies;
 mod carriers;
 mod consistency;
+mod cut_into_shaft;
 mod elements;
 mod gear_mesh;
 mod gears;
@@ -48,11 +49,12 @@ pub(super) use self::bearings::tangent::TangentSeat;
 pub use gears_in_motion::{GearState, GearsInMotion, MovingGear, MovingShape, SliceLoad};
 pub(crate) use mesh_frequency::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use gearmesh_dynamics::{Motion, System, SystemBuilder};
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
 
 use self::bearings::tangent::Tangent;
 use self::bearings::{cages, housing, rigid};
@@ -68,6 +70,7 @@ use self::start_speeds::Holds;
 use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
+use super::stage_summary::StageSummary;
 use super::tables::function::Sources;
 use super::tables::mesh_model::MeshKind;
 use super::tables::run::Run;
@@ -113,14 +116,15 @@ impl SystemScene {
             let keys = TableKeys::new(&self.document, &key);
             let read = |path| files.get(&self.folder.join(path), &keys);
             let gear = table.gear.as_ref().map(read).transpose()?;
-            gears.push(gears::with_own_microgeometry(gear, &self, i)?);
+            let gear = gears::with_own_microgeometry(gear, &self, i)?;
+            gears.push(cut_into_shaft::on_its_shaft(gear, &self, i)?);
         }
         Ok(LoadedSystem { scene: self, gears })
     }
 }
 
 impl LoadedSystem {
-    /// Numbers of the scene and of its gears' files that look like those of another unit.
+    /// Numbers of the scene and of its gears' and bearings' files that look like those of another unit.
     #[must_use]
     pub fn unit_slips(&self) -> Vec<InputError> {
         let mut slips = self.scene.document.unit_slips();
@@ -131,6 +135,15 @@ impl LoadedSystem {
                 slips.extend(gear.unit_slips());
             }
         }
+        let bearings = self.scene.tables.bearing.iter();
+        let files: BTreeSet<&str> = bearings.filter_map(|b| b.model.file()).collect();
+        // Files that cannot be read are complained about where the system is built.
+        let documents = files.into_iter().map(|file| self.scene.folder.join(file));
+        slips.extend(
+            documents
+                .filter_map(|path| InputDocument::read(&path).ok())
+                .flat_map(|document| document.unit_slips()),
+        );
         slips
     }
 
@@ -441,6 +454,11 @@ fn describe(mesh: &PreparedMesh, bodies: &Bodies) -> BuiltMesh {
         base_radii_m: mesh.base_radii_m,
         model: mesh.model.name(),
         frequency_hz: mesh_frequency::frequency_hz(mesh, bodies),
+        stage: mesh.stage.map(|stage| StageSummary {
+            pitch_line_speed_m_per_s: stage.pitch_radius_1_m
+                * mesh_frequency::spin_rad_per_s(mesh, bodies).abs(),
+            ..stage
+        }),
         flank_corners_m: mesh.flank_corners_m.clone(),
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! A beam shaft has a body at each station with half of the sections on either side, so that mass, centre of mass and
 //! polar inertia of the shaft are exact. A body on a seat takes the station's place. A gear that is cut into the shaft has the
-//! shaft's core in its own mass and stiffness: beams begin at its faces, and nothing of the shaft lies between them.
+//! shaft's core in its own mass and stiffness: beams begin at its faces, one at each, and nothing of the shaft lies between them.
 
 use gearmesh_dynamics::elements::BeamSection;
 use gearmesh_dynamics::{Body, Joint, JointKind, MarkerPair, SystemBuilder};
@@ -11,6 +11,7 @@ use gearmesh_geometry::input::{InputDocument, TableKeys};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::bodies::{Bodies, Frame, PlacedBody, axes_along, direction, vector};
+use super::cut_into_shaft::moving_end;
 use super::lump::Lump;
 use super::parts::Parts;
 use crate::system::tables::MM;
@@ -202,6 +203,14 @@ impl PlacedShaft {
             let beam = section
                 .between(&name, pair, length_m)
                 .map_err(|e| keys.error("", e))?;
+            let mut moving = [None, None];
+            for (end, sense) in [(0, 1.0), (1, -1.0)] {
+                let placed = &bodies.list[self.stations[number + end]];
+                let towards = sense * placed.axis().dot(&(self.axes * Vector3::z()));
+                moving[end] = moving_end(placed, towards)
+                    .map_err(|e| keys.error(&format!("stations_mm.{}", number + end), e))?;
+            }
+            let beam = beam.on_moving_ends(moving).map_err(|e| keys.error("", e))?;
             builder.element(beam);
             parts.element(&name, "beam", bodies, ends);
         }

@@ -10,6 +10,7 @@ pub(super) mod rolling_bearing;
 pub(super) mod tangent;
 
 use gearmesh_bearings::Control;
+use gearmesh_bearings::faults::Fault;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
@@ -68,7 +69,18 @@ fn warn(
     let told = found.warnings.iter();
     let notes = told.map(|warning| format!("warning: bearing `{name}`: {warning}"));
     connections.parts.notes.extend(notes);
+    let spalled = found.definition.faults.iter().any(is_spall);
+    if spalled && matches!(table.model, BearingModel::Dynamic(_)) {
+        connections.parts.notes.push(format!(
+            "bearing `{name}`: balls leave its spall and strike; once they have bounced the course in time is that of one run among many alike, which another step does not repeat: \
+             take its statistics (mean, deviation, spectrum)"
+        ));
+    }
     Ok(())
+}
+
+fn is_spall(fault: &Fault) -> bool {
+    matches!(fault, Fault::RaceSpall { .. } | Fault::BallSpall { .. })
 }
 
 /// Balls in equilibrium touch by Hertz: another law has no equilibrium here.

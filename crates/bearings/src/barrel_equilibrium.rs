@@ -1,0 +1,239 @@
+//! The equilibrium of one barrel roller between groove and sphere, lamina by lamina, in the axial plane of the inner ring.
+//!
+//! Three unknowns: the place (r, z) of its middle and the tilt φ from r towards z. Each lamina is a circle about the roller's axis: its
+//! outermost point meets the sphere, its innermost the groove. Forces have a potential, whose least value is sought. The centrifugal force is left
+//! out: it is small in these slow bearings, and a roller that nothing else presses would slide to the guide between the rows, which is not modelled.
+
+use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
+
+use crate::barrel_row::BarrelRow;
+use crate::element_load::ElementLoad;
+use crate::element_place::ElementPlace;
+use crate::error::BearingError;
+
+/// Forces that count as none \[N\].
+const NO_FORCE_N: f64 = 1e-9;
+
+/// Newton's iterations of one roller before it is given up.
+const MOST_ITERATIONS: usize = 200;
+
+/// One roller at its angle.
+pub(crate) struct Barrel<'a> {
+    pub row: &'a BarrelRow,
+    /// Middle of the sphere in the roller's axes: away from the ring's axis, in the sense of turning, along the ring's axis.
+    pub sphere: Vector3<f64>,
+    pub number: usize,
+    pub angle_rad: f64,
+}
+
+/// Everything at one place of the roller.
+struct State {
+    /// Force on the roller (r, z, φ) and minus its change with the place.
+    residual: Vector3<f64>,
+    tangent: Matrix3<f64>,
+    /// Sum of the sizes of all forces.
+    scale: f64,
+    loads: [f64; 2],
+    largest: [f64; 2],
+    /// Force on the sphere, its change with the sphere's middle at a place of the roller, and with the roller's place.
+    pressed: Vector3<f64>,
+    by_sphere: Matrix3<f64>,
+    by_place: Matrix3<f64>,
+}
+
+/// The way of a point of the roller with its place: the point from the roller's middle, and its derivative by φ.
+struct Point {
+    arm: Vector2<f64>,
+    by_tilt: Vector2<f64>,
+}
+
+impl State {
+    /// Adds a contact of the load `load` and slope `slope` along the normal n of a surface whose centre is at the distance `distance`.
+    fn add(&mut self, point: &Point, n: &Vector2<f64>, (load, slope): (f64, f64), distance: f64) {
+        let moves = Matrix2x3::new(1.0, 0.0, point.by_tilt[0], 0.0, 1.0, point.by_tilt[1]);
+        let along = moves.tr_mul(n);
+        self.residual -= along * load;
+        self.tangent += along * (along * slope).transpose();
+        let turning = (moves.tr_mul(&moves) - along * along.transpose()) * (load / distance);
+        self.tangent += turning;
+        // The second derivative of a point by φ is minus its arm.
+        self.tangent[(2, 2)] -= load * n.dot(&point.arm);
+        self.scale += load;
+    }
+}
+
+impl Barrel<'_> {
+    fn points(&self, tilt: f64, each: usize) -> [Point; 2] {
+        let (sine, cosine) = tilt.sin_cos();
+        let (c, s) = self.row.across;
+        let out = Vector2::new(c * cosine - s * sine, s * cosine + c * sine);
+        let along = Vector2::new(-out[1], out[0]);
+        let lamina = &self.row.laminae[each];
+        [-lamina.reach_m, lamina.reach_m].map(|reach| Point {
+            arm: along * lamina.place_m + out * reach,
+            by_tilt: along * reach - out * lamina.place_m,
+        })
+    }
+
+    fn state(&self, place: &Vector3<f64>, mut each: impl FnMut(f64, f64)) -> State {
+        let row = self.row;
+        let middle = Vector2::new(place[0], place[1]);
+        let groove = Vector2::new(row.groove_centre_m.0, row.groove_centre_m.1);
+        let length = row.lamina_length_m;
+        let mut state = State {
+            residual: Vector3::zeros(),
+            tangent: Matrix3::zeros(),
+            scale: 0.0,
+            loads: [0.0; 2],
+            largest: [0.0; 2],
+            pressed: Vector3::zeros(),
+            by_sphere: Matrix3::zeros(),
+            by_place: Matrix3::zeros(),
+        };
+        for number in 0..row.laminae.len() {
+            let [inner, outer] = self.points(place[2], number);
+            let from = middle + inner.arm - groove;
+            let distance = from.norm();
+            let (load, slope) = row.contacts[0].line_load(distance - row.groove_radius_m);
+            let inner_load = load * length;
+            if load > 0.0 {
+                let n = from / distance;
+                state.add(&inner, &n, (inner_load, slope * length), distance);
+            }
+            let point = middle + outer.arm;
+            let from = Vector3::new(
+                point[0] - self.sphere[0],
+                -self.sphere[1],
+                point[1] - self.sphere[2],
+            );
+            let distance = from.norm();
+            let (load, slope) = row.contacts[1].line_load(distance - row.sphere_radius_m);
+            let outer_load = load * length;
+            if load > 0.0 {
+                let n = from / distance;
+                let flat = Vector2::new(n[0], n[2]);
+                let by_point = n * (n * (slope * length)).transpose()
+                    + (Matrix3::identity() - n * n.transpose()) * (outer_load / distance);
+                let moves = Matrix3::from_columns(&[
+                    Vector3::x(),
+                    Vector3::z(),
+                    Vector3::new(outer.by_tilt[0], 0.0, outer.by_tilt[1]),
+                ]);
+                state.add(&outer, &flat, (outer_load, slope * length), distance);
+                state.pressed += n * outer_load;
+                state.by_sphere -= by_point;
+                state.by_place += by_point * moves;
+            }
+            each(inner_load, outer_load);
+            for (place, load) in [inner_load, outer_load].into_iter().enumerate() {
+                state.loads[place] += load;
+                state.largest[place] = state.largest[place].max(load / length);
+            }
+        }
+        state
+    }
+
+    /// A quarter of a roller's length \[m\], by which moments count as forces.
+    fn arm_m(&self) -> f64 {
+        0.25 * self.row.laminae.len() as f64 * self.row.lamina_length_m
+    }
+
+    /// Halfway between the races.
+    fn start(&self) -> Vector3<f64> {
+        let row = self.row;
+        Vector3::new(
+            row.middle_m.0 + 0.5 * self.sphere[0],
+            row.middle_m.1 + 0.5 * self.sphere[2],
+            0.0,
+        )
+    }
+
+    /// Newton's method; steps that do not lessen the unbalanced force are turned towards it and shortened.
+    fn equilibrium(&self, start: Vector3<f64>) -> Result<(Vector3<f64>, State), BearingError> {
+        let arm = self.arm_m();
+        let size_of = |r: &Vector3<f64>| Vector3::new(r[0], r[1], r[2] / arm).norm();
+        let mut place = start;
+        let mut state = self.state(&place, |_, _| {});
+        let mut lift = 0.0_f64;
+        let mut size = size_of(&state.residual);
+        for _ in 0..MOST_ITERATIONS {
+            size = size_of(&state.residual);
+            if size <= 1e-13 * state.scale || state.scale <= NO_FORCE_N {
+                return Ok((place, state));
+            }
+            let stiffest = state.tangent[(0, 0)]
+                .max(state.tangent[(1, 1)])
+                .max(state.tangent[(2, 2)] / (arm * arm))
+                .max(1e3);
+            let extra = (lift + 1e-14) * stiffest;
+            let raised = state.tangent
+                + Matrix3::from_diagonal(&Vector3::new(extra, extra, extra * arm * arm));
+            let Some(step) = raised.lu().solve(&state.residual) else {
+                lift = (10.0 * lift).max(1e-6);
+                continue;
+            };
+            let moved = Vector3::new(step[0], step[1], step[2] * arm).norm();
+            if moved <= 4e-16 * self.row.pitch_radius_m {
+                return Ok((place, state));
+            }
+            let next = place + step * (50e-6 / moved).min(1.0);
+            let found = self.state(&next, |_, _| {});
+            if size_of(&found.residual) < size {
+                (place, state) = (next, found);
+                lift = if lift < 1e-8 { 0.0 } else { 0.1 * lift };
+            } else {
+                if size <= 1e-9 * state.scale && lift > 1e-3 {
+                    return Ok((place, state));
+                }
+                lift = (10.0 * lift).max(1e-6);
+            }
+        }
+        if size <= 1e-9 * state.scale + NO_FORCE_N {
+            return Ok((place, state));
+        }
+        Err(BearingError::NoRollerEquilibrium {
+            roller: self.number + 1,
+            angle_deg: self.angle_rad.to_degrees(),
+            unbalanced_n: size,
+        })
+    }
+
+    /// Equilibrium: the load, the force on the sphere in the roller's axes and its change with the sphere's middle, the roller following.
+    pub fn rest(
+        &self,
+        found: &mut ElementPlace,
+        each_lamina: &mut impl FnMut(f64, f64),
+    ) -> Result<(ElementLoad, Vector3<f64>, Matrix3<f64>), BearingError> {
+        let near = found.take().and_then(|place| self.equilibrium(place).ok());
+        let (place, state) = match near {
+            Some(near) => near,
+            None => self.equilibrium(self.start())?,
+        };
+        if state.scale > NO_FORCE_N {
+            *found = Some(place);
+        }
+        self.state(&place, &mut *each_lamina);
+        let row = self.row;
+        let angle = row.across.1.atan2(row.across.0);
+        let load = ElementLoad {
+            angle_rad: self.angle_rad,
+            inner_load_n: state.loads[0],
+            outer_load_n: state.loads[1],
+            inner_contact_angle_rad: angle,
+            outer_contact_angle_rad: angle,
+            radial_m: place[0] - row.middle_m.0,
+            axial_m: place[1] - row.middle_m.1,
+            tilt_rad: place[2],
+            inner_line_load_n_per_m: state.largest[0],
+            outer_line_load_n_per_m: state.largest[1],
+            ..ElementLoad::default()
+        };
+        // The roller follows the sphere: H δv = Jᵀ A δs, with Jᵀ A the transpose of what its place does to the force.
+        let followed = state
+            .tangent
+            .lu()
+            .solve(&state.by_place.transpose())
+            .map_or_else(Matrix3::zeros, |follows| state.by_place * follows);
+        Ok((load, state.pressed, state.by_sphere + followed))
+    }
+}

@@ -1,0 +1,75 @@
+//! The two end faces of a gear that is cut into a shaft which goes on at both: what joins them, and what they do to the flanks.
+//!
+//! With both faces held the flanks deflect by C f. Let the front face move by e against the back one (three translations of its centre,
+//! three rotations about it, along the gear's axes), Ψ the displacements of the body under unit motions, K those of its forces:
+//!
+//! ```text
+//! flanks  NᵀΨ e + C f,      force on the front face  K e − (NᵀΨ)ᵀ f
+//! ```
+//!
+//! The rest follows from balance: the 12 × 12 stiffness between the faces has the six rigid motions as its null space. Theory: docs/theory/reduction.md,
+//! "Two faces".
+
+use crate::modal_basis::ModalBasis;
+use crate::reduced_gear::ReducedGear;
+use crate::reduced_gear_check::check_array;
+use crate::reduced_gear_error::ReducedGearError;
+
+/// The front face against the back one. Motions: x, y, z, rotations about x, y, z of the front face's centre.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ShaftFaces {
+    /// Centre of the front face (m).
+    pub front_m: [f64; 3],
+    /// K, `[motion][motion]`: force and moment on the front face per motion of it, back face held (N/m, N, N m).
+    pub stiffness: Vec<f64>,
+    /// NᵀΨ, `[tooth][flank][load][component][motion]`; components as in [`crate::GaugeRows::adjoint`] (m/m, m/rad).
+    pub flank: Vec<f64>,
+    /// gᵀΨ, `[gauge][motion]` (strain per m, per rad).
+    pub gauges: Vec<f64>,
+    /// The mass that goes with them; none where no density was given.
+    pub mass: Option<FaceMass>,
+}
+
+/// Consistent mass of the motions of the front face; that of the body as a whole is in [`crate::RigidBody`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FaceMass {
+    /// ΨᵀMΨ, `[motion][motion]` (kg, kg m, kg m²).
+    pub mass: Vec<f64>,
+    /// ΨᵀMR, `[motion][rigid motion]`, rigid motions about the origin of the gear's frame (kg, kg m, kg m²).
+    pub coupling: Vec<f64>,
+    /// ΦᵀMΨ of each natural mode with both faces held, `[mode][motion]` (kg^½, kg^½ m); empty without modes.
+    pub modes: Vec<f64>,
+}
+
+impl ReducedGear {
+    /// Lengths of all arrays of the shaft's faces.
+    pub(crate) fn check_shaft_faces(&self) -> Result<(), ReducedGearError> {
+        let Some(faces) = &self.shaft_faces else {
+            return Ok(());
+        };
+        let loads = self.teeth * self.flanks.len() * self.grid.len() * 3;
+        let modes = self.modes.as_ref().map_or(0, ModalBasis::count);
+        let mut arrays = vec![
+            ("front_m", &faces.front_m[..], 3, "3"),
+            ("stiffness", &faces.stiffness, 36, "6 * 6"),
+            (
+                "flank",
+                &faces.flank,
+                6 * loads,
+                "teeth * flanks * loads * 3 * 6",
+            ),
+            ("gauges", &faces.gauges, 6 * self.gauges.len(), "gauges * 6"),
+        ];
+        if let Some(mass) = &faces.mass {
+            arrays.extend([
+                ("mass.mass", &mass.mass[..], 36, "6 * 6"),
+                ("mass.coupling", &mass.coupling, 36, "6 * 6"),
+                ("mass.modes", &mass.modes, 6 * modes, "modes * 6"),
+            ]);
+        }
+        for (name, values, expected, formula) in arrays {
+            check_array(&format!("shaft_faces.{name}"), values, expected, formula)?;
+        }
+        Ok(())
+    }
+}

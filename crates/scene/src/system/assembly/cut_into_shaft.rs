@@ -1,0 +1,123 @@
+//! Gears that are cut into their shafts: which faces the shaft's beams join.
+//!
+//! A gear whose shaft goes on at both faces and which sits on a beam shaft has its frame on its back face, and the front face moves against it by
+//! modes of the gear's body ([`GearOnFaces`]). On a rigid shaft, or on none, both faces move as one body.
+
+use gearmesh_drivetrain::{GearOnFaces, modes_up_to};
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
+use nalgebra::DMatrix;
+use std::sync::Arc;
+
+use super::bodies::PlacedBody;
+use super::gears::{BodyGear, Gear};
+use crate::system::scene::SystemScene;
+use crate::system::tables::body::Flexibility;
+use crate::system::tables::mesh_model::MeshKind;
+use crate::system::tables::shaft::ShaftModel;
+
+/// A gear whose faces are joined one by one.
+#[derive(Debug)]
+pub(super) struct OnFaces {
+    pub gear: GearOnFaces,
+    /// Damping over stiffness of the shaft \[s\], which is that of the core.
+    pub damping_s: f64,
+}
+
+/// The gear of a body with its faces apart, where it is cut into a beam shaft and a hybrid mesh feels them.
+///
+/// # Errors
+/// [`InputError`] at the body, where the model does not know its faces, and where another mesh would not feel them.
+pub(super) fn on_its_shaft(
+    gear: Option<BodyGear>,
+    scene: &SystemScene,
+    body: usize,
+) -> Result<Option<BodyGear>, InputError> {
+    let table = &scene.tables.body[body];
+    let own = gear.as_ref().and_then(BodyGear::cylindrical);
+    let Some((own, model)) = own.and_then(|gear| Some((gear, gear.model.as_ref()?))) else {
+        return Ok(gear);
+    };
+    let damping_of = |model: &ShaftModel| match model {
+        ShaftModel::Rigid {} => None,
+        ShaftModel::Beam { damping_s, .. } => Some(*damping_s),
+    };
+    let mut seats = scene.tables.shaft.iter().filter(|shaft| {
+        let mut seats = shaft.seat.iter();
+        seats.any(|seat| seat.body == table.name)
+    });
+    let damping_s = seats.find_map(|shaft| damping_of(&shaft.model));
+    let meshes = || {
+        let all = scene.tables.gear_mesh.iter();
+        all.filter(|mesh| [&mesh.gear_1, &mesh.gear_2].contains(&&table.name))
+    };
+    let hybrid = meshes().find(|mesh| mesh.model.kind() == MeshKind::Hybrid);
+    let (Some(damping_s), Some(hybrid), Some(_)) =
+        (damping_s, hybrid, own.definition.blank.two_faced_shaft())
+    else {
+        return Ok(gear);
+    };
+    let key = format!("body.{body}");
+    let keys = TableKeys::new(&scene.document, &key);
+    if let Some(other) = meshes().find(|mesh| mesh.model.kind() != MeshKind::Hybrid) {
+        let problem = format!(
+            "is cut into its shaft, whose faces move against each other: that is felt by kind = \"hybrid\" alone, which `{}` has and `{}` has not; give both \
+             meshes kind = \"hybrid\"",
+            hybrid.name, other.name
+        );
+        return Err(keys.error("gear", problem));
+    }
+    let fault = |error| keys.error("gear", error);
+    let natural = match (table.flexibility, table.modes_up_to_hz) {
+        (Some(Flexibility::Modal), None) => model
+            .modal_basis()
+            .map_err(|e| keys.error("flexibility", e))?
+            .count(),
+        (Some(Flexibility::Modal), Some(up_to_hz)) => {
+            modes_up_to(model, up_to_hz).map_err(|e| keys.error("modes_up_to_Hz", e))?
+        }
+        _ => 0,
+    };
+    let gear = GearOnFaces::new(model, natural).map_err(fault)?;
+    Ok(Some(BodyGear::Cylindrical(Arc::new(Gear {
+        file: own.file.clone(),
+        definition: own.definition.clone(),
+        model: Some(Arc::clone(&gear.model)),
+        microgeometry_of_scene: own.microgeometry_of_scene,
+        on_faces: Some(OnFaces { gear, damping_s }),
+    }))))
+}
+
+/// How an end of a beam moves with the modes of a body: that on the front face of a gear cut into its shaft does. `towards`: along the body's axis,
+/// where the beam goes on.
+///
+/// # Errors
+/// What is wrong where the gear's file lets its shaft end at that face.
+pub(super) fn moving_end(
+    placed: &PlacedBody,
+    towards: f64,
+) -> Result<Option<DMatrix<f64>>, String> {
+    let Some(gear) = placed.cylindrical() else {
+        return Ok(None);
+    };
+    let Some(shaft) = gear.definition.blank.cut_into_shaft() else {
+        return Ok(None);
+    };
+    let (face, name) = if towards > 0.0 {
+        (1, "front")
+    } else {
+        (0, "back")
+    };
+    if shaft.end_radii_m[face] == 0.0 {
+        return Err(format!(
+            "the shaft goes on at the {name} face of `{}`, where {} says that it ends (shaft_diameter_mm.{face} = 0): state its diameter there and reduce the gear \
+             again",
+            placed.body.name,
+            gear.file.display()
+        ));
+    }
+    let faces = gear.on_faces.as_ref();
+    Ok(faces
+        .filter(|_| face == 1)
+        .map(|faces| faces.gear.front.clone()))
+}
