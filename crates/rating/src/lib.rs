@@ -5,7 +5,7 @@
 //! | a tooth and where it is loaded | root section, Lewis factor, nominal bending stress | [`RootSection`] |
 //! | a helical tooth | the spur gear of its normal section | [`VirtualGear`] |
 //! | a pair | the highest point of single contact | [`highest_single_contact_rolls_rad`] |
-//! | a pair and its normal force | Lewis's stresses and the flank pressure | [`NominalRating`] |
+//! | a pair and its normal force | Lewis's stresses and the flank pressure, and the nominal stresses of ISO 6336 | [`NominalRating`] |
 //! | a pair and a line load | Hertz pressure along the path | [`flank_pressure`] |
 //! | strain of a root gauge | stress | [`root_stress_pa`] |
 //! | a stress history | cycles | [`rainflow()`], of a long one that comes in pieces over its [`TurningPoints`] |
@@ -18,6 +18,7 @@
 mod contact_length;
 mod damage;
 mod flank_pressure;
+mod iso_nominal;
 mod mean_stress;
 mod nominal;
 mod rainflow;
@@ -30,6 +31,7 @@ mod virtual_gear;
 pub use contact_length::shortest_contact_length_m;
 pub use damage::{Damage, DamageError, history_damage, miner_damage};
 pub use flank_pressure::{FlankPressure, FlankPressureError, flank_pressure};
+pub use iso_nominal::{IsoPressure, IsoRoot};
 pub use mean_stress::MeanStress;
 pub use nominal::{NominalError, NominalRating, NominalStresses};
 pub use rainflow::{Cycle, Passage, RainflowError, TurningPoints, rainflow, turning_points};

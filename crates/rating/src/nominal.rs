@@ -8,9 +8,12 @@
 //! Flank: the line load is F over the [`shortest_contact_length_m`]. From an overlap ratio of 1 on the pressure is that
 //! of the pitch point; that of spur teeth is the largest in single contact; between them it is linear in ε_β, as in ISO
 //! 6336-2:2006, 6.2 (Z_B, Z_D).
+//!
+//! Beside both stand the nominal stresses of ISO 6336 itself ([`IsoPressure`], [`IsoRoot`]).
 
 use crate::contact_length::shortest_contact_length_m;
 use crate::flank_pressure::{FlankPressureError, flank_pressure};
+use crate::iso_nominal::{IsoPressure, IsoRoot};
 use crate::root_section::{LoadPoint, RootSectionError, lewis_stress_pa};
 use crate::virtual_gear::VirtualGear;
 use gearmesh_geometry::{GearPair, Material, ToothDefinition};
@@ -37,6 +40,10 @@ pub enum NominalError {
 pub struct NominalRating {
     /// Lewis's factors Y of gear 1 and gear 2.
     pub lewis_factors: [f64; 2],
+    /// Factors of ISO 6336-2.
+    pub iso_pressure: IsoPressure,
+    /// Factors of ISO 6336-3 of gear 1 and gear 2, where it has some.
+    pub iso_roots: [Option<IsoRoot>; 2],
     /// Line load over normal force, 1/L \[1/m\].
     line_load_per_force_per_m: f64,
     /// Tangential force at the reference circle over normal force.
@@ -54,11 +61,15 @@ pub struct NominalStresses {
     pub lewis_pa: [f64; 2],
     /// Flank pressure \[Pa\].
     pub flank_pressure_pa: f64,
+    /// σ_F0 of ISO 6336-3, method B, of gear 1 and gear 2 \[Pa\].
+    pub iso_root_pa: [Option<f64>; 2],
+    /// σ_H0 of ISO 6336-2 at the pitch point \[Pa\].
+    pub iso_pressure_pa: f64,
 }
 
 impl NominalRating {
     /// The rating of a pair that was made of two gears with these teeth; its force acts at `load` for Lewis's stress,
-    /// over the width of the narrower gear.
+    /// over the width of the narrower gear. `rims_m`: thickness of rims below the root circles, none of solid gears.
     ///
     /// # Errors
     /// [`NominalError`].
@@ -66,6 +77,7 @@ impl NominalRating {
         pair: &GearPair,
         teeth: [&ToothDefinition; 2],
         materials: [Material; 2],
+        rims_m: [Option<f64>; 2],
         load: LoadPoint,
     ) -> Result<Self, NominalError> {
         let [first, second] = teeth;
@@ -88,8 +100,14 @@ impl NominalRating {
             pressure_of_unit_pa += overlap * at(pair.working_pressure_angle_rad.tan())?;
         }
         let gear_1 = &pair.gear_1;
+        let iso = |k: usize| {
+            let own = [&pair.gear_1, &pair.gear_2][k];
+            IsoRoot::new((teeth[k], own), pair, face_width_m, rims_m[k])
+        };
         Ok(Self {
             lewis_factors: [factor(first)?, factor(second)?],
+            iso_pressure: IsoPressure::new(pair, face_width_m, materials),
+            iso_roots: [iso(0)?, iso(1)?],
             line_load_per_force_per_m: 1.0 / shortest_contact_length_m(pair, face_width_m),
             tangential_share: pair.base_helix_angle_rad().cos() * gear_1.base_radius_m
                 / gear_1.reference_radius_m,
@@ -114,7 +132,10 @@ impl NominalRating {
             |factor| lewis_stress_pa(tangential_n, self.face_width_m, self.module_m, factor);
         // Hertz's pressure grows with the root of the line load.
         let line_load_n_per_m = self.line_load_per_force_per_m * normal_force_n;
+        let root = |iso: IsoRoot| iso.stress_pa(tangential_n, self.face_width_m, self.module_m);
         Ok(NominalStresses {
+            iso_root_pa: self.iso_roots.map(|iso| iso.map(root)),
+            iso_pressure_pa: self.iso_pressure.pressure_pa(tangential_n),
             lewis_pa: self.lewis_factors.map(lewis),
             flank_pressure_pa: self.pressure_of_unit_pa * line_load_n_per_m.sqrt(),
         })

@@ -95,6 +95,8 @@ pub struct RootSection {
     pub lever_m: f64,
     /// Angle φ of the load against the normal of the centre line \[rad\].
     pub load_angle_rad: f64,
+    /// Radius ρ_F of the fillet where its tangent makes 30° with the centre line \[m\]; the section's own by that construction.
+    pub notch_radius_m: f64,
 }
 
 impl RootSection {
@@ -120,11 +122,10 @@ impl RootSection {
         }
         let load_angle_rad = load_roll_rad - tooth.base_half_angle_rad;
         let vertex_m = tooth.base_radius_m / load_angle_rad.cos();
+        let tangent = (tooth.trochoid).parameter_at_tangent(FRAC_PI_6, tooth.fillet_end_m);
         let point = match construction {
             RootConstruction::Parabola => weakest_section(tooth, load_roll_rad, vertex_m),
-            RootConstruction::Tangent30 => tooth
-                .trochoid
-                .parameter_at_tangent(FRAC_PI_6, tooth.fillet_end_m)
+            RootConstruction::Tangent30 => tangent
                 .map(|t| tooth.trochoid.point_m(t))
                 .filter(|p| p[0] < vertex_m)
                 .ok_or_else(|| RootSectionError::NoTangent {
@@ -140,7 +141,16 @@ impl RootSection {
             thickness_m: 2.0 * point[1].abs(),
             lever_m: vertex_m - point[0],
             load_angle_rad,
+            notch_radius_m: tangent.map_or(0.0, |t| fillet_radius_m(tooth, t)),
         })
+    }
+
+    /// Stress correction factor Y_S = (1.2 + 0.13 L) q_s^(1/(1.21 + 2.3/L)) of ISO 6336-3:2006, 7.2, with L = s/h and the notch parameter
+    /// q_s = s/(2 ρ_F); the standard gives it for 1 ≤ q_s < 8. Of the section with the 30° tangent.
+    pub fn stress_correction_factor(&self) -> f64 {
+        let slenderness = self.thickness_m / self.lever_m;
+        let notch = 0.5 * self.thickness_m / self.notch_radius_m;
+        (1.2 + 0.13 * slenderness) * notch.powf(1.0 / (1.21 + 2.3 / slenderness))
     }
 
     /// Lewis's form factor Y = s²/(6 h m), in modules.
@@ -214,6 +224,16 @@ pub fn highest_single_contact_roll_rad(
 pub fn highest_single_contact_rolls_rad(pair: &GearPair) -> Result<[f64; 2], RootSectionError> {
     let of = |tooth| highest_single_contact_roll_rad(tooth, pair.contact_ratio());
     Ok([of(&pair.gear_1)?, of(&pair.gear_2)?])
+}
+
+/// Radius of curvature \[m\] of a spur tooth's fillet at a parameter: that of the path of the rounding's centre, (H² + t²)^(3/2)/(H² + t² + r H),
+/// and the rounding's own. docs/theory/rating.md derives it; ISO 6336-3 has the same for the 30° tangent.
+fn fillet_radius_m(tooth: &ToothGeometry, t_m: f64) -> f64 {
+    let trochoid = &tooth.trochoid;
+    let depth_m = trochoid.centre_depth_m;
+    let squared = depth_m * depth_m + t_m * t_m;
+    let of_path = squared.powf(1.5) / (squared + trochoid.reference_radius_m * depth_m);
+    trochoid.tip_radius_m + of_path
 }
 
 fn refuse_helical(tooth: &ToothGeometry) -> Result<(), RootSectionError> {

@@ -28,8 +28,11 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
             RunJob::from_scene(loaded.clone())?;
             let plan = SystemPlan::new(&loaded.scene, loaded.build()?)?
                 .with_cost(&loaded.scene, RunCost::timed(&loaded)?);
+            let stages: serde_json::Map<String, serde_json::Value> = (plan.stages.iter())
+                .map(|(mesh, stage)| (mesh.clone(), json!(stage)))
+                .collect();
             let figures = json!({
-                "lines": plan.lines, "degrees_of_freedom": plan.degrees_of_freedom, "equations": plan.equations,
+                "lines": plan.lines, "stages": stages, "degrees_of_freedom": plan.degrees_of_freedom, "equations": plan.equations,
                 "mobility": plan.mobility, "highest_frequency_Hz": plan.highest_frequency_hz, "steps": plan.steps,
                 "step_cost_s": plan.step_cost_s,
             });

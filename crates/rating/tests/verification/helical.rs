@@ -142,8 +142,14 @@ fn the_pressure_is_that_of_iso_6336_2() {
     for overlap in [1.0, 2.0] {
         let width_m = overlap * PI * MODULE_M / beta.sin();
         let (gears, pair) = pair([23, 61], helix_deg, width_m);
-        let rating =
-            NominalRating::new(&pair, [&gears[0], &gears[1]], [STEEL; 2], LoadPoint::Tip).unwrap();
+        let rating = NominalRating::new(
+            &pair,
+            [&gears[0], &gears[1]],
+            [STEEL; 2],
+            [None; 2],
+            LoadPoint::Tip,
+        )
+        .unwrap();
         let tangential_n = 3000.0;
         let alpha_t = (alpha_n.tan() / beta.cos()).atan();
         let beta_b = (beta.sin() * alpha_n.cos()).asin();
@@ -161,6 +167,9 @@ fn the_pressure_is_that_of_iso_6336_2() {
             * (tangential_n / (diameter_m * width_m) * (ratio + 1.0) / ratio).sqrt();
         let off = found.flank_pressure_pa / expected - 1.0;
         assert!(off.abs() < 1e-9, "overlap {overlap}: {off:e}");
+        // The standard's own has Z_β = 1/√cos β as well.
+        let iso = found.iso_pressure_pa / (expected / beta.cos().sqrt());
+        assert!((iso - 1.0).abs() < 1e-9, "overlap {overlap}: {iso}");
         // Lewis with the tangential force at the reference circle.
         let lewis = tangential_n / (width_m * MODULE_M * rating.lewis_factors[0]);
         assert!((found.lewis_pa[0] / lewis - 1.0).abs() < 1e-12);
@@ -178,7 +187,7 @@ fn a_wider_mate_changes_nothing() {
             ..gear
         });
         let of = |teeth: [&ToothDefinition; 2]| {
-            let rating = NominalRating::new(&pair, teeth, [STEEL; 2], load).unwrap();
+            let rating = NominalRating::new(&pair, teeth, [STEEL; 2], [None; 2], load).unwrap();
             rating.under(2000.0).unwrap()
         };
         let alike = of([&gears[0], &gears[1]]);
@@ -194,7 +203,8 @@ fn a_vanishing_helix_is_a_spur_pair() {
     let load = LoadPoint::HighestSingleContact;
     let stresses = |helix_deg: f64| {
         let (gears, pair) = pair([17, 40], helix_deg, 12e-3);
-        let rating = NominalRating::new(&pair, [&gears[0], &gears[1]], [STEEL; 2], load).unwrap();
+        let rating =
+            NominalRating::new(&pair, [&gears[0], &gears[1]], [STEEL; 2], [None; 2], load).unwrap();
         let found = rating.under(2000.0).unwrap();
         [
             found.lewis_pa[0],
@@ -221,7 +231,8 @@ fn a_vanishing_helix_is_a_spur_pair() {
 #[test]
 fn what_cannot_be_rated_is_refused() {
     let (gears, helix) = pair([17, 40], 20.0, 12e-3);
-    let rate = |load| NominalRating::new(&helix, [&gears[0], &gears[1]], [STEEL; 2], load);
+    let rate =
+        |load| NominalRating::new(&helix, [&gears[0], &gears[1]], [STEEL; 2], [None; 2], load);
     let rating = rate(LoadPoint::Tip).unwrap();
     for force in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0] {
         assert!(matches!(

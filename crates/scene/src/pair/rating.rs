@@ -10,7 +10,7 @@ use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
 use crate::rating::{
     FatigueJob, FatigueTable, PassageLength, RatingFigure, RatingResult, RatingTable,
-    nominal_error, nominal_figures, nominal_method,
+    nominal_error, nominal_figures, nominal_method, rim_m,
 };
 
 /// A rating, made of the curves of a result.
@@ -66,7 +66,8 @@ impl RatedPair<'_> {
                     let load = table.load_point();
                     let teeth = self.gears.map(|gear| &gear.tooth);
                     let materials = self.gears.map(|gear| gear.material);
-                    let rating = NominalRating::new(self.pair, teeth, materials, load)
+                    let rims = self.gears.map(rim_m);
+                    let rating = NominalRating::new(self.pair, teeth, materials, rims, load)
                         .map_err(|error| nominal_error(&error, "kind", &keys))?;
                     PairRating {
                         name: "the pair".into(),

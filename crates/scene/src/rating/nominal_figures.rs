@@ -1,7 +1,7 @@
 //! From the largest normal force to nominal stresses.
 
-use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_rating::{LoadPoint, NominalError, NominalRating, RootSectionError};
 
 use super::result::{RatingFigure, figures};
@@ -15,14 +15,57 @@ pub fn nominal_figures(
     force_n: f64,
 ) -> Result<Vec<RatingFigure>, NominalError> {
     let found = rating.under(force_n)?;
-    Ok(figures(&[
+    let mut values = vec![
         ("largest_force_N", force_n),
         ("lewis_factor_gear1", rating.lewis_factors[0]),
         ("lewis_factor_gear2", rating.lewis_factors[1]),
         ("lewis_stress_gear1_Pa", found.lewis_pa[0]),
         ("lewis_stress_gear2_Pa", found.lewis_pa[1]),
         ("hertz_pressure_Pa", found.flank_pressure_pa),
-    ]))
+        ("iso_contact_stress_Pa", found.iso_pressure_pa),
+        ("iso_Z_H", rating.iso_pressure.zone_factor),
+        ("iso_Z_epsilon", rating.iso_pressure.contact_ratio_factor),
+        ("iso_Z_beta", rating.iso_pressure.helix_factor),
+    ];
+    let names = [
+        [
+            "iso_root_stress_gear1_Pa",
+            "iso_Y_F_gear1",
+            "iso_Y_S_gear1",
+            "iso_Y_beta_gear1",
+            "iso_Y_B_gear1",
+        ],
+        [
+            "iso_root_stress_gear2_Pa",
+            "iso_Y_F_gear2",
+            "iso_Y_S_gear2",
+            "iso_Y_beta_gear2",
+            "iso_Y_B_gear2",
+        ],
+    ];
+    for (names, (factors, stress_pa)) in names
+        .iter()
+        .zip(rating.iso_roots.iter().zip(found.iso_root_pa))
+    {
+        if let (Some(factors), Some(stress_pa)) = (factors, stress_pa) {
+            let of_gear = [
+                stress_pa,
+                factors.form_factor,
+                factors.stress_correction_factor,
+                factors.helix_factor,
+                factors.rim_factor,
+            ];
+            values.extend(names.iter().copied().zip(of_gear));
+        }
+    }
+    Ok(figures(&values))
+}
+
+/// Thickness of a gear's rim below its root circle \[m\]; none of a solid gear.
+#[must_use]
+pub fn rim_m(gear: &GearDefinition) -> Option<f64> {
+    let web = gear.blank.web()?;
+    Some(gear.profile.root_radius_m - web.rim_inner_radius_m)
 }
 
 /// How it is judged, in words.
@@ -33,7 +76,8 @@ pub fn nominal_method(load: LoadPoint) -> String {
         LoadPoint::Tip => "tip",
     };
     format!(
-        "Lewis's root stress (load at the {point}) and Hertz's flank pressure under the largest normal force"
+        "Lewis's root stress (load at the {point}) and Hertz's flank pressure under the largest normal force; beside them the nominal \
+         stresses of ISO 6336-2 (pitch point) and 6336-3 (method B), all K = 1"
     )
 }
 

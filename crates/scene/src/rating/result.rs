@@ -65,7 +65,7 @@ impl RatingResult {
 }
 
 /// All figures there are: name, unit, description.
-const KINDS: [(&str, &str, &str); 23] = [
+const KINDS: [(&str, &str, &str); 37] = [
     ("least_stress_Pa", "Pa", "smallest stress at the gauge"),
     ("largest_stress_Pa", "Pa", "largest stress at the gauge"),
     ("cycles", "1", "cycles counted, halves as one half"),
@@ -111,8 +111,50 @@ const KINDS: [(&str, &str, &str); 23] = [
     (
         "hertz_pressure_Pa",
         "Pa",
-        "nominal flank pressure where the contact lines are shortest",
+        "Hertz's flank pressure where the contact lines are shortest",
     ),
+    (
+        "iso_contact_stress_Pa",
+        "Pa",
+        "nominal contact stress sigma_H0 of ISO 6336-2 at the pitch point: Z_H Z_E Z_epsilon Z_beta, all K one",
+    ),
+    ("iso_Z_H", "1", "zone factor Z_H of ISO 6336-2"),
+    ("iso_Z_epsilon", "1", "contact ratio factor of ISO 6336-2"),
+    ("iso_Z_beta", "1", "helix angle factor of ISO 6336-2"),
+    (
+        "iso_root_stress_gear1_Pa",
+        "Pa",
+        "nominal root stress sigma_F0 of ISO 6336-3, method B, of gear 1: Y_F Y_S Y_beta Y_B, Y_DT and all K one",
+    ),
+    (
+        "iso_Y_F_gear1",
+        "1",
+        "form factor Y_F of ISO 6336-3 of gear 1",
+    ),
+    (
+        "iso_Y_S_gear1",
+        "1",
+        "stress correction factor Y_S of the fillet's notch of gear 1",
+    ),
+    ("iso_Y_beta_gear1", "1", "helix angle factor of ISO 6336-3"),
+    ("iso_Y_B_gear1", "1", "rim factor Y_B of gear 1"),
+    (
+        "iso_root_stress_gear2_Pa",
+        "Pa",
+        "nominal root stress sigma_F0 of ISO 6336-3, method B, of gear 2: Y_F Y_S Y_beta Y_B, Y_DT and all K one",
+    ),
+    (
+        "iso_Y_F_gear2",
+        "1",
+        "form factor Y_F of ISO 6336-3 of gear 2",
+    ),
+    (
+        "iso_Y_S_gear2",
+        "1",
+        "stress correction factor Y_S of the fillet's notch of gear 2",
+    ),
+    ("iso_Y_beta_gear2", "1", "helix angle factor of ISO 6336-3"),
+    ("iso_Y_B_gear2", "1", "rim factor Y_B of gear 2"),
     (
         "bearing_equivalent_load_N",
         "N",

@@ -7,6 +7,7 @@ use gearmesh_model::ReducedGear;
 use gearmesh_rating::NominalRating;
 
 use super::assembly::{PlacedCage, TangentSeat};
+use super::stage_summary::StageSummary;
 use crate::rating::{BearingLifeJob, FatigueJob};
 
 /// A system that is ready to run.
@@ -75,6 +76,8 @@ pub struct BuiltMesh {
     /// Frequency of the mesh at the start \[Hz\]: teeth of gear 1 times its speed about its axis against the line of
     /// centres.
     pub frequency_hz: f64,
+    /// The stage at a glance; none of bevel pairs.
+    pub stage: Option<StageSummary>,
     /// Of bevel pairs the corners of a flank of gear 1, then gear 2 \[m\]: cone distance and height above the pitch cone of lower line and tip at the toe, tip
     /// and lower line at the heel; empty for others.
     pub flank_corners_m: Vec<f64>,

@@ -5,6 +5,7 @@
 //! | read and check the file | [`SystemScene`] | `scene.rs`, `tables/` |
 //! | read the gears that it names | [`LoadedSystem`] | `assembly/gears.rs` |
 //! | a multibody system with the names of its parts | [`BuiltSystem`] | `built.rs`, `assembly/` |
+//! | a stage of gears at a glance | [`StageSummary`] | `stage_summary.rs` |
 //! | what will be computed | [`SystemPlan`] | `plan.rs` |
 
 pub mod assembly;
@@ -14,6 +15,7 @@ pub mod host_functions;
 pub(crate) mod names;
 pub mod plan;
 pub mod scene;
+mod stage_summary;
 pub mod tables;
 
 pub use assembly::{
@@ -28,6 +30,7 @@ pub(crate) use names::unknown;
 pub use plan::SystemPlan;
 pub(crate) use plan::step_in_words;
 pub use scene::{SystemScene, SystemTables};
+pub use stage_summary::StageSummary;
 pub use tables::output::Output;
 pub use tables::run::{Direction, MotionValues, Run, RunKind, Schedule, SpeedSweep};
 pub use tables::solver::{Solver, Start};

@@ -4,8 +4,9 @@ use gearmesh_dynamics::scheme::StepControl;
 use gearmesh_dynamics::{DynamicsError, natural_modes};
 use gearmesh_geometry::InputError;
 
-use super::built::BuiltSystem;
+use super::built::{BuiltMesh, BuiltSystem};
 use super::scene::SystemScene;
+use super::stage_summary::StageSummary;
 use super::tables::run::{Direction, Run, Schedule};
 
 /// Degrees of freedom up to which the plan seeks the highest natural frequency: a second or less.
@@ -20,6 +21,8 @@ const RESOLVED: f64 = 10.0;
 pub struct SystemPlan {
     /// Lines for people.
     pub lines: Vec<String>,
+    /// Stages of cylindrical gears, by the names of their meshes.
+    pub stages: Vec<(String, StageSummary)>,
     /// Degrees of freedom of all bodies, joints not counted.
     pub degrees_of_freedom: usize,
     /// Joint equations, redundant ones included.
@@ -90,6 +93,8 @@ impl SystemPlan {
                 z2 as f64 / z1 as f64,
                 mesh.frequency_hz
             ));
+            let stage = mesh.stage.as_ref().map(StageSummary::words);
+            lines.extend(stage.map(|words| format!("stage      {}: {words}", mesh.name)));
         }
         for gauge in &built.gauges {
             lines.push(format!("gauge      {} of {}", gauge.name, gauge.body));
@@ -109,8 +114,10 @@ impl SystemPlan {
                 "frequency  highest natural frequency at the start {highest:.3} Hz"
             ));
         }
+        let of_mesh = |mesh: &BuiltMesh| Some((mesh.name.clone(), mesh.stage?));
         let mut plan = Self {
             lines,
+            stages: built.meshes.iter().filter_map(of_mesh).collect(),
             degrees_of_freedom,
             equations,
             mobility,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use gearmesh_geometry::GearDefinition;
 use gearmesh_scene::SceneFile;
-use gearmesh_scene::system::{Run, SystemPlan};
+use gearmesh_scene::system::{BuiltMesh, BuiltSystem, Run, SystemPlan};
 use gearmesh_scene::system_run::RunCost;
 
 use crate::common::*;
@@ -29,6 +29,9 @@ fn plans_say_what_is_computed_and_what_is_not() {
                 "kg, gear file",
                 "force      mesh: impact mesh, on pinion and wheel",
                 "mesh frequency at the start 570.000 Hz",
+                // Contact ratio and pitch radius of seed 004's pair; no overlap.
+                "stage      mesh: ratio 1.000000, eps_alpha 1.639, eps_beta 0.000, c' ",
+                "pitch line 4.712 m/s at the start",
                 "effect     mesh `mesh`: friction: not computed",
                 "effect     mesh `mesh`: damping: STEP of the depth",
                 "effect     weight: not computed",
@@ -54,6 +57,37 @@ fn plans_say_what_is_computed_and_what_is_not() {
                 && plan.degrees_of_freedom == 6 * loaded.build().unwrap().bodies.len()
         );
     }
+}
+
+/// The stage at a glance fits the system: its pitch circles fill the distance of the gears' axes, the pitch line runs with them, and its three
+/// forces make up the normal force 1 N m/(r_b cos β_b).
+fn assert_stage(mesh: &BuiltMesh, built: &BuiltSystem) {
+    let stage = mesh.stage.unwrap();
+    let place = |name: &String| {
+        let bodies = built.system.bodies().iter();
+        bodies
+            .clone()
+            .find(|body| body.name == *name)
+            .unwrap()
+            .position_m
+    };
+    let mut apart = place(&mesh.gears[1]) - place(&mesh.gears[0]);
+    apart.z = 0.0;
+    let radius = apart.norm() / (1.0 + stage.ratio);
+    assert!((stage.pitch_radius_1_m - radius).abs() < 1e-9, "{stage:?}");
+    let speed = TAU * mesh.frequency_hz / mesh.teeth[0] as f64 * radius;
+    assert!((stage.pitch_line_speed_m_per_s - speed).abs() < 1e-9 * speed);
+    let [tangential, radial, axial] = stage.forces_of_1_nm_n;
+    assert!((tangential * radius - 1.0).abs() < 1e-9);
+    let normal = tangential.hypot(radial).hypot(axial);
+    let in_plane = 1.0 / mesh.base_radii_m[0];
+    let base_helix_cos = in_plane / normal;
+    assert!(
+        base_helix_cos <= 1.0 + 1e-12 && (tangential.hypot(radial) / in_plane - 1.0).abs() < 1e-9
+    );
+    let mesh_over_single = stage.mesh_stiffness_n_per_m2 / stage.single_stiffness_n_per_m2;
+    assert!((mesh_over_single - 0.75 * stage.contact_ratio - 0.25).abs() < 1e-12);
+    assert!(stage.largest_sliding > 0.0 && stage.largest_sliding < 1.0);
 }
 
 /// The scenes that are shipped: those whose gears are gear files become systems, and the train turns at the speeds that
@@ -87,6 +121,10 @@ fn shipped_scenes_are_built() {
                 .unwrap_or_else(|e| panic!("{e}"));
             assert_labelled(&built);
             if name == "dynamics_two_stage.toml" {
+                built
+                    .meshes
+                    .iter()
+                    .for_each(|mesh| assert_stage(mesh, &built));
                 assert!(
                     (spin(&built, "output wheel") * 60.0 / TAU
                         - 1500.0 * 27.0 / 61.0 * 31.0 / 71.0)

@@ -128,6 +128,7 @@ impl SceneBevel<'_> {
             slice_width_m,
             models,
             tooth_pairs,
+            stage: None,
             flank_corners_m,
         })
     }

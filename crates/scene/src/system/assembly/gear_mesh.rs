@@ -17,6 +17,7 @@ use super::gears::Gear;
 use super::mesh_model::SceneMesh;
 use super::parts::Parts;
 use crate::system::built::BuiltGauge;
+use crate::system::stage_summary::StageSummary;
 use crate::system::tables::gear_mesh::{EccentricityTable, GearMeshTable, TeethTable};
 use crate::system::tables::mesh_model::MeshKind;
 use crate::system::tables::{MM, UM};
@@ -44,6 +45,8 @@ pub(super) struct PreparedMesh {
     pub tooth_pairs: Option<f64>,
     /// As in [`crate::system::BuiltMesh`].
     pub flank_corners_m: Vec<f64>,
+    /// The stage, its speed left open; none of bevel pairs.
+    pub stage: Option<StageSummary>,
 }
 
 impl PreparedMesh {
@@ -137,6 +140,7 @@ impl PreparedMesh {
             models: None,
             tooth_pairs: None,
             flank_corners_m: Vec::new(),
+            stage: None,
             key: key.clone(),
         };
         let mut scene = SceneMesh {
@@ -163,6 +167,7 @@ impl PreparedMesh {
             prepared.mesh = Some(scene.modal(mesh, modes)?);
         }
         scene.effects(parts);
+        prepared.stage = Some(scene.stage());
         parts.notes.extend(scene.stiffness_note()?);
         parts.notes.extend(scene.microgeometry_note());
         Ok(prepared)

@@ -53,13 +53,18 @@ pub(super) fn carrier_rad_per_s(mesh: &PreparedMesh, bodies: &Bodies) -> f64 {
     )
 }
 
-/// Mesh frequency \[Hz\].
-pub(super) fn frequency_hz(mesh: &PreparedMesh, bodies: &Bodies) -> f64 {
+/// Speed of gear 1 about its axis against the line of centres \[rad/s\].
+pub(super) fn spin_rad_per_s(mesh: &PreparedMesh, bodies: &Bodies) -> f64 {
     let spin = bodies.list[mesh.bodies[0]]
         .body
         .angular_velocity_rad_per_s
         .z;
-    mesh.teeth[0] as f64 * (spin - carrier_rad_per_s(mesh, bodies)).abs() / TAU
+    spin - carrier_rad_per_s(mesh, bodies)
+}
+
+/// Mesh frequency \[Hz\].
+pub(super) fn frequency_hz(mesh: &PreparedMesh, bodies: &Bodies) -> f64 {
+    mesh.teeth[0] as f64 * spin_rad_per_s(mesh, bodies).abs() / TAU
 }
 
 /// Refuses a step that is too long for the meshes at the speeds that the scene states: those of the start and those to

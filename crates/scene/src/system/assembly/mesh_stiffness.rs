@@ -10,6 +10,7 @@ use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{Flank, InputError};
 
 use super::mesh_model::{REFERENCE_LINE_LOAD_N_PER_M, SceneMesh};
+use crate::system::stage_summary::StageSummary;
 use crate::system::tables::mesh_model::{ImpactTable, Iso6336Table, MeshModel};
 use crate::system::tables::{MM, UM};
 
@@ -88,10 +89,7 @@ impl SceneMesh<'_> {
     }
 
     /// c_γα of `iso6336` \[N/m²\] where no curve gives it, and how it was found.
-    fn mesh_stiffness_n_per_m2(
-        &self,
-        table: &Iso6336Table,
-    ) -> Result<(f64, &'static str), InputError> {
+    fn mesh_stiffness_n_per_m2(&self, table: &Iso6336Table) -> Result<(f64, String), InputError> {
         let keys = &self.model_keys;
         match (table.stiffness_N_per_mm_um, table.line_load_N_per_mm) {
             (Some(_), Some(_)) => Err(keys.error(
@@ -101,7 +99,7 @@ impl SceneMesh<'_> {
             (Some(stiffness), None) => {
                 let ok = stiffness > 0.0;
                 keys.require("stiffness_N_per_mm_um", stiffness, ok, "more than 0")?;
-                Ok((N_PER_MM_UM * stiffness, "as stated"))
+                Ok((N_PER_MM_UM * stiffness, "as stated".to_owned()))
             }
             (None, line_load) => {
                 let line_load = line_load.map_or(REFERENCE_LINE_LOAD_N_PER_M, |q| q / MM);
@@ -109,7 +107,11 @@ impl SceneMesh<'_> {
                 keys.require("line_load_N_per_mm", line_load * MM, ok, "more than 0")?;
                 let single = self.iso_stiffness(line_load);
                 let mesh = single.mesh_n_per_m2(self.pair.contact_ratio());
-                Ok((mesh, "after ISO 6336-1 method B"))
+                let how = format!(
+                    "after ISO 6336-1 method B, single stiffness c' {:.3}",
+                    single.single()
+                );
+                Ok((mesh, how))
             }
         }
     }
@@ -185,6 +187,16 @@ impl SceneMesh<'_> {
             young_pa: 2.0 * e1 * e2 / (e1 + e2),
             line_load_n_per_m,
         }
+    }
+
+    /// The stage at a glance, its stiffness that of ISO 6336-1 whatever the model.
+    pub(super) fn stage(&self) -> StageSummary {
+        let single = self.iso_stiffness(REFERENCE_LINE_LOAD_N_PER_M);
+        let stiffness = [
+            N_PER_MM_UM * single.single(),
+            single.mesh_n_per_m2(self.pair.contact_ratio()),
+        ];
+        StageSummary::new(self.pair, self.zone_width_m(), stiffness)
     }
 
     /// What stiffness the mesh has, for plan and result; nothing for models that have none of their own.

@@ -69,6 +69,7 @@ use self::start_speeds::Holds;
 use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
+use super::stage_summary::StageSummary;
 use super::tables::function::Sources;
 use super::tables::mesh_model::MeshKind;
 use super::tables::run::Run;
@@ -451,6 +452,11 @@ fn describe(mesh: &PreparedMesh, bodies: &Bodies) -> BuiltMesh {
         base_radii_m: mesh.base_radii_m,
         model: mesh.model.name(),
         frequency_hz: mesh_frequency::frequency_hz(mesh, bodies),
+        stage: mesh.stage.map(|stage| StageSummary {
+            pitch_line_speed_m_per_s: stage.pitch_radius_1_m
+                * mesh_frequency::spin_rad_per_s(mesh, bodies).abs(),
+            ..stage
+        }),
         flank_corners_m: mesh.flank_corners_m.clone(),
     }
 }

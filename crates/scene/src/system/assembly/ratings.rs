@@ -13,7 +13,7 @@ use super::gear_mesh::{PreparedMesh, fitting_pair};
 use super::gears::BodyGear;
 use crate::rating::{
     BearingLifeJob, BearingLifeTable, FatigueJob, FatigueTable, RatingTable, nominal_error,
-    nominal_method,
+    nominal_method, rim_m,
 };
 use crate::system::built::{BuiltGauge, RatingJob, RatingRule};
 use crate::system::names;
@@ -311,6 +311,6 @@ fn nominal(
         gears.map(|gear| &gear.tooth),
         gears.map(|gear| gear.material),
     );
-    NominalRating::new(&pair, teeth, materials, load)
+    NominalRating::new(&pair, teeth, materials, gears.map(rim_m), load)
         .map_err(|error| nominal_error(&error, "mesh", keys))
 }

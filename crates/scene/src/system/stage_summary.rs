@@ -1,0 +1,76 @@
+//! A stage of cylindrical gears at a glance: what follows from its teeth, its centre distance and its speed at the start.
+
+use gearmesh_geometry::GearPair;
+use serde::Serialize;
+
+/// N/(mm·µm) in SI, N/m².
+const N_PER_MM_UM: f64 = 1e9;
+
+/// Figures of a stage, whatever the model of its mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StageSummary {
+    /// Teeth of gear 2 over those of gear 1.
+    pub ratio: f64,
+    /// Transverse contact ratio ε_α.
+    pub contact_ratio: f64,
+    /// Overlap ratio ε_β over the common width.
+    pub overlap_ratio: f64,
+    /// Single stiffness c′ after ISO 6336-1 method B at 100 N/mm or more \[N/m²\].
+    #[serde(rename = "single_stiffness_N_per_m2")]
+    pub single_stiffness_n_per_m2: f64,
+    /// Mesh stiffness c_γα likewise \[N/m²\].
+    #[serde(rename = "mesh_stiffness_N_per_m2")]
+    pub mesh_stiffness_n_per_m2: f64,
+    /// Radius of gear 1's working pitch circle \[m\].
+    pub pitch_radius_1_m: f64,
+    /// Largest sliding over the path of contact, as a share of the speed of the pitch line.
+    pub largest_sliding: f64,
+    /// Tangential, radial and axial force between the working pitch circles under 1 N m on gear 1, without friction \[N\].
+    #[serde(rename = "forces_of_1_Nm_N")]
+    pub forces_of_1_nm_n: [f64; 3],
+    /// Speed of the pitch line at the start \[m/s\], seen from the line of centres.
+    pub pitch_line_speed_m_per_s: f64,
+}
+
+impl StageSummary {
+    /// The figures of a pair over a common width \[m\], with c′ and c_γα \[N/m²\]; no speed yet.
+    pub(super) fn new(pair: &GearPair, width_m: f64, stiffness_n_per_m2: [f64; 2]) -> Self {
+        let (first, second) = (&pair.gear_1, &pair.gear_2);
+        let alpha = pair.working_pressure_angle_rad;
+        let pitch_radius_1_m = first.base_radius_m / alpha.cos();
+        let ends = [pair.roll_start_1_rad, pair.roll_end_1_rad];
+        let sliding = ends.map(|roll| pair.sliding_velocity_m_per_s(roll, 1.0).abs());
+        // On the working pitch cylinder the helix rises as on the base cylinder.
+        let helix = (pair.base_helix_angle_rad().tan() / alpha.cos()).abs();
+        let tangential = 1.0 / pitch_radius_1_m;
+        let [single, mesh] = stiffness_n_per_m2;
+        Self {
+            ratio: second.teeth as f64 / first.teeth as f64,
+            contact_ratio: pair.contact_ratio(),
+            overlap_ratio: pair.overlap_ratio(width_m),
+            single_stiffness_n_per_m2: single,
+            mesh_stiffness_n_per_m2: mesh,
+            pitch_radius_1_m,
+            largest_sliding: sliding[0].max(sliding[1]) / pitch_radius_1_m,
+            forces_of_1_nm_n: [tangential, tangential * alpha.tan(), tangential * helix],
+            pitch_line_speed_m_per_s: 0.0,
+        }
+    }
+
+    /// In words, for people.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let [tangential, radial, axial] = self.forces_of_1_nm_n;
+        format!(
+            "ratio {:.6}, eps_alpha {:.3}, eps_beta {:.3}, c' {:.3} and c_gamma {:.3} N/(mm um) after ISO 6336-1 method B, pitch line {:.3} m/s at the \
+             start, sliding up to {:.1} % of it; 1 N m on gear 1: {tangential:.2} N tangential, {radial:.2} N radial, {axial:.2} N axial",
+            self.ratio,
+            self.contact_ratio,
+            self.overlap_ratio,
+            self.single_stiffness_n_per_m2 / N_PER_MM_UM,
+            self.mesh_stiffness_n_per_m2 / N_PER_MM_UM,
+            self.pitch_line_speed_m_per_s,
+            100.0 * self.largest_sliding
+        )
+    }
+}
