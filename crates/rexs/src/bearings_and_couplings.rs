@@ -89,7 +89,7 @@ pub fn bearings_and_couplings(
         else {
             continue;
         };
-        if train.gears.iter().any(|g| found.sides.contains(&g.gear.id)) {
+        if found.sides.iter().any(|&id| train.gear(id).is_some()) {
             let what = "joins a gear to its shaft: the gear is fixed there, rigidly";
             source.assume(component, About::Stiffness, what);
             continue;

@@ -5,7 +5,7 @@ use crate::placement::Frame;
 use crate::source::Source;
 use crate::text::{number, numbers, quoted};
 use crate::train::Train;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// A torque on a shaft about z, at a place along u.
 struct Torque {
@@ -64,20 +64,25 @@ pub fn drive(
             name: format!("torque at {}", seat.name),
         });
     }
-    let mut done: Vec<usize> = Vec::new();
-    for shaft in &train.shafts {
+    let mut done: HashSet<usize> = HashSet::new();
+    let mut torques_of: BTreeMap<usize, Vec<&Torque>> = BTreeMap::new();
+    for torque in &torques {
+        if let Some(&group) = groups.get(&torque.shaft) {
+            torques_of.entry(group).or_default().push(torque);
+        }
+    }
+    for shaft in train.shafts.iter() {
         let Some(&group) = groups.get(&shaft.id) else {
             continue;
         };
-        if done.contains(&group) {
+        if !done.insert(group) {
             continue;
         }
-        done.push(group);
-        let is_mine = |t: &&Torque| groups.get(&t.shaft) == Some(&group);
+        let mine = torques_of.get(&group).map_or(&[][..], Vec::as_slice);
         let power = |t: &Torque| t.nm * train.flow.speed_rpm.get(&t.shaft).copied().unwrap_or(1.0);
-        let input = torques
+        let input = mine
             .iter()
-            .filter(is_mine)
+            .copied()
             .max_by(|a, b| power(a).total_cmp(&power(b)));
         let (body, name) = match input {
             Some(t) => (train.shaft(t.shaft).map(|s| s.body(t.u_mm)), t.name.clone()),
@@ -104,7 +109,7 @@ pub fn drive(
             quoted(&body),
             number(HELD_NM_PER_RAD)
         ));
-        for t in torques.iter().filter(is_mine) {
+        for &t in mine {
             let is_input = input.is_some_and(|i| std::ptr::eq(i, t));
             if is_input || t.nm == 0.0 {
                 continue;

@@ -15,7 +15,7 @@ use crate::train;
 use crate::units::{HOUR, M_PER_S2, ONE};
 use crate::{json, unjoined, versions, xml};
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// A file that was made.
 #[derive(Debug, Clone)]
@@ -221,11 +221,14 @@ struct Made {
     scenes: Vec<String>,
     gears: Vec<String>,
     sheets: Vec<Sheet>,
+    /// Names of files, and of gear files.
+    names: HashSet<String>,
+    gear_names: HashSet<String>,
 }
 
 impl Made {
     fn add(&mut self, name: String, text: String) {
-        if !self.files.iter().any(|f| f.name == name) {
+        if self.names.insert(name.clone()) {
             self.files.push(ImportedFile { name, text });
         }
     }
@@ -267,17 +270,17 @@ impl Made {
             );
         }
         let origin = head.first().cloned().unwrap_or_default();
-        for seated in &train.gears {
+        for seated in train.gears.iter() {
             let file = seated.gear.file.clone();
             self.add(file.clone(), gear_file(&seated.gear, &origin));
-            if !self.gears.contains(&file) {
+            if self.gear_names.insert(file.clone()) {
                 self.gears.push(file);
             }
         }
         for (file, text) in train.bearings.iter().filter_map(|b| b.file.clone()) {
             self.add(file, text);
         }
-        for (i, stage) in structure.stages().into_iter().enumerate() {
+        for (i, stage) in structure.stages().iter().enumerate() {
             let found =
                 [stage.id, stage.gears[0], stage.gears[1]].map(|id| source.model.component(id));
             let [Some(component), Some(g1), Some(g2)] = found else {

@@ -6,6 +6,7 @@ use crate::model::{
 };
 use crate::xml::{decoded, words};
 use serde_json::Value as Json;
+use std::sync::OnceLock;
 
 /// Reads a model.
 ///
@@ -46,6 +47,7 @@ pub fn read(text: &str) -> Result<Model, RexsError> {
         .map(|(key, _)| key.as_str());
     let unknown = keys.filter(|key| !known.contains(key) && !parts.contains(key));
     Ok(Model {
+        places: OnceLock::new(),
         version: text_of(root.get("version")),
         application: words(&[
             &text_of(root.get("applicationId")),

@@ -9,6 +9,7 @@ pub mod bearings_and_couplings;
 pub mod bevel;
 pub mod bevel_force;
 pub mod bevel_loads;
+pub mod by_number;
 pub mod container;
 pub mod coupling;
 pub mod drive_text;

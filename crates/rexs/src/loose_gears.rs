@@ -9,6 +9,7 @@ use crate::shaft::Shaft;
 use crate::source::Source;
 use crate::structure::Structure;
 use crate::train::Train;
+use std::collections::HashMap;
 
 /// Where a gear sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,8 +38,8 @@ pub fn seat(
     shift_index: i64,
 ) -> Option<Seat> {
     let between = |kinds: &[&str]| -> Vec<(&Component, i64)> {
-        let all = source.model.components.iter();
-        all.filter(|c| kinds.contains(&c.kind.as_str()))
+        let all = structure.partners(gear.id, kinds).into_iter();
+        all.filter_map(|id| source.model.component(id))
             .filter_map(|c| Some((c, other_side(structure, train, c.id, gear.id)?)))
             .collect()
     };
@@ -80,7 +81,7 @@ pub fn stand_on_hubs(
 ) -> bool {
     for side in 0..2 {
         let own = sides[side];
-        let Some(gear) = train.gears.iter().find(|g| g.gear.id == own) else {
+        let Some(gear) = train.gear(own) else {
             continue;
         };
         if gear.shaft == sides[1 - side] {
@@ -96,22 +97,28 @@ pub fn stand_on_hubs(
 
 /// Hubs without bearings are held on their shafts, free about the axis; those with one of them do not tilt on it.
 pub fn hold_hubs(source: &Source<'_>, train: &mut Train) {
+    let mut on: HashMap<i64, Vec<usize>> = HashMap::new();
+    for (i, bearing) in train.bearings.iter().enumerate() {
+        let sides = bearing.sides.into_iter();
+        sides.for_each(|side| on.entry(side).or_default().push(i));
+    }
     for i in 0..train.gears.len() {
         let seated = &train.gears[i];
         let (id, mid_mm, name) = (seated.gear.id, seated.mid_mm, seated.gear.name.clone());
         let Some(carrier) = train.shaft(id).and_then(|hub| hub.hub_on) else {
             continue;
         };
-        let on = train
+        let carries = train
             .shaft(carrier)
             .map_or(String::new(), |s| s.name.clone());
-        let radial = |b: &&mut Bearing| b.sides.contains(&id) && b.radial_n_per_mm > 0.0;
-        let mut mine: Vec<&mut Bearing> = train.bearings.iter_mut().filter(radial).collect();
+        let radial = |i: &usize| train.bearings[*i].radial_n_per_mm > 0.0;
+        let mine = on.get(&id).into_iter().flatten().copied();
+        let mine: Vec<usize> = mine.filter(radial).collect();
         let is_bare = mine.is_empty();
-        let words = match mine.as_mut_slice() {
+        let words = match mine[..] {
             [] => "nothing else holds it there: rigid across and along the axis, free about it",
-            [only] if only.tilt_nm_per_rad == 0.0 => {
-                only.tilt_nm_per_rad = bearing::RIGID_TILT;
+            [only] if train.bearings[only].tilt_nm_per_rad == 0.0 => {
+                train.bearings[only].tilt_nm_per_rad = bearing::RIGID_TILT;
                 "its one bearing there holds it against tilting, too"
             }
             _ => "on its bearings there",
@@ -120,12 +127,12 @@ pub fn hold_hubs(source: &Source<'_>, train: &mut Train) {
             source.assume(
                 component,
                 About::Support,
-                format!("turns loose on {on}: {words}"),
+                format!("turns loose on {carries}: {words}"),
             );
         }
         if is_bare {
             let sides = [carrier, id];
-            let name = format!("{name} on {on}");
+            let name = format!("{name} on {carries}");
             let mut held = Bearing::rigid(id, name, sides, mid_mm, AxialSupport::Both);
             held.u_mm[1] = Some(mid_mm);
             held.tilt_nm_per_rad = bearing::RIGID_TILT;

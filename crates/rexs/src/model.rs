@@ -1,5 +1,8 @@
 //! A REXS model as it stands in the file: components with attributes, relations between them, load cases.
 
+use std::collections::{HashMap, HashSet};
+use std::sync::OnceLock;
+
 /// A model.
 #[derive(Debug, Clone, Default)]
 pub struct Model {
@@ -15,6 +18,8 @@ pub struct Model {
     pub spectra: Vec<LoadSpectrum>,
     /// Elements that the format does not know, as words.
     pub unknown: Vec<String>,
+    /// Places of components by their numbers, made when the first one is asked for.
+    pub places: OnceLock<HashMap<i64, usize>>,
 }
 
 /// A component.
@@ -155,7 +160,14 @@ pub struct LoadCase {
 impl Model {
     /// A component.
     pub fn component(&self, id: i64) -> Option<&Component> {
-        self.components.iter().find(|c| c.id == id)
+        let places = self.places.get_or_init(|| {
+            let mut places = HashMap::new();
+            for (place, component) in self.components.iter().enumerate() {
+                places.entry(component.id).or_insert(place);
+            }
+            places
+        });
+        places.get(&id).map(|&place| &self.components[place])
     }
 
     /// Components of some types, in the order of the file.
@@ -167,12 +179,27 @@ impl Model {
     /// The model in a load case.
     pub fn in_case(&self, case: &LoadCase) -> Self {
         let mut model = self.clone();
+        let places: HashMap<i64, usize> = (self.components.iter().enumerate().rev())
+            .map(|(i, c)| (c.id, i))
+            .collect();
         for change in &case.components {
-            let found = model.components.iter_mut().find(|c| c.id == change.id);
-            let Some(component) = found else { continue };
-            for attribute in &change.attributes {
-                component.attributes.retain(|a| a.id != attribute.id);
-                component.attributes.push(attribute.clone());
+            let Some(&place) = places.get(&change.id) else {
+                continue;
+            };
+            let component = &mut model.components[place];
+            let new: HashSet<&str> = change.attributes.iter().map(|a| a.id.as_str()).collect();
+            component
+                .attributes
+                .retain(|a| !new.contains(a.id.as_str()));
+            // The last one of a name counts.
+            let mut last: HashMap<&str, usize> = HashMap::new();
+            for (i, a) in change.attributes.iter().enumerate() {
+                last.insert(&a.id, i);
+            }
+            for (i, a) in change.attributes.iter().enumerate() {
+                if last.get(a.id.as_str()) == Some(&i) {
+                    component.attributes.push(a.clone());
+                }
             }
         }
         model

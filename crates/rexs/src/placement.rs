@@ -4,6 +4,7 @@ use crate::error::RexsError;
 use crate::ledger::About;
 use crate::model::Component;
 use crate::source::Source;
+use std::collections::HashSet;
 
 /// Origin and axes in the coordinates of the gear unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,17 +63,19 @@ pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     (length > 1e-9).then(|| a.map(|x| x / length))
 }
 
-/// Deepest chain of reference components.
-const LONGEST_CHAIN: usize = 1000;
-
 /// The frame of a component; none where it has no support vector.
 ///
 /// # Errors
 /// [`RexsError::Cycle`] for components whose places are told by each other, those of [`Source`].
 pub fn frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>, RexsError> {
-    let mut chain = Vec::new();
+    let mut chain: Vec<(&Component, Frame)> = Vec::new();
+    let mut seen = HashSet::new();
     let mut next = component;
-    loop {
+    // The frame in which the last one of the chain stands.
+    let outer = loop {
+        if let Some(known) = source.frame(next.id) {
+            break known;
+        }
         let Some(own) = own_frame(source, next)? else {
             if chain.is_empty() {
                 return Ok(None);
@@ -82,40 +85,52 @@ pub fn frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>
                 About::Place,
                 "other components stand in its frame, which is not given: taken as the gear unit's",
             );
-            break;
+            break Frame::WORLD;
         };
         chain.push((next, own));
+        seen.insert(next.id);
         let reference = source.integer(next, "reference_component_for_position")?;
-        let Some(id) = reference.filter(|&id| id != next.id) else {
-            break;
+        // Gear units say so that they stand in the world.
+        let is_unit = next.kind == "gear_unit";
+        let Some(id) = reference.filter(|&id| !(is_unit && id == next.id)) else {
+            break Frame::WORLD;
         };
         let Some(parent) = source.model.component(id) else {
             let what = format!(
                 "its place is given from component {id}, which is not in the file: taken as from the gear unit"
             );
             source.assume(next, About::Lost, what);
-            break;
+            break Frame::WORLD;
         };
-        let is_seen = chain.iter().any(|(c, _)| c.id == parent.id);
-        if is_seen || chain.len() > LONGEST_CHAIN {
-            let words = chain.iter().map(|(c, _)| c.words()).chain([parent.words()]);
+        if seen.contains(&parent.id) {
+            let from = chain.iter().position(|(c, _)| c.id == parent.id);
+            let round = chain[from.unwrap_or(0)..].iter().map(|(c, _)| c.words());
+            let words: Vec<String> = round.chain([parent.words()]).collect();
+            let shown = match words.len() {
+                0..=8 => words.join(" > "),
+                n => format!(
+                    "{} > ... ({} more) > {}",
+                    words[..4].join(" > "),
+                    n - 5,
+                    words[n - 1]
+                ),
+            };
             return Err(RexsError::Cycle {
                 what: "components whose place is given from each other",
-                chain: words.collect::<Vec<_>>().join(" > "),
+                chain: shown,
             });
         }
         next = parent;
-    }
-    let compose = |outer: Frame, inner: &Frame| Frame {
-        origin_mm: outer.point(inner.origin_mm),
-        axes: inner.axes.map(|axis| outer.direction(axis)),
     };
-    Ok(Some(
-        chain
-            .iter()
-            .rev()
-            .fold(Frame::WORLD, |outer, (_, own)| compose(outer, own)),
-    ))
+    let mut frame = outer;
+    for (component, own) in chain.iter().rev() {
+        frame = Frame {
+            origin_mm: frame.point(own.origin_mm),
+            axes: own.axes.map(|axis| frame.direction(axis)),
+        };
+        source.keep_frame(component.id, frame);
+    }
+    Ok(Some(frame))
 }
 
 fn own_frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>, RexsError> {

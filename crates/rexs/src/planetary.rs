@@ -49,7 +49,7 @@ fn members(
     let parts = structure.partners(stage.id, &["cylindrical_stage"]);
     let pairs: Vec<[i64; 2]> = structure
         .stages()
-        .into_iter()
+        .iter()
         .filter(|s| parts.contains(&s.id))
         .map(|s| s.gears)
         .collect();

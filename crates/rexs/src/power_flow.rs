@@ -1,7 +1,7 @@
 //! Speeds and torques through a gear train by the ratios, as by hand: which flanks touch, where the load goes, which bearing
 //! is pushed along its axis.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Two shafts that turn together: ω_b = ratio · ω_a, about their z axes.
 #[derive(Debug, Clone, Copy)]
@@ -65,16 +65,39 @@ pub fn flow(
         link_nm: vec![None; links.len()],
         ..Flow::default()
     };
-    let mut seen: Vec<i64> = Vec::new();
+    let mut of = Of {
+        seen: HashSet::new(),
+        in_tree: vec![false; links.len()],
+        links: HashMap::new(),
+        torques: HashMap::new(),
+    };
+    for (i, link) in links.iter().enumerate() {
+        let [a, b] = link.shafts;
+        of.links.entry(a).or_default().push(i);
+        if a != b {
+            of.links.entry(b).or_default().push(i);
+        }
+    }
+    for (i, torque) in torques.iter().enumerate() {
+        of.torques.entry(torque.shaft).or_default().push(i);
+    }
     // Shafts with a stated speed are roots before others.
     let rooted = shafts.iter().filter(|s| stated_rpm.contains_key(s));
     let roots: Vec<i64> = rooted.chain(shafts).copied().collect();
     for root in roots {
-        if !seen.contains(&root) {
-            train(root, links, torques, stated_rpm, &mut seen, &mut found);
+        if !of.seen.contains(&root) {
+            train(root, links, torques, stated_rpm, &mut of, &mut found);
         }
     }
     found
+}
+
+/// What is known of all trains: shafts that were reached, links in trees of them, links and torques by shaft.
+struct Of {
+    seen: HashSet<i64>,
+    in_tree: Vec<bool>,
+    links: HashMap<i64, Vec<usize>>,
+    torques: HashMap<i64, Vec<usize>>,
 }
 
 /// A shaft, its speed over the root's, and the link and shaft it is reached by.
@@ -89,7 +112,7 @@ fn train(
     links: &[Link],
     torques: &[TorqueOn],
     stated_rpm: &BTreeMap<i64, f64>,
-    seen: &mut Vec<i64>,
+    of: &mut Of,
     found: &mut Flow,
 ) {
     let mut reached = vec![Reached {
@@ -97,31 +120,28 @@ fn train(
         relative: 1.0,
         by: None,
     }];
-    seen.push(root);
-    let mut in_tree = vec![false; links.len()];
-    let mut closing: Vec<usize> = Vec::new();
+    of.seen.insert(root);
+    let mut closing: BTreeSet<usize> = BTreeSet::new();
     let mut next = 0;
     while next < reached.len() {
         let (shaft, relative) = (reached[next].shaft, reached[next].relative);
         next += 1;
-        for (i, link) in links.iter().enumerate() {
+        for &i in of.links.get(&shaft).into_iter().flatten() {
+            let link = &links[i];
             let [a, b] = link.shafts;
             let (other, ratio) = match shaft {
                 s if s == a => (b, link.ratio),
                 s if s == b => (a, 1.0 / link.ratio),
                 _ => continue,
             };
-            if in_tree[i] {
+            if of.in_tree[i] {
                 continue;
             }
-            if seen.contains(&other) {
-                if !closing.contains(&i) {
-                    closing.push(i);
-                }
+            if !of.seen.insert(other) {
+                closing.insert(i);
                 continue;
             }
-            in_tree[i] = true;
-            seen.push(other);
+            of.in_tree[i] = true;
             reached.push(Reached {
                 shaft: other,
                 relative: relative * ratio,
@@ -130,9 +150,10 @@ fn train(
         }
     }
     let relative: BTreeMap<i64, f64> = reached.iter().map(|r| (r.shaft, r.relative)).collect();
-    let mine: Vec<usize> = (0..torques.len())
-        .filter(|&i| relative.contains_key(&torques[i].shaft))
-        .collect();
+    let on = reached.iter().filter_map(|r| of.torques.get(&r.shaft));
+    let mut mine: Vec<usize> = on.flatten().copied().collect();
+    mine.sort_unstable();
+    let closing: Vec<usize> = closing.into_iter().collect();
     for &i in &closing {
         let [a, b] = links[i].shafts.map(|s| relative[&s]);
         if (b / a / links[i].ratio - 1.0).abs() > SAME_SPEED {
@@ -189,17 +210,15 @@ fn train(
 /// Which links are part of a loop: those that close one, and the way from both of their shafts up to where they come together.
 fn loops(reached: &[Reached], links: &[Link], closing: &[usize]) -> Vec<bool> {
     let mut found = vec![false; links.len()];
-    let up = |shaft: i64| {
-        let own = reached.iter().find(|r| r.shaft == shaft);
-        own.and_then(|r| r.by)
-    };
+    let by: HashMap<i64, Option<(usize, i64)>> = reached.iter().map(|r| (r.shaft, r.by)).collect();
+    let up = |shaft: i64| by.get(&shaft).copied().flatten();
     let way = |shaft: i64| {
         let first = up(shaft);
         std::iter::successors(first, |&(_, parent)| up(parent)).map(|(link, _)| link)
     };
     for &i in closing {
         found[i] = true;
-        let [a, b] = links[i].shafts.map(|s| way(s).collect::<Vec<_>>());
+        let [a, b] = links[i].shafts.map(|s| way(s).collect::<HashSet<_>>());
         // What both ways have in common lies between the loop and the root.
         for &link in a.iter().filter(|l| !b.contains(l)) {
             found[link] = true;

@@ -10,7 +10,7 @@ use crate::shaft::Shaft;
 use crate::source::Source;
 use crate::text::{comment, number, numbers, quoted};
 use crate::train::{SeatedGear, Train};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// What the gear meshes of a scene are computed with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -58,11 +58,22 @@ pub fn scene(
     text.push_str(&gear_bodies(source, train, |g| with.gear(&g.gear.file)));
     let groups = joined(train, |_| true);
     // Springs of couplings tell no speed.
-    let turning = joined(train, |i| {
-        !(train.couplings.iter()).any(|c| c.sides == train.links[i].shafts)
-    });
+    let springs: HashSet<[i64; 2]> = train.couplings.iter().map(|c| c.sides).collect();
+    let turning = joined(train, |i| !springs.contains(&train.links[i].shafts));
+    let mut on_shafts = OnShafts {
+        gears: train.gears_of(),
+        ..OnShafts::default()
+    };
+    for (i, mass) in train.masses.iter().enumerate() {
+        on_shafts.masses.entry(mass.shaft).or_default().push(i);
+    }
     for shaft in train.shafts.iter().filter(|s| s.hub_on.is_none()) {
-        shaft_table(&mut text, train, shaft, &turning);
+        if let Some(&group) = turning.get(&shaft.id) {
+            on_shafts.first_of.entry(group).or_insert(shaft.id);
+        }
+    }
+    for shaft in train.shafts.iter().filter(|s| s.hub_on.is_none()) {
+        shaft_table(&mut text, train, shaft, &turning, &on_shafts);
     }
     let bevel_loads = bevel_loads(source, train);
     let supports = axial_supports(source, train, &bevel_loads);
@@ -78,28 +89,50 @@ pub fn scene(
 
 /// Trains that are joined by meshes of the scene and couplings, as far as these links are wanted: the number of each shaft's train.
 fn joined(train: &Train, wanted: impl Fn(usize) -> bool) -> BTreeMap<i64, usize> {
-    let mut group: BTreeMap<i64, usize> = train
-        .shafts
-        .iter()
-        .enumerate()
-        .map(|(i, s)| (s.id, i))
-        .collect();
-    let apart: Vec<usize> = train.torque_seats().map(|t| t.link.0).collect();
+    // A tree of shafts for each train, the first one of the file at its root.
+    let mut above: Vec<usize> = (0..train.shafts.len()).collect();
+    fn root(above: &mut [usize], mut i: usize) -> usize {
+        while above[i] != i {
+            above[i] = above[above[i]];
+            i = above[i];
+        }
+        i
+    }
+    let apart: HashSet<usize> = train.torque_seats().map(|t| t.link.0).collect();
     for (_, link) in train
         .links
         .iter()
         .enumerate()
         .filter(|(i, _)| !apart.contains(i) && wanted(*i))
     {
-        let [Some(&a), Some(&b)] = link.shafts.map(|s| group.get(&s)) else {
+        let [Some(a), Some(b)] = link.shafts.map(|s| train.shafts.place(s)) else {
             continue;
         };
-        group.values_mut().filter(|g| **g == b).for_each(|g| *g = a);
+        let [a, b] = [root(&mut above, a), root(&mut above, b)];
+        above[a.max(b)] = a.min(b);
     }
-    group
+    let ids = train.shafts.iter().map(|s| s.id).enumerate();
+    ids.map(|(i, id)| (id, root(&mut above, i))).collect()
 }
 
-fn shaft_table(text: &mut String, train: &Train, shaft: &Shaft, groups: &BTreeMap<i64, usize>) {
+/// What stands on which shaft.
+#[derive(Default)]
+struct OnShafts {
+    /// Places of gears.
+    gears: HashMap<i64, Vec<usize>>,
+    /// Places of masses.
+    masses: HashMap<i64, Vec<usize>>,
+    /// First shaft of each train.
+    first_of: HashMap<usize, i64>,
+}
+
+fn shaft_table(
+    text: &mut String,
+    train: &Train,
+    shaft: &Shaft,
+    groups: &BTreeMap<i64, usize>,
+    on_shafts: &OnShafts,
+) {
     let frame = shaft.frame.unwrap_or(Frame::WORLD);
     let axis = frame.axes[0].map(|x| shaft.sign() * x);
     let stations = shaft.stations_mm();
@@ -123,19 +156,17 @@ fn shaft_table(text: &mut String, train: &Train, shaft: &Shaft, groups: &BTreeMa
         number(shaft.material.density_kg_per_m3)
     ));
     // One speed a train: those of the others follow by the ratios.
-    let first = train
-        .shafts
-        .iter()
-        .filter(|s| s.hub_on.is_none())
-        .find(|s| groups.get(&s.id) == groups.get(&shaft.id));
+    let group = groups.get(&shaft.id);
+    let first = group.and_then(|group| on_shafts.first_of.get(group));
     if let Some(&speed) = train.flow.speed_rpm.get(&shaft.id).filter(|n| **n != 0.0)
-        && first.is_some_and(|s| s.id == shaft.id)
+        && first == Some(&shaft.id)
     {
         text.push_str(&format!("speed_rpm = {}\n", number(speed)));
     }
-    let mine = || train.gears.iter().filter(|g| g.shaft == shaft.id);
+    let mine = on_shafts.gears.get(&shaft.id).into_iter().flatten();
+    let mine = mine.map(|&i| &train.gears[i]);
     let first = |g: &&SeatedGear| shaft.seated(shaft.station(g.mid_mm)) == Some(&g.gear.name);
-    let seats: Vec<String> = mine()
+    let seats: Vec<String> = mine
         .filter(first)
         .map(|g| {
             format!(
@@ -148,10 +179,9 @@ fn shaft_table(text: &mut String, train: &Train, shaft: &Shaft, groups: &BTreeMa
     if !seats.is_empty() {
         text.push_str(&format!("seat = [{}]\n", seats.join(", ")));
     }
-    let parts: Vec<String> = train
-        .masses
-        .iter()
-        .filter(|m| m.shaft == shaft.id)
+    let masses = on_shafts.masses.get(&shaft.id).into_iter().flatten();
+    let parts: Vec<String> = masses
+        .map(|&i| &train.masses[i])
         .map(|m| {
             let inertia = numbers(&m.inertia_kg_m2);
             format!(
@@ -201,15 +231,23 @@ fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLoad])
         let sign = train.shaft(load.shaft).map_or(1.0, Shaft::sign);
         *axial_n.entry(load.shaft).or_insert(0.0) += sign * load.force_n[0];
     }
+    let mut bearings_of: HashMap<i64, Vec<usize>> = HashMap::new();
+    for (i, bearing) in train.bearings.iter().enumerate() {
+        let [a, b] = bearing.sides;
+        bearings_of.entry(a).or_default().push(i);
+        if a != b {
+            bearings_of.entry(b).or_default().push(i);
+        }
+    }
     let mut holds: Vec<bool> = train
         .bearings
         .iter()
         .map(|b| b.axial == AxialSupport::Both)
         .collect();
-    for shaft in &train.shafts {
+    for shaft in train.shafts.iter() {
         let carried = |id: &i64| train.shaft(*id).is_some_and(|s| s.hub_on == Some(shaft.id));
-        let mine: Vec<usize> = (0..train.bearings.len())
-            .filter(|&i| train.bearings[i].sides.contains(&shaft.id))
+        let on = bearings_of.get(&shaft.id).into_iter().flatten().copied();
+        let mine: Vec<usize> = on
             .filter(|&i| !train.bearings[i].sides.iter().any(carried))
             .collect();
         let along_u = shaft.sign() * axial_n.get(&shaft.id).copied().unwrap_or(0.0);

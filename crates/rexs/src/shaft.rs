@@ -8,6 +8,8 @@ use crate::placement::Frame;
 use crate::source::Source;
 use crate::structure::Structure;
 use crate::units::{MM, RPM};
+use std::cell::OnceCell;
+use std::collections::HashMap;
 
 /// A cylindrical piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,6 +47,11 @@ pub struct Shaft {
     points_mm: Vec<f64>,
     /// Bodies that take the place of a station, and where along u \[mm\].
     seated: Vec<(f64, String)>,
+    /// Stations along z, and the bodies seated first there: made when they are asked for, forgotten by what changes them.
+    stations: OnceCell<Vec<f64>>,
+    first_seated: OnceCell<HashMap<usize, usize>>,
+    /// Marked points in increasing order.
+    sorted_mm: OnceCell<Vec<f64>>,
     /// Faces along u of gears that are cut into the shaft, from the lower to the higher one \[mm\].
     faces_mm: Vec<[f64; 2]>,
 }
@@ -58,8 +65,15 @@ impl Shaft {
         if self.is_reversed { -1.0 } else { 1.0 }
     }
 
+    fn forget(&mut self) {
+        self.stations.take();
+        self.first_seated.take();
+        self.sorted_mm.take();
+    }
+
     /// Something stands here.
     pub fn mark(&mut self, u_mm: f64) {
+        self.forget();
         self.points_mm.push(u_mm);
     }
 
@@ -67,13 +81,21 @@ impl Shaft {
     /// else stands within the face.
     pub fn cut_in(&mut self, mid_mm: f64, width_mm: f64) -> bool {
         let face = [mid_mm - 0.5 * width_mm, mid_mm + 0.5 * width_mm];
-        let mut others = self
-            .points_mm
-            .iter()
-            .filter(|u| (*u - mid_mm).abs() > SAME_MM);
-        let is_free = others.all(|u| !within(&face, *u));
+        let sorted = self.sorted_mm.get_or_init(|| {
+            let mut sorted = self.points_mm.clone();
+            sorted.sort_by(f64::total_cmp);
+            sorted
+        });
+        let between = |low: f64, high: f64| {
+            sorted.partition_point(|u| *u <= high) - sorted.partition_point(|u| *u < low)
+        };
+        let all = between(face[0] - SAME_MM, face[1] + SAME_MM);
+        let is_free = all == between(mid_mm - SAME_MM, mid_mm + SAME_MM);
         if is_free {
-            self.faces_mm.push(face);
+            let place = self.faces_mm.partition_point(|f| f[0] < face[0]);
+            self.faces_mm.insert(place, face);
+            self.stations.take();
+            self.first_seated.take();
         }
         is_free
     }
@@ -91,27 +113,44 @@ impl Shaft {
         if low > high {
             (low, high) = (high, low);
         }
-        for [from, to] in &self.faces_mm {
-            if (from..=to).contains(&&low) {
-                low = *to;
-            }
-            if (from..=to).contains(&&high) {
-                high = *from;
-            }
+        if let Some([_, to]) = self.face_at(low, 0.0) {
+            low = to;
+        }
+        if let Some([from, _]) = self.face_at(high, 0.0) {
+            high = from;
         }
         self.diameters_mm(0.5 * (low + high))
     }
 
+    /// The face of a gear that is cut into the shaft, around a place along u.
+    fn face_at(&self, u_mm: f64, beyond_mm: f64) -> Option<[f64; 2]> {
+        let next = self.faces_mm.partition_point(|f| f[0] <= u_mm + beyond_mm);
+        let face = self.faces_mm[next.saturating_sub(2)..next].iter().rev();
+        let mut around = face.filter(|f| u_mm <= f[1] + beyond_mm && u_mm >= f[0] - beyond_mm);
+        around.next().copied()
+    }
+
     /// Stations along z \[mm\], increasing.
-    pub fn stations_mm(&self) -> Vec<f64> {
+    pub fn stations_mm(&self) -> &[f64] {
+        self.stations.get_or_init(|| self.made_stations_mm())
+    }
+
+    fn made_stations_mm(&self) -> Vec<f64> {
         let ends = self.sections.iter().flat_map(|s| [s.start_mm, s.end_mm]);
         // Marked points go before borders of sections, which they may move by less than a micrometre.
         let mut kept: Vec<f64> = Vec::new();
-        let in_face = |u: &f64| self.faces_mm.iter().any(|face| within(face, *u));
+        // Those that are kept, by whole lengths below which two are the same.
+        let mut cells: HashMap<i64, Vec<f64>> = HashMap::new();
+        let in_face = |u: &f64| self.face_at(*u, SAME_MM).is_some();
         let ends = ends.filter(|u| !in_face(u));
         for u in self.points_mm.iter().copied().chain(ends) {
             let z = self.sign() * u;
-            if !kept.iter().any(|other| (other - z).abs() < SAME_MM) {
+            let cell = (z / SAME_MM).floor() as i64;
+            let near = (cell - 1..=cell + 1)
+                .filter_map(|c| cells.get(&c))
+                .flatten();
+            if { near }.all(|other| (other - z).abs() >= SAME_MM) {
+                cells.entry(cell).or_default().push(z);
                 kept.push(z);
             }
         }
@@ -124,21 +163,28 @@ impl Shaft {
         let z = self.sign() * u_mm;
         let stations = self.stations_mm();
         let distance = |i: &usize| (stations[*i] - z).abs();
-        (0..stations.len())
+        let next = stations.partition_point(|s| *s < z);
+        (next.saturating_sub(1)..stations.len().min(next + 1))
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))
             .unwrap_or(0)
     }
 
     /// Seats a body, which takes the place of the station's own.
     pub fn seat(&mut self, u_mm: f64, body: &str) {
+        self.first_seated.take();
         self.seated.push((u_mm, body.to_owned()));
     }
 
     /// The body that is seated first at a station.
     pub fn seated(&self, station: usize) -> Option<&str> {
-        let mut here = self.seated.iter();
-        here.find(|(u, _)| self.station(*u) == station)
-            .map(|(_, body)| body.as_str())
+        let first = self.first_seated.get_or_init(|| {
+            let mut first = HashMap::new();
+            for (i, (u, _)) in self.seated.iter().enumerate() {
+                first.entry(self.station(*u)).or_insert(i);
+            }
+            first
+        });
+        first.get(&station).map(|&i| self.seated[i].1.as_str())
     }
 
     /// Body at a place along u: what is seated there, else the station's own.
@@ -167,18 +213,11 @@ impl Shaft {
 
     /// Outer and inner diameter at a place along u \[mm\]; beyond the ends those of the last piece.
     pub fn diameters_mm(&self, u_mm: f64) -> [f64; 2] {
-        let distance = |s: &Section| (s.start_mm - u_mm).max(u_mm - s.end_mm).max(0.0);
-        let nearest = self
-            .sections
-            .iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        // They join: the first one that ends here or later.
+        let next = self.sections.partition_point(|s| s.end_mm < u_mm);
+        let nearest = self.sections.get(next).or(self.sections.last());
         nearest.map_or([0.0, 0.0], |s| [s.outer_mm, s.inner_mm])
     }
-}
-
-/// Whether a place lies between two faces, or on one.
-fn within([low, high]: &[f64; 2], u_mm: f64) -> bool {
-    u_mm >= low - SAME_MM && u_mm <= high + SAME_MM
 }
 
 /// Faster shafts are slips \[1/min\]: dental turbines reach half of it.
@@ -284,6 +323,9 @@ pub fn read(
         speed_rpm: speed.filter(|n| *n != 0.0 && defines != Some(false)),
         points_mm: Vec::new(),
         seated: Vec::new(),
+        stations: OnceCell::new(),
+        first_seated: OnceCell::new(),
+        sorted_mm: OnceCell::new(),
         faces_mm: Vec::new(),
     })
 }
@@ -314,19 +356,22 @@ fn part_overlaps(
         .collect();
     borders.sort_by(f64::total_cmp);
     borders.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    // Pieces that begin before the middle of a strip and have not ended, in the order of their starts.
+    let mut next = 0;
+    let mut here: Vec<Section> = Vec::new();
     let piece = |w: &[f64]| {
         let middle = 0.5 * (w[0] + w[1]);
-        let here = || {
-            sections
-                .iter()
-                .filter(move |s| s.start_mm < middle && middle < s.end_mm)
-        };
-        here().next()?;
+        while next < sections.len() && sections[next].start_mm < middle {
+            here.push(sections[next]);
+            next += 1;
+        }
+        here.retain(|s| middle < s.end_mm);
+        here.first()?;
         Some(Section {
             start_mm: w[0],
             end_mm: w[1],
-            outer_mm: here().map(|s| s.outer_mm).fold(0.0, f64::max),
-            inner_mm: here().map(|s| s.inner_mm).fold(f64::MAX, f64::min),
+            outer_mm: here.iter().map(|s| s.outer_mm).fold(0.0, f64::max),
+            inner_mm: here.iter().map(|s| s.inner_mm).fold(f64::MAX, f64::min),
         })
     };
     borders.windows(2).filter_map(piece).collect()
@@ -384,6 +429,7 @@ pub fn demand_sections(
             About::Stiffness,
             format!("no sections given: {outer_mm} mm thick from u = {start_mm} to {end_mm} mm"),
         );
+        shaft.forget();
         shaft.sections.push(Section {
             start_mm,
             end_mm,

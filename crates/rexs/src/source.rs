@@ -4,9 +4,10 @@
 use crate::error::RexsError;
 use crate::ledger::{About, Ledger};
 use crate::model::{Attribute, Component, Model, Value};
+use crate::placement::Frame;
 use crate::units::{self, Unit};
 use std::cell::{RefCell, RefMut};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 /// What an infinite stiffness is read as, in the unit of the file: far above what stands for rigid.
 const RIGID: f64 = 1e30;
@@ -18,6 +19,8 @@ pub struct Source<'a> {
     pub model: &'a Model,
     ledger: &'a RefCell<Ledger>,
     used: &'a RefCell<BTreeSet<(i64, String)>>,
+    /// Frames that are known.
+    frames: RefCell<HashMap<i64, Frame>>,
 }
 
 impl<'a> Source<'a> {
@@ -31,7 +34,18 @@ impl<'a> Source<'a> {
             model,
             ledger,
             used,
+            frames: RefCell::default(),
         }
+    }
+
+    /// A frame that was found before.
+    pub fn frame(&self, component: i64) -> Option<Frame> {
+        self.frames.borrow().get(&component).copied()
+    }
+
+    /// Keeps a frame that was found.
+    pub fn keep_frame(&self, component: i64, frame: Frame) {
+        self.frames.borrow_mut().insert(component, frame);
     }
 
     /// The list, for what is no component's.

@@ -3,7 +3,7 @@
 use crate::error::RexsError;
 use crate::ledger::{About, Ledger};
 use crate::model::{Model, Relation};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// A stage and its two gears.
 #[derive(Debug, Clone, Copy)]
@@ -19,6 +19,9 @@ pub struct Stage {
 pub struct Structure {
     relations: Vec<Relation>,
     kinds: BTreeMap<i64, String>,
+    /// Relations in which a component takes part.
+    of: HashMap<i64, Vec<usize>>,
+    stages: Vec<Stage>,
 }
 
 /// Relations that join gears which are not parts of each other.
@@ -68,7 +71,27 @@ impl Structure {
             }
         }
         relations.sort_by_key(|r| r.order.unwrap_or(i64::MAX));
-        let structure = Self { relations, kinds };
+        let mut of: HashMap<i64, Vec<usize>> = HashMap::new();
+        for (i, relation) in relations.iter().enumerate() {
+            for reference in &relation.references {
+                let mine = of.entry(reference.id).or_default();
+                if mine.last() != Some(&i) {
+                    mine.push(i);
+                }
+            }
+        }
+        let stage = |r: &Relation| {
+            let gears = [r.role(&["gear_1"])?, r.role(&["gear_2"])?];
+            let id = r.role(&["stage", "assembly"])?;
+            Some(Stage { id, gears })
+        };
+        let stages = relations.iter().filter_map(stage).collect();
+        let structure = Self {
+            relations,
+            kinds,
+            of,
+            stages,
+        };
         structure.demand_no_cycle(model)?;
         Ok(structure)
     }
@@ -88,15 +111,20 @@ impl Structure {
         for &start in parts.keys() {
             // Depth first, with the path from the start on a stack of its own.
             let mut path = vec![(start, 0_usize)];
+            let mut on_path = BTreeSet::from([start]);
+            if done.contains(&start) {
+                continue;
+            }
             while let Some(&mut (id, ref mut next)) = path.last_mut() {
                 let child = parts.get(&id).and_then(|p| p.get(*next)).copied();
                 *next += 1;
                 match child {
                     None => {
                         done.insert(id);
+                        on_path.remove(&id);
                         path.pop();
                     }
-                    Some(child) if path.iter().any(|(on_path, _)| *on_path == child) => {
+                    Some(child) if on_path.contains(&child) => {
                         let from = path.iter().position(|(p, _)| *p == child).unwrap_or(0);
                         let ids = path[from..].iter().map(|(p, _)| *p).chain([child]);
                         let words =
@@ -107,11 +135,20 @@ impl Structure {
                         });
                     }
                     Some(child) if done.contains(&child) => {}
-                    Some(child) => path.push((child, 0)),
+                    Some(child) => {
+                        on_path.insert(child);
+                        path.push((child, 0));
+                    }
                 }
             }
         }
         Ok(())
+    }
+
+    /// Relations in which a component takes part.
+    fn naming(&self, id: i64) -> impl Iterator<Item = &Relation> {
+        let mine = self.of.get(&id).into_iter().flatten();
+        mine.map(|&i| &self.relations[i])
     }
 
     fn kind(&self, id: i64) -> &str {
@@ -122,13 +159,13 @@ impl Structure {
     /// Relations that only join gears to stages do not count.
     pub fn partners(&self, id: i64, kinds: &[&str]) -> Vec<i64> {
         let mut found = Vec::new();
+        let mut seen = HashSet::new();
         for r in self
-            .relations
-            .iter()
-            .filter(|r| r.names(id) && !JOINING.contains(&r.kind.as_str()))
+            .naming(id)
+            .filter(|r| !JOINING.contains(&r.kind.as_str()))
         {
             for other in r.references.iter().map(|other| other.id) {
-                if other != id && kinds.contains(&self.kind(other)) && !found.contains(&other) {
+                if other != id && kinds.contains(&self.kind(other)) && seen.insert(other) {
                     found.push(other);
                 }
             }
@@ -137,19 +174,14 @@ impl Structure {
     }
 
     /// The stages, in the order of the file.
-    pub fn stages(&self) -> Vec<Stage> {
-        let stage = |r: &Relation| {
-            let gears = [r.role(&["gear_1"])?, r.role(&["gear_2"])?];
-            let id = r.role(&["stage", "assembly"])?;
-            Some(Stage { id, gears })
-        };
-        self.relations.iter().filter_map(stage).collect()
+    pub fn stages(&self) -> &[Stage] {
+        &self.stages
     }
 
     /// Left and right flank of a gear.
     pub fn flanks(&self, gear: i64) -> [Option<i64>; 2] {
         let mut found = [None, None];
-        for r in self.relations.iter().filter(|r| r.names(gear)) {
+        for r in self.naming(gear) {
             for (side, roles) in [["left", "left_flank"], ["right", "right_flank"]]
                 .iter()
                 .enumerate()
@@ -162,7 +194,7 @@ impl Structure {
 
     /// What stands inside and outside of a bearing or coupling: the two sides.
     pub fn sides(&self, id: i64) -> Option<[i64; 2]> {
-        self.relations.iter().filter(|r| r.names(id)).find_map(|r| {
+        self.naming(id).find_map(|r| {
             let inner = r.role(&["inner_part", "side_1", "inner"])?;
             let outer = r.role(&["outer_part", "side_2", "outer"])?;
             Some([inner, outer])
@@ -171,16 +203,13 @@ impl Structure {
 
     /// The data of a gear in a stage.
     pub fn stage_gear_data(&self, stage: i64, gear: i64) -> Option<i64> {
-        let mut fitting = self
-            .relations
-            .iter()
-            .filter(|r| r.names(stage) && r.names(gear));
+        let mut fitting = self.naming(gear).filter(|r| r.names(stage));
         fitting.find_map(|r| r.role(&["stage_gear_data"]))
     }
 
     /// Shafts of a planetary stage in relations of a kind: `planet_carrier_shaft` and so on.
     pub fn planetary_shafts(&self, stage: i64, kind: &str) -> Vec<i64> {
-        let of_kind = self.relations.iter().filter(|r| r.kind == kind);
+        let of_kind = self.naming(stage).filter(|r| r.kind == kind);
         let own = of_kind.filter(|r| r.role(&["planetary_stage", "stage"]) == Some(stage));
         own.filter_map(|r| r.role(&["shaft"])).collect()
     }
@@ -189,8 +218,7 @@ impl Structure {
     pub fn planetary_role(&self, id: i64) -> Option<&str> {
         let roles = ["planet_shaft", "planet_pin", "planet_carrier_shaft"];
         let mut kinds = self
-            .relations
-            .iter()
+            .naming(id)
             .filter(|r| roles.contains(&r.kind.as_str()) && r.role(&["shaft"]) == Some(id));
         kinds.next().map(|r| r.kind.as_str())
     }

@@ -6,13 +6,14 @@ use crate::coupling::RIGID;
 use crate::ledger::About;
 use crate::source::Source;
 use crate::train::Train;
+use std::collections::{HashMap, HashSet};
 
 /// No component: the ground.
 const GROUND: i64 = i64::MIN;
 
 /// Leaves out shafts on which nothing stands: no gear, bearing, coupling, load or mass of the scene.
 pub fn leave_out_bare(source: &Source<'_>, train: &mut Train) {
-    let mut used: Vec<i64> = Vec::new();
+    let mut used: HashSet<i64> = HashSet::new();
     used.extend(train.gears.iter().map(|g| g.shaft));
     used.extend(train.bevels.iter().map(|b| b.shaft));
     // A brake alone holds nothing that turns.
@@ -39,14 +40,19 @@ const SAME_PLACE_MM: f64 = 0.1;
 pub fn hold(source: &Source<'_>, train: &mut Train) {
     let bearings = train.bearings.clone();
     let carriers = train.shafts.iter();
-    let hubs: Vec<(i64, i64)> = carriers.filter_map(|s| Some((s.id, s.hub_on?))).collect();
+    let hubs: HashMap<i64, i64> = carriers.filter_map(|s| Some((s.id, s.hub_on?))).collect();
+    let mut on: HashMap<i64, Vec<usize>> = HashMap::new();
+    for (i, bearing) in bearings.iter().enumerate() {
+        let [a, b] = bearing.sides;
+        on.entry(a).or_default().push(i);
+        if b != a {
+            on.entry(b).or_default().push(i);
+        }
+    }
     let places = |shaft: i64| -> usize {
         // What a shaft carries does not hold it.
-        let carries = |b: &&Bearing| {
-            hubs.iter()
-                .any(|&(hub, on)| on == shaft && b.sides.contains(&hub))
-        };
-        let mine = bearings.iter().filter(|b| b.sides.contains(&shaft));
+        let carries = |b: &&Bearing| b.sides.iter().any(|side| hubs.get(side) == Some(&shaft));
+        let mine = on.get(&shaft).into_iter().flatten().map(|&i| &bearings[i]);
         let mine = mine.filter(|b| !carries(b));
         let radial: Vec<&Bearing> = mine.filter(|b| b.radial_n_per_mm > 0.0).collect();
         if radial.iter().any(|b| b.tilt_nm_per_rad > 0.0) {
@@ -70,7 +76,8 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
     }
     let couplings = train.couplings.iter();
     let holding = couplings.filter(|c| c.stiffness[1] > 0.0);
-    let held: Vec<i64> = holding.flat_map(|c| c.sides).collect();
+    let held: HashSet<i64> = holding.flat_map(|c| c.sides).collect();
+    let gears_of = train.gears_of();
     for i in 0..train.shafts.len() {
         let shaft = &train.shafts[i];
         let (id, name) = (shaft.id, shaft.name.clone());
@@ -79,8 +86,9 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
             continue;
         }
         if count == 1 {
-            let only = |b: &&mut Bearing| b.sides.contains(&id) && b.radial_n_per_mm > 0.0;
-            if let Some(only) = train.bearings.iter_mut().find(only) {
+            let radial = |i: &&usize| bearings[**i].radial_n_per_mm > 0.0;
+            let only = on.get(&id).into_iter().flatten().find(radial);
+            if let Some(only) = only.map(|&i| &mut train.bearings[i]) {
                 only.tilt_nm_per_rad = bearing::RIGID_TILT;
                 if let Some(component) = source.model.component(only.id) {
                     let what = format!(
@@ -92,7 +100,7 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
             }
             continue;
         }
-        let [start, end] = ends(train, i);
+        let [start, end] = ends(train, i, &gears_of);
         for (k, u) in [start, end].into_iter().enumerate() {
             train.bearings.push(Bearing::rigid(
                 id,
@@ -117,13 +125,14 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
 }
 
 /// Both ends of a shaft; without sections a face width beyond its gears \[mm\].
-fn ends(train: &Train, shaft: usize) -> [f64; 2] {
+fn ends(train: &Train, shaft: usize, gears_of: &HashMap<i64, Vec<usize>>) -> [f64; 2] {
     let shaft = &train.shafts[shaft];
     let stated = shaft.ends_mm();
     if stated[0] < stated[1] {
         return stated;
     }
-    let gears = train.gears.iter().filter(|g| g.shaft == shaft.id);
+    let gears = gears_of.get(&shaft.id).into_iter().flatten();
+    let gears = gears.map(|&i| &train.gears[i]);
     let reach = gears.map(|g| (g.mid_mm, g.gear.face_width_mm));
     let [start, end] = reach.fold([f64::MAX, f64::MIN], |[a, b], (mid, width)| {
         [a.min(mid - width), b.max(mid + width)]

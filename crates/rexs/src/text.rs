@@ -1,5 +1,7 @@
 //! Numbers, texts and names as they stand in TOML files.
 
+use std::collections::HashSet;
+
 /// A number with twelve digits: what is lost by changes of unit is less, what a file states is shown as it is.
 pub fn number(value: f64) -> String {
     // Adding 0 makes 0 of -0.
@@ -62,7 +64,7 @@ pub fn file_stem(text: &str) -> String {
 
 /// Gives names that stand once each; what scenes use to separate names from numbers is replaced.
 #[derive(Debug, Default)]
-pub struct Names(Vec<String>);
+pub struct Names(HashSet<String>);
 
 impl Names {
     /// A name that nothing else has.
@@ -81,7 +83,7 @@ impl Names {
         while taken(&name) {
             name.push('_');
         }
-        self.0.push(name.clone());
+        self.0.insert(name.clone());
         name
     }
 }

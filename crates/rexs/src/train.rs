@@ -3,6 +3,7 @@
 use crate::bearing::Bearing;
 use crate::bearings_and_couplings::bearings_and_couplings;
 use crate::bevel::{self, BevelStage};
+use crate::by_number::{ByNumber, Numbered};
 use crate::coupling::{self, Coupling};
 use crate::error::RexsError;
 use crate::gear::{self, Gear};
@@ -22,6 +23,7 @@ use crate::text::{Names, file_stem};
 use crate::train_finish::{finish_gears, finish_shafts, power};
 use crate::train_places::{place_shafts, settle_middles};
 use crate::units::MM;
+use std::collections::HashMap;
 
 /// A gear on its shaft.
 #[derive(Debug, Clone)]
@@ -32,6 +34,18 @@ pub struct SeatedGear {
     pub shaft: i64,
     /// Middle of the face along u \[mm\].
     pub mid_mm: f64,
+}
+
+impl Numbered for SeatedGear {
+    fn id(&self) -> i64 {
+        self.gear.id
+    }
+}
+
+impl Numbered for Shaft {
+    fn id(&self) -> i64 {
+        self.id
+    }
 }
 
 /// A cylindrical stage.
@@ -81,9 +95,9 @@ pub struct TorqueSeat {
 #[derive(Debug)]
 pub struct Train {
     /// Shafts.
-    pub shafts: Vec<Shaft>,
+    pub shafts: ByNumber<Shaft>,
     /// Gears.
-    pub gears: Vec<SeatedGear>,
+    pub gears: ByNumber<SeatedGear>,
     /// Stages.
     pub meshes: Vec<Mesh>,
     /// Bevel gears.
@@ -107,7 +121,12 @@ pub struct Train {
 impl Train {
     /// A shaft.
     pub fn shaft(&self, id: i64) -> Option<&Shaft> {
-        self.shafts.iter().find(|s| s.id == id)
+        self.shafts.place(id).map(|place| &self.shafts[place])
+    }
+
+    /// A gear.
+    pub fn gear(&self, id: i64) -> Option<&SeatedGear> {
+        self.gears.place(id).map(|place| &self.gears[place])
     }
 
     /// Members of bevel and planetary stages, which pass torques on without a mesh of the scene.
@@ -121,9 +140,19 @@ impl Train {
         bevels.chain(self.planetary.iter().cloned())
     }
 
+    /// Places of the gears of each shaft.
+    pub fn gears_of(&self) -> HashMap<i64, Vec<usize>> {
+        let mut found: HashMap<i64, Vec<usize>> = HashMap::new();
+        for (i, seated) in self.gears.iter().enumerate() {
+            found.entry(seated.shaft).or_default().push(i);
+        }
+        found
+    }
+
     /// A shaft, to be changed.
     pub fn shaft_mut(&mut self, id: i64) -> Option<&mut Shaft> {
-        self.shafts.iter_mut().find(|s| s.id == id)
+        let place = self.shafts.place(id)?;
+        self.shafts.get_mut(place)
     }
 }
 
@@ -135,8 +164,8 @@ pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Tr
     let mut names = Names::default();
     let mut files = Names::default();
     let mut train = Train {
-        shafts: Vec::new(),
-        gears: Vec::new(),
+        shafts: ByNumber::default(),
+        gears: ByNumber::default(),
         meshes: Vec::new(),
         bevels: Vec::new(),
         planetary: Vec::new(),
@@ -212,7 +241,7 @@ fn seat_gears(
             Some(Seat::Loose(id)) => {
                 let carrier = train.shaft(id);
                 let hub = carrier.map(|s| loose_gears::hub(component, &gear.name, s));
-                train.shafts.extend(hub);
+                hub.into_iter().for_each(|hub| train.shafts.push(hub));
                 component.id
             }
             None => -1,
@@ -249,7 +278,8 @@ fn join_stages(
     train: &mut Train,
     names: &mut Names,
 ) -> Result<(), RexsError> {
-    for Stage { id, gears } in structure.stages() {
+    let mut pairs: HashMap<[usize; 2], usize> = HashMap::new();
+    for &Stage { id, gears } in structure.stages() {
         let (Some(stage), Some(g1), Some(g2)) = (
             source.model.component(id),
             source.model.component(gears[0]),
@@ -260,10 +290,8 @@ fn join_stages(
         match stage.kind.as_str() {
             "cylindrical_stage" => {
                 let place = |id: i64| {
-                    train
-                        .gears
-                        .iter()
-                        .position(|g| g.gear.id == id && g.shaft >= 0)
+                    let place = train.gears.place(id);
+                    place.filter(|&place| train.gears[place].shaft >= 0)
                 };
                 let [Some(a), Some(b)] = gears.map(place) else {
                     // Stages of planets are told with the planetary stage.
@@ -284,9 +312,11 @@ fn join_stages(
                     );
                     continue;
                 };
-                let same = |m: &&Mesh| m.gears == [a, b] || m.gears == [b, a];
-                if let Some(first) = train.meshes.iter().find(same) {
-                    let what = format!("its gears are in mesh already in {}", first.name);
+                if let Some(&first) = pairs.get(&[a.min(b), a.max(b)]) {
+                    let what = format!(
+                        "its gears are in mesh already in {}",
+                        train.meshes[first].name
+                    );
                     source.leave_out(stage, About::Nothing, what);
                     continue;
                 }
@@ -296,6 +326,7 @@ fn join_stages(
                     shafts: [first.shaft, second.shaft],
                     ratio: -f64::from(first.gear.teeth) / f64::from(second.gear.teeth),
                 });
+                pairs.insert([a.min(b), a.max(b)], train.meshes.len());
                 train.meshes.push(Mesh {
                     stage: stage.id,
                     name: names.unique(

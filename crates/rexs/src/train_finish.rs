@@ -9,7 +9,7 @@ use crate::shaft::{self, MOST_RPM, Shaft};
 use crate::source::Source;
 use crate::train::{Mesh, SeatedGear, Train};
 use crate::units::MM;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Stations where something stands; one direction for all shafts of parallel axes.
 pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
@@ -38,6 +38,15 @@ pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
             .iter()
             .filter_map(|b| Some((b.sides[0], b.bore_mm?))),
     );
+    let mut marks_of: HashMap<i64, Vec<f64>> = HashMap::new();
+    for (id, u) in marks {
+        marks_of.entry(id).or_default().push(u);
+    }
+    let mut bores_of: HashMap<i64, Vec<f64>> = HashMap::new();
+    for (id, d) in bores {
+        bores_of.entry(id).or_default().push(d);
+    }
+    let gears_of = train.gears_of();
     let directions: Vec<[f64; 3]> = train
         .shafts
         .iter()
@@ -49,33 +58,24 @@ pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
         let leading = directions.iter().find(|d| along(d).abs() > 1.0 - 1e-6);
         shaft.is_reversed = leading.is_some_and(|d| along(d) < 0.0);
         let id = shaft.id;
-        for &(_, u) in marks.iter().filter(|(on, _)| *on == id) {
+        for &u in marks_of.get(&id).into_iter().flatten() {
             shaft.mark(u);
         }
-        for seated in train.gears.iter().filter(|g| g.shaft == id) {
+        for &gear in gears_of.get(&id).into_iter().flatten() {
+            let seated = &train.gears[gear];
             shaft.seat(seated.mid_mm, &seated.gear.name);
         }
         if shaft.hub_on.is_some() {
             continue;
         }
         if let Some(component) = source.model.component(shaft.id) {
-            let mine: Vec<f64> = bores
-                .iter()
-                .filter(|(id, _)| *id == shaft.id)
-                .map(|(_, d)| *d)
-                .collect();
-            shaft::demand_sections(source, component, shaft, &mine);
+            let mine = bores_of.get(&shaft.id).map_or(&[][..], Vec::as_slice);
+            shaft::demand_sections(source, component, shaft, mine);
         }
     }
     // Ratios are between speeds about z.
-    let sign = |id: i64| {
-        train
-            .shafts
-            .iter()
-            .find(|s| s.id == id)
-            .map_or(1.0, Shaft::sign)
-    };
-    let bevel_links: Vec<usize> = train.bevels.iter().map(|b| b.link.0).collect();
+    let sign = |id: i64| train.shaft(id).map_or(1.0, Shaft::sign);
+    let bevel_links: HashSet<usize> = train.bevels.iter().map(|b| b.link.0).collect();
     let signs: Vec<f64> = train
         .links
         .iter()
@@ -120,13 +120,8 @@ fn backlash_mm([a, b]: [&Gear; 2], distance_mm: f64) -> f64 {
 pub fn finish_gears(source: &Source<'_>, train: &mut Train) {
     for mesh in &train.meshes {
         let [a, b] = mesh.gears;
-        let frames = [a, b].map(|i| {
-            train
-                .shafts
-                .iter()
-                .find(|s| s.id == train.gears[i].shaft)
-                .and_then(|s| s.frame)
-        });
+        let on = |i: usize| train.shaft(train.gears[i].shaft);
+        let frames = [a, b].map(|i| on(i).and_then(|s| s.frame));
         let [Some(fa), Some(fb)] = frames else {
             continue;
         };
@@ -231,7 +226,7 @@ fn bores(source: &Source<'_>, train: &mut Train) {
         let Some(component) = source.model.component(gear.id) else {
             continue;
         };
-        let on = |id: i64| train.shafts.iter().position(|s| s.id == id);
+        let on = |id: i64| train.shafts.place(id);
         let place = on(seated.shaft);
         // A gear that turns loose is as wide inside as the shaft that carries it.
         let carrier = place.and_then(|i| train.shafts[i].hub_on).map_or(place, on);

@@ -7,7 +7,7 @@ use crate::source::Source;
 use crate::structure::Structure;
 use crate::train::Train;
 use crate::units::{DEG, MM};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, VecDeque};
 
 /// Places of shafts without vectors, from those of their mates: centre distance and angle of the stage.
 ///
@@ -18,7 +18,9 @@ pub fn place_shafts(
     structure: &Structure,
     train: &mut Train,
 ) -> Result<(), RexsError> {
-    let stages = structure.stages();
+    let stages: HashMap<[i64; 2], i64> = (structure.stages().iter().rev())
+        .map(|s| (s.gears, s.id))
+        .collect();
     if let Some(first) = train.shafts.first_mut().filter(|s| s.frame.is_none()) {
         first.frame = Some(Frame::WORLD);
         if let Some(component) = source.model.component(first.id) {
@@ -29,10 +31,42 @@ pub fn place_shafts(
             );
         }
     }
-    let mut has_news = true;
-    while has_news {
-        has_news = follow_hubs(train);
-        for mesh in 0..train.meshes.len() {
+    let mut meshes_of: HashMap<i64, Vec<usize>> = HashMap::new();
+    for (i, mesh) in train.meshes.iter().enumerate() {
+        for gear in mesh.gears {
+            meshes_of
+                .entry(train.gears[gear].shaft)
+                .or_default()
+                .push(i);
+        }
+    }
+    let mut hubs_of: HashMap<i64, Vec<i64>> = HashMap::new();
+    for shaft in train.shafts.iter() {
+        if let Some(carrier) = shaft.hub_on {
+            hubs_of.entry(carrier).or_default().push(shaft.id);
+        }
+    }
+    let known = train.shafts.iter().filter(|s| s.frame.is_some());
+    let mut queue: VecDeque<i64> = known.map(|s| s.id).collect();
+    let mut open = 0;
+    loop {
+        let Some(placed) = queue.pop_front() else {
+            // The next one of which nothing tells a place.
+            let rest = &mut train.shafts[open..];
+            let Some(next) = rest.iter().position(|s| s.frame.is_none()) else {
+                return Ok(());
+            };
+            open += next;
+            train.shafts[open].frame = Some(Frame::WORLD);
+            let id = train.shafts[open].id;
+            queue.push_back(id);
+            if let Some(component) = source.model.component(id) {
+                source.assume(component, About::Place, "neither a support_vector nor a stage that tells its place: the origin, along x");
+            }
+            continue;
+        };
+        follow_hubs(train, &hubs_of, placed, &mut queue);
+        for &mesh in meshes_of.get(&placed).into_iter().flatten() {
             let gears = train.meshes[mesh].gears.map(|g| train.gears[g].clone());
             let frames = [0, 1].map(|i| train.shaft(gears[i].shaft).and_then(|s| s.frame));
             let (known, open) = match frames {
@@ -41,10 +75,7 @@ pub fn place_shafts(
                 _ => continue,
             };
             let ids = [gears[0].gear.id, gears[1].gear.id];
-            let stage = stages
-                .iter()
-                .find(|s| s.gears == ids)
-                .and_then(|s| source.model.component(s.id));
+            let stage = stages.get(&ids).and_then(|&id| source.model.component(id));
             let Some(stage) = stage else { continue };
             let sum = gears[0].gear.reference_diameter_mm() + gears[1].gear.reference_diameter_mm();
             let distance = source
@@ -71,42 +102,33 @@ pub fn place_shafts(
                     origin_mm: origin,
                     axes: frame.axes,
                 });
-                has_news = true;
+                queue.push_back(id);
             }
             if let Some(component) = source.model.component(id) {
                 source.assume(component, About::Place, format!("no support_vector given: {distance} mm from its mate at {angle} deg, faces in the middle of each other"));
             }
         }
-        if !has_news && let Some(open) = train.shafts.iter_mut().find(|s| s.frame.is_none()) {
-            open.frame = Some(Frame::WORLD);
-            if let Some(component) = source.model.component(open.id) {
-                source.assume(component, About::Place, "neither a support_vector nor a stage that tells its place: the origin, along x");
-            }
-            has_news = true;
-        }
     }
-    Ok(())
 }
 
 /// Hubs of loose gears stand where the shafts do that carry them, and the other way round.
-fn follow_hubs(train: &mut Train) -> bool {
-    let mut has_news = false;
-    for i in 0..train.shafts.len() {
-        let Some(carrier) = train.shafts[i].hub_on else {
-            continue;
-        };
-        let known = train.shafts[i].frame;
-        let Some(on) = train.shaft_mut(carrier) else {
-            continue;
-        };
-        match (known, on.frame) {
-            (Some(frame), None) => on.frame = Some(frame),
-            (None, Some(frame)) => train.shafts[i].frame = Some(frame),
-            _ => continue,
+fn follow_hubs(
+    train: &mut Train,
+    hubs_of: &HashMap<i64, Vec<i64>>,
+    placed: i64,
+    queue: &mut VecDeque<i64>,
+) {
+    let Some(shaft) = train.shaft(placed) else {
+        return;
+    };
+    let frame = shaft.frame;
+    let others = hubs_of.get(&placed).into_iter().flatten().copied();
+    for other in others.chain(shaft.hub_on).collect::<Vec<_>>() {
+        if let Some(other) = train.shaft_mut(other).filter(|s| s.frame.is_none()) {
+            other.frame = frame;
+            queue.push_back(other.id);
         }
-        has_news = true;
     }
-    has_news
 }
 
 /// Middles of the faces: programs write the start of the face or its middle as `u_coordinate_on_shaft`; the support vector is
@@ -149,8 +171,21 @@ pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<(), Rexs
             open.push(i);
         }
     }
+    let mut ends: HashMap<i64, f64> = HashMap::new();
+    for seated in train.gears.iter().filter(|g| g.mid_mm.is_finite()) {
+        let end = ends.entry(seated.shaft).or_insert(0.0);
+        *end = end.max(seated.mid_mm + 0.5 * seated.gear.face_width_mm);
+    }
+    let mut meshes_of: HashMap<usize, Vec<usize>> = HashMap::new();
+    for (i, mesh) in train.meshes.iter().enumerate() {
+        let gears = mesh.gears.into_iter();
+        gears.for_each(|gear| meshes_of.entry(gear).or_default().push(i));
+    }
     for i in open {
-        let (mid_mm, words) = free_place(train, &frames, i);
+        let mine = meshes_of.get(&i).map_or(&[][..], Vec::as_slice);
+        let end = ends.entry(train.gears[i].shaft).or_insert(0.0);
+        let (mid_mm, words) = free_place(train, &frames, i, mine, *end);
+        *end = end.max(mid_mm + 0.5 * train.gears[i].gear.face_width_mm);
         train.gears[i].mid_mm = mid_mm;
         if let Some(component) = source.model.component(train.gears[i].gear.id) {
             let what = format!(
@@ -163,11 +198,17 @@ pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<(), Rexs
 }
 
 /// A place for a gear that has none: beside its mate, else behind the other gears of its shaft, from u = 0 on.
-fn free_place(train: &Train, frames: &BTreeMap<i64, Frame>, i: usize) -> (f64, &'static str) {
+fn free_place(
+    train: &Train,
+    frames: &BTreeMap<i64, Frame>,
+    i: usize,
+    meshes: &[usize],
+    end_mm: f64,
+) -> (f64, &'static str) {
     let own = &train.gears[i];
-    let mates = train.meshes.iter().filter(|m| m.gears.contains(&i));
-    let mut known = mates.filter_map(|m| {
-        let mate = &train.gears[m.gears[usize::from(m.gears[0] == i)]];
+    let mut known = meshes.iter().filter_map(|&mesh| {
+        let gears = train.meshes[mesh].gears;
+        let mate = &train.gears[gears[usize::from(gears[0] == i)]];
         let (there, here) = (frames.get(&mate.shaft)?, frames.get(&own.shaft)?);
         let point = there.point([mate.mid_mm, 0.0, 0.0]);
         mate.mid_mm.is_finite().then(|| here.u_of(point))
@@ -175,11 +216,6 @@ fn free_place(train: &Train, frames: &BTreeMap<i64, Frame>, i: usize) -> (f64, &
     if let Some(u) = known.next() {
         return (u, "its face in the middle of its mate's");
     }
-    let beside = train.gears.iter().filter(|g| g.shaft == own.shaft);
-    let placed = beside.filter(|g| g.mid_mm.is_finite());
-    let start = placed
-        .map(|g| g.mid_mm + 0.5 * g.gear.face_width_mm)
-        .fold(0.0, f64::max);
     let words = "its face behind those of the other gears there, or from u = 0 on";
-    (start + 0.5 * own.gear.face_width_mm, words)
+    (end_mm + 0.5 * own.gear.face_width_mm, words)
 }

@@ -4,6 +4,7 @@
 use crate::error::RexsError;
 use crate::ledger::{About, Ledger};
 use crate::model::{Component, Model};
+use std::collections::HashMap;
 
 /// Types that were renamed: old, new, version of the new one.
 const KINDS: [(&str, &str, &str); 3] = [
@@ -295,16 +296,16 @@ pub fn bring_up_to_date(model: &mut Model, ledger: &mut Ledger) -> Result<(), Re
         let cases = s.cases.iter_mut().flat_map(|c| c.components.iter_mut());
         cases.chain(s.accumulation.iter_mut())
     });
-    let kinds: Vec<(i64, String)> = model
+    let kinds: HashMap<i64, String> = model
         .components
         .iter()
+        .rev()
         .map(|c| (c.id, c.kind.clone()))
         .collect();
     for component in spectra {
         // In a load case the type may be left out: the number says which component it is.
         if component.kind.is_empty() {
-            let found = kinds.iter().find(|(id, _)| *id == component.id);
-            component.kind = found.map_or_else(String::new, |(_, kind)| kind.clone());
+            component.kind = kinds.get(&component.id).cloned().unwrap_or_default();
         }
         rename(component);
     }
@@ -317,7 +318,10 @@ fn rename(component: &mut Component) {
         (*new).clone_into(&mut component.kind);
     }
     for (kind, old, new, _) in ATTRIBUTES {
-        if !component.kind.contains(kind) || component.attribute(new).is_some() {
+        if !component.kind.contains(kind)
+            || component.attribute(old).is_none()
+            || component.attribute(new).is_some()
+        {
             continue;
         }
         for attribute in component.attributes.iter_mut().filter(|a| a.id == old) {

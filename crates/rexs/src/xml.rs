@@ -31,6 +31,7 @@ pub fn read(text: &str) -> Result<Model, RexsError> {
             "the outermost element of a REXS file is <model>".to_owned(),
         ));
     }
+    let lines = Lines::of(text);
     let mut model = Model {
         version: root.attribute("version").unwrap_or_default().to_owned(),
         application: words(&[
@@ -45,18 +46,18 @@ pub fn read(text: &str) -> Result<Model, RexsError> {
                 for child in elements(node) {
                     match child.tag_name().name() {
                         "relation" => model.relations.push(relation(&child)?),
-                        _ => model.unknown.push(unknown(&child)),
+                        _ => model.unknown.push(unknown(&child, &lines)),
                     }
                 }
             }
             "components" => model
                 .components
-                .extend(components(node, &mut model.unknown)?),
+                .extend(components(node, &lines, &mut model.unknown)?),
             "load_spectrum" => {
-                let found = spectrum(&node, &mut model.unknown)?;
+                let found = spectrum(&node, &lines, &mut model.unknown)?;
                 model.spectra.push(found);
             }
-            _ => model.unknown.push(unknown(&node)),
+            _ => model.unknown.push(unknown(&node, &lines)),
         }
     }
     Ok(model)
@@ -127,12 +128,28 @@ fn wrong(node: &Node<'_, '_>, what: String) -> RexsError {
     )
 }
 
-fn unknown(node: &Node<'_, '_>) -> String {
+fn unknown(node: &Node<'_, '_>, lines: &Lines) -> String {
     format!(
         "element <{}> in line {}",
         node.tag_name().name(),
-        line(node)
+        lines.at(node)
     )
+}
+
+/// Where each line ends: the parser itself counts from the beginning of the text for each place that it is asked for.
+struct Lines(Vec<usize>);
+
+impl Lines {
+    fn of(text: &str) -> Self {
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        Self(ends.map(|(at, _)| at).collect())
+    }
+
+    /// The line of a node, from 1.
+    fn at(&self, node: &Node<'_, '_>) -> u32 {
+        let start = node.range().start;
+        self.0.partition_point(|end| *end < start) as u32 + 1
+    }
 }
 
 /// Texts with a space between, without empty ones.
@@ -179,19 +196,23 @@ fn relation(node: &Node<'_, '_>) -> Result<Relation, RexsError> {
     })
 }
 
-fn components(node: Node<'_, '_>, unread: &mut Vec<String>) -> Result<Vec<Component>, RexsError> {
+fn components(
+    node: Node<'_, '_>,
+    lines: &Lines,
+    unread: &mut Vec<String>,
+) -> Result<Vec<Component>, RexsError> {
     let mut found = Vec::new();
     for child in elements(node) {
         if child.tag_name().name() != "component" {
-            unread.push(unknown(&child));
+            unread.push(unknown(&child, lines));
             continue;
         }
         let mut attributes = Vec::new();
         for a in elements(child) {
             if a.tag_name().name() == "attribute" {
-                attributes.push(attribute(&a)?);
+                attributes.push(attribute(&a, lines)?);
             } else {
-                unread.push(unknown(&a));
+                unread.push(unknown(&a, lines));
             }
         }
         found.push(Component {
@@ -212,7 +233,7 @@ fn components(node: Node<'_, '_>, unread: &mut Vec<String>) -> Result<Vec<Compon
     Ok(found)
 }
 
-fn attribute(node: &Node<'_, '_>) -> Result<Attribute, RexsError> {
+fn attribute(node: &Node<'_, '_>, lines: &Lines) -> Result<Attribute, RexsError> {
     let Some(id) = node.attribute("id") else {
         return Err(wrong(
             node,
@@ -241,7 +262,7 @@ fn attribute(node: &Node<'_, '_>) -> Result<Attribute, RexsError> {
         id: id.trim().to_owned(),
         unit: node.attribute("unit").unwrap_or_default().trim().to_owned(),
         value,
-        line: Some(line(node)),
+        line: Some(lines.at(node)),
     })
 }
 
@@ -312,7 +333,11 @@ pub fn decoded(code: &str, text: &str) -> Result<Vec<String>, String> {
     Ok(bytes.chunks_exact(width).map(one).collect())
 }
 
-fn spectrum(node: &Node<'_, '_>, unread: &mut Vec<String>) -> Result<LoadSpectrum, RexsError> {
+fn spectrum(
+    node: &Node<'_, '_>,
+    lines: &Lines,
+    unread: &mut Vec<String>,
+) -> Result<LoadSpectrum, RexsError> {
     let mut found = LoadSpectrum {
         id: number(node, "id").unwrap_or(1),
         cases: Vec::new(),
@@ -322,10 +347,10 @@ fn spectrum(node: &Node<'_, '_>, unread: &mut Vec<String>) -> Result<LoadSpectru
         match child.tag_name().name() {
             "load_case" => found.cases.push(LoadCase {
                 id: number(&child, "id")?,
-                components: components(child, unread)?,
+                components: components(child, lines, unread)?,
             }),
-            "accumulation" => found.accumulation = components(child, unread)?,
-            _ => unread.push(unknown(&child)),
+            "accumulation" => found.accumulation = components(child, lines, unread)?,
+            _ => unread.push(unknown(&child, lines)),
         }
     }
     Ok(found)

@@ -210,6 +210,19 @@ fn circles() {
     let text = changed(&small(), "name=\"one\">", &by(3));
     let text = changed(&text, "name=\"two\">", &by(2));
     refused(&text, &["place is given from each other", "one", "two"]);
+    // From itself, too.
+    let text = changed(
+        &small(),
+        "name=\"two\">",
+        &by(3).replace("\"one\"", "\"two\""),
+    );
+    refused(
+        &text,
+        &[
+            "place is given from each other",
+            "shaft 3 `two` > shaft 3 `two`",
+        ],
+    );
 }
 
 /// Cut anywhere, and with any byte of the head changed: an error or an import, no panic.

@@ -7,6 +7,7 @@ mod bevel_force;
 mod containers;
 mod dialects;
 mod incomplete;
+mod large_files;
 mod loose_gears;
 mod lost_loads;
 mod other_gearboxes;

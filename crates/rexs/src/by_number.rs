@@ -1,0 +1,63 @@
+//! Parts of a train that are found by the number of their component.
+
+use std::collections::HashMap;
+use std::ops::{Deref, DerefMut};
+
+/// What has the number of a component.
+pub trait Numbered {
+    /// The component.
+    fn id(&self) -> i64;
+}
+
+/// A list in the order of the file, whose parts are found by number; numbers stand once.
+#[derive(Debug, Clone)]
+pub struct ByNumber<T> {
+    list: Vec<T>,
+    places: HashMap<i64, usize>,
+}
+
+impl<T> Default for ByNumber<T> {
+    fn default() -> Self {
+        Self {
+            list: Vec::new(),
+            places: HashMap::new(),
+        }
+    }
+}
+
+impl<T: Numbered> ByNumber<T> {
+    /// Adds a part.
+    pub fn push(&mut self, part: T) {
+        self.places.entry(part.id()).or_insert(self.list.len());
+        self.list.push(part);
+    }
+
+    /// Place of a part in the list.
+    pub fn place(&self, id: i64) -> Option<usize> {
+        self.places.get(&id).copied()
+    }
+
+    /// Keeps some.
+    pub fn retain(&mut self, wanted: impl FnMut(&T) -> bool) {
+        self.list.retain(wanted);
+        self.places.clear();
+        for (place, part) in self.list.iter().enumerate() {
+            self.places.entry(part.id()).or_insert(place);
+        }
+    }
+}
+
+impl<T> Deref for ByNumber<T> {
+    type Target = [T];
+
+    fn deref(&self) -> &[T] {
+        &self.list
+    }
+}
+
+/// Numbers are not to be changed by it.
+impl<T> DerefMut for ByNumber<T> {
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.list
+    }
+}
