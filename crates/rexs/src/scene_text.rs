@@ -145,7 +145,7 @@ fn shaft_table(
         quoted(&shaft.name),
         numbers(&frame.origin_mm),
         numbers(&axis),
-        numbers(&stations),
+        numbers(stations),
         numbers(&outer)
     ));
     if inner.iter().any(|d| *d > 0.0) {
