@@ -27,6 +27,7 @@ pub mod overlay;
 pub mod page;
 pub mod pair_orders;
 mod peak_view;
+mod printable;
 pub mod quantity;
 mod ratings;
 pub mod record;
@@ -45,6 +46,7 @@ pub use comparison::{
 };
 pub use comparison_table::comparison_table;
 pub use pair_orders::{PairOrders, Shaft};
+pub use printable::printable;
 pub use quantity::{Quantity, Unit};
 pub use record::{RecordColumn, RecordError, RecordKind, RecordUncertainty, ReferenceRecord};
 pub use short_number::{short, usual_unit};

@@ -251,11 +251,7 @@ fn the_reference_is_refined_until_its_last_step_is_small() {
     let folder = tempfile::tempdir().unwrap();
     let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models/bevel_13_35.toml");
     std::fs::copy(shipped, folder.path().join("scene.toml")).unwrap();
-    let found = found_in(
-        folder.path(),
-        &["te_peak_to_peak_urad", "te_harmonic_1_urad"],
-    )
-    .unwrap();
+    let found = found_in(folder.path(), &["ellipse_half_length_largest_mm"]).unwrap();
     let [knob] = &found.knobs[..] else {
         unreachable!("{:?}", found.knobs)
     };

@@ -60,7 +60,7 @@ fn static_loads_are_those_of_iso_76() {
         1e-12,
     );
     close(equivalent(ROLLERS, [700.0, 0.0, 0.0]), 700.0, 1e-12);
-    let flat = definition(&B218.replace("40.0", "10.0"));
+    let flat = definition(&B218.replace("40.0", "4.0"));
     let ratings = Ratings::of(&flat);
     assert_eq!(StaticSafety::of(&flat, &ratings, [1.0; 3]), None);
 }

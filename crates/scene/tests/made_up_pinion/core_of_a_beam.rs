@@ -230,8 +230,7 @@ fn a_core_that_is_a_beam_carries_as_the_shaft_going_through() {
     for text in ways {
         let found = result(&text, &cut, folder.path());
         // In time from there, nothing moves.
-        let run =
-            "kind = \"transient\"\nend_s = 1e-3\n[solver]\nstep_s = 1e-5\nstart = \"equilibrium\"";
+        let run = "kind = \"transient\"\nend_s = 1e-3\n[solver]\nstep_s = 1e-5\nstart = \"equilibrium\"\n[output]\ninterval_s = 1e-4";
         let in_time = text.replace("kind = \"static\"", run);
         let in_time = result(&in_time, &cut, folder.path());
         let loads = line_loads(&found);
