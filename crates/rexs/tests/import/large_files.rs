@@ -174,7 +174,10 @@ fn a_train_of_many_stages() {
     file.components
         .push_str("<component id=\"0\" type=\"gear_casing\" name=\"casing\"></component>\n");
     file.load(shafts[0], 1.0);
-    file.load(shafts[count - 1], if count.is_multiple_of(2) { 1.0 } else { -1.0 });
+    file.load(
+        shafts[count - 1],
+        if count.is_multiple_of(2) { 1.0 } else { -1.0 },
+    );
     let made = file.read("a train of many stages");
     assert_eq!(made.sheets[0].meshes.len(), count - 1);
 }
