@@ -145,7 +145,7 @@ fn bearings_tell_their_loss() {
     fs::write(&file, rubs).unwrap();
     let result = run(SHAFT);
     let losses = result.power_losses().unwrap().unwrap();
-    let torque = result.rows.read("elements/ball_bearing/friction_torque_Nm");
+    let torque = result.rows.read("elements/ball bearing/friction_torque_Nm");
     let torque = torque.unwrap()[0];
     // At least the seals and 1e-7 f0 (νn)^⅔ d_m³; both turn at 100 π rad/s.
     let least = 0.02 + 1e-10 * 2.0 * 90_000_f64.powf(2.0 / 3.0) * 39.04_f64.powi(3);
