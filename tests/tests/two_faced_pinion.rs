@@ -1,5 +1,6 @@
-//! A pinion cut into its shaft, taken with its frame on its back face: compliance and natural frequencies against one finite element model that is held
-//! at the back face, its front face rigid and free. Both are the same body, reached by another way.
+//! A pinion cut into its shaft, taken with its frame on its back face: compliance and natural frequencies against one
+//! finite element model that is held at the back face, its front face rigid and free. Both are the same body, reached
+//! by another way.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use gearmesh_drivetrain::GearOnFaces;

@@ -1,8 +1,10 @@
-//! The equilibrium of one barrel roller between groove and sphere, lamina by lamina, in the axial plane of the inner ring.
+//! The equilibrium of one barrel roller between groove and sphere, lamina by lamina, in the axial plane of the inner
+//! ring.
 //!
-//! Three unknowns: the place (r, z) of its middle and the tilt φ from r towards z. Each lamina is a circle about the roller's axis: its
-//! outermost point meets the sphere, its innermost the groove. Forces have a potential, whose least value is sought. The centrifugal force is left
-//! out: it is small in these slow bearings, and a roller that nothing else presses would slide to the guide between the rows, which is not modelled.
+//! Three unknowns: the place (r, z) of its middle and the tilt φ from r towards z. Each lamina is a circle about the
+//! roller's axis: its outermost point meets the sphere, its innermost the groove. Forces have a potential, whose least
+//! value is sought. The centrifugal force is left out: it is small in these slow bearings, and a roller that nothing
+//! else presses would slide to the guide between the rows, which is not modelled.
 
 use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
 
@@ -20,7 +22,8 @@ const MOST_ITERATIONS: usize = 200;
 /// One roller at its angle.
 pub(crate) struct Barrel<'a> {
     pub row: &'a BarrelRow,
-    /// Middle of the sphere in the roller's axes: away from the ring's axis, in the sense of turning, along the ring's axis.
+    /// Middle of the sphere in the roller's axes: away from the ring's axis, in the sense of turning, along the ring's
+    /// axis.
     pub sphere: Vector3<f64>,
     pub number: usize,
     pub angle_rad: f64,
@@ -48,7 +51,8 @@ struct Point {
 }
 
 impl State {
-    /// Adds a contact of the load `load` and slope `slope` along the normal n of a surface whose centre is at the distance `distance`.
+    /// Adds a contact of the load `load` and slope `slope` along the normal n of a surface whose centre is at the
+    /// distance `distance`.
     fn add(&mut self, point: &Point, n: &Vector2<f64>, (load, slope): (f64, f64), distance: f64) {
         let moves = Matrix2x3::new(1.0, 0.0, point.by_tilt[0], 0.0, 1.0, point.by_tilt[1]);
         let along = moves.tr_mul(n);
@@ -198,7 +202,8 @@ impl Barrel<'_> {
         })
     }
 
-    /// Equilibrium: the load, the force on the sphere in the roller's axes and its change with the sphere's middle, the roller following.
+    /// Equilibrium: the load, the force on the sphere in the roller's axes and its change with the sphere's middle, the
+    /// roller following.
     pub fn rest(
         &self,
         found: &mut ElementPlace,

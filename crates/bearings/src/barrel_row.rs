@@ -1,8 +1,10 @@
-//! A row of barrel rollers between the inner ring's groove and the sphere inside the outer ring: half a spherical roller bearing.
+//! A row of barrel rollers between the inner ring's groove and the sphere inside the outer ring: half a spherical
+//! roller bearing.
 //!
-//! Rollers and cage tilt with the inner ring, so that everything is told in its axes: each roller stays in an axial plane of the inner ring, and
-//! the outer ring is a sphere of which only the middle counts. All forces of the outer ring go through that middle; the bearing resists no tilt about
-//! it. Formulas (22) to (24) of docs/theory/rolling_bearings.md.
+//! Rollers and cage tilt with the inner ring, so that everything is reported in its axes: each roller stays in an axial
+//! plane of the inner ring, and the outer ring is a sphere of which only the middle counts. All forces of the outer
+//! ring go through that middle; the bearing resists no tilt about it. Formulas (22) to (24) of
+//! docs/theory/rolling_bearings.md.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -53,8 +55,8 @@ pub struct BarrelRow {
     pub contacts: [LineContact; 2],
 }
 
-/// The least turn that takes the axis z to the ring's axis a, and how the ring's frame turns with a rotation of the ring about fixed axes: by W δφ,
-/// W = P − a (e_z P)/(1 + a_z), P = 1 − a aᵀ.
+/// The least turn that takes the axis z to the ring's axis a, and how the ring's frame turns with a rotation of the
+/// ring about fixed axes: by W δφ, W = P − a (e_z P)/(1 + a_z), P = 1 − a aᵀ.
 pub(crate) fn least_turn(a: &Vector3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
     let share = 1.0 / (1.0 + a.z);
     let turn = Matrix3::new(
@@ -74,8 +76,8 @@ pub(crate) fn least_turn(a: &Vector3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
 }
 
 impl BarrelRow {
-    /// Adds what the row does to the ring, and hands every roller's load to `each`. The search of each roller begins at its place in the inner
-    /// ring's axes, which it leaves where it ends.
+    /// Adds what the row does to the ring, and hands every roller's load to `each`. The search of each roller begins at
+    /// its place in the inner ring's axes, which it leaves where it ends.
     ///
     /// # Errors
     /// [`BearingError::NoRollerEquilibrium`].

@@ -76,7 +76,8 @@ impl BearingGeometry {
 }
 
 impl BearingGeometry {
-    /// Whether it is a deep-groove, angular-contact, cylindrical or tapered roller bearing: those that fits, friction and faults are known of.
+    /// Whether it is a deep-groove, angular-contact, cylindrical or tapered roller bearing: those that fits, friction
+    /// and faults are known of.
     #[must_use]
     pub fn is_classic(&self) -> bool {
         match self {
@@ -96,7 +97,7 @@ pub enum BallBearingKind {
     DeepGroove,
     /// Bears axial loads one way.
     AngularContact,
-    /// Grooves of two arcs each, which a ball touches at four points; bears axial loads both ways.
+    /// Grooves of two arcs each, which a ball touches at four points; carries axial loads both ways.
     FourPoint {
         /// Play of the inner ring across the axis from one side to the other; negative: interference \[m\].
         clearance_m: f64,
@@ -120,8 +121,8 @@ pub struct BallGeometry {
     pub inner_conformity: f64,
     /// f_o = r_o/D.
     pub outer_conformity: f64,
-    /// α₀: that of a ball which just touches both grooves, the rings moved apart along the axis; of a four-point bearing that of a ball which just touches all
-    /// four arcs \[rad\].
+    /// α₀: that of a ball which just touches both grooves, the rings moved apart along the axis; of a four-point
+    /// bearing that of a ball which just touches all four arcs \[rad\].
     pub free_angle_rad: f64,
     /// By how much the balls of a deep-groove bearing are too large for its rings, across the axis from one side to the other; 0 where there is play \[m\].
     pub interference_m: f64,
@@ -147,8 +148,8 @@ impl BallGeometry {
             - self.interference_m
     }
 
-    /// 1 − P_d/(2A): the cosine of the free contact angle, above 1 with interference; of a four-point bearing cos α − P_d/(2A). With A it gives how far
-    /// the circles of the grooves' centres stand from each other across the axis.
+    /// 1 − P_d/(2A): the cosine of the free contact angle, above 1 with interference; of a four-point bearing cos α −
+    /// P_d/(2A). With A it gives how far the circles of the grooves' centres stand from each other across the axis.
     #[must_use]
     pub fn groove_cosine(&self) -> f64 {
         if let BallBearingKind::FourPoint { clearance_m } = self.kind {
@@ -192,8 +193,8 @@ pub struct RollerGeometry {
     pub laminae: usize,
 }
 
-/// What makes a spherical roller bearing: barrels in the groove of the inner ring and the sphere of the outer one, whose radius follows from
-/// pitch diameter, roller and contact angle.
+/// What makes a spherical roller bearing: barrels in the groove of the inner ring and the sphere of the outer one,
+/// whose radius follows from pitch diameter, roller and contact angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BarrelShape {
     /// α \[rad\].

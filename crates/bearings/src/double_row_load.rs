@@ -1,4 +1,5 @@
-//! The equivalent load of ISO 281 for two rows of angular contact, of tapered rollers or of barrels that bear axial loads both ways.
+//! The equivalent load of ISO 281 for two rows of angular contact, of tapered rollers or of barrels that carry axial
+//! loads both ways.
 
 use crate::definition::{Arrangement, BallBearingKind, BearingDefinition, BearingGeometry};
 
@@ -12,8 +13,8 @@ const ANGULAR_CONTACT: [[f64; 5]; 6] = [
     [45.0, 0.47, 0.54, 0.81, 1.34],
 ];
 
-/// P = F_r + Y₁ F_a up to F_a = e F_r, X₂ F_r + Y₂ F_a above; rollers Y₁ = 0.45 cot α, X₂ = 0.67, Y₂ = 0.67 cot α, e = 1.5 tan α. None for tandem rows and
-/// angles that the standard does not list.
+/// P = F_r + Y₁ F_a up to F_a = e F_r, X₂ F_r + Y₂ F_a above; rollers Y₁ = 0.45 cot α, X₂ = 0.67, Y₂ = 0.67 cot α, e =
+/// 1.5 tan α. None for tandem rows and angles that the standard does not list.
 pub(crate) fn equivalent_of_two_rows_n(
     definition: &BearingDefinition,
     (radial_n, axial_n): (f64, f64),

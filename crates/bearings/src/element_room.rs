@@ -1,8 +1,10 @@
-//! What can be built between bore, outside diameter and width: how wide a bearing is, which elements go in, which ratings they reach.
+//! What can be built between bore, outside diameter and width: how wide a bearing is, which elements go in, which
+//! ratings they reach.
 //!
-//! Rings need a twentieth of D_a − d on either side of the elements, balls no more than the width, between washers and as rollers nine tenths of it. Widths
-//! lie between those of the dimension series of ISO 15 (radial), ISO 104 (thrust) and ISO 355 (tapered) with a margin. Ratings reach from those of half the
-//! usual number of elements of half the usual size to those of the largest elements that go in, with a margin for makers' figures.
+//! Rings need a twentieth of D_a − d on either side of the elements, balls no more than the width, between washers and
+//! as rollers nine tenths of it. Widths lie between those of the dimension series of ISO 15 (radial), ISO 104 (thrust)
+//! and ISO 355 (tapered) with a margin. Ratings reach from those of half the usual number of elements of half the usual
+//! size to those of the largest elements that go in, with a margin for makers' figures.
 //! docs/theory/rolling_bearings.md.
 
 use std::f64::consts::PI;
@@ -25,8 +27,8 @@ const RATING_MARGIN: f64 = 1.3;
 /// Largest arc that the balls of a deep-groove bearing fill when it is assembled with the inner ring aside.
 const ASSEMBLY_ARC_DEG: f64 = 195.0;
 
-/// Most elements that go in, a real number: balls of a deep-groove bearing are filled in with the inner ring aside, cages of the others need some of the
-/// circle.
+/// Most elements that go in, a real number: balls of a deep-groove bearing are filled in with the inner ring aside,
+/// cages of the others need some of the circle.
 pub(crate) fn most_elements(kind: CatalogueType, diameter_m: f64, pitch_m: f64) -> f64 {
     let ratio = diameter_m / pitch_m;
     if ratio >= 1.0 {
@@ -105,7 +107,8 @@ impl ElementRoom {
     }
 }
 
-/// What cannot be built: a key of the file (in `[ratings]` where that is said), what is allowed in the key's unit, and why.
+/// What cannot be built: a key of the file (in `[ratings]` where that is said), what is allowed in the key's unit, and
+/// why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NoRoom {
     /// Key.
@@ -130,7 +133,8 @@ fn short(value: f64) -> String {
 }
 
 impl CatalogueLine {
-    /// Narrowest and widest bearings of the series over (D_a − d)/2, with a margin of about a fifth: ISO 15 (ISO 355 for tapered ones).
+    /// Narrowest and widest bearings of the series over (D_a − d)/2, with a margin of about a fifth: ISO 15 (ISO 355
+    /// for tapered ones).
     fn widths_over_height(&self) -> ([f64; 2], &'static str) {
         match self.kind {
             CatalogueType::DeepGroove

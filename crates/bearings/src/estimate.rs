@@ -1,9 +1,10 @@
 //! What is inside a bearing of which only the catalogue's line is known: an estimate, with its spread.
 //!
 //! Number Z and size of the elements are those that fit best, in logarithms and each in terms of its own scatter: C by ISO 281, C₀ by
-//! ISO 76, and the usual share of the section that the elements fill; without ratings the usual share of the circle, too. Numbers that cannot
-//! be assembled and sizes that do not go into the section are left out; what is known of the inside is kept. The spread is the range of all
-//! numbers whose misfit is at most 4 above the least (two standard deviations), without ratings widened by the scatter of the usual shares. docs/theory/rolling_bearings.md.
+//! ISO 76, and the usual share of the section that the elements fill; without ratings the usual share of the circle,
+//! too. Numbers that cannot be assembled and sizes that do not go into the section are left out; what is known of the
+//! inside is kept. The spread is the range of all numbers whose misfit is at most 4 above the least (two standard
+//! deviations), without ratings widened by the scatter of the usual shares. docs/theory/rolling_bearings.md.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -19,7 +20,7 @@ const SCATTER_STATIC: f64 = 0.04;
 /// Scatter of the number of elements about the usual share of those that go in; used where no ratings are known.
 const SCATTER_NUMBER: f64 = 0.08;
 
-/// Misfits beyond so many standard deviations are told.
+/// Misfits beyond so many standard deviations are reported.
 const POOR: f64 = 2.0;
 
 /// Usual designs of today: assumptions, with the scatters beside them.
@@ -78,7 +79,8 @@ pub struct Estimate {
     pub dynamic_ratio: f64,
     /// C₀ by ISO 76 of the estimate over the catalogue's; 1 where that is not known.
     pub static_ratio: f64,
-    /// Where the line fits no usual design well: by how much each of its figures is missed, and which sizes they ask for.
+    /// Where the line fits no usual design well: by how much each of its figures is missed, and which sizes they ask
+    /// for.
     pub poor_fit: Option<String>,
 }
 

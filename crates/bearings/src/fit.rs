@@ -1,7 +1,7 @@
 //! Fits and heat: from the clearance of a bearing on the shelf to that of a bearing in operation.
 //!
-//! Rings, shaft and housing are cylinders in plane stress (Lamé); a ring's raceway is the cylinder of its diameter at the groove's bottom or the
-//! roller's middle. Formulas (F1) to (F3) of docs/theory/rolling_bearings.md.
+//! Rings, shaft and housing are cylinders in plane stress (Lamé); a ring's raceway is the cylinder of its diameter at
+//! the groove's bottom or the roller's middle. Formulas (F1) to (F3) of docs/theory/rolling_bearings.md.
 
 use crate::build_rows::half_taper_rad;
 use crate::definition::{BearingDefinition, BearingGeometry};
@@ -12,7 +12,8 @@ use crate::quasi_static::Row;
 pub struct Seat {
     /// By how much the diameters of ring and seat overlap at 20 °C; negative: loose \[m\].
     pub interference_m: f64,
-    /// The diameter that the ring does not touch: bore of the shaft, 0 where it is solid, or outside diameter of the housing \[m\].
+    /// The diameter that the ring does not touch: bore of the shaft, 0 where it is solid, or outside diameter of the
+    /// housing \[m\].
     pub far_diameter_m: f64,
     /// E \[Pa\].
     pub young_pa: f64,
@@ -54,7 +55,8 @@ pub struct SeatInOperation {
     pub interference_m: f64,
     /// Pressure between ring and seat; 0 where the ring is loose \[Pa\].
     pub pressure_pa: f64,
-    /// Largest stress round the ring: tension at the bore of an inner, compression at the raceway of an outer one \[Pa\].
+    /// Largest stress round the ring: tension at the bore of an inner, compression at the raceway of an outer one
+    /// \[Pa\].
     pub hoop_stress_pa: f64,
     /// Change of the raceway's diameter by the pressure \[m\].
     pub raceway_m: f64,
@@ -129,13 +131,14 @@ impl OperatingClearance {
     }
 }
 
-/// Ratio (b² + a²)/(b² − a²) of a cylinder between the diameters a < b, whose pressed surface widens by p d (ratio ± ν)/E.
+/// Ratio (b² + a²)/(b² − a²) of a cylinder between the diameters a < b, whose pressed surface widens by p d (ratio ±
+/// ν)/E.
 fn ratio(a: f64, b: f64) -> f64 {
     (b * b + a * a) / (b * b - a * a)
 }
 
-/// What a seat presses into or out of a ring between its seated diameter and its raceway. `sense` is 1 for the inner ring round a shaft, −1 for the outer
-/// ring in a housing.
+/// What a seat presses into or out of a ring between its seated diameter and its raceway. `sense` is 1 for the inner
+/// ring round a shaft, −1 for the outer ring in a housing.
 fn seated(
     seat: &Seat,
     (seated_m, raceway_m): (f64, f64),
@@ -164,7 +167,8 @@ fn seated(
     }
 }
 
-/// Diameters of the raceways, inner and outer: of grooves at their bottoms, of tapered races at the rollers' middle \[m\].
+/// Diameters of the raceways, inner and outer: of grooves at their bottoms, of tapered races at the rollers' middle
+/// \[m\].
 #[must_use]
 pub fn raceways_m(geometry: &BearingGeometry) -> [f64; 2] {
     match geometry {

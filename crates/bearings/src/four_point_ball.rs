@@ -1,8 +1,10 @@
-//! The equilibrium of one ball between the four arcs of a four-point contact bearing, and what it does to the inner ring.
+//! The equilibrium of one ball between the four arcs of a four-point contact bearing, and what it does to the inner
+//! ring.
 //!
-//! The ball stays in its axial plane and has two unknowns there. Every arc presses it as one groove of `ball_equilibrium.rs` does, or not at
-//! all. The centrifugal force is that of rolling at the nominal angle: with three or four contacts no spin rolls at all of them, and the
-//! gyroscopic moment is left out. Forces have a potential, whose least value is sought.
+//! The ball stays in its axial plane and has two unknowns there. Every arc presses it as one groove of
+//! `ball_equilibrium.rs` does, or not at all. The centrifugal force is that of rolling at the nominal angle: with three
+//! or four contacts no spin rolls at all of them, and the gyroscopic moment is left out. Forces have a potential, whose
+//! least value is sought.
 
 use nalgebra::{Matrix2, Matrix2x6, Matrix3, Matrix3x2, Matrix3x6, Vector2, Vector3};
 
@@ -237,7 +239,7 @@ impl FourPointBall<'_> {
         block += cross(w) * force_follows - turn * (plane * follows);
     }
 
-    /// The side that bears more first.
+    /// The side that carries more first.
     fn report(&self, place: &Vector2<f64>, state: &State) -> ElementLoad {
         let row = self.row;
         let sum = |side: usize| state.inner[side].load + state.outer[side].load;

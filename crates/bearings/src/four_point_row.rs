@@ -1,7 +1,8 @@
 //! A row of balls between grooves of two arcs each: four-point contact bearings.
 //!
-//! Each ring's groove is made of two circular arcs whose centres stand (f − ½) D sin α aside of the middle plane, so that a ball that just
-//! touches all four arcs does so at the angle α. Arcs end where they meet, in the middle plane. docs/theory/rolling_bearings.md.
+//! Each ring's groove is made of two circular arcs whose centres stand (f − ½) D sin α aside of the middle plane, so
+//! that a ball that just touches all four arcs does so at the angle α. Arcs end where they meet, in the middle plane.
+//! docs/theory/rolling_bearings.md.
 
 use nalgebra::Vector3;
 
@@ -74,8 +75,8 @@ impl FourPointRow {
             + operation.outer_rad_per_s * (1.0 + gamma))
     }
 
-    /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at its place, which it
-    /// leaves where it ends.
+    /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at its
+    /// place, which it leaves where it ends.
     ///
     /// # Errors
     /// [`BearingError::NoBallEquilibrium`].

@@ -1,6 +1,6 @@
-//! Friction torque by Palmgren's model as T. A. Harris gives it (*Rolling Bearing Analysis*, chapter on friction): a viscous part that the lubricant makes without
-//! load, a part by the load, and the seals. Formulas (R1) to (R3) of docs/theory/rolling_bearings.md. Lengths in mm, viscosity in mm²/s, speed in rpm inside the
-//! formulas, as published.
+//! Friction torque by Palmgren's model as T. A. Harris gives it (*Rolling Bearing Analysis*, chapter on friction): a
+//! viscous part that the lubricant makes without load, a part by the load, and the seals. Formulas (R1) to (R3) of
+//! docs/theory/rolling_bearings.md. Lengths in mm, viscosity in mm²/s, speed in rpm inside the formulas, as published.
 
 use std::f64::consts::PI;
 

@@ -116,7 +116,7 @@ fn reference_mrev(
             let groove = |f: f64| (2.0 * f - 1.0) / f;
             let grooves = (groove(g.outer_conformity) / groove(g.inner_conformity)).powf(0.41);
             let is_thrust = g.kind == BallBearingKind::Thrust;
-            // Both washers are alike, and all balls bear the same.
+            // Both washers are alike, and all balls carry the same.
             let zone = if is_thrust { 1.0 } else { 1.044 };
             let ratio = zone * ((1.0 - gamma) / (1.0 + gamma)).powf(1.72) * grooves;
             let share = |sign: f64| (1.0 + ratio.powf(sign * 10.0 / 3.0)).powf(0.3);
@@ -219,7 +219,8 @@ fn between<const N: usize>(table: &[[f64; N]], x: f64) -> [f64; N] {
     std::array::from_fn(|i| a[i] + share * (b[i] - a[i]))
 }
 
-/// P = X F_r + Y F_a; none for tandem rows, four-point bearings, thrust bearings with a radial load and angles that ISO 281 does not list.
+/// P = X F_r + Y F_a; none for tandem rows, four-point bearings, thrust bearings with a radial load and angles that ISO
+/// 281 does not list.
 fn equivalent_n(
     definition: &BearingDefinition,
     ratings: &Ratings,

@@ -2,8 +2,9 @@
 //!
 //! Marker A is the outer ring, marker B the inner one, z the axis. Load and tangent are those of [`QuasiStaticBearing`] at the place of B in A, with linear
 //! damping beside it. The speeds that balls feel (centrifugal force, gyroscopic moment) are those of the last accepted step; between steps the cage goes on
-//! at its speed of rolling, (ω_i − ω_o)(1 − γ)/2 seen from the outer ring, so that elements pass. The friction torque of a definition that has one is that of
-//! the loads and speeds of the last accepted step, too, and nothing in the first: M ω/√(ω² + ω₀²) against the turning of the rings.
+//! at its speed of rolling, (ω_i − ω_o)(1 − γ)/2 seen from the outer ring, so that elements pass. The friction torque
+//! of a definition that has one is that of the loads and speeds of the last accepted step, too, and nothing in the
+//! first: M ω/√(ω² + ω₀²) against the turning of the rings.
 
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, Power, View};
 use gearmesh_dynamics::{BodyId, ElementFailure, MarkerPair, RelativeMotion};
@@ -37,8 +38,8 @@ const CREEP_RAD_PER_S: f64 = 0.1;
 /// The bearing as a force element.
 ///
 /// Channels: force and moment on the inner ring (A axes; `force_shaft_x_N` and so on), the force in world axes and across the axis; with
-/// [`Self::with_element_loads`] the load of every ball or roller at both races; of a bearing with friction torque and power loss of the loads and speeds of the
-/// moment.
+/// [`Self::with_element_loads`] the load of every ball or roller at both races; of a bearing with friction torque and
+/// power loss of the loads and speeds of the moment.
 pub struct QuasiStaticElement {
     name: String,
     pair: MarkerPair,
@@ -121,8 +122,8 @@ impl QuasiStaticElement {
         self
     }
 
-    /// Shows friction torque and power loss, if it has them, but lets the rings turn freely: for equilibria, in which a torque about a shaft that turns freely
-    /// would find no counterpart.
+    /// Shows friction torque and power loss, if it has them, but lets the rings turn freely: for equilibria, in which a
+    /// torque about a shaft that turns freely would find no counterpart.
     #[must_use]
     pub fn without_friction_torque(mut self) -> Self {
         if let Some((_, acts)) = &mut self.rubbing {
@@ -131,7 +132,8 @@ impl QuasiStaticElement {
         self
     }
 
-    /// Friction torque at the places of the elements of the last evaluation, and power that it takes; zero where there is none to compute.
+    /// Friction torque at the places of the elements of the last evaluation, and power that it takes; zero where there
+    /// is none to compute.
     fn friction(&mut self, pose: &RingPose, operation: &Operation) -> Option<FrictionTorque> {
         let (definition, _) = self.rubbing.as_ref()?;
         let friction = definition.friction.as_ref()?;

@@ -42,7 +42,8 @@ impl QuasiStaticBearing {
     /// Where the inner ring comes to rest under a load.
     ///
     /// Newton's method with the exact tangent; steps that do not lessen the unbalanced load are turned towards it (Levenberg and
-    /// Marquardt). At speed the loads of the rest position are the start. Self-aligning bearings resist no tilt: they are held without one where none is stated.
+    /// Marquardt). At speed the loads of the rest position are the start. Self-aligning bearings resist no tilt: they
+    /// are held without one where none is stated.
     ///
     /// # Errors
     /// [`BearingError`] where there is none, or a cylindrical roller bearing is loaded along its axis.

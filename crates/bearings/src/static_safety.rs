@@ -42,7 +42,8 @@ const BY_ANGLE: [[f64; 2]; 9] = [
 const BESIDE_DEG: f64 = 0.5;
 
 impl StaticSafety {
-    /// Under a force on the inner ring; none where ISO 76 gives no factors: four-point bearings, thrust bearings with a radial load, contact angles of balls outside 5 to 45 degrees.
+    /// Under a force on the inner ring; none where ISO 76 gives no factors: four-point bearings, thrust bearings with a
+    /// radial load, contact angles of balls outside 5 to 45 degrees.
     #[must_use]
     pub fn of(
         definition: &BearingDefinition,

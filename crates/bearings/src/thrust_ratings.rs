@@ -5,8 +5,9 @@
 //! C_0a = f₀ Z D²,  f₀ D² the load of a ball at 4200 MPa between grooves of 0.54 D
 //! ```
 //!
-//! After Lundberg and Palmgren as ISO/TR 1281-1 has it, λη = 0.9 (1 − ⅓) at 90°: both races are alike, and every ball bears C_a/Z. The formula gives the values of
-//! the table of ISO 281 for 90° (36.7 at D/d_m = 0.01, 73.3 at 0.10). Lengths in mm and forces in N inside.
+//! After Lundberg and Palmgren as ISO/TR 1281-1 has it, λη = 0.9 (1 − ⅓) at 90°: both races are alike, and every ball
+//! carries C_a/Z. The formula gives the values of the table of ISO 281 for 90° (36.7 at D/d_m = 0.01, 73.3 at 0.10).
+//! Lengths in mm and forces in N inside.
 
 use crate::point_contact::{PointContact, contact_modulus_pa};
 

@@ -1,4 +1,5 @@
-//! Where a ring that is held at a large tilt comes to rest: found from the straight ring, the tilt growing step by step.
+//! Where a ring that is held at a large tilt comes to rest: found from the straight ring, the tilt growing step by
+//! step.
 
 use crate::error::BearingError;
 use crate::operation::Operation;
@@ -18,8 +19,8 @@ impl QuasiStaticBearing {
     /// Each step begins where the last two lead on to. A step that finds no equilibrium is shortened.
     ///
     /// # Errors
-    /// `failure` where no tilt is held, or the straight ring finds no equilibrium either; [`BearingError::NoEquilibriumAtTilt`] with the tilt that was
-    /// reached.
+    /// `failure` where no tilt is held, or the straight ring finds no equilibrium either;
+    /// [`BearingError::NoEquilibriumAtTilt`] with the tilt that was reached.
     pub(crate) fn tilt_up(
         &self,
         load: &AppliedBearingLoad,

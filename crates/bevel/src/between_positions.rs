@@ -1,5 +1,5 @@
-//! What lies between the equal steps of a contact analysis: the turns at which the next pair of teeth takes over, where the gear stays
-//! behind most, and the smooth extremes of the pair that leads.
+//! What lies between the equal steps of a contact analysis: the turns at which the next pair of teeth takes over, where
+//! the gear stays behind most, and the smooth extremes of the pair that leads.
 
 use crate::contact_path::{ContactKind, PairContacts};
 use crate::contact_point::Touch;
@@ -8,15 +8,17 @@ use crate::contact_search::ContactSearch;
 /// Halvings of a step for a change of pairs: beyond them rounding decides.
 const HALVINGS: usize = 30;
 
-/// Contacts between the steps of one pitch: of both pairs where one takes over from the other, and of the one that leads where its lead has
-/// an extreme. `leaders`: of each step of the pitch the number of the contact that leads, and its lead \[rad\].
+/// Contacts between the steps of one pitch: of both pairs where one takes over from the other, and of the one that
+/// leads where its lead has an extreme. `leaders`: of each step of the pitch the number of the contact that leads, and
+/// its lead \[rad\].
 pub(crate) fn between_positions(
     search: &ContactSearch<'_>,
     of: &PairContacts,
     leaders: &[(i64, f64)],
 ) -> Vec<(ContactKind, Touch)> {
     let n = leaders.len() as i64;
-    // A pair's own turn at the time k of the pitch is (k + n·pair) steps; a pitch later each pair stands where the next one stood.
+    // A pair's own turn at the time k of the pitch is (k + n·pair) steps; a pitch later each pair stands where the next
+    // one stood.
     let pair_at = |k: i64| {
         let (own, around) = (k.rem_euclid(n), k.div_euclid(n));
         (leaders[own as usize].0 - own) / n - around

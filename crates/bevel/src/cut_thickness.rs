@@ -1,5 +1,5 @@
-//! How thick the tooth is that the settings of both flanks leave, and the point width that leaves a given thickness. Derivation:
-//! docs/theory/bevel_gears.md, "Tooth thickness".
+//! How thick the tooth is that the settings of both flanks leave, and the point width that leaves a given thickness.
+//! Derivation: docs/theory/bevel_gears.md, "Tooth thickness".
 
 use std::f64::consts::TAU;
 
@@ -38,8 +38,8 @@ impl ThicknessFrom {
 pub struct ToothThickness {
     /// By the blank \[m\].
     pub blank_m: f64,
-    /// As both flanks leave it that are cut with the work in one place \[m\]; none of a member that two operations cut, or that goes through
-    /// points.
+    /// As both flanks leave it that are cut with the work in one place \[m\]; none of a member that two operations cut,
+    /// or that goes through points.
     pub cut_m: Option<f64>,
     /// Which of them the teeth have.
     pub from: ThicknessFrom,
@@ -55,14 +55,16 @@ impl ToothThickness {
     }
 }
 
-/// Settings of both flanks differ by less where one operation cuts them: lengths over the mean cone distance, angles, ratios.
+/// Settings of both flanks differ by less where one operation cuts them: lengths over the mean cone distance, angles,
+/// ratios.
 const SAME: f64 = 1e-9;
 /// Steps of the secant method.
 const MOST_STEPS: usize = 30;
 /// Thickness is met within this share of the mean cone distance.
 const CLOSE: f64 = 1e-13;
 
-/// Whether one cutter cuts both flanks of a slot at once: all settings are the same but for point radius, angle and edge of the blades.
+/// Whether one cutter cuts both flanks of a slot at once: all settings are the same but for point radius, angle and
+/// edge of the blades.
 pub fn is_one_operation(blank: &MemberBlank, [a, b]: &[MachineSettings; 2]) -> bool {
     let size = blank.mean_cone_m;
     let (Some(p), Some(q)) = (a.face_mill(), b.face_mill()) else {
@@ -89,8 +91,8 @@ pub fn is_one_operation(blank: &MemberBlank, [a, b]: &[MachineSettings; 2]) -> b
     rolls && lengths.iter().all(|d| d.abs() < SAME * size) && angles.iter().all(|d| d.abs() < SAME)
 }
 
-/// Thickness that two flanks leave which are cut with the work in one place \[m\], by the azimuths of their mean points in the machine's
-/// frame: the slot lies between the concave flank of one tooth and the convex flank of the next.
+/// Thickness that two flanks leave which are cut with the work in one place \[m\], by the azimuths of their mean points
+/// in the machine's frame: the slot lies between the concave flank of one tooth and the convex flank of the next.
 pub(crate) fn cut_thickness_m([concave, convex]: &[Flank; 2]) -> f64 {
     let blank = &concave.blank;
     let sense = FlankSide::Concave.facing(blank.hand);
@@ -116,11 +118,12 @@ fn widened(settings: &[MachineSettings; 2], by_m: f64) -> [MachineSettings; 2] {
     wider
 }
 
-/// Settings of one operation whose point width leaves teeth of that thickness: both point radii are moved by the same amount, apart or
-/// together. Secant method.
+/// Settings of one operation whose point width leaves teeth of that thickness: both point radii are moved by the same
+/// amount, apart or together. Secant method.
 ///
 /// # Errors
-/// [`BevelError::NoFlankPoint`] where a flank on the way does not reach the mean point, [`BevelError::NoPointWidth`] where no blade does it.
+/// [`BevelError::NoFlankPoint`] where a flank on the way does not reach the mean point, [`BevelError::NoPointWidth`]
+/// where no blade does it.
 pub fn settings_of_thickness(
     blank: &MemberBlank,
     settings: &[MachineSettings; 2],

@@ -121,7 +121,7 @@ pub enum BevelError {
     },
     /// Teeth that stand in each other in an assembly.
     #[error(
-        "teeth jam: while the pinion's {pinion} flanks touch in this assembly, the other ones stand in each other by {depth_mm:.4} mm, allowed are \
+        "teeth jam: while the pinion's {pinion} flanks touch in this assembly, the other ones overlap by {depth_mm:.4} mm, allowed are \
          {allowed_mm:.4} mm; make the errors of assembly smaller, or give the pair backlash_mm"
     )]
     Jam {

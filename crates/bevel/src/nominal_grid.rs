@@ -1,4 +1,5 @@
-//! Nominal points and normals of a flank for a measuring machine, as a table that pair files read back (`settings = "points"`).
+//! Nominal points and normals of a flank for a measuring machine, as a table that pair files read back (`settings =
+//! "points"`).
 
 use std::fmt::Write as _;
 
@@ -6,15 +7,16 @@ use crate::error::BevelError;
 use crate::hand::FlankSide;
 use crate::tooth::Tooth;
 
-/// The grid ends so far inside toe, heel, tip and the lower end of the flank, as a share of the face and of the height there: probes need room.
+/// The grid ends so far inside toe, heel, tip and the lower end of the flank, as a share of the face and of the height
+/// there: probes need room.
 const MARGIN: f64 = 0.05;
 /// Places along the face at which the lower end is looked at.
 const LOOKS: usize = 17;
 
 impl Tooth {
-    /// Table of a flank: `size` sectors from toe to heel times heights from root to tip, coordinates in the member's frame (origin in the
-    /// pitch apex, z towards the heel, the middle of the tooth on +x at the mean point, so that both flanks stand a tooth apart), normals out
-    /// of the material.
+    /// Table of a flank: `size` sectors from toe to heel times heights from root to tip, coordinates in the member's
+    /// frame (origin in the pitch apex, z towards the heel, the middle of the tooth on +x at the mean point, so that
+    /// both flanks stand a tooth apart), normals out of the material.
     ///
     /// # Errors
     /// [`BevelError::NoFlankPoint`] where the surface does not reach over its blank.

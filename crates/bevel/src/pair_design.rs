@@ -60,7 +60,8 @@ impl PairDesign {
                 Cutting::Crown => Ok(crown()),
                 Cutting::Basic(_) if data.form == ToothForm::Straight => Ok(crown()),
                 Cutting::Basic(process) => {
-                    // The formula's point width is that of the pitch cone: the slot that is cut is not quite the blank's.
+                    // The formula's point width is that of the pitch cone: the slot that is cut is not quite the
+                    // blank's.
                     let basic = basic_settings(member, data, edge_radius_m[i], *process)?;
                     settings_of_thickness(member, &basic, member.mean_thickness_m)
                 }

@@ -1,4 +1,5 @@
-//! Whether the flanks of both members are mates: backlash by the thicknesses their teeth have, and whether the flanks meet at all.
+//! Whether the flanks of both members are mates: backlash by the thicknesses their teeth have, and whether the flanks
+//! meet at all.
 
 use crate::assembly::{Assembly, AssemblyError};
 use crate::blank::PairBlank;
@@ -11,16 +12,17 @@ use crate::tca::{ToothContact, mean_contact, touches_along_line};
 
 /// Normals of mates at their mean points are opposite within this where the flanks are conjugate \[rad\].
 const PARALLEL_RAD: f64 = 1e-6;
-/// Overlap of the flanks that do not drive from which teeth are said to jam: pairs without backlash have some rounding \[m\].
+/// Overlap of the flanks that do not drive from which teeth are said to jam: pairs without backlash have some rounding
+/// \[m\].
 const JAMMED_M: f64 = 1e-6;
-/// How deep they may stand in each other, as a share of the normal pitch: as in scenes whose mesh leaves these flanks out.
+/// How deep they may overlap, as a share of the normal pitch: as in scenes whose mesh leaves these flanks out.
 const MOST_DEPTH: f64 = 0.02;
 /// Turns of a pitch at which the least backlash is looked for.
 const TURNS: usize = 96;
 
 impl PairDesign {
-    /// Normal backlash at the mean points, by the thicknesses that the teeth of both members have \[m\]; negative where they are too thick
-    /// for their spaces.
+    /// Normal backlash at the mean points, by the thicknesses that the teeth of both members have \[m\]; negative where
+    /// they are too thick for their spaces.
     pub fn backlash_m(&self, blank: &PairBlank) -> f64 {
         let member = &blank.members[0];
         let circle = std::f64::consts::TAU * blank.mean_cone_m * member.pitch_angle_rad.sin()
@@ -30,8 +32,8 @@ impl PairDesign {
         (circle - teeth) * data.spiral_angle_rad.cos() * data.pressure_angle_rad.cos()
     }
 
-    /// Asks whether the flanks of both sides touch inside their limits in the pair as designed: where the ratio of speeds is that of the
-    /// teeth, both must have a point. Flanks in line contact meet.
+    /// Asks whether the flanks of both sides touch inside their limits in the pair as designed: where the ratio of
+    /// speeds is that of the teeth, both must have a point. Flanks in line contact meet.
     ///
     /// # Errors
     /// [`BevelError::DoNotMeet`].
@@ -89,15 +91,16 @@ impl PairDesign {
         Ok(())
     }
 
-    /// Least backlash over a pitch in an assembly, along the normal at the gear's mean point \[m\]: by how much the gear can be turned from
-    /// where the flanks of one side touch to where those of the other do. `sides`: contact of both, the pinion's concave flank first, in the
-    /// same assembly.
+    /// Least backlash over a pitch in an assembly, along the normal at the gear's mean point \[m\]: by how much the
+    /// gear can be turned from where the flanks of one side touch to where those of the other do. `sides`: contact of
+    /// both, the pinion's concave flank first, in the same assembly.
     pub fn assembled_backlash_m(&self, blank: &PairBlank, sides: [&ToothContact; 2]) -> f64 {
         let [pinion, gear] = &self.teeth;
         let radius = blank.mean_cone_m * gear.blank.pitch_angle_rad.sin();
         let lever =
             radius * blank.data.spiral_angle_rad.cos() * blank.data.pressure_angle_rad.cos();
-        // Teeth and spaces as designed, less what both sides lead: docs/theory/bevel_gears.md, "Backlash of an assembly".
+        // Teeth and spaces as designed, less what both sides lead: docs/theory/bevel_gears.md, "Backlash of an
+        // assembly".
         let designed_rad = self.backlash_m(blank) / lever;
         let pitch = std::f64::consts::TAU / pinion.blank.teeth as f64;
         let lead = |k: usize, turn: f64| {
@@ -114,8 +117,8 @@ impl PairDesign {
         lever * least.fold(f64::INFINITY, f64::min)
     }
 
-    /// Refuses an assembly in which teeth jam; says so where they stand in each other by less than what is refused. `driving`: side of the
-    /// pinion that drives.
+    /// Refuses an assembly in which teeth jam; says so where they overlap by less than what is refused. `driving`: side
+    /// of the pinion that drives.
     ///
     /// # Errors
     /// [`BevelError::Jam`].

@@ -45,8 +45,8 @@ pub struct PathPoint {
     /// Transmission error: turn of the gear ahead of constant ratio in the driven sense, less the largest of all
     /// positions \[rad\].
     pub error_rad: f64,
-    /// The same from where the mean points of both flanks meet in the pair as designed: with what an assembly with errors adds to it for
-    /// good \[rad\].
+    /// The same from where the mean points of both flanks meet in the pair as designed: with what an assembly with
+    /// errors adds to it for good \[rad\].
     pub lead_rad: f64,
     /// Whether the position stands between the equal steps: where the next pair takes over, or the lead has an extreme.
     pub is_between: bool,
@@ -69,7 +69,8 @@ pub struct ToothContact {
     pub path: Vec<PathPoint>,
     /// Transmission error of the pair of gears over one pitch, at equal steps from turn 0 \[rad\].
     pub error_rad: Vec<f64>,
-    /// Largest transmission error of all positions, from where the mean points of both flanks meet in the pair as designed \[rad\].
+    /// Largest transmission error of all positions, from where the mean points of both flanks meet in the pair as
+    /// designed \[rad\].
     pub largest_rad: f64,
     /// Largest less smallest transmission error, changes of pairs and extremes between the steps included \[rad\].
     pub peak_to_peak_rad: f64,

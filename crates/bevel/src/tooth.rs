@@ -44,11 +44,12 @@ const ALONG: usize = 9;
 const UP: usize = 9;
 
 impl Tooth {
-    /// A tooth from the settings of its concave and convex flank. `thickness`: what is asked for; where nothing is, the settings count that
-    /// cut both flanks in one operation, else the blank.
+    /// A tooth from the settings of its concave and convex flank. `thickness`: what is asked for; where nothing is, the
+    /// settings count that cut both flanks in one operation, else the blank.
     ///
     /// # Errors
-    /// [`BevelError::NoFlankPoint`]; [`BevelError::NoSlot`] where the blades leave no slot between the flanks of one operation.
+    /// [`BevelError::NoFlankPoint`]; [`BevelError::NoSlot`] where the blades leave no slot between the flanks of one
+    /// operation.
     pub fn cut(
         blank: &MemberBlank,
         settings: &[MachineSettings; 2],

@@ -50,11 +50,12 @@ enum Free {
 }
 
 impl PairDesign {
-    /// Settings that bring the mean contact of a side to toe and heel from where it is in an assembly, at the same share of the depth; G
-    /// keeps the backlash.
+    /// Settings that bring the mean contact of a side to toe and heel from where it is in an assembly, at the same
+    /// share of the depth; G keeps the backlash.
     ///
     /// # Errors
-    /// [`BevelError::NoContact`] where the flanks have no contact at constant ratio, or none of these places is reached.
+    /// [`BevelError::NoContact`] where the flanks have no contact at constant ratio, or none of these places is
+    /// reached.
     pub fn vh_check(
         &self,
         blank: &PairBlank,
@@ -130,8 +131,8 @@ fn unreached() -> BevelError {
     }
 }
 
-/// The gear's place G that keeps the backlash beside other errors: with the inward normals n and n′ of both flanks of the pinion's tooth at
-/// its mean point, (n + n′)·u = 0, u the move of the pinion against the gear there.
+/// The gear's place G that keeps the backlash beside other errors: with the inward normals n and n′ of both flanks of
+/// the pinion's tooth at its mean point, (n + n′)·u = 0, u the move of the pinion against the gear there.
 fn gear_axial_of_backlash(
     blank: &PairBlank,
     pinion: [&Flank; 2],

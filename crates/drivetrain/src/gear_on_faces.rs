@@ -1,18 +1,18 @@
-//! A gear that is cut into a shaft going on at both faces, on a system of bodies: its frame is carried by the back face, and the front face moves against
-//! it by modes.
+//! A gear that is cut into a shaft going on at both faces, on a system of bodies: its frame is carried by the back
+//! face, and the front face moves against it by modes.
 //!
-//! With e the motion of the front face against the back one, η the natural modes with both faces held, and the model's K, T = NᵀΨ, M
-//! (docs/theory/reduction.md, "Two faces"):
+//! With e the motion of the front face against the back one, η the natural modes with both faces held, and the model's
+//! K, T = NᵀΨ, M (docs/theory/reduction.md, "Two faces"):
 //!
 //! ```text
 //! [ ΨᵀMΨ  ΨᵀMΦ ] [ë]   [ K  0  ] [e]   [ Tᵀ   ]         [ force on the front face ]
 //! [ ΦᵀMΨ    1  ] [η̈] + [ 0  Ω² ] [η] = [ ΦᵀN ] f   +   [            0            ]  − [ΨᵀMR; ΦᵀMR] a
 //! ```
 //!
-//! Its natural modes are those of the gear held at its back face, and make it a body like any other gear with modes. Held at its back face,
-//! it deflects by C + T K⁻¹ Tᵀ under loads on its flanks, of which the modes take their share as of every gear: what is left to
-//! the mesh is C, less what natural modes hold of it. The six motions of the front face are always all there, so that nothing is left out at
-//! rest.
+//! Its natural modes are those of the gear held at its back face, and make it a body like any other gear with modes.
+//! Held at its back face, it deflects by C + T K⁻¹ Tᵀ under loads on its flanks, of which the modes take their share as
+//! of every gear: what is left to the mesh is C, less what natural modes hold of it. The six motions of the front face
+//! are always all there, so that nothing is left out at rest.
 
 use std::sync::Arc;
 

@@ -52,7 +52,8 @@ impl PairTangents {
 ///
 /// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry, whether the gears are apart (1 where
 /// no tooth reaches the mate; the transmission error then goes on as that of continued flanks); strain of each gauge; the force
-/// on gear 1 and the line load of each slice (mesh_channels.rs); the pairs of teeth that carry (pair_channels.rs); powers where the teeth rub.
+/// on gear 1 and the line load of each slice (mesh_channels.rs); the pairs of teeth that carry (pair_channels.rs);
+/// powers where the teeth rub.
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,

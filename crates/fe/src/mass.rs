@@ -78,8 +78,8 @@ pub fn mass_product(
     })
 }
 
-/// K X over all degrees of freedom of a model, held or not, element by element: the forces on all nodes (N) that go with
-/// displacements X (m).
+/// K X over all degrees of freedom of a model, held or not, element by element: the forces on all nodes (N) that go
+/// with displacements X (m).
 ///
 /// # Errors
 /// [`FeError::SizeMismatch`] when X has other rows; [`FeError::Element`].

@@ -162,7 +162,8 @@ pub enum BodyLengths {
 /// Places the nodes on the edges of the body's regions. `ring_per_tooth` pieces of the ring belong to each tooth.
 ///
 /// # Errors
-/// [`MeshError::NoCut`] when no tooth space lies clear of the openings, [`MeshError::OpeningsAcross`] when they lie across a circle of nodes.
+/// [`MeshError::NoCut`] when no tooth space lies clear of the openings, [`MeshError::OpeningsAcross`] when they lie
+/// across a circle of nodes.
 pub fn body_problem(
     gear: &GearDefinition,
     ring_per_tooth: usize,

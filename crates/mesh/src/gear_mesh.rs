@@ -224,7 +224,8 @@ impl GearMesh {
         }
     }
 
-    /// Nodes of the back and of the front face within the shaft's outline; none of a face where the shaft does not go on.
+    /// Nodes of the back and of the front face within the shaft's outline; none of a face where the shaft does not go
+    /// on.
     pub fn shaft_faces(&self, shaft: &CutIntoShaft) -> [Vec<u32>; 2] {
         let levels = [0, self.levels_m.len() - 1];
         [0, 1].map(|face| {

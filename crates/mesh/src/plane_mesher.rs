@@ -19,7 +19,8 @@ pub enum PlaneMeshError {
     Mismatch(&'static str),
 }
 
-/// A region: loops of point numbers (the outline first, then openings). With corners it is structured, with quads it is meshed already.
+/// A region: loops of point numbers (the outline first, then openings). With corners it is structured, with quads it is
+/// meshed already.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Region {
     /// Closed loops of point numbers; the last point is joined to the first.

@@ -1,8 +1,8 @@
 //! A ring of the body that is thinner than its elements are long: paved in rows, each quad beside the one above it.
 //!
-//! A free mesh is made between straight lines over two pieces of a circle each. Such a chord of length 2 h leaves its circle by h²/(2 r): in a
-//! ring as thin as that the lines of the outer circle cut those of the inner one, and quads are inverted. Rows with equal numbers of pieces
-//! on all circles have right angles however thin the ring is.
+//! A free mesh is made between straight lines over two pieces of a circle each. Such a chord of length 2 h leaves its
+//! circle by h²/(2 r): in a ring as thin as that the lines of the outer circle cut those of the inner one, and quads
+//! are inverted. Rows with equal numbers of pieces on all circles have right angles however thin the ring is.
 
 /// Rings thinner than this share of the element length are paved in rows.
 const SHARE: f64 = 0.25;
@@ -16,8 +16,8 @@ pub(crate) fn is_thin(outer_m: f64, inner_m: f64, length_m: f64) -> bool {
     height < SHARE * length_m || height < CHORDS * from_circle
 }
 
-/// Circles of nodes at the radii `steps_m` between the ring's two, of `count` nodes each. The first and the last node of each are those of the
-/// sector's two edges, where it has edges; the others are added by radius and place.
+/// Circles of nodes at the radii `steps_m` between the ring's two, of `count` nodes each. The first and the last node
+/// of each are those of the sector's two edges, where it has edges; the others are added by radius and place.
 pub(crate) fn circles(
     steps_m: &[f64],
     [first, last]: &[Vec<usize>; 2],

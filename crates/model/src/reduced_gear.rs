@@ -172,7 +172,8 @@ pub struct ReducedGear {
     pub reference_point: Option<ReferencePoint>,
     /// Natural modes; none where none were asked for.
     pub modes: Option<ModalBasis>,
-    /// The two end faces of a gear cut into a shaft that goes on at both, which are held in all other figures; none of other gears.
+    /// The two end faces of a gear cut into a shaft that goes on at both, which are held in all other figures; none of
+    /// other gears.
     pub shaft_faces: Option<ShaftFaces>,
     /// Crack in a tooth's root, whose compliance is not in `c_hub`; the gauges' rows have it. None where there is none.
     pub crack: Option<RootCrack>,

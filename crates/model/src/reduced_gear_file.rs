@@ -17,8 +17,8 @@ use gearmesh_geometry::Flank;
 /// Name and version of the reduced gear file.
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {
     name: "gearmesh reduced gear",
-    // 2: near field; 3: rigid body, reference point, modes; 4: crack; 5: definition of the gear; 6: bevel body; 7: C_hub by patterns;
-    // 8: faces of a gear cut into its shaft
+    // 2: near field; 3: rigid body, reference point, modes; 4: crack; 5: definition of the gear; 6: bevel body; 7:
+    // C_hub by patterns; 8: faces of a gear cut into its shaft
     version: 8,
 };
 

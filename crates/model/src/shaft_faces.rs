@@ -1,14 +1,16 @@
-//! The two end faces of a gear that is cut into a shaft which goes on at both: what joins them, and what they do to the flanks.
+//! The two end faces of a gear that is cut into a shaft which goes on at both: what joins them, and what they do to the
+//! flanks.
 //!
-//! With both faces held the flanks deflect by C f. Let the front face move by e against the back one (three translations of its centre,
-//! three rotations about it, along the gear's axes), Ψ the displacements of the body under unit motions, K those of its forces:
+//! With both faces held the flanks deflect by C f. Let the front face move by e against the back one (three
+//! translations of its centre, three rotations about it, along the gear's axes), Ψ the displacements of the body under
+//! unit motions, K those of its forces:
 //!
 //! ```text
 //! flanks  NᵀΨ e + C f,      force on the front face  K e − (NᵀΨ)ᵀ f
 //! ```
 //!
-//! The rest follows from balance: the 12 × 12 stiffness between the faces has the six rigid motions as its null space. Theory: docs/theory/reduction.md,
-//! "Two faces".
+//! The rest follows from balance: the 12 × 12 stiffness between the faces has the six rigid motions as its null space.
+//! Theory: docs/theory/reduction.md, "Two faces".
 
 use crate::modal_basis::ModalBasis;
 use crate::reduced_gear::ReducedGear;

@@ -1,4 +1,5 @@
-//! Nominal stresses of ISO 6336:2006 for a pair, all factors K one: σ_H0 of part 2 at the pitch point, σ_F0 of part 3 by method B.
+//! Nominal stresses of ISO 6336:2006 for a pair, all factors K one: σ_H0 of part 2 at the pitch point, σ_F0 of part 3
+//! by method B.
 //!
 //! ```text
 //! σ_H0 = Z_H Z_E Z_ε Z_β √(F_t/(d₁ b) · (u + 1)/u)
@@ -10,9 +11,10 @@
 //!        Y_B = 1.6 ln(2.242 h_t/s_R) where the rim is thinner than 1.2 tooth heights, 1 elsewhere
 //! ```
 //!
-//! Y_F and Y_S are those of the section where the tangent of the tooth's own fillet makes 30° with its centre line, in the normal section, with
-//! the load at the highest point of single contact. Y_DT is 1 up to ε_αn = 2.05; from ε_αn = 2 on there is no such point and no σ_F0. Below
-//! half a tooth height of rim Y_B is not defined, and the gear has no σ_F0.
+//! Y_F and Y_S are those of the section where the tangent of the tooth's own fillet makes 30° with its centre line, in
+//! the normal section, with the load at the highest point of single contact. Y_DT is 1 up to ε_αn = 2.05; from ε_αn = 2
+//! on there is no such point and no σ_F0. Below half a tooth height of rim Y_B is not defined, and the gear has no
+//! σ_F0.
 
 use crate::root_section::{
     RootConstruction, RootSection, RootSectionError, highest_single_contact_roll_rad,
@@ -92,8 +94,9 @@ impl IsoPressure {
 }
 
 impl IsoRoot {
-    /// The factors of one gear of a pair, by its definition and its geometry, over the common face width \[m\]; `rim_m`: rim below the root circle, none of a solid gear. None where
-    /// the method has none: ε_αn from 2 on, no 30° tangent, or a rim below half a tooth height.
+    /// The factors of one gear of a pair, by its definition and its geometry, over the common face width \[m\];
+    /// `rim_m`: rim below the root circle, none of a solid gear. None where the method has none: ε_αn from 2 on, no 30°
+    /// tangent, or a rim below half a tooth height.
     ///
     /// # Errors
     /// [`RootSectionError`] where the normal section is that of no spur gear.
@@ -135,7 +138,8 @@ impl IsoRoot {
         }
     }
 
-    /// σ_F0 \[Pa\] under the tangential force F_t \[N\] at the reference circle, over the face width b and with the normal module \[m\].
+    /// σ_F0 \[Pa\] under the tangential force F_t \[N\] at the reference circle, over the face width b and with the
+    /// normal module \[m\].
     #[must_use]
     pub fn stress_pa(&self, tangential_n: f64, face_width_m: f64, module_m: f64) -> f64 {
         tangential_n / (face_width_m * module_m)

@@ -95,7 +95,8 @@ pub struct RootSection {
     pub lever_m: f64,
     /// Angle φ of the load against the normal of the centre line \[rad\].
     pub load_angle_rad: f64,
-    /// Radius ρ_F of the fillet where its tangent makes 30° with the centre line \[m\]; the section's own by that construction.
+    /// Radius ρ_F of the fillet where its tangent makes 30° with the centre line \[m\]; the section's own by that
+    /// construction.
     pub notch_radius_m: f64,
 }
 
@@ -145,8 +146,8 @@ impl RootSection {
         })
     }
 
-    /// Stress correction factor Y_S = (1.2 + 0.13 L) q_s^(1/(1.21 + 2.3/L)) of ISO 6336-3:2006, 7.2, with L = s/h and the notch parameter
-    /// q_s = s/(2 ρ_F); the standard gives it for 1 ≤ q_s < 8. Of the section with the 30° tangent.
+    /// Stress correction factor Y_S = (1.2 + 0.13 L) q_s^(1/(1.21 + 2.3/L)) of ISO 6336-3:2006, 7.2, with L = s/h and
+    /// the notch parameter q_s = s/(2 ρ_F); the standard gives it for 1 ≤ q_s < 8. Of the section with the 30° tangent.
     pub fn stress_correction_factor(&self) -> f64 {
         let slenderness = self.thickness_m / self.lever_m;
         let notch = 0.5 * self.thickness_m / self.notch_radius_m;
@@ -226,8 +227,9 @@ pub fn highest_single_contact_rolls_rad(pair: &GearPair) -> Result<[f64; 2], Roo
     Ok([of(&pair.gear_1)?, of(&pair.gear_2)?])
 }
 
-/// Radius of curvature \[m\] of a spur tooth's fillet at a parameter: that of the path of the rounding's centre, (H² + t²)^(3/2)/(H² + t² + r H),
-/// and the rounding's own. docs/theory/rating.md derives it; ISO 6336-3 has the same for the 30° tangent.
+/// Radius of curvature \[m\] of a spur tooth's fillet at a parameter: that of the path of the rounding's centre, (H² +
+/// t²)^(3/2)/(H² + t² + r H), and the rounding's own. docs/theory/rating.md derives it; ISO 6336-3 has the same for the
+/// 30° tangent.
 fn fillet_radius_m(tooth: &ToothGeometry, t_m: f64) -> f64 {
     let trochoid = &tooth.trochoid;
     let depth_m = trochoid.centre_depth_m;

@@ -1,14 +1,16 @@
 //! A gear that is cut into a shaft which goes on at both faces: what joins its two faces, and how they move the flanks.
 //!
-//! Each face within the shaft's outline moves rigidly. With P the displacements of the nodes on a face under six unit motions of it,
-//! all other nodes held, and K the stiffness of everything, the constraint modes of both faces and their forces are
+//! Each face within the shaft's outline moves rigidly. With P the displacements of the nodes on a face under six unit
+//! motions of it, all other nodes held, and K the stiffness of everything, the constraint modes of both faces and their
+//! forces are
 //!
 //! ```text
 //! Ψ = P − K_ff⁻¹ (K P)_f,      K_bb = Pᵀ K Ψ      (12 × 12),
 //! ```
 //!
-//! f the nodes that are free while both faces are held. K_bb lets the body move rigidly without force, Ψ moves all nodes with it. Kept is
-//! the front face against the back one: the rest follows. Theory: docs/theory/reduction.md, "Two faces".
+//! f the nodes that are free while both faces are held. K_bb lets the body move rigidly without force, Ψ moves all
+//! nodes with it. Kept is the front face against the back one: the rest follows. Theory: docs/theory/reduction.md, "Two
+//! faces".
 
 use crate::flank_loads::SparseVector;
 use crate::gear_body::GearBody;
@@ -29,8 +31,8 @@ pub struct ConstraintModes {
     pub stiffness: Mat<f64>,
     /// Centres of the faces (m).
     pub centres_m: [[f64; 3]; 2],
-    /// What a rigid motion leaves: the larger of ‖K_bb X‖/‖K_bb‖, rotations taken times the distance of the faces, and of the displacements
-    /// that Ψ X misses, over those of the faces.
+    /// What a rigid motion leaves: the larger of ‖K_bb X‖/‖K_bb‖, rotations taken times the distance of the faces, and
+    /// of the displacements that Ψ X misses, over those of the faces.
     pub rigid_residual: f64,
 }
 

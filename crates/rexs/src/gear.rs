@@ -62,7 +62,8 @@ pub struct Gear {
     pub tip_chamfer_mm: f64,
     /// Bore \[mm\], 0 of a gear that is cut into its shaft; none until the shaft is known.
     pub bore_mm: Option<f64>,
-    /// Diameters of the shaft at the back and the front face of a gear that is cut into it, 0 where it does not go on \[mm\].
+    /// Diameters of the shaft at the back and the front face of a gear that is cut into it, 0 where it does not go on
+    /// \[mm\].
     pub shaft_mm: Option<[f64; 2]>,
     /// Material.
     pub material: Material,

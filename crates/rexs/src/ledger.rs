@@ -22,9 +22,11 @@ pub enum About {
     Blank,
     /// Flank modifications, which only meshes of reduced gears feel.
     Flanks,
-    /// Less than 1 % of torques, forces and stiffness: backlash, what stands for rigid, roots, torques that follow from the file.
+    /// Less than 1 % of torques, forces and stiffness: backlash, what stands for rigid, roots, torques that follow from
+    /// the file.
     Small,
-    /// Nothing that a scene computes: words, other programs' results, files beside the scene, what the file itself says.
+    /// Nothing that a scene computes: words, other programs' results, files beside the scene, what the file itself
+    /// says.
     Nothing,
 }
 
@@ -116,7 +118,8 @@ impl Ledger {
         self.add(2, subject, About::Nothing, text.into(), true);
     }
 
-    /// What was assumed or left out, of a weight in scenes with these meshes: judgements, which tell what came of it, before omissions.
+    /// What was assumed or left out, of a weight in scenes with these meshes: judgements, which tell what came of it,
+    /// before omissions.
     pub fn of_weight(&self, weight: Weight, with: Meshes) -> impl Iterator<Item = &Entry> {
         let all = self.assumed.iter().chain(&self.not_represented);
         all.filter(move |e| e.about.weight(with) == weight)

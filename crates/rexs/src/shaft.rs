@@ -47,7 +47,8 @@ pub struct Shaft {
     points_mm: Vec<f64>,
     /// Bodies that take the place of a station, and where along u \[mm\].
     seated: Vec<(f64, String)>,
-    /// Stations along z, and the bodies seated first there: made when they are asked for, forgotten by what changes them.
+    /// Stations along z, and the bodies seated first there: made when they are asked for, forgotten by what changes
+    /// them.
     stations: OnceCell<Vec<f64>>,
     first_seated: OnceCell<HashMap<usize, usize>>,
     /// Marked points in increasing order.
@@ -444,7 +445,8 @@ pub fn demand_sections(
     if let [Some(start), Some(end)] = ends {
         for u in [least, most] {
             if u.abs() < 1e9 && (u < start - SAME_MM || u > end + SAME_MM) {
-                // Something that hangs over by less than the shaft is thick may be drawn so; more is a slip of a coordinate.
+                // Something that hangs over by less than the shaft is thick may be drawn so; more is a slip of a
+                // coordinate.
                 let beyond = (start - u).max(u - end);
                 let is_slip = beyond > shaft.diameters_mm(u)[0];
                 let about = if is_slip {

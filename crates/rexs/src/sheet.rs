@@ -1,5 +1,5 @@
-//! What a scene must show when it runs: shafts and their speeds, where power goes in and out, what holds each train. For whoever runs the
-//! scene and compares.
+//! What a scene must show when it runs: shafts and their speeds, where power goes in and out, what holds each train.
+//! For whoever runs the scene and compares.
 
 use crate::drive_text::Held;
 use crate::train::Train;

@@ -64,8 +64,8 @@ pub fn din_3967_mm(code: &str, reference_diameter_mm: f64) -> Option<f64> {
     Some(1e-3 * (0.5 * tolerance - upper))
 }
 
-/// Reads by how much the teeth of a gear are thinner than those without backlash: allowances of span, of the chordal thickness, a DIN 3967
-/// code, in this order.
+/// Reads by how much the teeth of a gear are thinner than those without backlash: allowances of span, of the chordal
+/// thickness, a DIN 3967 code, in this order.
 ///
 /// # Errors
 /// Those of [`Source`].

@@ -184,7 +184,8 @@ fn told_distance(source: &Source<'_>, mesh: &Mesh, distance_mm: f64) {
     };
     let off = (stated.abs() - distance_mm).abs() / distance_mm;
     if off > 1e-4 {
-        // d tan alpha_w = da/(a sin alpha_w cos alpha_w): at 20 deg a thousandth of the distance is 0.9 % of the radial force.
+        // d tan alpha_w = da/(a sin alpha_w cos alpha_w): at 20 deg a thousandth of the distance is 0.9 % of the radial
+        // force.
         let about = if off > 1e-3 {
             About::Place
         } else {

@@ -1,4 +1,5 @@
-//! Components that no relation joins to what they belong to: without the relation nothing of them acts, and nothing else would tell.
+//! Components that no relation joins to what they belong to: without the relation nothing of them acts, and nothing
+//! else would tell.
 
 use crate::ledger::About;
 use crate::source::Source;

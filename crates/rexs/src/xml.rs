@@ -63,7 +63,8 @@ pub fn read(text: &str) -> Result<Model, RexsError> {
     Ok(model)
 }
 
-/// What the parser did not like. Of a text that ends too early it gives no place, of a document type neither place nor name.
+/// What the parser did not like. Of a text that ends too early it gives no place, of a document type neither place nor
+/// name.
 fn broken(text: &str, cause: &roxmltree::Error) -> RexsError {
     let line_of = |at: usize| text[..at].matches('\n').count() as u32 + 1;
     match cause {

@@ -26,7 +26,8 @@ pub struct LoadedBevel {
 }
 
 impl LoadedBevel {
-    /// What is to be said of pressures beyond what steel bears elastically ([`ELASTIC_SHARE`]); `young_pa`: the softer member's modulus.
+    /// What is to be said of pressures beyond what steel carries elastically ([`ELASTIC_SHARE`]); `young_pa`: the
+    /// softer member's modulus.
     #[must_use]
     pub fn too_much_pressure(&self, young_pa: f64) -> Option<String> {
         let limit_pa = ELASTIC_SHARE * young_pa;
@@ -88,8 +89,8 @@ const MOST_SLICES: usize = 100;
 /// Slices of the pair that carries most which are to be loaded at every position.
 const LOADED_SLICES: usize = 8;
 
-/// Whether some position has too few loaded slices for its load to be spread over them, and slices that are shorter by a factor stay longer
-/// than every contact's half width, below which the law of half spaces is cut off.
+/// Whether some position has too few loaded slices for its load to be spread over them, and slices that are shorter by
+/// a factor stay longer than every contact's half width, below which the law of half spaces is cut off.
 fn wants_more(found: &[LoadedContact], shorter: f64) -> bool {
     let positions = found.iter().flat_map(|of| &of.positions);
     let few = positions.clone().any(|at| {

@@ -1,6 +1,7 @@
 //! A ball or roller that is not there: lost with its pocket of the cage, or left out in assembly.
 //!
-//! Its place in the row stays empty: the others keep their angles, as the cage holds them, and the rings feel nothing there.
+//! Its place in the row stays empty: the others keep their angles, as the cage holds them, and the rings feel nothing
+//! there.
 
 use super::Fault;
 use crate::error::BearingError;
@@ -8,7 +9,8 @@ use crate::error::BearingError;
 /// The empty places of a row of so many balls or rollers, each once, in rising order.
 ///
 /// # Errors
-/// [`BearingError::Parameter`] for an element that the row does not have; [`BearingError::NotCarried`] where fewer than two are left.
+/// [`BearingError::Parameter`] for an element that the row does not have; [`BearingError::NotCarried`] where fewer than
+/// two are left.
 pub(crate) fn missing(
     faults: &[Fault],
     number: usize,

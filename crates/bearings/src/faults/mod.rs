@@ -1,4 +1,5 @@
-//! What may be wrong with a bearing: damage of races and balls, waves, a ball of another size, one that is missing, a ring that stands askew.
+//! What may be wrong with a bearing: damage of races and balls, waves, a ball of another size, one that is missing, a
+//! ring that stands askew.
 //!
 //! | fault | type | file |
 //! | --- | --- | --- |

@@ -83,7 +83,8 @@ impl RowFaults {
     /// Those of a row among the faults of a bearing; none where all of them are without depth.
     ///
     /// # Errors
-    /// [`BearingError::Parameter`] for a ball that the row does not have, [`BearingError::NotCarried`] where too few are left.
+    /// [`BearingError::Parameter`] for a ball that the row does not have, [`BearingError::NotCarried`] where too few
+    /// are left.
     pub(crate) fn of(
         faults: &[Fault],
         number: usize,

@@ -227,7 +227,8 @@ fn cost_is_linear_in_the_balls() {
     assert_eq!(pockets, 0);
 }
 
-/// A ball is missing: the others have states and channels under their own numbers, and settle where the equilibrium without it has them.
+/// A ball is missing: the others have states and channels under their own numbers, and settle where the equilibrium
+/// without it has them.
 #[test]
 fn moving_balls_know_nothing_of_a_missing_one() {
     let bearing = bearing(&format!(

@@ -228,8 +228,8 @@ fn balls_pass_under_a_turning_outer_ring() {
     }
 }
 
-/// A shaft that turns freely under a radial load slows down as its friction torque says, I ω̇ = −M(ω), and the energy that it loses is the heat;
-/// an equilibrium with the same speed is found, because the torque does not act in it.
+/// A shaft that turns freely under a radial load slows down as its friction torque says, I ω̇ = −M(ω), and the energy
+/// that it loses is the heat; an equilibrium with the same speed is found, because the torque does not act in it.
 #[test]
 fn friction_slows_a_free_shaft_down() {
     let text = format!("{B6205}[friction]\nviscosity_mm2_per_s = 50.0\nseal_torque_Nm = 0.01\n");

@@ -1,5 +1,6 @@
-//! Four-point, thrust and double-row ball bearings: figures that are called independent are those of tools/reference/bearing_types.py, which
-//! seeks the least energy of ring and balls together and shares no code with the workspace.
+//! Four-point, thrust and double-row ball bearings: figures that are called independent are those of
+//! tools/reference/bearing_types.py, which seeks the least energy of ring and balls together and shares no code with
+//! the workspace.
 
 use crate::common::{B6205, close, definition};
 use gearmesh_bearings::definition::{BallBearingKind, BearingDefinition, BearingGeometry};
@@ -89,7 +90,7 @@ fn stands_at(pose: &RingPose, expected: [f64; 5]) {
     }
 }
 
-/// All four points of a ball bear under a load across the axis, two under thrust.
+/// All four points of a ball carry under a load across the axis, two under thrust.
 #[test]
 fn four_point_bearings_bear_as_the_independent_ones() {
     let qj = definition(FOUR_POINT);
@@ -106,7 +107,7 @@ fn four_point_bearings_bear_as_the_independent_ones() {
     );
     let ball = &loads.elements[0][0];
     let other = ball.other_side.unwrap();
-    // The side that bears more comes first: here that of negative angles.
+    // The side that carries more comes first: here that of negative angles.
     for (found, expected) in [
         (ball.inner_load_n, 696.437811),
         (ball.outer_load_n, 699.884366),
@@ -125,7 +126,8 @@ fn four_point_bearings_bear_as_the_independent_ones() {
     assert_eq!(ball.other_side.unwrap().inner_load_n, 0.0);
 }
 
-/// The four-point bearing without distance between the arcs' centres is the deep-groove bearing, with play and without; turned round it is itself.
+/// The four-point bearing without distance between the arcs' centres is the deep-groove bearing, with play and without;
+/// turned round it is itself.
 #[test]
 fn four_point_bearings_meet_their_limits() {
     for clearance_um in [0.0, 12.0] {
@@ -169,7 +171,8 @@ fn four_point_bearings_meet_their_limits() {
     let (down, _) = rest(&qj, [1000.0, 300.0, -4000.0], HELD, 0.0);
     assert!((up.centre_m.x - down.centre_m.x).abs() < 1e-15);
     assert!((up.centre_m.z + down.centre_m.z).abs() < 1e-15);
-    // Under pure thrust it is the angular-contact bearing of its contact angle, moved by the play it has left at that angle: without play by nothing.
+    // Under pure thrust it is the angular-contact bearing of its contact angle, moved by the play it has left at that
+    // angle: without play by nothing.
     let tight = definition(&FOUR_POINT.replace("radial_clearance_um = 20.0\n", ""));
     let angular = definition(
         &FOUR_POINT
@@ -200,7 +203,8 @@ fn four_point_bearings_meet_their_limits() {
     assert!(life(&tight).basic_mrev.is_none());
 }
 
-/// Of both tracks of a race each is stressed by itself: with all four points loaded alike damage is twice that of one side.
+/// Of both tracks of a race each is stressed by itself: with all four points loaded alike damage is twice that of one
+/// side.
 #[test]
 fn both_tracks_of_a_four_point_bearing_count() {
     let qj = definition(&FOUR_POINT.replace(
@@ -220,7 +224,8 @@ fn both_tracks_of_a_four_point_bearing_count() {
     close(both, of(&loads) * 2.0_f64.powf(-0.9), 1e-5);
 }
 
-/// Under pure thrust both contacts of a ball share the approach: δ = 2 (F/(Z K))^⅔. Beside loads across the axis: the independent figures.
+/// Under pure thrust both contacts of a ball share the approach: δ = 2 (F/(Z K))^⅔. Beside loads across the axis: the
+/// independent figures.
 #[test]
 fn thrust_bearings_bear_as_closed_form_and_independent_ones() {
     let thrust = definition(THRUST);
@@ -261,7 +266,8 @@ fn thrust_bearings_bear_as_closed_form_and_independent_ones() {
     close(frequencies.outer_race_hz, 70.0, 1e-12);
 }
 
-/// At speed balls of a thrust bearing are thrown out: they lean on the outer flank of the housing's groove and the inner flank of the shaft's.
+/// At speed balls of a thrust bearing are thrown out: they lean on the outer flank of the housing's groove and the
+/// inner flank of the shaft's.
 #[test]
 fn thrown_balls_of_thrust_bearings_climb() {
     let thrust = definition(THRUST);
@@ -281,7 +287,8 @@ fn thrown_balls_of_thrust_bearings_climb() {
     close(ball.orbit_rad_per_s, 100.0 * std::f64::consts::PI, 0.02);
 }
 
-/// ISO 281's table of thrust ball bearings of 90°: 36.7, 45.2, 59.5, 73.3, 90.2 at D/d_m 0.01, 0.02, 0.05, 0.10, 0.20; ISO 76: f₀ 61.6.
+/// ISO 281's table of thrust ball bearings of 90°: 36.7, 45.2, 59.5, 73.3, 90.2 at D/d_m 0.01, 0.02, 0.05, 0.10, 0.20;
+/// ISO 76: f₀ 61.6.
 #[test]
 fn ratings_of_thrust_bearings_are_those_of_the_standards() {
     for (ratio, factor) in [
@@ -313,7 +320,8 @@ fn ratings_of_thrust_bearings_are_those_of_the_standards() {
     assert!(aside.basic_mrev.is_none());
 }
 
-/// Two rows in one pair of rings, in both arrangements; ISO 281's P for two rows of 30°: 0.63 F_r + 1.24 F_a above e = 0.80.
+/// Two rows in one pair of rings, in both arrangements; ISO 281's P for two rows of 30°: 0.63 F_r + 1.24 F_a above e =
+/// 0.80.
 #[test]
 fn double_rows_bear_as_the_independent_ones() {
     let double = definition(DOUBLE_ROW);
@@ -333,7 +341,7 @@ fn double_rows_bear_as_the_independent_ones() {
         let life = Life::of(&double, &loads, force, &Operation::default(), None);
         close(life.equivalent_n.unwrap(), expected, 1e-12);
     }
-    // Rows at one place under a load across the axis bear as one row with twice the balls would: half the load each.
+    // Rows at one place under a load across the axis carry as one row with twice the balls would: half the load each.
     let near = definition(&DOUBLE_ROW.replace("10.3", "1e-9"));
     let (_, loads) = rest(&near, [2000.0, 0.0, 0.0], HELD, 0.0);
     for (one, other) in loads.elements[0].iter().zip(&loads.elements[1]) {

@@ -1,5 +1,5 @@
-//! Spherical roller bearings: independent figures are those of tools/reference/bearing_types.py, which seeks the least energy of ring and rollers
-//! together and shares no code with the workspace.
+//! Spherical roller bearings: independent figures are those of tools/reference/bearing_types.py, which seeks the least
+//! energy of ring and rollers together and shares no code with the workspace.
 
 use crate::common::{close, definition};
 use gearmesh_bearings::definition::BearingGeometry;
@@ -63,7 +63,8 @@ fn spherical_bearings_bear_as_the_independent_ones() {
     }
 }
 
-/// The outer ring is a sphere: no moment about its middle, whatever the place and the tilt; loads do not depend on the tilt; without load nothing resists it.
+/// The outer ring is a sphere: no moment about its middle, whatever the place and the tilt; loads do not depend on the
+/// tilt; without load nothing resists it.
 #[test]
 fn spherical_bearings_align_themselves() {
     let bearing = QuasiStaticBearing::new(&definition(BARRELS)).unwrap();
@@ -89,14 +90,16 @@ fn spherical_bearings_align_themselves() {
         let ring = bearing.evaluate(&pose, &rest).unwrap();
         let force: Vector3<f64> = ring.load.fixed_rows::<3>(0).into();
         let moment: Vector3<f64> = ring.load.fixed_rows::<3>(3).into();
-        // About the sphere's middle, which the ring's middle sees at minus its place; but for what is taken away about the ring's own axis.
+        // About the sphere's middle, which the ring's middle sees at minus its place; but for what is taken away about
+        // the ring's own axis.
         let about = moment + pose.centre_m.cross(&force);
         let across = about - axis * axis.dot(&about);
         assert!(across.norm() < 1e-13 * size, "{about}");
         let straight: Vector3<f64> = straight.load.fixed_rows::<3>(0).into();
         assert!((force - turn(straight)).norm() < 1e-9 * size);
     }
-    // Stiffness against tilt is what the force does over the ring's displacement, nothing else: about 1e4 N times 0.1 mm.
+    // Stiffness against tilt is what the force does over the ring's displacement, nothing else: about 1e4 N times 0.1
+    // mm.
     let tilt_stiffness = straight.tangent.fixed_view::<2, 2>(3, 3).norm();
     assert!(
         tilt_stiffness < 2.0 * size * place.norm(),
@@ -115,7 +118,8 @@ fn spherical_bearings_align_themselves() {
     assert_eq!(empty.unwrap().load.norm(), 0.0);
 }
 
-/// ISO 281: b_m 1.15; P = F_r + 0.45 cot α F_a up to e = 1.5 tan α, 0.67 (F_r + cot α F_a) above. Life of the true loads: shorter with more load.
+/// ISO 281: b_m 1.15; P = F_r + 0.45 cot α F_a up to e = 1.5 tan α, 0.67 (F_r + cot α F_a) above. Life of the true
+/// loads: shorter with more load.
 #[test]
 fn ratings_of_spherical_bearings_are_those_of_the_standard() {
     let made = definition(BARRELS);

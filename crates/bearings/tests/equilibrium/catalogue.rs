@@ -26,7 +26,8 @@ fn line(kind: &str, sizes: [f64; 3], ratings: [f64; 2], more: &str) -> String {
 
 const D6205: [f64; 3] = [25.0, 52.0, 15.0];
 
-/// 6205 and 6203 of the test rig of Case Western Reserve University: 9 balls of 0.3126 in on 1.537 in, 8 balls of 0.2656 in on 1.122 in.
+/// 6205 and 6203 of the test rig of Case Western Reserve University: 9 balls of 0.3126 in on 1.537 in, 8 balls of
+/// 0.2656 in on 1.122 in.
 #[test]
 fn designations_give_the_known_inside() {
     for (name, balls, ball_in, pitch_in) in [("6205", 9, 0.3126, 1.537), ("6203", 8, 0.2656, 1.122)]
@@ -211,7 +212,8 @@ fn poor_fits_are_warned_of() {
     }
 }
 
-/// Every designation can be built; its ratings are those of its estimated inside, and lie where its number says: C grows with bore and series.
+/// Every designation can be built; its ratings are those of its estimated inside, and lie where its number says: C
+/// grows with bore and series.
 #[test]
 fn every_designation_can_be_built() {
     let mut count = 0;
@@ -268,7 +270,8 @@ fn every_designation_can_be_built() {
     }
 }
 
-/// Ratings of a line are those of one bearing: a pair has more by ISO 281; two rows in one pair of rings have what the line says.
+/// Ratings of a line are those of one bearing: a pair has more by ISO 281; two rows in one pair of rings have what the
+/// line says.
 #[test]
 fn pairs_carry_more_than_their_line_says() {
     let sizes = [50.0, 80.0, 16.0];

@@ -15,7 +15,8 @@ fn clearance(text: &str) -> OperatingClearance {
     definition(text).operating_clearance().unwrap()
 }
 
-/// A solid shaft of the ring's own material: with d²/F² = k the raceway grows by the interference times d/F, whatever E and ν.
+/// A solid shaft of the ring's own material: with d²/F² = k the raceway grows by the interference times d/F, whatever E
+/// and ν.
 #[test]
 fn a_solid_shaft_of_the_rings_material_widens_the_raceway_by_d_over_f() {
     let seated = "[fit]\nshaft_interference_um = 10.0\n";
@@ -59,11 +60,13 @@ fn a_thick_housing_of_the_rings_material_narrows_the_raceway_by_e_over_d() {
 /// E, ν, α, temperature above 20 °C.
 type Body = (f64, f64, f64, f64);
 
-/// Two cylinders, one pressed into the other, by linear elements along the radius in plane stress: growth of the radius of the innermost and the outermost
-/// surface under a radial overlap, heat included. It knows no formula of Lamé's: only ½∫(σ_r ε_r + σ_θ ε_θ) r dr.
+/// Two cylinders, one pressed into the other, by linear elements along the radius in plane stress: growth of the radius
+/// of the innermost and the outermost surface under a radial overlap, heat included. It knows no formula of Lamé's:
+/// only ½∫(σ_r ε_r + σ_θ ε_θ) r dr.
 fn pressed(radii: [f64; 3], bodies: [Body; 2], overlap: f64, cells: usize) -> [f64; 2] {
     let nodes = 2 * cells + 1;
-    // Row sums of a tridiagonal matrix and its load; the node of the joint belongs to both, the outer body's copy lies `overlap` farther out.
+    // Row sums of a tridiagonal matrix and its load; the node of the joint belongs to both, the outer body's copy lies
+    // `overlap` farther out.
     let mut diagonal = vec![0.0; nodes];
     let mut beside = vec![0.0; nodes - 1];
     let mut load = vec![0.0; nodes];
@@ -121,7 +124,8 @@ fn pressed(radii: [f64; 3], bodies: [Body; 2], overlap: f64, cells: usize) -> [f
     [u[0], u[nodes - 1]]
 }
 
-/// Hollow shaft and aluminium housing, all at their own temperatures, against cylinders by finite elements: second order in the element's length.
+/// Hollow shaft and aluminium housing, all at their own temperatures, against cylinders by finite elements: second
+/// order in the element's length.
 #[test]
 fn raceways_move_as_cylinders_by_finite_elements_do() {
     let text = format!(
@@ -141,7 +145,8 @@ fn raceways_move_as_cylinders_by_finite_elements_do() {
         let shaft = (120e9, 0.25, 10e-6, 62.0);
         let radii = [6e-3, 12.5e-3, 0.5 * inner_m];
         let [_, inner] = pressed(radii, [shaft, ring(55.0)], 5.5e-6, cells);
-        // The outer body's copy of the joint is what moves by the overlap: the ring's far surface moves with it only where it is the outer one.
+        // The outer body's copy of the joint is what moves by the overlap: the ring's far surface moves with it only
+        // where it is the outer one.
         let housing = (70e9, 0.33, 23e-6, 31.0);
         let radii = [0.5 * outer_m, 26e-3, 37.5e-3];
         let [outer, _] = pressed(radii, [ring(40.0), housing], 7e-6, cells);
@@ -201,7 +206,8 @@ fn loose_rings_are_not_pressed() {
     assert!(warm.by_shaft_m < -5e-6);
 }
 
-/// A bearing with a fit is the one whose stated clearance is that in operation; balls move by micrometres of 19.5 mm, no more.
+/// A bearing with a fit is the one whose stated clearance is that in operation; balls move by micrometres of 19.5 mm,
+/// no more.
 #[test]
 fn a_fitted_bearing_is_that_of_its_operating_clearance() {
     for (text, sizes, stated) in [
@@ -238,7 +244,8 @@ fn a_fitted_bearing_is_that_of_its_operating_clearance() {
     }
 }
 
-/// Two rows back to back: seated where they were, an interference presses them by more; the load of each ball by the triangle of its groove centres.
+/// Two rows back to back: seated where they were, an interference presses them by more; the load of each ball by the
+/// triangle of its groove centres.
 #[test]
 fn a_fit_adds_to_the_preload_of_a_pair() {
     let text = format!(
@@ -276,8 +283,8 @@ fn a_fit_adds_to_the_preload_of_a_pair() {
     assert!(load > 1.5 * before.elements[0][0].inner_load_n);
 }
 
-/// An outer ring that shrinks by c across a race of the angle α presses tapered rollers as an inner ring pushed in by c/tan α: both move the race by
-/// c cos α along its normal.
+/// An outer ring that shrinks by c across a race of the angle α presses tapered rollers as an inner ring pushed in by
+/// c/tan α: both move the race by c cos α along its normal.
 #[test]
 fn a_squeezed_cup_presses_tapered_rollers_as_a_pushed_cone() {
     let text = format!(

@@ -88,8 +88,8 @@ fn the_part_by_the_load_by_hand() {
     assert!(friction(&oiled(PAIR, ""), [0.0; 3], 600.0).load_nm > 1e-3);
 }
 
-/// Catalogues give 2M/(P d) of 0.0015 for deep groove, 0.002 for angular contact, 0.0011 for cylindrical and 0.0018 for tapered roller bearings at a tenth of C:
-/// a factor of two, which is what two such rules differ by.
+/// Catalogues give 2M/(P d) of 0.0015 for deep groove, 0.002 for angular contact, 0.0011 for cylindrical and 0.0018 for
+/// tapered roller bearings at a tenth of C: a factor of two, which is what two such rules differ by.
 #[test]
 fn torques_are_of_the_size_of_the_catalogues_coefficients() {
     for (text, bore_mm, force, expected) in [

@@ -91,8 +91,8 @@ fn a_load_zone_of_half_the_turn_gives_l10() {
         );
     let definition = crate::common::definition(&rollers);
     let found = life(&definition, [2000.0, 0.0, 0.0], held);
-    // Line contact wears with the fourth power of the load; L10 has 10/3 for all rollers, and λν = 0.83 stands for what a lamina lacks whose end has no
-    // stress riser, which takes 0.3429 of the life of 40 even laminae.
+    // Line contact wears with the fourth power of the load; L10 has 10/3 for all rollers, and λν = 0.83 stands for what
+    // a lamina lacks whose end has no stress riser, which takes 0.3429 of the life of 40 even laminae.
     let capacity = 0.83 * (found.reference_mrev / 0.342_876_6).powf(0.25) * 2000.0;
     close(capacity, Ratings::of(&definition).dynamic_n, 2e-2);
 }

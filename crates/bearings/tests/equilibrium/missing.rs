@@ -1,4 +1,4 @@
-//! A ball or roller that is not there: the row without it, and what the others bear then.
+//! A ball or roller that is not there: the row without it, and what the others carry then.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,7 +15,8 @@ fn without(text: &str, element: usize) -> String {
     format!("{text}[[fault]]\nkind = \"missing\"\nelement = {element}\n")
 }
 
-/// At a place of the ring the others bear what they bore, and the ring lacks that one's force alone: Q (cos α e_r + sin α e_z).
+/// At a place of the ring the others carry what they carried, and the ring lacks that one's force alone: Q (cos α e_r +
+/// sin α e_z).
 #[test]
 fn the_ring_lacks_that_element_and_nothing_else() {
     let operation = Operation {
@@ -53,12 +54,13 @@ fn the_ring_lacks_that_element_and_nothing_else() {
     let (ring, _) = bearing(&without(TAPERED, 4))
         .loads(&pose, &operation)
         .unwrap();
-    // Under thrust all rollers bear alike: the axial force lacks a seventeenth.
+    // Under thrust all rollers carry alike: the axial force lacks a seventeenth.
     close(ring.load[2], whole.load[2] * 16.0 / 17.0, 1e-9);
     assert_eq!(all.elements[0].len(), 17);
 }
 
-/// Radial load on a 6205 whose loaded ball is missing, against a solver of its own: springs K δ^1.5 in the plane, δ = u·e_r.
+/// Radial load on a 6205 whose loaded ball is missing, against a solver of its own: springs K δ^1.5 in the plane, δ =
+/// u·e_r.
 #[test]
 fn loads_of_the_others_against_springs_in_a_plane() {
     let text = without(B6205, 1);
@@ -100,7 +102,7 @@ fn loads_of_the_others_against_springs_in_a_plane() {
             "{found:?} {expected}"
         );
     }
-    // Its neighbours bear what it bore: more than twice the whole bearing's second largest load.
+    // Its neighbours carry what it carried: more than twice the whole bearing's second largest load.
     let whole = bearing(B6205);
     let pose = whole.equilibrium(&load, &Operation::default()).unwrap();
     let (_, all) = whole.loads(&pose, &Operation::default()).unwrap();
@@ -118,7 +120,8 @@ fn loads_of_the_others_against_springs_in_a_plane() {
     assert!(life(&text, &loads) < 0.8 * life(B6205, &all));
 }
 
-/// As the cage goes round, the place of the ring repeats after a ball's pitch in a whole row, after a turn of the cage without one ball: lines at FTF.
+/// As the cage goes round, the place of the ring repeats after a ball's pitch in a whole row, after a turn of the cage
+/// without one ball: lines at FTF.
 #[test]
 fn the_compliance_varies_once_a_turn_of_the_cage() {
     let amplitude = |bearing: &QuasiStaticBearing, order: usize| {

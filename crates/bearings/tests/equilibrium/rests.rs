@@ -301,7 +301,8 @@ fn rows_that_hardly_turn_may_be_unloaded() {
     rests(&pair, load, &slow);
 }
 
-/// A large tilt that is held: sought from the straight ring on, and where there is none, the tilt is named, not the direction of the load.
+/// A large tilt that is held: sought from the straight ring on, and where there is none, the tilt is named, not the
+/// direction of the load.
 #[test]
 fn large_tilts_are_reached_from_the_straight_ring() {
     let steep = bearing(crate::common::B218);

@@ -25,7 +25,7 @@ fn the_riser_is_that_of_the_standards_equation() {
     assert_eq!(stress_riser(0, 1), 1.0);
 }
 
-/// Straight rollers under interference alone: every lamina of every roller bears the same, so that
+/// Straight rollers under interference alone: every lamina of every roller carries the same, so that
 ///
 /// L10r = [mean(f^4.5) ((Q/Q_ci)^4.5 + (Q/Q_ce)^4.5)]^(−8/9),   Q = 35 948 L^(8/9) (P/2)^(10/9)
 ///
@@ -80,8 +80,8 @@ fn share_left(loads: &RowLoads, laminae: usize) -> f64 {
     (damage(true) / damage(false)).powf(-8.0 / 9.0)
 }
 
-/// With the standard's profile the ends bear little, and the riser takes some per cent; a tilted roller presses an end, and it takes a quarter. Without a profile it
-/// takes two thirds, with tilt more than four fifths.
+/// With the standard's profile the ends carry little, and the riser takes some per cent; a tilted roller presses an
+/// end, and it takes a quarter. Without a profile it takes two thirds, with tilt more than four fifths.
 #[test]
 fn tilt_and_missing_profiles_cost_life() {
     let [with, without] = lives(ROLLERS, [4000.0, 0.0, 0.0], [0.0; 2]);

@@ -36,8 +36,8 @@ fn of(found: &[BearingWarning], concern: Concern) -> Option<&BearingWarning> {
     found.iter().find(|warning| warning.concern == concern)
 }
 
-/// P₀ of ISO 76 by hand: 0.6 F_r + 0.5 F_a of a deep groove, 0.5 and 0.26 at 40°, 1 and 0.92 of a pair of 15°, 0.5 and 0.22 cot α of tapered
-/// rollers; never less than F_r; none for cylindrical rollers but F_r.
+/// P₀ of ISO 76 by hand: 0.6 F_r + 0.5 F_a of a deep groove, 0.5 and 0.26 at 40°, 1 and 0.92 of a pair of 15°, 0.5 and
+/// 0.22 cot α of tapered rollers; never less than F_r; none for cylindrical rollers but F_r.
 #[test]
 fn static_loads_are_those_of_iso_76() {
     let equivalent = |text: &str, force_n: [f64; 3]| {
@@ -85,7 +85,8 @@ fn heavy_loads_are_warned_of() {
     let found = warnings(B6205, [1.25 * ratings.static_n, 0.0, 0.0], 0.0);
     close(of(&found, Concern::StaticSafety).unwrap().value, 0.8, 1e-9);
     let pressure = of(&found, Concern::Pressure).unwrap();
-    // C₀ stands for 4200 MPa under 5 F/Z; without clearance the ball under the load has 4.37 F/Z (Stribeck). Pressure goes with the cube root.
+    // C₀ stands for 4200 MPa under 5 F/Z; without clearance the ball under the load has 4.37 F/Z (Stribeck). Pressure
+    // goes with the cube root.
     close(
         pressure.value,
         4200.0 * (1.25_f64 * 4.37 / 5.0).cbrt(),
@@ -101,7 +102,8 @@ fn heavy_loads_are_warned_of() {
     close(safety.excess(), 1.5, 1e-9);
 }
 
-/// Thrust on a deep groove lifts its balls up the shoulder. The ellipse's end by hand: α + asin(a/r) on a circle of r = 0.52 D.
+/// Thrust on a deep groove lifts its balls up the shoulder. The ellipse's end by hand: α + asin(a/r) on a circle of r =
+/// 0.52 D.
 #[test]
 fn ellipses_beyond_the_shoulder_are_warned_of() {
     let text = format!("{B6205}radial_clearance_um = 20.0\n");

@@ -1,5 +1,6 @@
-//! Whether settings that a file states can be those of its member: hand, cone, roll and blades. What is asked here is a plain slip
-//! (another sign, another member, a ratio upside down); whether the flanks meet is asked of the flanks themselves.
+//! Whether settings that a file states can be those of its member: hand, cone, roll and blades. What is asked here is a
+//! plain slip (another sign, another member, a ratio upside down); whether the flanks meet is asked of the flanks
+//! themselves.
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
@@ -13,8 +14,8 @@ use crate::settings::MachineSettings;
 const CONE_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
 /// A ratio of roll this near to that of the rolling pitch cone turned upside down, as a share, is taken for that.
 const UPSIDE_DOWN: f64 = 0.03;
-/// Unless it is this near to the ratio itself. How far it may be beyond is asked of the flanks: local synthesis rolls pinions of few teeth up to
-/// five times as fast.
+/// Unless it is this near to the ratio itself. How far it may be beyond is asked of the flanks: local synthesis rolls
+/// pinions of few teeth up to five times as fast.
 const ROLL: f64 = 0.1;
 
 /// The ratio of roll with which the pitch cone rolls (docs/theory/bevel_gears.md, "Basic settings").

@@ -14,8 +14,8 @@ use serde::Deserialize;
 pub(super) struct LoadTable {
     /// Torques on the gear, one to 20 of them.
     torques_Nm: Vec<f64>,
-    /// Slices along the face. Where not given those of the coarser model, more are not allowed; without models 31, and up to 100 where a light
-    /// load touches few of them.
+    /// Slices along the face. Where not given those of the coarser model, more are not allowed; without models 31, and
+    /// up to 100 where a light load touches few of them.
     slices: Option<usize>,
     /// Positions over a pitch, 24 where not given.
     positions_per_pitch: Option<usize>,

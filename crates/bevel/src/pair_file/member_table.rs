@@ -63,8 +63,8 @@ pub(super) struct MemberTable {
     concave: Option<SettingsTable>,
     /// "given": settings of the convex flank.
     convex: Option<SettingsTable>,
-    /// "given": which tooth thickness counts. Where not given that of the settings where they are the same for both flanks but for the
-    /// blades (one operation), else that of the blank.
+    /// "given": which tooth thickness counts. Where not given that of the settings where they are the same for both
+    /// flanks but for the blades (one operation), else that of the blank.
     thickness: Option<ThicknessFrom>,
 }
 

@@ -22,7 +22,8 @@ fn made(text: &str) -> Result<(PairFile, PairDesign), String> {
     Ok((file, design))
 }
 
-/// The published gear: 4.656 mm cut, 4.893 mm by the blank. The slot once more from the points of both surfaces in the machine's frame.
+/// The published gear: 4.656 mm cut, 4.893 mm by the blank. The slot once more from the points of both surfaces in the
+/// machine's frame.
 #[test]
 fn stated_settings_of_one_operation_make_the_tooth() {
     let text = shipped("bevel_38_51.toml");
@@ -153,7 +154,8 @@ fn settings_that_cannot_be_are_named() {
     }
 }
 
-/// A pair whose settings are stated, its pinion's by synthesis; one setting of the pinion off, and the flanks no longer meet.
+/// A pair whose settings are stated, its pinion's by synthesis; one setting of the pinion off, and the flanks no longer
+/// meet.
 #[test]
 fn flanks_that_do_not_meet_are_refused() {
     let text = shipped("bevel_20_20.toml");
@@ -221,8 +223,8 @@ fn backlash(file: &PairFile, design: &PairDesign, error: AssemblyError) -> f64 {
     design.assembled_backlash_m(&file.blank, [&sides[0], &sides[1]])
 }
 
-/// The backlash of an assembly: a gear moved along its axis loses twice the move times sin α sin γ (derived by hand from the pitch plane's
-/// normal), a heavy offset jams.
+/// The backlash of an assembly: a gear moved along its axis loses twice the move times sin α sin γ (derived by hand
+/// from the pitch plane's normal), a heavy offset jams.
 #[test]
 fn assemblies_that_jam_are_told_apart() {
     let text = shipped("bevel_20_20.toml");
@@ -286,7 +288,8 @@ fn the_change_of_pairs_has_a_position() {
     assert!(missed > 0.03, "{missed}");
 }
 
-/// Errors of assembly that are said to bring the contact to toe and heel do so in the contact analysis, and keep the backlash.
+/// Errors of assembly that are said to bring the contact to toe and heel do so in the contact analysis, and keep the
+/// backlash.
 #[test]
 fn the_contact_goes_to_toe_and_heel() {
     for name in ["bevel_20_20.toml", "bevel_31_36.toml"] {
@@ -305,7 +308,8 @@ fn the_contact_goes_to_toe_and_heel() {
                 };
                 let flanks = design.flanks(side);
                 let found = tooth_contact(flanks, blank, &request).unwrap();
-                // The path comes by there, and the lead has its largest value: the ratio of speeds is that of the teeth.
+                // The path comes by there, and the lead has its largest value: the ratio of speeds is that of the
+                // teeth.
                 let sign = [-2.0, 2.0][i % 2];
                 let wanted = [blank.mean_cone_m + sign * quarter, 0.0];
                 near(setting.place_m[0], wanted[0], 1e-6);

@@ -9,7 +9,8 @@ use clap::Args;
 pub struct BevelArguments {
     /// Bevel pair file
     pub pair: PathBuf,
-    /// Write nominal points and normals of all four flanks for a measuring machine into this folder: pinion-concave.csv and so on
+    /// Write nominal points and normals of all four flanks for a measuring machine into this folder: pinion-concave.csv
+    /// and so on
     #[arg(long, value_name = "FOLDER")]
     pub grid: Option<PathBuf>,
     /// Sectors along the face and heights up the flank of the nominal points

@@ -182,8 +182,8 @@ pub(super) fn fit_words(fit: &GridFit) -> String {
     )
 }
 
-/// How thick the teeth of a pair are by what cuts them or by their points, beside the blank, and the backlash that this leaves. Nothing of
-/// members that two operations cut, whose thickness is the blank's.
+/// How thick the teeth of a pair are by what cuts them or by their points, beside the blank, and the backlash that this
+/// leaves. Nothing of members that two operations cut, whose thickness is the blank's.
 pub(super) fn thickness_words(design: &PairDesign, file: &PairFile) -> Vec<String> {
     let members = design.teeth.iter().enumerate();
     let mut lines: Vec<String> = members

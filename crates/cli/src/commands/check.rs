@@ -103,7 +103,8 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         .map_or(Ok(()), |text| Err(Failure::work(text)))
 }
 
-/// Demands that a file can be used: the same as the command, without a word. Numbers that look like those of another unit.
+/// Demands that a file can be used: the same as the command, without a word. Numbers that look like those of another
+/// unit.
 ///
 /// # Errors
 /// What is wrong with it.

@@ -1,5 +1,5 @@
-//! What an import ends with: its files are checked as `gearmesh check` does, its scenes run at rest as `gearmesh run` does, and the
-//! figures are held against those that follow by the ratios.
+//! What an import ends with: its files are checked as `gearmesh check` does, its scenes run at rest as `gearmesh run`
+//! does, and the figures are held against those that follow by the ratios.
 
 use crate::commands::check;
 use crate::failure::Failure;

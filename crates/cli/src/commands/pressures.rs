@@ -6,7 +6,8 @@ use gearmesh_scene::pair::warnings::ELASTIC_SHARE;
 /// Young's modulus of steel \[Pa\]: columns of pressure do not say whose it is.
 const STEEL_PA: f64 = 206e9;
 
-/// Warns of the column with the largest pressure, where that is above the limit. `columns`: names and largest pressures \[Pa\].
+/// Warns of the column with the largest pressure, where that is above the limit. `columns`: names and largest pressures
+/// \[Pa\].
 pub fn warn(columns: impl Iterator<Item = (String, f64)>) {
     let limit_pa = ELASTIC_SHARE * STEEL_PA;
     let too_large = columns.filter(|(_, pa)| *pa > limit_pa);

@@ -274,7 +274,7 @@ fn a_fit_is_printed_term_by_term() {
     assert!(other.get("clearance").is_none());
 }
 
-/// Friction stands in print, page and JSON; a missing ball is told by name.
+/// Friction stands in print, page and JSON; a missing ball is reported by name.
 #[test]
 fn friction_and_missing_balls_are_printed() {
     let desk = Desk::new();
@@ -317,7 +317,8 @@ fn friction_and_missing_balls_are_printed() {
     );
 }
 
-/// Figures beyond their limits are warned of on the console, in JSON and on the page, each with figure and limit; slips of units when the file is read.
+/// Figures beyond their limits are warned of on the console, in JSON and on the page, each with figure and limit; slips
+/// of units when the file is read.
 #[test]
 fn limits_and_slips_of_units_are_warned_of() {
     let desk = Desk::new();

@@ -373,7 +373,8 @@ fn what_cannot_be_cut_is_refused() {
     );
 }
 
-/// Stated settings make the tooth, and every command says by how much it is not the blank's; the nominal grid goes into a folder.
+/// Stated settings make the tooth, and every command says by how much it is not the blank's; the nominal grid goes into
+/// a folder.
 #[test]
 fn the_thickness_that_settings_cut_is_said_everywhere() {
     let desk = Desk::new();
@@ -427,7 +428,8 @@ fn the_thickness_that_settings_cut_is_said_everywhere() {
     }
 }
 
-/// Assemblies that jam are refused, conjugate pairs show their ease-off, and pressures that no steel carries are warned of.
+/// Assemblies that jam are refused, conjugate pairs show their ease-off, and pressures that no steel carries are warned
+/// of.
 #[test]
 fn contact_analysis_says_what_is_wrong() {
     let desk = Desk::new();

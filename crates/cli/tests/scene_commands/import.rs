@@ -52,8 +52,8 @@ fn a_gearbox_of_three_stages_is_imported_and_runs() {
     assert!((input / 28.2068 - 1.0).abs() < 1e-4, "{input}");
 }
 
-/// The same gearbox imported, its six gears reduced (on coarse meshes), and run: with its first pinion on a bore, and cut into its shaft, which goes on at
-/// both faces, with three pairs of diameters: half to eight tenths of the root.
+/// The same gearbox imported, its six gears reduced (on coarse meshes), and run: with its first pinion on a bore, and
+/// cut into its shaft, which goes on at both faces, with three pairs of diameters: half to eight tenths of the root.
 #[test]
 fn an_imported_gearbox_of_reduced_gears_runs() {
     let desk = Desk::new();
@@ -108,13 +108,15 @@ fn an_imported_gearbox_of_reduced_gears_runs() {
         );
         let output = desk.path("result.h5");
         succeeds(&["run", argument(&scene), "-o", argument(&output)]);
-        // Webs tilt, and the teeth carry towards one end of the face: one bearing of a shaft carries more than statics say of a
-        // load in the middle, the other less. The shipped gearbox of reduced gears has helix corrections against it.
+        // Webs tilt, and the teeth carry towards one end of the face: one bearing of a shaft carries more than statics
+        // say of a load in the middle, the other less. The shipped gearbox of reduced gears has helix corrections
+        // against it.
         bearings_carry_what_statics_say(&SystemResult::open(&output).unwrap(), 0.12);
     }
 }
 
-/// The exchange file with the first pinion cut into its shaft: a section of 28 mm under its face, others before and behind it.
+/// The exchange file with the first pinion cut into its shaft: a section of 28 mm under its face, others before and
+/// behind it.
 fn with_sections(shipped: &str, [before, behind]: [u32; 2]) -> String {
     let mut text = changed(
         shipped,

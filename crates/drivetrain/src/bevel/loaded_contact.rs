@@ -158,8 +158,9 @@ impl LoadedContact {
         (sum(true) + 0.0) / sum(false)
     }
 
-    /// Share of the power that reaches the gear's shaft over the positions, with a coefficient of friction μ of the teeth: at each position
-    /// 1/(1 + μ Σ F v/(T z₁/z₂)), F the normal forces and v their sliding for each radian of the pinion. Friction moves no load here.
+    /// Share of the power that reaches the gear's shaft over the positions, with a coefficient of friction μ of the
+    /// teeth: at each position 1/(1 + μ Σ F v/(T z₁/z₂)), F the normal forces and v their sliding for each radian of
+    /// the pinion. Friction moves no load here.
     #[must_use]
     pub fn efficiency(&self, friction: f64, ratio: f64) -> f64 {
         let output = self.torque_nm * ratio;

@@ -417,8 +417,9 @@ fn bevel_slices_converge() {
     }
 }
 
-/// Flanks slide as the pitch cones would that roll on each other: by the relative speed of turning times the distance from the cones' common
-/// generator, taken here from the gear's side of each contact. Without friction nothing is lost, twice the friction loses twice as much.
+/// Flanks slide as the pitch cones would that roll on each other: by the relative speed of turning times the distance
+/// from the cones' common generator, taken here from the gear's side of each contact. Without friction nothing is lost,
+/// twice the friction loses twice as much.
 #[test]
 fn bevel_flanks_slide_about_the_common_generator() {
     let pair = pair("bevel_13_35.toml");
@@ -449,7 +450,7 @@ fn bevel_flanks_slide_about_the_common_generator() {
             let distance = (r - generator * r.dot(&generator)).norm();
             let expected = relative.norm() * distance;
             most = most.max(expected);
-            // The teeth give way by some micrometres, and slices lie beside their places on the gear.
+            // The teeth deflect by some micrometres, and slices lie beside their places on the gear.
             assert!(
                 (patch.sliding_m - expected).abs() < 5e-5,
                 "{patch:?} {expected}"

@@ -107,7 +107,8 @@ impl<L: Law> MarkerElement<L> {
         }
     }
 
-    /// Lets ends move with the modes of their bodies, which must have as many; the origins of such markers become those of the frames that move.
+    /// Lets ends move with the modes of their bodies, which must have as many; the origins of such markers become those
+    /// of the frames that move.
     ///
     /// # Errors
     /// [`DynamicsError::Shape`] if the shapes of an end have not six rows.

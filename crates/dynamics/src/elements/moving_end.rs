@@ -1,4 +1,5 @@
-//! An end of a force element on a body with modes, at a place that moves with them: a frame of its own, carried by the body.
+//! An end of a force element on a body with modes, at a place that moves with them: a frame of its own, carried by the
+//! body.
 //!
 //! ```text
 //! a = p + β_u η,   θ = β_θ η,   E = exp(θ)         place and turn of the frame in the body
@@ -6,8 +7,9 @@
 //! δ(X, ψ̃) = G δ(x, ψ, η),      G = [ 1  −R a×  R β_u ;  0  Eᵀ  T β_θ ]
 //! ```
 //!
-//! The element sees a body with these motions; forces on it act on the carrier by Gᵀ, their tangents by Gᵀ K G and the change of Gᵀ at a constant
-//! force. In derivatives of T(θ) it is taken as 1 − ½ θ×: θ is the small turn of an elastic body, and forces are exact.
+//! The element sees a body with these motions; forces on it act on the carrier by Gᵀ, their tangents by Gᵀ K G and the
+//! change of Gᵀ at a constant force. In derivatives of T(θ) it is taken as 1 − ½ θ×: θ is the small turn of an elastic
+//! body, and forces are exact.
 
 use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
 

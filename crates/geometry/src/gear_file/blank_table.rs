@@ -35,8 +35,8 @@ kinds!(BlankTable, "kind");
 pub(super) struct SolidTable {
     /// Bore; 0 for a gear that is cut into its shaft.
     bore_diameter_mm: f64,
-    /// Diameter of the shaft at the back and the front face, where a gear without bore joins it; 0 where the shaft does not go
-    /// on.
+    /// Diameter of the shaft at the back and the front face, where a gear without bore joins it; 0 where the shaft does
+    /// not go on.
     shaft_diameter_mm: Option<[f64; 2]>,
     /// Annular slots through the disc; none where not given.
     slots: Option<SlotsTable>,

@@ -1,4 +1,5 @@
-//! Nominal stresses of ISO 6336-2 and -3: a published calculation, the standard's own equations in their other form, and limits.
+//! Nominal stresses of ISO 6336-2 and -3: a published calculation, the standard's own equations in their other form,
+//! and limits.
 
 use crate::bending::iso_root;
 use crate::teeth::{geometry, standard};
@@ -19,9 +20,10 @@ fn pair(teeth: &[ToothDefinition; 2], distance_m: f64) -> GearPair {
     GearPair::new(first, second, distance_m, Misalignment::default()).unwrap()
 }
 
-/// z 19/104, m 4 mm, x 0.5/0.15, b 48.64 mm, F_t 14103.4 N: the calculation printed with the public program din3990 (H. Hansl, tests/test_1.py),
-/// after DIN 3990-11, whose factors for these are those of ISO 6336. Its root factors are those of a load at the tip, its auxiliary angle ϑ is
-/// that of five iterations (5e-5 of s_Fn); converged, s_Fn and ρ_F are 8.749195903508, 1.316142208827 and 9.239568746735, 1.325998977147 mm.
+/// z 19/104, m 4 mm, x 0.5/0.15, b 48.64 mm, F_t 14103.4 N: the calculation printed with the public program din3990 (H.
+/// Hansl, tests/test_1.py), after DIN 3990-11, whose factors for these are those of ISO 6336. Its root factors are
+/// those of a load at the tip, its auxiliary angle ϑ is that of five iterations (5e-5 of s_Fn); converged, s_Fn and ρ_F
+/// are 8.749195903508, 1.316142208827 and 9.239568746735, 1.325998977147 mm.
 #[test]
 fn a_published_calculation() {
     let tooth = |teeth: usize, profile_shift: f64, tip_mm: f64| ToothDefinition {
@@ -95,8 +97,9 @@ fn a_published_calculation() {
     }
 }
 
-/// The teeth of ISO/TR 6336-30:2017, example 1: m_n 8 mm, z 17/103, β 15.8°, x 0.145/0, b 100 mm, a 500 mm, h_fP 1.4 m. Its tips are not at hand:
-/// those of a full addendum. Y_F and Y_S against the equations of ISO 6336-3:2006, 6.2 and 7.2, with their own ρ_F and a real number of teeth.
+/// The teeth of ISO/TR 6336-30:2017, example 1: m_n 8 mm, z 17/103, β 15.8°, x 0.145/0, b 100 mm, a 500 mm, h_fP 1.4 m.
+/// Its tips are not at hand: those of a full addendum. Y_F and Y_S against the equations of ISO 6336-3:2006, 6.2 and
+/// 7.2, with their own ρ_F and a real number of teeth.
 #[test]
 fn helical_teeth_by_the_standards_equations() {
     let beta = 15.8f64.to_radians();
@@ -176,8 +179,8 @@ fn helical_teeth_by_the_standards_equations() {
     assert!((share - 1.0).abs() < 1e-12);
 }
 
-/// The gears of the FZG test, type C (ISO 14635-1), rack tip radius 0.25 modules: Lewis's stress holds no notch, that of the standard is about
-/// twice as large (111 and 207 MPa under 4000 N).
+/// The gears of the FZG test, type C (ISO 14635-1), rack tip radius 0.25 modules: Lewis's stress holds no notch, that
+/// of the standard is about twice as large (111 and 207 MPa under 4000 N).
 #[test]
 fn fzg_type_c() {
     let tooth = |teeth: usize, profile_shift: f64, tip_mm: f64| ToothDefinition {
@@ -208,8 +211,8 @@ fn fzg_type_c() {
     assert!((plain / lewis - 1.0).abs() < 0.1, "{plain:e} {lewis:e}");
 }
 
-/// Y_B = 1.6 ln(2.242 h_t/s_R): 1.29179 for a rim of one tooth height, continuous at 1.2, none below one half; and no σ_F0 where two pairs carry
-/// everywhere.
+/// Y_B = 1.6 ln(2.242 h_t/s_R): 1.29179 for a rim of one tooth height, continuous at 1.2, none below one half; and no
+/// σ_F0 where two pairs carry everywhere.
 #[test]
 fn rims_and_deep_teeth() {
     let teeth = [standard(30), standard(40)];

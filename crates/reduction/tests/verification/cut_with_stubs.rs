@@ -1,4 +1,5 @@
-//! A pinion cut into its shaft, with stubs of the shaft on its faces in one finite element model, against the reduced pinion between beams.
+//! A pinion cut into its shaft, with stubs of the shaft on its faces in one finite element model, against the reduced
+//! pinion between beams.
 
 use crate::small_gears::body;
 use faer::Mat;
@@ -19,7 +20,8 @@ struct Case {
     shaft_mm: [f64; 2],
     /// Lengths of the stubs there.
     stub_m: [f64; 2],
-    /// Share of the deflection by which the rigid faces may be too stiff: more, the nearer their outlines come to the teeth.
+    /// Share of the deflection by which the rigid faces may be too stiff: more, the nearer their outlines come to the
+    /// teeth.
     allowed: f64,
 }
 
@@ -72,7 +74,8 @@ impl Case {
     }
 }
 
-/// Deflection at each load under each, and the force that the bearing behind the back stub takes of it, across the axis.
+/// Deflection at each load under each, and the force that the bearing behind the back stub takes of it, across the
+/// axis.
 struct Answers {
     deflections: DMatrix<f64>,
     bearing: Vec<[f64; 2]>,
@@ -148,8 +151,8 @@ fn cantilever(radius: f64, length: f64, towards: f64) -> Matrix6<f64> {
     h.try_inverse().unwrap()
 }
 
-/// The reduced pinion: its faces joined by K_bb, the front one clamped behind its stub, the back one on its stub in a bearing that holds it
-/// across the axis.
+/// The reduced pinion: its faces joined by K_bb, the front one clamped behind its stub, the back one on its stub in a
+/// bearing that holds it across the axis.
 fn on_beams(
     case: &Case,
     gear: &GearDefinition,
@@ -241,9 +244,9 @@ fn in_one_model(case: &Case, body: &GearBody, loads: &[SparseVector]) -> Answers
     }
 }
 
-/// Deflection along the flank's normal at every load point under each load, and the force of the bearing, at three proportions of shaft and root, with
-/// unequal faces: the force within 2 %, deflections within 2 % but for the thickest shaft. What is left is the joint of stub and gear: the face within
-/// the shaft is rigid, a stub's end is not.
+/// Deflection along the flank's normal at every load point under each load, and the force of the bearing, at three
+/// proportions of shaft and root, with unequal faces: the force within 2 %, deflections within 2 % but for the thickest
+/// shaft. What is left is the joint of stub and gear: the face within the shaft is rigid, a stub's end is not.
 #[test]
 fn a_pinion_between_beams_deflects_as_one_with_its_shaft() {
     let mut all = Vec::new();
@@ -278,7 +281,8 @@ fn a_pinion_between_beams_deflects_as_one_with_its_shaft() {
     assert!(all.iter().all(|share| *share < 1.0), "{all:?}");
 }
 
-/// Deflections under loads at five places along the face (nm/N) and force of the bearing (N/N): tools/reference/pinion_shaft.py.
+/// Deflections under loads at five places along the face (nm/N) and force of the bearing (N/N):
+/// tools/reference/pinion_shaft.py.
 const INDEPENDENT: &str = include_str!("../../../../reference/pinion_shaft/data.csv");
 
 /// The second one against finite elements that share no mesh, no element and no assembly with these.

@@ -9,7 +9,8 @@ use gearmesh_reduction::{ReductionOptions, Silent, reduce};
 /// Root diameter of [`small_gears::gear`]: 54 + 2 · 3 · (0.1 − 1.25) mm.
 const ROOT_MM: f64 = 47.1;
 
-/// As thick as the shaft may be its outline lay on the ring below the teeth: the ring's nodes were held, and the teeth lost them.
+/// As thick as the shaft may be its outline lay on the ring below the teeth: the ring's nodes were held, and the teeth
+/// lost them.
 #[test]
 fn a_shaft_as_thick_as_allowed_carries_the_teeth() {
     let most = ROOT_MM - 9.0;
@@ -41,7 +42,8 @@ fn thin_rings_are_paved_in_rows() {
     }
 }
 
-/// Holes that reach as far out as allowed are in the mesh: it is smaller by their area. Beyond the ring below the teeth they were lost.
+/// Holes that reach as far out as allowed are in the mesh: it is smaller by their area. Beyond the ring below the teeth
+/// they were lost.
 #[test]
 fn no_opening_is_lost() {
     let area = |blank: &str| {

@@ -130,7 +130,8 @@ fn section(
 /// Places this near to the tip, as shares of the height, are the tip's.
 const AT_TIP: f64 = 0.995;
 
-/// Place of the contact on the first gear in the mean, weighted with the force: L and h \[mm\], and the share of the force at tips.
+/// Place of the contact on the first gear in the mean, weighted with the force: L and h \[mm\], and the share of the
+/// force at tips.
 fn mean_place(flank: &Flank, touches: &[Touch]) -> ([f64; 2], f64) {
     let (mut sum, mut at, mut tips) = (0.0, [0.0; 2], 0.0);
     for touch in touches {

@@ -1,4 +1,5 @@
-//! A stage of cylindrical gears at a glance: what follows from its teeth, its centre distance and its speed at the start.
+//! A stage of cylindrical gears at a glance: what follows from its teeth, its centre distance and its speed at the
+//! start.
 
 use gearmesh_geometry::GearPair;
 use serde::Serialize;
@@ -25,7 +26,8 @@ pub struct StageSummary {
     pub pitch_radius_1_m: f64,
     /// Largest sliding over the path of contact, as a share of the speed of the pitch line.
     pub largest_sliding: f64,
-    /// Tangential, radial and axial force between the working pitch circles under 1 N m on gear 1, without friction \[N\].
+    /// Tangential, radial and axial force between the working pitch circles under 1 N m on gear 1, without friction
+    /// \[N\].
     #[serde(rename = "forces_of_1_Nm_N")]
     pub forces_of_1_nm_n: [f64; 3],
     /// Speed of the pitch line at the start \[m/s\], seen from the line of centres.

@@ -1,5 +1,6 @@
-//! A gear cut into its shaft whose core is a uniform beam: the same as a gear on the middle of a shaft that goes on through it. The one comes as
-//! stiffness between two faces and motions of the flanks, the other as beams with a rigid gear's frame between them.
+//! A gear cut into its shaft whose core is a uniform beam: the same as a gear on the middle of a shaft that goes on
+//! through it. The one comes as stiffness between two faces and motions of the flanks, the other as beams with a rigid
+//! gear's frame between them.
 
 use std::path::Path;
 

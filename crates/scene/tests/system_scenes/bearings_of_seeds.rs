@@ -68,7 +68,8 @@ fn the_rotor_of_seed_002_turns_in_its_bearings_and_shows_their_spalls() {
         let file = format!("bearing_9_balls_{race}_spall.toml");
         let loaded = changed(loaded, "bearing_9_balls.toml", &file);
         let spalled = finish(&format!("{before}name = \"loader side\"{loaded}"));
-        // Balls that bounce make one course of many: the result says so, and it ends where it was asked to, whatever the last step is.
+        // Balls that bounce make one course of many: the result says so, and it ends where it was asked to, whatever
+        // the last step is.
         let told =
             |result: &SystemResult| result.head.notes.iter().any(|n| n.contains("statistics"));
         assert!(told(&spalled) && !told(&sound), "{:?}", spalled.head.notes);

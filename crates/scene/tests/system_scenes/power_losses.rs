@@ -49,7 +49,8 @@ model = { kind = "analytic", slices = 3, damping = { kind = "stiffness-proportio
 teeth = { friction = { model = "coulomb", dynamic_coefficient = 0.05 } }
 "#;
 
-/// Ohlendorf's mesh loss factor of a standard spur pair (Niemann and Winter, *Maschinenelemente II*): each of two pairs bears half of the force.
+/// Ohlendorf's mesh loss factor of a standard spur pair (Niemann and Winter, *Maschinenelemente II*): each of two pairs
+/// carries half of the force.
 fn loss_factor(z: [f64; 2]) -> f64 {
     let alpha = 20f64.to_radians();
     let addendum = |i: usize| {
@@ -129,7 +130,8 @@ along = [0.6, 0.0, 0.8]
 kind = "static"
 "#;
 
-/// The loss of a bearing in equilibrium is told, and the shaft turns freely; where friction would not act it is refused.
+/// The loss of a bearing in equilibrium is reported, and the shaft turns freely; where friction would not act it is
+/// refused.
 // Damping of the tilt would brake a shaft that turns while it is tilted.
 #[test]
 fn bearings_tell_their_loss() {

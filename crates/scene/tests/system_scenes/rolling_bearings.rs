@@ -67,7 +67,8 @@ inner_conformity = 0.54
 outer_conformity = 0.54
 "#;
 
-/// The shaft comes to rest where `gearmesh bearing` has the ring, and balls bear what they do there; whatever the bearing.
+/// The shaft comes to rest where `gearmesh bearing` has the ring, and balls carry what they do there; whatever the
+/// bearing.
 #[test]
 fn a_shaft_rests_where_its_bearing_file_says() {
     for (text, push) in [
@@ -206,7 +207,8 @@ fn a_free_shaft_between_two_rows_comes_to_rest() {
     }
 }
 
-/// Numbers of a bearing file that look like those of another unit are told with those of the scene, once for a file.
+/// Numbers of a bearing file that look like those of another unit are reported with those of the scene, once for a
+/// file.
 #[test]
 fn slips_of_units_in_bearing_files_are_told() {
     let folder = tempfile::tempdir().unwrap();

@@ -59,8 +59,8 @@ fn plans_say_what_is_computed_and_what_is_not() {
     }
 }
 
-/// The stage at a glance fits the system: its pitch circles fill the distance of the gears' axes, the pitch line runs with them, and its three
-/// forces make up the normal force 1 N m/(r_b cos β_b).
+/// The stage at a glance fits the system: its pitch circles fill the distance of the gears' axes, the pitch line runs
+/// with them, and its three forces make up the normal force 1 N m/(r_b cos β_b).
 fn assert_stage(mesh: &BuiltMesh, built: &BuiltSystem) {
     let stage = mesh.stage.unwrap();
     let place = |name: &String| {

@@ -1,7 +1,8 @@
 //! Gears that are cut into their shafts: which faces the shaft's beams join.
 //!
-//! A gear whose shaft goes on at both faces and which sits on a beam shaft has its frame on its back face, and the front face moves against it by
-//! modes of the gear's body ([`GearOnFaces`]). On a rigid shaft, or on none, both faces move as one body.
+//! A gear whose shaft goes on at both faces and which sits on a beam shaft has its frame on its back face, and the
+//! front face moves against it by modes of the gear's body ([`GearOnFaces`]). On a rigid shaft, or on none, both faces
+//! move as one body.
 
 use gearmesh_drivetrain::{GearOnFaces, modes_up_to};
 use gearmesh_geometry::InputError;
@@ -88,8 +89,8 @@ pub(super) fn on_its_shaft(
     }))))
 }
 
-/// How an end of a beam moves with the modes of a body: that on the front face of a gear cut into its shaft does. `towards`: along the body's axis,
-/// where the beam goes on.
+/// How an end of a beam moves with the modes of a body: that on the front face of a gear cut into its shaft does.
+/// `towards`: along the body's axis, where the beam goes on.
 ///
 /// # Errors
 /// What is wrong where the gear's file lets its shaft end at that face.

@@ -25,7 +25,8 @@ pub(super) struct Gear {
     pub model: Option<Arc<ReducedGear>>,
     /// Whether the scene states the microgeometry of the definition, not the gear's file.
     pub microgeometry_of_scene: bool,
-    /// The faces of a gear that is cut into a beam shaft, where they are joined one by one; the model is then that of [`OnFaces::gear`].
+    /// The faces of a gear that is cut into a beam shaft, where they are joined one by one; the model is then that of
+    /// [`OnFaces::gear`].
     pub on_faces: Option<OnFaces>,
 }
 

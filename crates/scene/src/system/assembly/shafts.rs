@@ -2,7 +2,8 @@
 //!
 //! A beam shaft has a body at each station with half of the sections on either side, so that mass, centre of mass and
 //! polar inertia of the shaft are exact. A body on a seat takes the station's place. A gear that is cut into the shaft has the
-//! shaft's core in its own mass and stiffness: beams begin at its faces, one at each, and nothing of the shaft lies between them.
+//! shaft's core in its own mass and stiffness: beams begin at its faces, one at each, and nothing of the shaft lies
+//! between them.
 
 use gearmesh_dynamics::elements::BeamSection;
 use gearmesh_dynamics::{Body, Joint, JointKind, MarkerPair, SystemBuilder};
