@@ -119,7 +119,7 @@ pub enum BevelError {
         /// What was found, and what to look at.
         problem: String,
     },
-    /// Teeth that stand in each other in an assembly.
+    /// Teeth that overlap in an assembly.
     #[error(
         "teeth jam: while the pinion's {pinion} flanks touch in this assembly, the other ones overlap by {depth_mm:.4} mm, allowed are \
          {allowed_mm:.4} mm; make the errors of assembly smaller, or give the pair backlash_mm"
@@ -127,7 +127,7 @@ pub enum BevelError {
     Jam {
         /// Side of the pinion that touches.
         pinion: &'static str,
-        /// Along the normal of the flanks that stand in each other.
+        /// Along the normal of the flanks that overlap.
         depth_mm: f64,
         /// Most.
         allowed_mm: f64,

@@ -294,7 +294,7 @@ fn join_stages(
                     place.filter(|&place| train.gears[place].shaft >= 0)
                 };
                 let [Some(a), Some(b)] = gears.map(place) else {
-                    // Stages of planets are told with the planetary stage.
+                    // Stages of planets are reported with the planetary stage.
                     let planetary = structure.partners(stage.id, &["planetary_stage"]);
                     let about = if planetary.is_empty() {
                         About::Lost
