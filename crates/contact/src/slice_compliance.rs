@@ -130,11 +130,8 @@ impl SliceCompliance {
         } = geometry;
         let grid = &gear.grid;
         let (stations, slices) = (grid.roll_angles_rad.len(), spread.slices());
-        let loads = grid.len();
         let size = stations * slices;
         let own = gear.teeth_per_sector();
-        let mut blocks = StationBlocks::new(stations, slices, own * gear.teeth);
-        let mut condensed = vec![0.0; size * size];
         // Loads and shares of each (station, slice).
         let axial: Vec<Vec<(usize, f64)>> = (0..size)
             .map(|k| {
@@ -144,28 +141,13 @@ impl SliceCompliance {
                     .collect()
             })
             .collect();
-        let mut loaded = vec![0.0; loads];
-        for tooth in 0..own {
-            for other in 0..gear.teeth {
-                let block = match local.part() {
-                    CompliancePart::Patterns => gear.c_g_block(tooth, flank, other, flank),
-                    CompliancePart::Hub => gear.c_hub_block(tooth, flank, other, flank),
-                };
-                for (row, responses) in axial.iter().zip(condensed.chunks_exact_mut(size)) {
-                    // First the loads, then the responses: each entry of the block is used a few times only.
-                    loaded.fill(0.0);
-                    for &(l, share) in row {
-                        for (sum, c) in loaded.iter_mut().zip(&block[l * loads..][..loads]) {
-                            *sum += share * c;
-                        }
-                    }
-                    for (response, column) in responses.iter_mut().zip(&axial) {
-                        *response = column.iter().map(|&(m, share)| share * loaded[m]).sum();
-                    }
-                }
-                blocks.push(|[a, i], [b, j]| condensed[(a * slices + i) * size + b * slices + j]);
+        let blocks = match gear.flank_patterns(flank, local.part() == CompliancePart::Patterns) {
+            Some(patterns) => {
+                let patterns = patterns.combined(&axial);
+                StationBlocks::of_patterns(stations, slices, patterns, gear.teeth)
             }
-        }
+            None => blocks_of_all(gear, (flank, local.part()), (stations, slices), &axial),
+        };
         let slice_width_m = spread.width_m();
         let k = 2.0 * (1.0 - gear.poisson * gear.poisson) / (PI * gear.young_pa);
         // A single slice has no neighbours.
@@ -358,6 +340,42 @@ impl SliceCompliance {
             (above - below) * moves,
         )
     }
+}
+
+/// T of all pairs of flanks: of a sector's teeth with all teeth. `axial`: loads and shares of each (station, slice).
+fn blocks_of_all(
+    gear: &ReducedGear,
+    (flank, part): (Flank, CompliancePart),
+    (stations, slices): (usize, usize),
+    axial: &[Vec<(usize, f64)>],
+) -> StationBlocks {
+    let own = gear.teeth_per_sector();
+    let (loads, size) = (gear.grid.len(), stations * slices);
+    let mut blocks = StationBlocks::new(stations, slices, own * gear.teeth);
+    let mut condensed = vec![0.0; size * size];
+    let mut loaded = vec![0.0; loads];
+    for tooth in 0..own {
+        for other in 0..gear.teeth {
+            let block = match part {
+                CompliancePart::Patterns => gear.c_g_block(tooth, flank, other, flank),
+                CompliancePart::Hub => gear.c_hub_block(tooth, flank, other, flank),
+            };
+            for (row, responses) in axial.iter().zip(condensed.chunks_exact_mut(size)) {
+                // First the loads, then the responses: each entry of the block is used a few times only.
+                loaded.fill(0.0);
+                for &(l, share) in row {
+                    for (sum, c) in loaded.iter_mut().zip(&block[l * loads..][..loads]) {
+                        *sum += share * c;
+                    }
+                }
+                for (response, column) in responses.iter_mut().zip(axial) {
+                    *response = column.iter().map(|&(m, share)| share * loaded[m]).sum();
+                }
+            }
+            blocks.push(|[a, i], [b, j]| condensed[(a * slices + i) * size + b * slices + j]);
+        }
+    }
+    blocks
 }
 
 /// The largest term between neighbours that leaves the compliance positive \[m/N\]: half of the least xᵀCx/xᵀLx of the loads x

@@ -10,6 +10,8 @@
 
 use crate::profile_shares::{ProfilePlace, SHARES};
 use crate::walked_slice::WalkedSlice;
+use gearmesh_model::HubPatterns;
+use std::sync::{Arc, OnceLock};
 
 /// C of two slices, and how it changes with the place of each \[m/N, m/N per u\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -37,8 +39,25 @@ pub struct StationBlocks {
     stations: usize,
     /// Stations and, where they are fewer than the shares of a place, as many zeros more.
     stride: usize,
-    /// `[pair of flanks][slice a][slice b][station a][station b]` \[m/N\].
-    values: Vec<f64>,
+    values: Values,
+}
+
+/// T, `[pair of flanks][slice a][slice b][station a][station b]` \[m/N\].
+#[derive(Debug, Clone)]
+enum Values {
+    /// Of all pairs at once.
+    All(Vec<f64>),
+    /// Of a pair when it is asked for first.
+    OnDemand(Arc<OnDemand>),
+}
+
+/// Flanks of a body that does not repeat: of the thousands of pairs of its teeth a run touches neighbours only.
+#[derive(Debug)]
+struct OnDemand {
+    /// Of the loads (station, slice).
+    patterns: HubPatterns,
+    teeth: usize,
+    pairs: Vec<OnceLock<Vec<f64>>>,
 }
 
 impl StationBlocks {
@@ -50,18 +69,36 @@ impl StationBlocks {
             slices,
             stations,
             stride,
-            values: Vec::with_capacity(pairs * slices * slices * stride * stride),
+            values: Values::All(Vec::with_capacity(
+                pairs * slices * slices * stride * stride,
+            )),
+        }
+    }
+
+    /// Of a body's patterns, combined to its stations and slices, each pair `[tooth][response tooth]` when it is asked for first.
+    #[must_use]
+    pub fn of_patterns(
+        stations: usize,
+        slices: usize,
+        patterns: HubPatterns,
+        teeth: usize,
+    ) -> Self {
+        let pairs = (0..teeth * teeth).map(|_| OnceLock::new()).collect();
+        Self {
+            values: Values::OnDemand(Arc::new(OnDemand {
+                patterns,
+                teeth,
+                pairs,
+            })),
+            ..Self::new(stations, slices, 0)
         }
     }
 
     /// Appends a pair of flanks by its entries (station a, slice a), (station b, slice b).
     pub fn push(&mut self, entry: impl Fn([usize; 2], [usize; 2]) -> f64) {
-        for (i, j) in (0..self.slices).flat_map(|i| (0..self.slices).map(move |j| (i, j))) {
-            for (a, b) in (0..self.stride).flat_map(|a| (0..self.stride).map(move |b| (a, b))) {
-                let exists = a < self.stations && b < self.stations;
-                let value = if exists { entry([a, i], [b, j]) } else { 0.0 };
-                self.values.push(value);
-            }
+        let layout = (self.slices, self.stations, self.stride);
+        if let Values::All(values) = &mut self.values {
+            append(values, layout, entry);
         }
     }
 
@@ -72,11 +109,48 @@ impl StationBlocks {
         let block = self.stride * self.stride;
         let size = self.slices * self.slices * block;
         let first = places[0].first() * self.stride + places[1].first();
+        let values = match &self.values {
+            Values::All(values) => &values[pair * size..(pair + 1) * size],
+            Values::OnDemand(found) => match found.pairs[pair].get() {
+                Some(values) => values,
+                None => self.asked_first(found, pair),
+            },
+        };
         CombinedBlocks {
-            values: &self.values[pair * size + first..(pair + 1) * size],
+            values: &values[first..],
             slices: self.slices,
             stride: self.stride,
             places,
+        }
+    }
+
+    #[cold]
+    fn asked_first<'a>(&self, found: &'a OnDemand, pair: usize) -> &'a [f64] {
+        found.pairs[pair].get_or_init(|| {
+            let (slices, size) = (self.slices, self.stations * self.slices);
+            let teeth = [pair / found.teeth, pair % found.teeth];
+            let block = found.patterns.block(teeth, [0, 0], size);
+            let mut values = Vec::new();
+            append(
+                &mut values,
+                (slices, self.stations, self.stride),
+                |[a, i], [b, j]| block[(a * slices + i) * size + b * slices + j],
+            );
+            values
+        })
+    }
+}
+
+/// Appends a pair of flanks; stations beyond those that exist are zeros.
+fn append(
+    values: &mut Vec<f64>,
+    (slices, stations, stride): (usize, usize, usize),
+    entry: impl Fn([usize; 2], [usize; 2]) -> f64,
+) {
+    for (i, j) in (0..slices).flat_map(|i| (0..slices).map(move |j| (i, j))) {
+        for (a, b) in (0..stride).flat_map(|a| (0..stride).map(move |b| (a, b))) {
+            let exists = a < stations && b < stations;
+            values.push(if exists { entry([a, i], [b, j]) } else { 0.0 });
         }
     }
 }

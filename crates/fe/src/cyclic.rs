@@ -22,6 +22,7 @@
 //! Source: D. L. Thomas, *Dynamics of rotationally periodic structures*, Int. J. Numer. Meth. Eng. 14 (1979) 81-102.
 
 use crate::error::FeError;
+use crate::ring_transform::{RingTransform, by_reference};
 use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
@@ -29,7 +30,6 @@ use faer::linalg::triangular_solve::{
 use faer::reborrow::ReborrowMut;
 use faer::{Mat, MatMut, MatRef, Par, Side, c64};
 use rayon::prelude::*;
-use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The factorised harmonics of a ring of sectors.
@@ -77,7 +77,7 @@ impl CyclicInterface {
         let factors = (0..harmonics)
             .into_par_iter()
             .map(|k| {
-                let turn = phase(k, sectors);
+                let turn = RingTransform { parts: sectors }.phase(k);
                 let s = Mat::from_fn(cut, cut, |i, j| {
                     let own = stiffness[(i, j)] + stiffness[(cut + i, cut + j)];
                     let (rl, lr) = (stiffness[(i, cut + j)], stiffness[(cut + i, j)]);
@@ -113,7 +113,7 @@ impl CyclicInterface {
 
     /// e^{ikα}: what a cut has more in phase than the cut before, in a field of harmonic k.
     pub fn turn(&self, k: usize) -> c64 {
-        phase(k, self.sectors)
+        self.ring().phase(k)
     }
 
     /// Overwrites the loads p_R + e^{-ikα} p_L of harmonic k (rows of one cut × cases) with the displacements of cut R.
@@ -132,7 +132,7 @@ impl CyclicInterface {
 
     /// Λ⁻¹(p_R + e^{-ikα} p_L).
     fn transformed(&self, k: usize, loads: MatRef<'_, f64>) -> Mat<c64> {
-        let back = phase(k, self.sectors).conj();
+        let back = self.ring().phase(k).conj();
         let mut y = Mat::from_fn(self.cut, loads.ncols(), |i, j| {
             back * loads[(self.cut + i, j)] + c64::new(loads[(i, j)], 0.0)
         });
@@ -156,22 +156,7 @@ impl CyclicInterface {
                 y.adjoint() * &y
             })
             .collect();
-        (0..self.sectors)
-            .into_par_iter()
-            .map(|j| {
-                let mut sum = Mat::<f64>::zeros(n, n);
-                for (k, product) in spectrum.iter().enumerate() {
-                    let turn = phase(k * j, self.sectors) * self.weight(k);
-                    for column in 0..n {
-                        for row in 0..n {
-                            let value = product[(row, column)];
-                            sum[(row, column)] += turn.re * value.re - turn.im * value.im;
-                        }
-                    }
-                }
-                sum
-            })
-            .collect()
+        self.ring().back(&by_reference(&spectrum), (n, n))
     }
 
     /// Displacements at the cuts \[R, L\] of each sector, from the loads of each sector carried to its cuts:
@@ -187,8 +172,8 @@ impl CyclicInterface {
             .map(|k| {
                 let mut total = Mat::<c64>::zeros(self.cut, cases);
                 for (j, block) in loads.iter().enumerate() {
-                    let turn = phase(k * j, self.sectors).conj();
-                    let next = phase(k * (j + 1), self.sectors).conj();
+                    let turn = self.ring().phase(k * j).conj();
+                    let next = self.ring().phase(k * (j + 1)).conj();
                     for column in 0..cases {
                         for i in 0..self.cut {
                             total[(i, column)] +=
@@ -200,22 +185,7 @@ impl CyclicInterface {
                 total
             })
             .collect();
-        let cuts: Vec<Mat<f64>> = (0..self.sectors)
-            .into_par_iter()
-            .map(|j| {
-                let mut sum = Mat::<f64>::zeros(self.cut, cases);
-                for (k, u) in spectrum.iter().enumerate() {
-                    let turn = phase(k * j, self.sectors) * self.weight(k);
-                    for column in 0..cases {
-                        for i in 0..self.cut {
-                            let value = u[(i, column)];
-                            sum[(i, column)] += turn.re * value.re - turn.im * value.im;
-                        }
-                    }
-                }
-                sum
-            })
-            .collect();
+        let cuts = (self.ring()).back(&by_reference(&spectrum), (self.cut, cases));
         (0..self.sectors)
             .map(|j| {
                 let next = &cuts[(j + 1) % self.sectors];
@@ -230,15 +200,9 @@ impl CyclicInterface {
             .collect()
     }
 
-    /// Share of a harmonic in the inverse transform: 1/N, and twice that where its conjugate is left out.
-    fn weight(&self, k: usize) -> f64 {
-        let alone = k == 0 || 2 * k == self.sectors;
-        (if alone { 1.0 } else { 2.0 }) / self.sectors as f64
+    fn ring(&self) -> RingTransform {
+        RingTransform {
+            parts: self.sectors,
+        }
     }
-}
-
-/// e^{2πi k/N}, with k reduced first so that the angle is exact to rounding.
-fn phase(k: usize, sectors: usize) -> c64 {
-    let (sin, cos) = (TAU * (k % sectors) as f64 / sectors as f64).sin_cos();
-    c64::new(cos, sin)
 }

@@ -40,9 +40,9 @@ pub struct CondensedLoads {
     /// p_B', kept displacements × loads (N).
     pub kept: Mat<f64>,
     /// y_I where it is not zero: `rows` × loads. Loads on a small part of the body reach few rows.
-    interior: Mat<f64>,
+    pub(crate) interior: Mat<f64>,
     /// Places of these rows in the order of elimination, ascending.
-    rows: Vec<usize>,
+    pub(crate) rows: Vec<usize>,
 }
 
 impl CondensedLoads {

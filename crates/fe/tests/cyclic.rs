@@ -2,10 +2,12 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use faer::linalg::solvers::Solve;
+use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Side};
 use gearmesh_fe::{
     CondensedLoads, CyclicInterface, CylindricalFrames, DofMap, Element, Factor, FeError, FeModel,
-    Material, StaticCondensation, StructuredMesh, assemble_stiffness, numbers_without_pattern,
+    Material, Ring, RingCondensation, StaticCondensation, StructuredMesh, assemble_stiffness,
+    numbers_without_pattern,
 };
 
 fn close(a: &Mat<f64>, b: &Mat<f64>, tolerance: f64) -> bool {
@@ -287,6 +289,106 @@ fn a_ring_of_elements_by_sectors_and_as_a_whole() {
         [u[3 * loaded], u[3 * loaded + 1], u[3 * loaded + 2]],
     )[0];
     assert!((own - direct).abs() < 1e-11 * direct);
+}
+
+/// Parts with any stiffness in a ring round a core that does not repeat, against one dense matrix: solutions, work of any two loads, and the way
+/// of loads on one part. Two nodes of a part are the ring's, two the core's; those of both kinds at its left are the next part's.
+#[test]
+fn a_ring_round_a_core_is_solved_by_harmonics() {
+    for parts in [4, 5] {
+        let definite = |size: usize, seed: usize| {
+            let a = numbers_without_pattern(size, size + seed);
+            let mut s = &a * a.transpose();
+            for i in 0..size {
+                s[(i, i)] += 0.1 * size as f64;
+            }
+            s
+        };
+        // Numbers in no order: the ring's own are odd.
+        let ring = |part: usize, i: usize| 2 * (2 * (part % parts) + i) + 1;
+        let circle = |part: usize, i: usize| 2 * (2 * (part % parts) + i);
+        let nodes: Vec<Vec<usize>> = (0..parts)
+            .map(|p| {
+                let own = [circle(p, 1), ring(p, 0), circle(p, 0), ring(p, 1)];
+                let next = [ring(p + 1, 1), circle(p + 1, 0), ring(p + 1, 0)];
+                own.into_iter().chain(next).collect()
+            })
+            .collect();
+        let count = 4 * parts + 3;
+        let inside = 4 * parts..count;
+        let core_nodes: Vec<usize> = (0..4 * parts).step_by(2).chain(inside).collect();
+        let (of_part, of_core) = (definite(21, 0), definite(3 * core_nodes.len(), 1));
+        let mut dense = Mat::<f64>::zeros(3 * count, 3 * count);
+        let mut add = |block: &Mat<f64>, nodes: &[usize]| {
+            for i in 0..block.nrows() {
+                for j in 0..block.ncols() {
+                    dense[(3 * nodes[i / 3] + i % 3, 3 * nodes[j / 3] + j % 3)] += block[(i, j)];
+                }
+            }
+        };
+        nodes.iter().for_each(|list| add(&of_part, list));
+        add(&of_core, &core_nodes);
+        let k = dense.llt(Side::Lower).unwrap();
+
+        let ring = Ring::new(of_part.as_ref(), &nodes, |node| {
+            core_nodes.binary_search(&node).is_ok()
+        })
+        .unwrap();
+        assert_eq!(ring.harmonics(), parts / 2 + 1);
+        let circle: Vec<usize> = (ring.core_nodes())
+            .map(|node| core_nodes.binary_search(&node).unwrap())
+            .collect();
+        let mut with_ring = of_core.clone();
+        let blocks = ring.stiffness_at_core();
+        let own = blocks[0].nrows();
+        for i in 0..parts * own {
+            for j in 0..parts * own {
+                let row = 3 * circle[i / 3] + i % 3;
+                let column = 3 * circle[j / 3] + j % 3;
+                let apart = (i / own + parts - j / own) % parts;
+                with_ring[(row, column)] += blocks[apart][(i % own, j % own)];
+            }
+        }
+        let lower: Vec<Triplet<usize, usize, f64>> = (0..with_ring.ncols())
+            .flat_map(|j| (j..with_ring.nrows()).map(move |i| (i, j)))
+            .map(|(i, j)| Triplet::new(i, j, with_ring[(i, j)]))
+            .collect();
+        let size = with_ring.nrows();
+        let lower = SparseColMat::try_new_from_triplets(size, size, &lower).unwrap();
+        let core = StaticCondensation::announced(lower, &circle, &[], |_| ()).unwrap();
+        let body = RingCondensation::new(ring, core, core_nodes).unwrap();
+
+        let loads = numbers_without_pattern(3 * count, 3);
+        let u = k.solve(&loads);
+        let halves = body.condense(loads.as_ref());
+        let work = loads.transpose() * &u;
+        assert!(close(&halves.gram(&halves), &work, 1e-12));
+        let mut rows = Mat::zeros(body.interior_size(), 3);
+        for load in 0..3 {
+            halves.put_interior(load, rows.col_mut(load));
+        }
+        assert!(close(&body.expand(rows.as_ref()), &u, 1e-12));
+
+        // The same loads on one part and on another one.
+        let on_part = numbers_without_pattern(21, 2);
+        let placed = |part: usize| {
+            let mut loads = Mat::<f64>::zeros(3 * count, 2);
+            for i in 0..21 {
+                for j in 0..2 {
+                    loads[(3 * nodes[part][i / 3] + i % 3, j)] += on_part[(i, j)];
+                }
+            }
+            loads
+        };
+        let carried = body.ring().carry(on_part.as_ref());
+        let in_ring = body.ring().work(&carried);
+        for (a, b) in [(0, 0), (1, 0), (0, 1), (3, 1), (1, 3)] {
+            let halves = [a, b].map(|part| body.condense_at_core(carried.at_core(), part));
+            let found = halves[0].gram(&halves[1]) + &in_ring[(a + parts - b) % parts];
+            let expected = placed(a).transpose() * k.solve(placed(b));
+            assert!(close(&found, &expected, 1e-12), "{parts}: {a} {b}");
+        }
+    }
 }
 
 #[test]

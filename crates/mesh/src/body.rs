@@ -6,7 +6,7 @@ use crate::mid_sides::{CurvedSides, MidSides};
 use crate::plane_mesher::{PlaneMesh, PlaneProblem, Region};
 use crate::thin_ring;
 use crate::tooth_cell::ring_radius_m;
-use gearmesh_geometry::{GearDefinition, Openings, Slots};
+use gearmesh_geometry::{Element, GearDefinition, Openings, Slots};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::iter;
 
@@ -19,23 +19,21 @@ const AT_HUB: f64 = 1.0 / 3.0;
 /// Circles nearer to each other are one.
 const SAME_M: f64 = 1e-9;
 
-/// One sector of the body, ready for the mesher.
+/// One sector of a span of the body, ready for the mesher.
 #[derive(Debug, Clone)]
 pub struct BodyProblem {
     /// What the mesher gets.
     pub problem: PlaneProblem,
     /// True for regions that exist only in the web's layers.
     pub web_region: Vec<bool>,
-    /// Points on the ring's inner circle, counter-clockwise, shared with the tooth cells.
+    /// Points on the outer circle, counter-clockwise, shared with the tooth cells.
     pub ring: Vec<usize>,
     /// Points on the sector's edges, outwards to inwards, without those on the ring; empty when there is one sector.
     pub right_side: Vec<usize>,
     /// The same on the edge at the larger angle.
     pub left_side: Vec<usize>,
-    /// Points on the bore.
+    /// Points on the inner circle: the bore, where the span reaches down to it.
     pub bore: Vec<usize>,
-    /// First tooth of the sector.
-    pub first_tooth: usize,
     /// True where the sector is the whole body, closed in itself.
     closed: bool,
     curved: CurvedSides,
@@ -111,6 +109,29 @@ pub(crate) fn element_length(gear: &GearDefinition, ring_size: f64) -> impl Fn(f
     }
 }
 
+/// Radius down to which a body that does not repeat does so with its teeth \[m\]; none of one that repeats, and where nothing lies between
+/// the ring below the teeth and the openings.
+///
+/// What is outside of it has the same mesh below every tooth: it is condensed once and joined to a ring by harmonics, as the teeth are. Half
+/// way between the openings and the next circle outside of them, where a module is between them, the mesh has become coarser, so that few
+/// nodes lie on the circle.
+pub fn repeating_down_to_m(gear: &GearDefinition) -> Option<f64> {
+    let openings = gear.blank.openings()?;
+    if gear.sectors() > 1 || gear.mesh.element == Element::Tet10 || gear.mesh.plane_strain {
+        return None;
+    }
+    let (_, outer) = openings.radii_m();
+    let circles = region_circles(gear);
+    let above = circles.iter().rev().find(|(r, _)| *r > outer)?.0;
+    let room = above - outer;
+    let deep = if room >= gear.tooth.module_m {
+        outer + 0.5 * room
+    } else {
+        above
+    };
+    (deep < ring_radius_m(gear) - SAME_M).then_some(deep)
+}
+
 /// Circles that separate the regions of the body, from the ring inwards, and whether the region below each is web only.
 pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
     let ring = ring_radius_m(gear);
@@ -159,38 +180,63 @@ pub enum BodyLengths {
     WithinSector,
 }
 
-/// Places the nodes on the edges of the body's regions. `ring_per_tooth` pieces of the ring belong to each tooth.
+/// A part of the body between two circles, and how it is cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// Radii of its outer and its inner circle \[m\].
+    pub radii_m: [f64; 2],
+    /// Equal sectors in a turn.
+    pub sectors: usize,
+    /// First tooth above sector 0.
+    pub first_tooth: usize,
+    /// Pieces of the outer circle below each tooth.
+    pub pieces: usize,
+}
+
+/// The circles of the body's regions within a span, as [`region_circles`].
+fn circles_within(gear: &GearDefinition, [outer, inner]: [f64; 2]) -> Vec<(f64, bool)> {
+    let all = region_circles(gear);
+    let above = all.iter().rev().find(|(r, _)| *r >= outer - SAME_M);
+    let mut levels = vec![(outer, above.is_some_and(|(_, web_below)| *web_below))];
+    levels.extend(
+        all.iter()
+            .filter(|(r, _)| *r < outer - SAME_M && *r > inner + SAME_M),
+    );
+    levels.push((inner, false));
+    levels
+}
+
+/// Places the nodes on the edges of a span's regions; the ring's pieces are `ring_size_m` long.
 ///
 /// # Errors
-/// [`MeshError::NoCut`] when no tooth space lies clear of the openings, [`MeshError::OpeningsAcross`] when they lie
-/// across a circle of nodes.
+/// [`MeshError::OpeningsAcross`] when openings lie across a circle of nodes.
 pub fn body_problem(
     gear: &GearDefinition,
-    ring_per_tooth: usize,
+    ring_size_m: f64,
+    span: &Span,
     lengths: BodyLengths,
 ) -> Result<BodyProblem, MeshError> {
-    let sectors = gear.sectors();
+    let (sectors, first_tooth) = (span.sectors, span.first_tooth);
     let teeth = gear.tooth.teeth / sectors;
-    let first_tooth = first_tooth(gear)?;
     let pitch = TAU / gear.tooth.teeth as f64;
     let start = (first_tooth as f64 - 0.5) * pitch;
     let angle = TAU / sectors as f64;
     let closed = sectors == 1;
-    let ring = ring_radius_m(gear);
-    let ring_size = ring * pitch / ring_per_tooth as f64;
-    let wanted = element_length(gear, ring_size);
+    let wanted = element_length(gear, ring_size_m);
     let size = |r: f64| match lengths {
         BodyLengths::Wanted => wanted(r),
         BodyLengths::WithinSector => wanted(r).min(r * angle),
     };
-    let levels = region_circles(gear);
+    let levels = circles_within(gear, span.radii_m);
     // Pieces of a circle.
     let least = if closed { 8 } else { 2 };
     let in_a_region = |o: &Openings| {
         let within = |pair: &[(f64, bool)]| o.radii_m().1 < pair[0].0 && o.radii_m().0 > pair[1].0;
         levels.windows(2).any(within)
     };
-    if let Some(openings) = gear.blank.openings().filter(|o| !in_a_region(o)) {
+    let in_span = |o: &Openings| o.radii_m().1 > span.radii_m[1];
+    let openings = gear.blank.openings().filter(in_span);
+    if let Some(openings) = openings.filter(|o| !in_a_region(o)) {
         let (inner, outer) = openings.radii_m();
         return Err(MeshError::OpeningsAcross {
             inner_mm: inner * 1e3,
@@ -199,7 +245,7 @@ pub fn body_problem(
     }
     let openings_in = |i: usize| {
         let within = |o: &Openings| o.radii_m().1 < levels[i].0 && o.radii_m().0 > levels[i + 1].0;
-        gear.blank.openings().filter(within)
+        openings.filter(within)
     };
     let is_thin = |i: usize| {
         let (outer, inner) = (levels[i].0, levels[i + 1].0);
@@ -211,14 +257,15 @@ pub fn body_problem(
         points.push([r * phi.cos(), r * phi.sin(), size(r)]);
         points.len() - 1
     };
-    let mut n = ring_per_tooth * teeth;
+    let mut n = span.pieces * teeth;
     let circles: Vec<Vec<usize>> = levels
         .iter()
         .enumerate()
         .map(|(level, &(r, _))| {
             // The bore takes over the hub's number of pieces, so that the hub can be paved regularly.
-            let hub_inside = level + 1 == levels.len() && gear.blank.web().is_some();
-            if r != ring && !hub_inside && !(level > 0 && is_thin(level - 1)) {
+            let is_bore = level + 1 == levels.len() && r <= gear.blank.inner_radius_m();
+            let hub_inside = is_bore && gear.blank.web().is_some();
+            if level > 0 && !hub_inside && !is_thin(level - 1) {
                 // Free regions are meshed two boundary pieces at a time, and blossom needs an even number of those:
                 // the outline of a region has a multiple of four pieces, of which two equal edges are even already.
                 let outer = n;
@@ -315,7 +362,6 @@ pub fn body_problem(
         right_side,
         left_side,
         bore: circles[circles.len() - 1].clone(),
-        first_tooth,
         closed,
         curved,
         problem: PlaneProblem {

@@ -83,7 +83,7 @@ pub enum MeshError {
     Python(#[from] python::PythonError),
     /// gmsh failed or left triangles.
     #[error(transparent)]
-    Plane(#[from] plane_mesher::PlaneMeshError),
+    Plane(plane_mesher::PlaneMeshError),
     /// The gear has a mesh already.
     #[error(
         "blank.kind = \"mesh\": {file} is the mesh of this gear, no other is made; `gearmesh reduce` checks and reduces it, fields and \
@@ -109,10 +109,37 @@ pub enum MeshError {
     },
     /// The free mesh of the body failed.
     #[error(transparent)]
-    Solid(#[from] solid_mesher::SolidMeshError),
+    Solid(solid_mesher::SolidMeshError),
+    /// gmsh finds no mesh, or takes too long.
+    #[error(
+        "mesh.body_mm or [blank]: {cause}; make the thinnest wall or the smallest opening of the body larger, or choose another body_mm{hexahedra}"
+    )]
+    NoMesh {
+        /// What it says.
+        cause: python::PythonError,
+        /// What else helps; empty where nothing does.
+        hexahedra: &'static str,
+    },
+    /// A body of too many tetrahedra.
+    #[error(
+        "{key}: a sector of the body would have about {estimated:.1e} tetrahedra, allowed are {allowed:.0e}; elements are {length_mm:.4} mm long \
+         where it is thinnest: {advice}"
+    )]
+    TooManyTetrahedra {
+        /// What makes them so many.
+        key: &'static str,
+        /// Estimate for a sector.
+        estimated: f64,
+        /// Allowed.
+        allowed: f64,
+        /// Shortest element length.
+        length_mm: f64,
+        /// What to do.
+        advice: &'static str,
+    },
     /// Openings leave no place for the cut between two sectors.
     #[error(
-        "no tooth space lies clear of the openings: a sector's edge at a tooth space must keep {needed_deg:.3} deg from each opening, the best keeps {best_deg:.3} deg; narrow the openings or turn them"
+        "blank.slots or blank.holes: no tooth space lies clear of the openings: a sector's edge at a tooth space must keep {needed_deg:.3} deg from each opening, the best keeps {best_deg:.3} deg; narrow the openings or turn them"
     )]
     NoCut {
         /// Clearance needed.
@@ -162,6 +189,42 @@ pub enum MeshError {
         /// Where.
         z_mm: f64,
     },
+}
+
+/// A script that found no mesh is the input's fault, one that fails is not.
+fn is_no_mesh(cause: &python::PythonError) -> bool {
+    matches!(
+        cause,
+        python::PythonError::TooLong { .. }
+            | python::PythonError::Failed {
+                code: Some(python::NO_MESH),
+                ..
+            }
+    )
+}
+
+impl From<plane_mesher::PlaneMeshError> for MeshError {
+    fn from(error: plane_mesher::PlaneMeshError) -> Self {
+        match error {
+            plane_mesher::PlaneMeshError::Python(cause) if is_no_mesh(&cause) => Self::NoMesh {
+                cause,
+                hexahedra: "",
+            },
+            other => Self::Plane(other),
+        }
+    }
+}
+
+impl From<solid_mesher::SolidMeshError> for MeshError {
+    fn from(error: solid_mesher::SolidMeshError) -> Self {
+        match error {
+            solid_mesher::SolidMeshError::Python(cause) if is_no_mesh(&cause) => Self::NoMesh {
+                cause,
+                hexahedra: "; element = \"hex8-incompatible\" takes layers instead of a free mesh",
+            },
+            other => Self::Solid(other),
+        }
+    }
 }
 
 impl MeshError {

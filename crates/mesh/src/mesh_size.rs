@@ -6,12 +6,14 @@
 //! distance from both, and the same with a length that runs linearly from one circle to the other. Their geometric mean
 //! is taken; how far it is off stands in docs/theory/reduction.md.
 
+use crate::MeshError;
 use crate::body::{element_length, region_circles};
 use crate::grading::{Pieces, graded};
 use crate::layers::Layers;
+use crate::solid_problem::THROUGH_WEB;
 use crate::tooth_blocks::ToothBlocks;
 use crate::tooth_cell::ring_radius_m;
-use gearmesh_geometry::{Element, GearDefinition, Openings};
+use gearmesh_geometry::{Element, GearDefinition, Openings, Web};
 use std::f64::consts::{PI, TAU};
 
 /// Radii at which an integral over a region takes its integrand.
@@ -22,6 +24,9 @@ const TET_NODES: f64 = 11.0;
 /// Tetrahedra likewise.
 const TETRAHEDRA: f64 = 7.0;
 
+/// Tetrahedra of a sector of the body that are begun: gmsh takes some two minutes for them, and their factorisation tens of gigabytes.
+const MOST_TETRAHEDRA: f64 = 1e6;
+
 /// Sizes of a mesh and of its parts, estimated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshSize {
@@ -29,6 +34,8 @@ pub struct MeshSize {
     pub nodes: f64,
     /// Elements.
     pub elements: f64,
+    /// Those of all teeth with the ring below them.
+    pub tooth_elements: f64,
     /// Nodes of one tooth with the ring below it.
     pub tooth_nodes: f64,
     /// Those of them that it shares with the rest.
@@ -70,9 +77,11 @@ impl MeshSize {
 
         let tooth_nodes = column(cell.corners, all);
         let own_nodes = column(cell.corners - side, all);
+        let tooth_elements = teeth * cell.quads * all * elements_a_brick(element);
         let mut size = Self {
             nodes: teeth * own_nodes,
-            elements: teeth * cell.quads * all * elements_a_brick(element),
+            elements: tooth_elements,
+            tooth_elements,
             tooth_nodes,
             foot_nodes: 0.0,
             sector_nodes: 0.0,
@@ -88,7 +97,8 @@ impl MeshSize {
             let layers = if web_only { web } else { all };
             if element == Element::Tet10 {
                 let share = web_share(gear, web_only);
-                let volume = cubes(gear, outer, inner, &length) * share;
+                let thin = thinnest(gear, web_only);
+                let volume = cubes(gear, outer, inner, &|r| length(r).min(thin)) * share;
                 body_nodes += TET_NODES * volume;
                 size.elements += TETRAHEDRA * volume;
                 let across = (outer - inner) * gear.tooth.face_width_m * share;
@@ -112,6 +122,54 @@ impl MeshSize {
         }
         Some(size)
     }
+}
+
+/// Refuses a body of tetrahedra that would take gmsh longer than it is given.
+///
+/// # Errors
+/// [`MeshError::TooManyTetrahedra`].
+pub(crate) fn demand_few_tetrahedra(gear: &GearDefinition) -> Result<(), MeshError> {
+    let (Some(size), true) = (
+        MeshSize::estimate(gear),
+        gear.mesh.element == Element::Tet10,
+    ) else {
+        return Ok(());
+    };
+    let in_body = size.elements - size.tooth_elements;
+    let estimated = in_body / gear.sectors() as f64;
+    if estimated <= MOST_TETRAHEDRA {
+        return Ok(());
+    }
+    let thin = thinnest(gear, true);
+    let (key, advice) = if thin < gear.mesh.body_m {
+        let key = match gear.blank.contour() {
+            Some(_) => "blank.web",
+            None => "blank.web_thickness_mm",
+        };
+        let advice = "make the web thicker, or set mesh.element = \"hex8-incompatible\", whose layers may be thin";
+        (key, advice)
+    } else {
+        ("mesh.body_mm", "take longer ones")
+    };
+    Err(MeshError::TooManyTetrahedra {
+        key,
+        estimated,
+        allowed: MOST_TETRAHEDRA,
+        length_mm: 1e3 * thin.min(gear.mesh.body_m),
+        advice,
+    })
+}
+
+/// Longest element through the thickness of the web (m).
+fn thinnest(gear: &GearDefinition, web_only: bool) -> f64 {
+    let thickness = |web: Web| match gear.blank.contour() {
+        Some(contour) => (contour.web.iter())
+            .map(|point| point.z_m[1] - point.z_m[0])
+            .fold(f64::INFINITY, f64::min),
+        None => web.thickness_m,
+    };
+    let web = gear.blank.web().filter(|_| web_only);
+    web.map_or(f64::INFINITY, |web| thickness(web) / THROUGH_WEB)
 }
 
 /// Nodes above a corner of the cross-section, with those in the middles of the sides (as many as two corners have) and,

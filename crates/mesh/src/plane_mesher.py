@@ -132,7 +132,9 @@ def best_mesh(problem):
             if region is not None and (tag not in best or region[2] > best[tag][2]):
                 best[tag] = region
     if len(best) < len(problem["surfaces"]):
-        sys.exit(f"{problem['name']}: no quad mesh with any of {len(FREE_ATTEMPTS)} algorithms: {last}")
+        # Told apart from a program that fails by the exit code.
+        print(f"{problem['name']}: no quad mesh with any of {len(FREE_ATTEMPTS)} algorithms: {last}", file=sys.stderr)
+        sys.exit(3)
     nodes, quads, owners = [], [], []
     for tag, (inner, region, _) in sorted(best.items()):
         first = len(problem["points"]) + len(nodes)

@@ -1,11 +1,18 @@
 //! The Python environment with gmsh and meshio. Both run as child processes, never inside this program.
 
 use std::io::Write;
+use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Environment variable that names the Python interpreter.
 pub const PYTHON_VARIABLE: &str = "GEARMESH_PYTHON";
+
+/// Processor time that a script is given \[s\]; a mesh of the largest body that is begun takes a fifth of it. Of the processor, so that a busy
+/// machine refuses nothing that a quiet one does.
+pub const LIMIT_S: u32 = 600;
+/// What ends a process at its limit of processor time.
+const SIGXCPU: i32 = 24;
 
 /// Why the Python side did not answer.
 #[derive(Debug, thiserror::Error)]
@@ -26,6 +33,14 @@ pub enum PythonError {
         /// What the system said.
         cause: std::io::Error,
     },
+    /// The script took too long.
+    #[error("{task} did not end within {limit_s} s of processor time")]
+    TooLong {
+        /// What was being done.
+        task: String,
+        /// What it is given.
+        limit_s: u32,
+    },
     /// The script ended with an error.
     #[error("{task} failed in Python:\n{message}")]
     Failed {
@@ -43,6 +58,9 @@ pub enum PythonError {
 pub struct PythonEnvironment {
     interpreter: PathBuf,
 }
+
+/// Exit code of a script that cannot make the mesh that it was asked for.
+pub(crate) const NO_MESH: i32 = 3;
 
 impl PythonEnvironment {
     /// Finds the interpreter: `GEARMESH_PYTHON`, else the `.venv/bin/python` nearest above the program's own file, else
@@ -93,7 +111,7 @@ impl PythonEnvironment {
     /// Runs a script text in an isolated interpreter with `input` on its standard input; returns its standard output.
     ///
     /// # Errors
-    /// [`PythonError`] when it cannot be started or ends with an error; the message holds the end of its output.
+    /// [`PythonError`] when it cannot be started, takes longer than [`LIMIT_S`] or ends with an error; the message holds the end of its output.
     pub fn run(
         &self,
         task: &str,
@@ -105,9 +123,12 @@ impl PythonEnvironment {
             python: self.interpreter.display().to_string(),
             cause,
         };
+        let limited = format!(
+            "import resource\nresource.setrlimit(resource.RLIMIT_CPU, ({LIMIT_S}, {LIMIT_S} + 5))\n{script}"
+        );
         let mut child = self
             .command()
-            .args(["-c", script])
+            .args(["-c", &limited])
             .args(arguments)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -122,6 +143,12 @@ impl PythonEnvironment {
         let output = child.wait_with_output().map_err(start)?;
         if output.status.success() {
             return Ok(output.stdout);
+        }
+        if output.status.signal() == Some(SIGXCPU) {
+            return Err(PythonError::TooLong {
+                task: task.to_string(),
+                limit_s: LIMIT_S,
+            });
         }
         let text = String::from_utf8_lossy(&output.stderr);
         let lines: Vec<&str> = text.lines().collect();

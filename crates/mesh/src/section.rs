@@ -1,12 +1,12 @@
 //! The whole cross-section: tooth cells and body sectors copied round the axis and joined.
 
 use crate::MeshError;
-use crate::body::{BodyLengths, body_problem, first_tooth};
+use crate::body::{BodyLengths, Span, body_problem, first_tooth, repeating_down_to_m};
 use crate::crack_line::CrackLine;
 use crate::plane_mesher::mesh_plane;
 use crate::python::PythonEnvironment;
 use crate::tooth_blocks::ToothBlocks;
-use crate::tooth_cell::ToothCell;
+use crate::tooth_cell::{ToothCell, ring_radius_m};
 use gearmesh_elements::CellKind;
 use gearmesh_geometry::GearDefinition;
 use std::f64::consts::TAU;
@@ -79,17 +79,35 @@ impl Section {
             return Ok(Self::of_teeth(cell, teeth, sectors, first_tooth(gear)?));
         }
         let ring_pieces = cell_problem.ring_pieces();
-        let mut body = body_problem(gear, ring_pieces, BodyLengths::Wanted)?;
-        let mut meshes = mesh_plane(
-            python,
-            &[cell_problem.problem.clone(), body.problem.clone()],
-        )?
-        .into_iter();
+        let ring_m = ring_radius_m(gear);
+        let ring_size_m = ring_m * TAU / (teeth * ring_pieces) as f64;
+        let below_teeth = repeating_down_to_m(gear).map(|deep_m| Span {
+            radii_m: [ring_m, deep_m],
+            sectors: teeth,
+            first_tooth: 0,
+            pieces: ring_pieces,
+        });
+        let mut below_teeth = below_teeth
+            .map(|span| body_problem(gear, ring_size_m, &span, BodyLengths::WithinSector))
+            .transpose()?;
+        let span = Span {
+            radii_m: [
+                repeating_down_to_m(gear).unwrap_or(ring_m),
+                gear.blank.inner_radius_m(),
+            ],
+            sectors,
+            first_tooth: first_tooth(gear)?,
+            pieces: (below_teeth.as_ref()).map_or(ring_pieces, |below| below.bore.len() - 1),
+        };
+        let mut body = body_problem(gear, ring_size_m, &span, BodyLengths::Wanted)?;
+        let mut problems = vec![cell_problem.problem.clone(), body.problem.clone()];
+        problems.extend(below_teeth.as_ref().map(|below| below.problem.clone()));
+        let mut meshes = mesh_plane(python, &problems)?.into_iter();
         let (Some(cell_mesh), Some(mut body_mesh)) = (meshes.next(), meshes.next()) else {
             return Err(mismatch().into());
         };
         if sectors > 1 && body_mesh.smallest_scaled_jacobian() < gear.mesh.min_scaled_jacobian {
-            let narrow = body_problem(gear, ring_pieces, BodyLengths::WithinSector)?;
+            let narrow = body_problem(gear, ring_size_m, &span, BodyLengths::WithinSector)?;
             let mut meshes = mesh_plane(python, std::slice::from_ref(&narrow.problem))?;
             (body, body_mesh) = (narrow, meshes.pop().ok_or_else(mismatch)?);
         }
@@ -101,8 +119,14 @@ impl Section {
         if shape == CellKind::Hex20 {
             body.make_quadratic(&mut body_mesh);
         }
+        if let (Some(below), Some(mut mesh)) = (&mut below_teeth, meshes.next()) {
+            if shape == CellKind::Hex20 {
+                below.make_quadratic(&mut mesh);
+            }
+            cell.extend_below(below, &mesh);
+        }
         let ring_per_tooth = cell.bottom.len() - 1;
-        let mut section = Self::of_teeth(cell, teeth, sectors, body.first_tooth);
+        let mut section = Self::of_teeth(cell, teeth, sectors, span.first_tooth);
         let Self {
             nodes,
             quads,
@@ -119,7 +143,7 @@ impl Section {
         for (sector, map) in body_nodes.iter_mut().enumerate() {
             for (k, &local) in body.ring.iter().enumerate() {
                 let tooth =
-                    (body.first_tooth + sector * teeth_per_sector + k / ring_per_tooth) % teeth;
+                    (span.first_tooth + sector * teeth_per_sector + k / ring_per_tooth) % teeth;
                 map[local] = cell_nodes[tooth][cell.bottom[k % ring_per_tooth]];
             }
             for (local, &p) in body_mesh.nodes.iter().enumerate() {
@@ -182,17 +206,19 @@ impl Section {
         let mut quads = Vec::with_capacity(teeth * cell.quads.len());
         let mut mid_sides = Vec::new();
         let mut centres = Vec::new();
+        let mut web_only = Vec::with_capacity(teeth * cell.quads.len());
         let mut cell_first_quad = Vec::with_capacity(teeth);
         for map in &cell_nodes {
             cell_first_quad.push(quads.len());
             quads.extend(cell.quads.iter().map(|q| q.map(|n| map[n])));
             mid_sides.extend(cell.mid_sides.iter().map(|m| m.map(|n| map[n])));
             centres.extend(cell.centres.iter().map(|&n| map[n]));
+            web_only.extend(&cell.web_only);
         }
         let none = quads.len()..quads.len();
         Self {
             nodes,
-            web_only: vec![false; quads.len()],
+            web_only,
             quads,
             mid_sides,
             centres,

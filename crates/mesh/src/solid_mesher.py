@@ -16,6 +16,12 @@ import numpy as np
 SAME_MM = 1e-6
 
 
+def give_up(problem, message):
+    """No mesh can be made: told apart from a program that fails by the exit code."""
+    print(f"{problem['name']}: {message}", file=sys.stderr)
+    sys.exit(3)
+
+
 def polar(x, y):
     return math.hypot(x, y), math.atan2(y, x)
 
@@ -137,7 +143,7 @@ def ring_is_cut_as_told(ring):
                     if rising is None:
                         rising = now
                     elif rising != now:
-                        sys.exit(f"the ring's triangles are not cut alike")
+                        sys.exit("the ring's triangles are not cut alike")
     return bool(rising)
 
 
@@ -146,7 +152,7 @@ def generate(problem, arrangement):
     build(problem)
     ring, sides = classify(problem)
     if not ring or (not problem["closed"] and (not sides[0] or len(sides[0]) != len(sides[1]))):
-        sys.exit(f"the body's surfaces were not found: {len(ring)} on the ring, {len(sides[0])} and {len(sides[1])} at the sides")
+        give_up(problem, f"the surfaces were not found: {len(ring)} on the ring, {len(sides[0])} and {len(sides[1])} at the sides")
     prescribe(problem, ring, sides, arrangement)
     gmsh.model.mesh.generate(2)
     if not ring_is_cut_as_told(ring):
@@ -172,9 +178,9 @@ def main():
     try:
         sides = generate(problem, "Left") or generate(problem, "Right")
     except Exception as error:  # gmsh raises plain Exception
-        sys.exit(f"{problem['name']}: {error}")
+        give_up(problem, error)
     if sides is None:
-        sys.exit(f"{problem['name']}: the ring was not cut as told")
+        give_up(problem, "the ring was not cut as told")
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     kinds, _, connectivity = gmsh.model.mesh.getElements(3)
     if list(kinds) != [11] and set(kinds) != {11}:

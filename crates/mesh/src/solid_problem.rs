@@ -13,7 +13,7 @@ const ELEMENTS_PER_TURN: f64 = 12.0;
 /// Element length at sharp inner corners, where stress is singular, as a share of the largest (as in hexahedra).
 const AT_CORNER: f64 = 1.0 / 3.0;
 /// Elements through the thickness of the web, about.
-const THROUGH_WEB: f64 = 1.5;
+pub(crate) const THROUGH_WEB: f64 = 1.5;
 /// Distance \[m\] below which radii are one.
 const SAME_M: f64 = 1e-8;
 

@@ -8,6 +8,7 @@ use crate::elements::ElementList;
 use crate::face::{FaceShape, OutlineFace};
 use crate::gear_mesh::GearMesh;
 use crate::layers::Layers;
+use crate::mesh_size::demand_few_tetrahedra;
 use crate::python::PythonEnvironment;
 use crate::quality;
 use crate::section::Section;
@@ -38,6 +39,7 @@ impl GearMesh {
         gear: &GearDefinition,
         python: &PythonEnvironment,
     ) -> Result<Self, MeshError> {
+        demand_few_tetrahedra(gear)?;
         let section = Section::new(gear, python)?;
         let mut mesh = Self::of_teeth(section, Layers::new(gear), Twist::new(gear));
         let foot = mesh.foot();

@@ -375,6 +375,7 @@ impl ToothBlocks {
             CellKind::Tet10 => mesh.add_centres(),
             _ => Vec::new(),
         };
+        let quad_count = mesh.quads.len();
         let chain = |corners: Vec<usize>| match &middles {
             None => corners,
             Some(middles) => middles.interleaved(&corners, false),
@@ -391,6 +392,7 @@ impl ToothBlocks {
             quads: mesh.quads,
             mid_sides: mesh.mid_sides,
             centres,
+            web_only: vec![false; quad_count],
             above_cut,
             outline: self.outline,
             outline_arc_m: self.outline_arc_m,

@@ -14,6 +14,7 @@ use crate::record::{Fields, OPEN};
 use crate::reduced_gear::ReducedGear;
 use crate::reduced_gear_check::{check_array, out_of_range};
 use crate::reduced_gear_error::ReducedGearError;
+use std::sync::Arc;
 
 /// C_hub by patterns.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -24,8 +25,8 @@ pub struct HubPatterns {
     pub own_tooth: Vec<f64>,
     /// V, `[load][pattern]`.
     pub shares: Vec<f64>,
-    /// B in m/N: lower triangle, row by row, over teeth and their patterns.
-    pub body: Vec<f64>,
+    /// B in m/N: lower triangle, row by row, over teeth and their patterns. Shared by all who combine its loads.
+    pub body: Arc<Vec<f64>>,
 }
 
 impl HubPatterns {
@@ -55,6 +56,33 @@ impl HubPatterns {
         check_array("body of C_hub", &self.body, body, triangle)
     }
 
+    /// The same for combinations of loads, each a list of loads of a tooth and shares: T and V between them, B as it is.
+    #[must_use]
+    pub fn combined(&self, combinations: &[Vec<(usize, f64)>]) -> Self {
+        let (r, n) = (self.count, combinations.len());
+        let all = self.shares.len() / r.max(1);
+        let mut own_tooth = Vec::with_capacity(n * n);
+        let mut shares = vec![0.0; n * r];
+        let mut loaded = vec![0.0; all];
+        for (row, sums) in combinations.iter().zip(shares.chunks_exact_mut(r.max(1))) {
+            loaded.fill(0.0);
+            for &(load, share) in row {
+                add(&mut loaded, share, &self.own_tooth[load * all..][..all]);
+                add(sums, share, &self.shares[load * r..][..r]);
+            }
+            own_tooth.extend((combinations.iter()).map(|column| {
+                let of_responses = column.iter().map(|&(m, share)| share * loaded[m]);
+                of_responses.sum::<f64>()
+            }));
+        }
+        Self {
+            count: r,
+            own_tooth,
+            shares,
+            body: Arc::clone(&self.body),
+        }
+    }
+
     /// B between two teeth: load pattern p, response pattern q.
     fn between(&self, a: usize, p: usize, b: usize, q: usize) -> f64 {
         let (load, response) = (a * self.count + p, b * self.count + q);
@@ -64,12 +92,8 @@ impl HubPatterns {
 
     /// The block of C_hub between two flanks, `[load][response]`: of tooth `a` from its load `from` on, of tooth `b` from its load
     /// `to` on, `loads` each.
-    pub(crate) fn block(
-        &self,
-        [a, b]: [usize; 2],
-        [from, to]: [usize; 2],
-        loads: usize,
-    ) -> Vec<f64> {
+    #[must_use]
+    pub fn block(&self, [a, b]: [usize; 2], [from, to]: [usize; 2], loads: usize) -> Vec<f64> {
         let r = self.count;
         let all = self.shares.len() / r.max(1);
         let mut between = vec![0.0; r * r];
@@ -84,9 +108,7 @@ impl HubPatterns {
         for (l, row) in block.chunks_exact_mut(loads).enumerate() {
             passed.fill(0.0);
             for (v, line) in share(from + l).iter().zip(between.chunks_exact(r)) {
-                for (sum, value) in passed.iter_mut().zip(line) {
-                    *sum += v * value;
-                }
+                add(&mut passed, *v, line);
             }
             for (m, value) in row.iter_mut().enumerate() {
                 let both = share(to + m).iter().zip(&passed);
@@ -116,6 +138,13 @@ impl HubPatterns {
             .numbers("shares", &mut self.shares, &axes, "1", what)?;
         let what = "compliance of the body between patterns: lower triangle, row by row, over teeth and their patterns";
         let axes = [("pair of patterns", OPEN)];
-        f.bulk("body", &mut self.body, &axes, "m/N", what)
+        f.bulk("body", Arc::make_mut(&mut self.body), &axes, "m/N", what)
+    }
+}
+
+/// Adds a multiple of a row.
+fn add(sums: &mut [f64], share: f64, row: &[f64]) {
+    for (sum, value) in sums.iter_mut().zip(row) {
+        *sum += share * value;
     }
 }

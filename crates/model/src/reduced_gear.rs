@@ -262,6 +262,25 @@ impl ReducedGear {
         Cow::Owned(full)
     }
 
+    /// C_hub of one hand of flank by patterns, less C_tooth of the loads' own tooth where that is wanted; none where it is kept in full.
+    ///
+    /// # Panics
+    /// If the hand carries no loads.
+    pub fn flank_patterns(&self, flank: Flank, less_tooth: bool) -> Option<HubPatterns> {
+        let patterns = self.hub_patterns.as_ref()?;
+        let (loads, from) = (self.grid.len(), self.carrying(flank) * self.grid.len());
+        let of_flank: Vec<Vec<(usize, f64)>> =
+            (0..loads).map(|load| vec![(from + load, 1.0)]).collect();
+        let mut of_flank = patterns.combined(&of_flank);
+        if less_tooth {
+            let tooth = self.c_tooth_block(flank).iter();
+            for (own, tooth) in of_flank.own_tooth.iter_mut().zip(tooth) {
+                *own -= tooth;
+            }
+        }
+        Some(of_flank)
+    }
+
     /// C_tooth of a hand of flank in m/N, `[load L][response L]`.
     ///
     /// # Panics

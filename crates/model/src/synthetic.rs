@@ -14,6 +14,7 @@ use crate::shaft_faces::{FaceMass, ShaftFaces};
 use crate::stored_gear::StoredGear;
 use gearmesh_elements::CellKind;
 use gearmesh_geometry::Flank;
+use std::sync::Arc;
 
 /// The gear file of [`small_reduced_gear`].
 const SYNTHETIC_TEXT: &str = r#"# made up
@@ -65,9 +66,11 @@ pub fn small_patterned_gear() -> ReducedGear {
                 .map(|k| 1e-9 * (-apart(k)).exp())
                 .collect(),
             shares: (0..loads * count).map(|k| 0.3 * (k as f64).cos()).collect(),
-            body: (0..all * (all + 1) / 2)
-                .map(|k| 1e-10 * (1.0 + k as f64))
-                .collect(),
+            body: Arc::new(
+                (0..all * (all + 1) / 2)
+                    .map(|k| 1e-10 * (1.0 + k as f64))
+                    .collect(),
+            ),
         }),
         ..gear
     }

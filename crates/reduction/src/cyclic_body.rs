@@ -96,7 +96,10 @@ impl CyclicBody {
     /// Number and sizes of the factorisations: tooth, sector and harmonics.
     pub fn effort(&self) -> Vec<(&'static str, usize)> {
         vec![
-            ("factorisations", 2 + self.interface.harmonics()),
+            (
+                "factorisations",
+                1 + self.sector.condensation().factorisations() + self.interface.harmonics(),
+            ),
             ("DOF of a tooth", self.tooth.condensation().size()),
             ("DOF at its foot", 3 * self.tooth.boundary_count()),
             ("DOF of a sector", self.sector.condensation().size()),

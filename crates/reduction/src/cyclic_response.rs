@@ -146,7 +146,7 @@ impl CyclicBody {
         let sectors = self
             .sector
             .condensation()
-            .expand(kept.as_ref(), Some(interior.as_ref()));
+            .expand(kept.as_ref(), interior.as_ref());
         Response {
             sectors,
             cases: n,

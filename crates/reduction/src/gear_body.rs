@@ -179,10 +179,14 @@ impl<M: RepeatedMesh> GearBody<M> {
 
     /// The body under loads given on tooth 0 and placed, turned, on every tooth, as a single sector; none where it repeats or was
     /// factorised as a whole.
-    pub(crate) fn single_sector(&self, vectors: &[&SparseVector]) -> Option<SingleSector<'_>> {
+    pub(crate) fn single_sector(
+        &self,
+        vectors: &[&SparseVector],
+        progress: &dyn Progress,
+    ) -> Option<SingleSector<'_>> {
         match &self.solver {
             Solver::Whole(_) => None,
-            Solver::Cyclic(body) => SingleSector::new(body, vectors),
+            Solver::Cyclic(body) => SingleSector::new(body, vectors, progress),
         }
     }
 

@@ -375,7 +375,7 @@ impl ModeProblem for HarmonicProblem<'_> {
             in_sector.put_interior(column, interior.col_mut(column));
         }
         let sector = body.sector.condensation();
-        let on_sector = sector.expand(cuts.as_ref(), Some(interior.as_ref()));
+        let on_sector = sector.expand(cuts.as_ref(), interior.as_ref());
         drop(interior);
 
         let feet = Mat::from_fn(

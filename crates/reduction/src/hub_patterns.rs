@@ -18,12 +18,12 @@ use crate::Progress;
 use crate::flank_loads::SparseVector;
 use crate::gear_body::GearBody;
 use crate::repeated_mesh::RepeatedMesh;
-use crate::single_sector::SingleSector;
+use crate::single_sector::{HalfSolves, SingleSector};
 use faer::{Mat, MatRef};
-use gearmesh_fe::CondensedLoads;
 use gearmesh_model::HubPatterns;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Largest difference of an entry over the largest entry. Far below any mesh error, and below what single precision would leave out (6e-8).
@@ -60,11 +60,10 @@ pub fn by_patterns(
     vectors: &[&SparseVector],
     progress: &dyn Progress,
 ) -> Option<FoundPatterns> {
-    let sector = body.single_sector(vectors)?;
+    let sector = body.single_sector(vectors, progress)?;
     let (n, teeth) = (vectors.len(), sector.teeth());
     let pairs = (0..SAMPLED_PAIRS).map(|k| k * teeth / SAMPLED_PAIRS);
     let sampled: BTreeSet<usize> = pairs.flat_map(|a| [a, (a + 1) % teeth]).collect();
-    let mut solved = n * sampled.len();
     let sampled = Sampled::new(&sector, sampled, progress);
     let svd = sampled.side_by_side().thin_svd().ok()?;
     let sizes = svd.S().column_vector();
@@ -76,8 +75,7 @@ pub fn by_patterns(
         let left_out = sampled.left_out(shares) / sampled.largest;
         if left_out <= ALLOWED_OF_SAMPLED {
             let others = Others::new(&sector, &sampled, shares, progress);
-            solved += others.solved();
-            let (blocks, more) = others.products(&sampled, teeth, progress);
+            let (blocks, more) = others.products(&sampled, progress);
             let left_out = left_out.max(more / sampled.largest);
             if left_out <= ALLOWED {
                 return Some(FoundPatterns {
@@ -85,11 +83,11 @@ pub fn by_patterns(
                         count,
                         own_tooth: row_by_row(sampled.inside.as_ref()),
                         shares: row_by_row(shares),
-                        body: lower_triangle(&blocks, teeth, count),
+                        body: Arc::new(lower_triangle(&blocks, teeth, count)),
                     },
                     left_out,
                     first_tooth: sampled.first_rows(&blocks, shares, teeth),
-                    solved,
+                    solved: sector.solved(),
                 });
             }
         }
@@ -102,7 +100,7 @@ pub fn by_patterns(
 struct Sampled {
     /// Ascending, the first of them tooth 0.
     numbers: Vec<usize>,
-    solves: Vec<CondensedLoads>,
+    solves: Vec<HalfSolves>,
     /// B between them: the i-th with all up to itself.
     blocks: Vec<Vec<Mat<f64>>>,
     /// T.
@@ -124,7 +122,9 @@ impl Sampled {
         }
         let up_to = |i: usize| {
             let earlier = (0..=i).into_par_iter();
-            earlier.map(|j| solves[i].gram(&solves[j])).collect()
+            earlier
+                .map(|j| sector.work(&solves[i], &solves[j]))
+                .collect()
         };
         let blocks: Vec<Vec<Mat<f64>>> = (0..numbers.len()).map(up_to).collect();
         let largest = (blocks.iter().enumerate())
@@ -192,16 +192,16 @@ impl Sampled {
 
 /// The other teeth, of which patterns are solved.
 struct Others<'a> {
+    sector: &'a SingleSector<'a>,
     /// V.
     shares: MatRef<'a, f64>,
-    numbers: Vec<usize>,
     /// Of the patterns, then of what they leave of combinations of all loads.
-    solves: Vec<CondensedLoads>,
+    solves: Vec<HalfSolves>,
 }
 
 impl<'a> Others<'a> {
     fn new(
-        sector: &SingleSector<'_>,
+        sector: &'a SingleSector<'a>,
         sampled: &Sampled,
         shares: MatRef<'a, f64>,
         progress: &dyn Progress,
@@ -224,24 +224,15 @@ impl<'a> Others<'a> {
             progress.advance(solves.len(), numbers.len());
         }
         Self {
+            sector,
             shares,
-            numbers,
             solves,
         }
     }
 
-    /// Right-hand sides.
-    fn solved(&self) -> usize {
-        self.numbers.len() * (self.shares.ncols() + PROBES)
-    }
-
     /// VᵀBV of each tooth with all up to itself, and the largest entry that is found to be left out where a tooth is not among the sampled.
-    fn products(
-        &self,
-        sampled: &Sampled,
-        teeth: usize,
-        progress: &dyn Progress,
-    ) -> (Vec<Mat<f64>>, f64) {
+    fn products(&self, sampled: &Sampled, progress: &dyn Progress) -> (Vec<Mat<f64>>, f64) {
+        let teeth = self.sector.teeth();
         progress.stage("work of the loads of each tooth on each");
         let pairs: Vec<(usize, usize)> = (0..teeth)
             .flat_map(|a| (0..=a).map(move |b| (a, b)))
@@ -266,16 +257,17 @@ impl<'a> Others<'a> {
         match (place(a), place(b)) {
             (Ok(i), Ok(j)) => (v.transpose() * sampled.block(i, j) * v, 0.0),
             (Ok(i), Err(before)) => {
-                let work = sampled.solves[i].gram(&self.solves[b - before]);
+                let work = (self.sector).work(&sampled.solves[i], &self.solves[b - before]);
                 self.half_known(work.as_ref())
             }
             (Err(before), Ok(j)) => {
-                let work = sampled.solves[j].gram(&self.solves[a - before]);
+                let work = (self.sector).work(&sampled.solves[j], &self.solves[a - before]);
                 let (between, left_out) = self.half_known(work.as_ref());
                 (between.transpose().to_owned(), left_out)
             }
             (Err(before_a), Err(before_b)) => {
-                let work = self.solves[a - before_a].gram(&self.solves[b - before_b]);
+                let work =
+                    (self.sector).work(&self.solves[a - before_a], &self.solves[b - before_b]);
                 let (known, left) = work.split_at_row(r);
                 let one_side = v * known.subcols(r, PROBES);
                 let other_side = v * left.subcols(0, r).transpose();

@@ -5,7 +5,7 @@
 //! | unit loads on the flank grid, as nodal loads | `flank_loads.rs` |
 //! | integration over a part of an element face | `face_overlap.rs` |
 //! | mesh, model and the way it is solved | `gear_body.rs` |
-//! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `sector_stiffness.rs`, `separating_circle.rs`, `cyclic_body.rs`, `cyclic_response.rs` |
+//! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `sector_condensation.rs`, `sector_stiffness.rs`, `separating_circle.rs`, `cyclic_body.rs`, `cyclic_response.rs` |
 //! | by one factorisation of everything | `whole_gear.rs` |
 //! | loads of tooth 0 turned to other teeth | `tooth_vectors.rs` |
 //! | the tooth-only submodel and its solution W | `tooth_submodel.rs` |
@@ -61,6 +61,7 @@ pub mod reduce;
 pub mod repeated_mesh;
 pub mod rigid_mass;
 pub mod root_crack;
+mod sector_condensation;
 mod sector_stiffness;
 pub mod sector_substructure;
 mod separating_circle;
@@ -186,6 +187,8 @@ impl ReductionError {
                 MeshError::NoCut { .. }
                 | MeshError::OpeningsAcross { .. }
                 | MeshError::CrackTip { .. }
+                | MeshError::NoMesh { .. }
+                | MeshError::TooManyTetrahedra { .. }
                 | MeshError::CrossedLines { .. }
                 | MeshError::Quality { .. }
                 | MeshError::Bevel(_)

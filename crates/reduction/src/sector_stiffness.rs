@@ -3,7 +3,6 @@
 //! Where one sector has all teeth those blocks are most of it, some 10⁸ numbers. They are added in place to a pattern that is found node by
 //! node: a list of rows, columns and values would take several times the memory of the matrix.
 
-use faer::MatRef;
 use faer::sparse::{SparseColMat, SparseColMatRef, SymbolicSparseColMat};
 use gearmesh_fe::{FeError, StiffnessMatrix};
 
@@ -18,7 +17,7 @@ const AXES: usize = 3;
 pub(crate) fn sector_stiffness(
     nodes: usize,
     (body, body_nodes): (SparseColMatRef<'_, usize, f64>, &[usize]),
-    (block, tooth_nodes): (MatRef<'_, f64>, &[Vec<usize>]),
+    (block, tooth_nodes): (impl Fn(usize, usize) -> f64, &[Vec<usize>]),
 ) -> Result<StiffnessMatrix, FeError> {
     let mut below: Vec<Vec<u32>> = (0..nodes as u32).map(|node| vec![node]).collect();
     let mut couple = |a: usize, b: usize| {
@@ -52,7 +51,7 @@ pub(crate) fn sector_stiffness(
         for (b, &c) in own.iter().enumerate() {
             for (a, &r) in own.iter().enumerate() {
                 let axes = (0..AXES).flat_map(|k| (0..AXES).map(move |i| [i, k]));
-                let entries = axes.map(|[i, k]| ([i, k], block[(AXES * a + i, AXES * b + k)]));
+                let entries = axes.map(|[i, k]| ([i, k], block(AXES * a + i, AXES * b + k)));
                 lower.add(r, c, entries);
             }
         }
@@ -149,9 +148,13 @@ mod tests {
         let body = SparseColMat::try_new_from_triplets(9, 9, &triplets).unwrap();
         let block = Mat::from_fn(6, 6, |i, j| 1e4 * value(i, j));
         let feet = [vec![4, 1], vec![1, 2]];
-        let found = sector_stiffness(nodes, (body.as_ref(), &body_nodes), (block.as_ref(), &feet))
-            .unwrap()
-            .to_dense();
+        let found = sector_stiffness(
+            nodes,
+            (body.as_ref(), &body_nodes),
+            (|i, j| block[(i, j)], &feet),
+        )
+        .unwrap()
+        .to_dense();
         let mut expected = Mat::<f64>::zeros(15, 15);
         for triplet in &triplets {
             let at = |k: usize| 3 * body_nodes[k / 3] + k % 3;

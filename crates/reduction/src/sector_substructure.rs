@@ -3,6 +3,7 @@
 use crate::Progress;
 use crate::part::Part;
 use crate::repeated_mesh::RepeatedMesh;
+use crate::sector_condensation::SectorCondensation;
 use crate::sector_stiffness::sector_stiffness;
 use crate::separating_circle::separating_circle;
 use crate::tooth_substructure::{ToothSubstructure, gather};
@@ -10,7 +11,7 @@ use faer::Mat;
 use faer::sparse::SparseColMatRef;
 use gearmesh_fe::{
     CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation, StiffnessMatrix,
-    assemble_mass, assemble_stiffness,
+    SymbolicFactor, assemble_mass, assemble_stiffness,
 };
 use rayon::prelude::*;
 
@@ -41,7 +42,7 @@ pub struct SectorSubstructure {
     /// Stiffness of the body alone and its nodes among those of the sector.
     body_stiffness: StiffnessMatrix,
     body_nodes: Vec<usize>,
-    condensation: StaticCondensation,
+    condensation: SectorCondensation,
 }
 
 impl SectorSubstructure {
@@ -115,24 +116,41 @@ impl SectorSubstructure {
                 nodes.filter_map(place).collect::<Vec<_>>()
             })
         };
-        let stiffness = sector_stiffness(
-            images[0].len(),
-            (body_stiffness.as_ref(), &body_nodes),
-            (tooth.condensation().stiffness(), &tooth_nodes),
-        )?;
-        let kept = cuts.concat();
-        let late: Vec<usize> = match sectors {
-            1 => {
-                let elements = body_elements.iter();
-                let elements = elements.map(|&e| model.element_nodes(e as usize));
-                let circle = separating_circle(mesh.nodes(), elements, |n| !fixed[n as usize]);
-                circle.into_iter().filter_map(place).collect()
-            }
-            _ => Vec::new(),
+        let foot = tooth.condensation().stiffness();
+        let ringed = match sectors {
+            1 => SectorCondensation::ringed(
+                (body_stiffness.as_ref(), &body_nodes),
+                (foot, &tooth_nodes),
+                progress,
+            )?,
+            _ => None,
         };
-        let condensation = StaticCondensation::announced(stiffness, &late, &kept, |symbolic| {
-            progress.expect(symbolic.expected_seconds())
-        })?;
+        let condensation = match ringed {
+            Some(ringed) => ringed,
+            None => {
+                let stiffness = sector_stiffness(
+                    images[0].len(),
+                    (body_stiffness.as_ref(), &body_nodes),
+                    (|i, j| foot[(i, j)], &tooth_nodes),
+                )?;
+                let late: Vec<usize> = match sectors {
+                    1 => {
+                        let elements = body_elements.iter();
+                        let elements = elements.map(|&e| model.element_nodes(e as usize));
+                        let circle =
+                            separating_circle(mesh.nodes(), elements, |n| !fixed[n as usize]);
+                        circle.into_iter().filter_map(place).collect()
+                    }
+                    _ => Vec::new(),
+                };
+                let before = |symbolic: &SymbolicFactor| {
+                    progress.expect(symbolic.expected_seconds());
+                };
+                let kept = cuts.concat();
+                let at_once = StaticCondensation::announced(stiffness, &late, &kept, before)?;
+                SectorCondensation::AtOnce(Box::new(at_once))
+            }
+        };
         Ok(Self {
             sectors,
             own,
@@ -148,7 +166,7 @@ impl SectorSubstructure {
     }
 
     /// The condensation.
-    pub fn condensation(&self) -> &StaticCondensation {
+    pub fn condensation(&self) -> &SectorCondensation {
         &self.condensation
     }
 

@@ -55,7 +55,7 @@ fn a_web_of_negative_thickness_is_refused() {
         &[
             "blank.web_thickness_mm",
             "found -4",
-            "more than 0 and at most the face width, 12",
+            "a thousandth of a module, and at most the face width, 12",
         ],
     );
 }

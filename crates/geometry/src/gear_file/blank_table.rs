@@ -97,9 +97,16 @@ pub(super) struct MeshedTable {
     flank_sets: Option<String>,
 }
 
+/// Thinnest wall, web, step or opening of a body over the module. Elements are about a module long: thinner ones would be more than a thousand
+/// times as long as thick, which takes the square of that, six of sixteen digits, from their stiffness; the checks of every reduction ask
+/// for nine, and a tolerance of a lathe is coarser.
+pub(super) const LEAST_WALL: f64 = 1e-3;
+
 /// What the teeth leave for the body.
 struct Room {
     bore_mm: f64,
+    /// Walls are not thinner.
+    least_mm: f64,
     root_diameter_mm: f64,
     /// Below the root a ring of half a module must stay: the teeth's root stress lives in it.
     ring_diameter_mm: f64,
@@ -124,6 +131,7 @@ impl BlankTable {
         };
         let room = Room {
             bore_mm,
+            least_mm: LEAST_WALL * tooth.module_m / MM,
             root_diameter_mm,
             ring_diameter_mm: root_diameter_mm - tooth.module_m / MM,
             width_mm: tooth.face_width_m / MM,
@@ -294,6 +302,7 @@ impl ContourTable {
             bore_mm: room.bore_mm,
             ring_mm: room.ring_diameter_mm,
             width_mm: room.width_mm,
+            least_mm: room.least_mm,
         };
         check_contour(keys, self.hub_z_mm, &self.web, &room)
     }
@@ -304,26 +313,33 @@ impl ThinRimTable {
         let (hub, rim) = (self.hub_diameter_mm, self.rim_inner_diameter_mm);
         let (thickness, offset) = (self.web_thickness_mm, self.web_offset_mm);
         let (bore, ring, width) = (room.bore_mm, room.ring_diameter_mm, room.width_mm);
+        let least = room.least_mm;
         keys.require(
             "hub_diameter_mm",
             hub,
-            hub > bore,
-            &format!("more than the bore, {bore}"),
+            hub >= bore + 2.0 * least,
+            &format!(
+                "at least {:.4}: the bore, {bore}, and a wall of a thousandth of a module",
+                bore + 2.0 * least
+            ),
         )?;
         keys.require(
             "rim_inner_diameter_mm",
             rim,
-            rim > hub && rim < ring,
+            rim >= hub + 2.0 * least && rim < ring,
             &format!(
-                "more than the hub, {hub}, and less than {ring:.3}: the root diameter {:.3} less one module, so that the rim is at least half a module thick",
+                "at least {:.4}: the hub, {hub}, and two thousandths of a module, and less than {ring:.3}: the root diameter {:.3} less one module, so that the rim is at least half a module thick",
+                hub + 2.0 * least,
                 room.root_diameter_mm
             ),
         )?;
         keys.require(
             "web_thickness_mm",
             thickness,
-            thickness > 0.0 && thickness <= width,
-            &format!("more than 0 and at most the face width, {width}"),
+            thickness >= least && thickness <= width,
+            &format!(
+                "at least {least:.4}, a thousandth of a module, and at most the face width, {width}"
+            ),
         )?;
         let play = 0.5 * (width - thickness);
         keys.require(
@@ -333,6 +349,23 @@ impl ThinRimTable {
             offset.abs() <= play + 1e-9,
             &format!("-{play} to {play}: the web must stay inside the face width"),
         )?;
+        for step in [play - offset, play + offset] {
+            let flush_or_clear = step.abs() <= 1e-9 || step >= least;
+            let key = if play < least {
+                "web_thickness_mm"
+            } else {
+                "web_offset_mm"
+            };
+            let found = if play < least { thickness } else { offset };
+            keys.require(
+                key,
+                found,
+                flush_or_clear,
+                &format!(
+                    "a web whose faces are flush with the gear's or {least:.4} mm, a thousandth of a module, inside of them ({step:e} mm now)"
+                ),
+            )?;
+        }
         Ok(Web {
             hub_radius_m: 0.5 * hub * MM,
             rim_inner_radius_m: 0.5 * rim * MM,

@@ -29,6 +29,8 @@ pub(super) struct ContourRoom {
     /// Largest diameter of the last point.
     pub ring_mm: f64,
     pub width_mm: f64,
+    /// Walls are not thinner.
+    pub least_mm: f64,
 }
 
 /// The contour, and the web as it is at the rim, in SI units.
@@ -64,16 +66,22 @@ pub(super) fn check_contour(
         keys.require(
             &format!("web.{k}.diameter_mm"),
             point.diameter_mm,
-            (point.diameter_mm > least || step)
+            (point.diameter_mm >= least + 2.0 * room.least_mm || step)
                 && (point.diameter_mm < most || !last && point.diameter_mm == most),
-            &format!("more than {least:.3} and less than {most:.3}: from the hub outwards, the rim at least half a module thick"),
+            &format!(
+                "at least {:.4} and less than {most:.3}: from the hub outwards in steps of two thousandths of a module, the rim at least half a module thick",
+                least + 2.0 * room.least_mm
+            ),
         )?;
         let z_key = format!("web.{k}.z_mm");
         keys.require(
             &z_key,
             front - back,
-            front > back,
-            "[back, front] with back < front",
+            front >= back + room.least_mm,
+            &format!(
+                "[back, front] with back < front, at least {:.4} apart, a thousandth of a module",
+                room.least_mm
+            ),
         )?;
         keys.require(
             &format!("web.{k}.fillet_radius_mm"),
@@ -87,8 +95,8 @@ pub(super) fn check_contour(
             keys.require(
                 &z_key,
                 common,
-                common > SAME_MM && (back != before[0] || front != before[1]),
-                "a step that moves a face and leaves the web in one piece: more than 0 in common with the point before it",
+                common >= room.least_mm && (back != before[0] || front != before[1]),
+                "a step that moves a face and leaves the web in one piece: a thousandth of a module in common with the point before it",
             )?;
         }
         least = point.diameter_mm;
@@ -99,8 +107,11 @@ pub(super) fn check_contour(
         keys.require(
             &last,
             z,
-            side * z <= half + SAME_MM,
-            &format!("-{half} to {half} at the rim: inside the face width"),
+            is_flush_or_clear(half - side * z, room),
+            &format!(
+                "-{half} to {half} at the rim: inside the face width, flush with it or {:.4} away",
+                room.least_mm
+            ),
         )?;
     }
     for (k, (side, name)) in [(-1.0, "back"), (1.0, "front")].into_iter().enumerate() {
@@ -108,10 +119,10 @@ pub(super) fn check_contour(
         keys.require(
             "hub_z_mm",
             hub_z_mm[k],
-            at_hub > -SAME_MM,
+            is_flush_or_clear(at_hub, room),
             &format!(
-                "at or beyond the {name} of the web at the hub, {}",
-                hub.z_mm[k]
+                "at or beyond the {name} of the web at the hub, {}; if beyond, by at least {:.4}",
+                hub.z_mm[k], room.least_mm
             ),
         )?;
     }
@@ -133,6 +144,11 @@ pub(super) fn check_contour(
         offset_m: 0.5 * (rim.z_mm[0] + rim.z_mm[1]) * MM,
     };
     Ok((contour, web))
+}
+
+/// Whether two faces are one, or so far apart as walls are thick.
+fn is_flush_or_clear(apart_mm: f64, room: &ContourRoom) -> bool {
+    apart_mm.abs() <= SAME_MM || apart_mm >= room.least_mm
 }
 
 /// Every fillet must find a corner and room in it.

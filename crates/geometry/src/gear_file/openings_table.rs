@@ -1,5 +1,6 @@
 //! `[blank.slots]` and `[blank.holes]`: openings of the body.
 
+use super::blank_table::LEAST_WALL;
 use super::{MM, TableKeys};
 use crate::blank::{Holes, Openings, Slots};
 use crate::input::{InputDocument, InputError};
@@ -41,7 +42,7 @@ pub(super) struct HolesTable {
 
 impl SlotsTable {
     /// The slots, in SI units.
-    fn check(self, document: &InputDocument) -> Result<Slots, InputError> {
+    fn check(self, document: &InputDocument, least_mm: f64) -> Result<Slots, InputError> {
         let keys = TableKeys::new(document, "blank.slots");
         keys.require(
             "count",
@@ -58,8 +59,8 @@ impl SlotsTable {
         keys.require(
             "outer_radius_mm",
             self.outer_radius_mm,
-            self.outer_radius_mm > self.inner_radius_mm,
-            "more than inner_radius_mm",
+            self.outer_radius_mm >= self.inner_radius_mm + least_mm,
+            &format!("at least inner_radius_mm and {least_mm:.4}, a thousandth of a module"),
         )?;
         keys.require(
             "width_deg",
@@ -73,15 +74,23 @@ impl SlotsTable {
             self.phase_deg.abs() <= 360.0,
             "-360 to 360",
         )?;
+        let narrowest_deg = (least_mm / self.inner_radius_mm).to_degrees();
+        keys.require(
+            "width_deg",
+            self.width_deg,
+            self.width_deg >= narrowest_deg,
+            &format!("at least {narrowest_deg:.4}: a thousandth of a module at inner_radius_mm"),
+        )?;
         let height = self.outer_radius_mm - self.inner_radius_mm;
         let chord = self.inner_radius_mm * self.width_deg.to_radians();
         let largest = 0.45 * height.min(chord);
         keys.require(
             "corner_radius_mm",
             self.corner_radius_mm,
-            self.corner_radius_mm > 0.0 && self.corner_radius_mm <= largest,
+            self.corner_radius_mm >= 0.1 * least_mm && self.corner_radius_mm <= largest,
             &format!(
-                "more than 0 and at most {largest:.3}: a little less than half of the slot's height and inner width"
+                "at least {:.5}, a ten-thousandth of a module, and at most {largest:.4}: a little less than half of the slot's height and inner width",
+                0.1 * least_mm
             ),
         )?;
         Ok(Slots {
@@ -97,7 +106,7 @@ impl SlotsTable {
 
 impl HolesTable {
     /// The holes, in SI units.
-    fn check(self, document: &InputDocument) -> Result<Holes, InputError> {
+    fn check(self, document: &InputDocument, least_mm: f64) -> Result<Holes, InputError> {
         let keys = TableKeys::new(document, "blank.holes");
         keys.require(
             "count",
@@ -108,8 +117,8 @@ impl HolesTable {
         keys.require(
             "diameter_mm",
             self.diameter_mm,
-            self.diameter_mm > 0.0,
-            "more than 0",
+            self.diameter_mm >= least_mm,
+            &format!("at least {least_mm:.4}, a thousandth of a module"),
         )?;
         keys.require(
             "pitch_circle_diameter_mm",
@@ -140,6 +149,7 @@ pub(super) fn check_openings(
     body_mm: (f64, f64),
     module_m: f64,
 ) -> Result<Option<Openings>, InputError> {
+    let least_mm = LEAST_WALL * module_m / MM;
     let (key, openings) = match (slots, holes) {
         (None, None) => return Ok(None),
         (Some(_), Some(_)) => {
@@ -148,8 +158,14 @@ pub(super) fn check_openings(
                 "slots and holes are both given; a blank has one kind of opening",
             ));
         }
-        (Some(slots), None) => ("blank.slots", Openings::Slots(slots.check(document)?)),
-        (None, Some(holes)) => ("blank.holes", Openings::Holes(holes.check(document)?)),
+        (Some(slots), None) => (
+            "blank.slots",
+            Openings::Slots(slots.check(document, least_mm)?),
+        ),
+        (None, Some(holes)) => (
+            "blank.holes",
+            Openings::Holes(holes.check(document, least_mm)?),
+        ),
     };
     check_fit(&openings, body_mm, module_m)
         .and_then(|()| check_spokes(&openings, module_m))

@@ -147,7 +147,7 @@ fn impossible_gears_are_refused_with_line_key_found_and_allowed() {
         (
             "web_thickness_mm = 5.0",
             "web_thickness_mm = -5.0",
-            "gear.toml:19: blank.web_thickness_mm: found -5, allowed is more than 0",
+            "gear.toml:19: blank.web_thickness_mm: found -5, allowed is at least 0.0026, a thousandth of a module",
         ),
         (
             "web_thickness_mm = 5.0",
