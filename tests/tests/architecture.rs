@@ -13,6 +13,8 @@ mod files;
 mod one_feature_set;
 #[path = "architecture/packages.rs"]
 mod packages;
+#[path = "architecture/pages.rs"]
+mod pages;
 #[path = "architecture/sources.rs"]
 mod sources;
 #[path = "architecture/vocabulary.rs"]
