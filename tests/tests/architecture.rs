@@ -7,6 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use packages::{Kinds, dependencies, packages, text};
 
+#[path = "architecture/crate_pages.rs"]
+mod crate_pages;
 #[path = "architecture/files.rs"]
 mod files;
 #[path = "architecture/one_feature_set.rs"]
