@@ -307,7 +307,7 @@ mod tests {
         let long = format!("[[parameter]]\nname = '{long}'\nkeys = ['k']\nvalues = [1]\n");
         let complaint = study(&long).unwrap_err().to_string();
         assert!(
-            complaint.contains("parameter.2.name: found a name of 65536 characters"),
+            complaint.contains("parameter.0.name: found a name of 65536 characters"),
             "{complaint}"
         );
     }
