@@ -3,6 +3,7 @@
 //!
 //! Besides the columns, which are the one-dimensional datasets under `columns/`, the file is an ordinary [`DataTree`].
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use hdf5::{Dataset, File};
@@ -145,6 +146,7 @@ impl ColumnFile {
             if place == 0 {
                 opened.rows = rows;
             }
+            reader.demand_numbers(&dataset, name)?;
             if dataset.shape() != [opened.rows] {
                 return Err(FileError::WrongShape {
                     path: path.to_owned(),
@@ -196,6 +198,23 @@ impl ColumnFile {
         tree.take_f64(&self.path, name, &[self.rows])
     }
 
+    /// Some rows of a column.
+    ///
+    /// # Errors
+    /// [`FileError::Missing`], [`FileError::WrongType`], [`FileError::Hdf5`].
+    ///
+    /// # Panics
+    /// If there are not so many rows.
+    pub fn read_rows(&self, name: &str, rows: Range<usize>) -> Result<Vec<f64>, FileError> {
+        assert!(rows.end <= self.rows, "{rows:?} of {} rows", self.rows);
+        let dataset = self.dataset(name)?;
+        let reader = Reader { path: &self.path };
+        reader.demand_numbers(&dataset, name)?;
+        let read = dataset.read_slice_1d::<f64, _>(rows);
+        let failed = |error| hdf5_error(&self.path, &format!("read \"{name}\" of"))(error);
+        Ok(read.map_err(failed)?.to_vec())
+    }
+
     fn dataset(&self, name: &str) -> Result<Dataset, FileError> {
         self.file
             .dataset(&format!("{GROUP}/{name}"))
@@ -242,6 +261,8 @@ mod tests {
             let values = file.read(name).unwrap();
             let expected: Vec<f64> = (0..rows).map(|i| factor * i as f64).collect();
             assert_eq!(values, expected);
+            assert_eq!(file.read_rows(name, 5..9).unwrap(), expected[5..9]);
+            assert!(file.read_rows(name, rows..rows).unwrap().is_empty());
         }
         assert!(matches!(file.read("b"), Err(FileError::Missing { .. })));
     }

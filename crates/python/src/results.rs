@@ -141,9 +141,7 @@ impl NativeResult {
                 let result = pair.result(py)?;
                 py.detach(|| pair_tables(&result))
             }
-            Kept::System(result) => py
-                .detach(|| system_tables(result))
-                .map_err(|error| InputError::new_err(error.to_string()))?,
+            Kept::System(result) => system_tables(result),
         };
         let found = PyDict::new(py);
         for Table { name, columns } in tables {
@@ -154,6 +152,10 @@ impl NativeResult {
                         table.set_item(head, PyArray1::from_vec(py, values))?;
                     }
                     Cells::Texts(texts) => table.set_item(head, texts)?,
+                    Cells::Column(file, name) => {
+                        let values = file.read(&name).map_err(file_error)?;
+                        table.set_item(head, PyArray1::from_vec(py, values))?;
+                    }
                 }
             }
             found.set_item(name, table)?;

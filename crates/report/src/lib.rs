@@ -19,6 +19,7 @@
 
 pub mod accuracy_page;
 pub mod body_view;
+mod column_width;
 pub mod comparison;
 mod comparison_table;
 mod contact_pattern;
@@ -45,6 +46,7 @@ pub mod study_page;
 pub mod system_comparison;
 mod system_page;
 
+pub use column_width::column_width;
 pub use comparison::{
     ComparisonError, HarmonicComparison, RigView, SeriesComparison, compare, compare_with_column,
 };

@@ -6,8 +6,8 @@ use crate::console;
 use crate::failure::Failure;
 use crate::overwriting::apart;
 use gearmesh_geometry::input::read_bytes;
-use gearmesh_model::write_text;
-use gearmesh_report::short;
+use gearmesh_model::write_folder;
+use gearmesh_report::{column_width, short};
 use gearmesh_rexs::container::MOST_MB;
 use gearmesh_rexs::{Entry, Import, Meshes, Weight, import, model_file};
 use serde_json::{Value, json};
@@ -91,15 +91,12 @@ fn write(
     list: Option<(String, String)>,
     model: &Path,
 ) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder)
-        .map_err(|cause| Failure::work(format!("{}: {cause}", folder.display())))?;
     let files = made.files.iter().map(|f| (f.name.clone(), f.text.clone()));
-    for (name, text) in files.chain(list) {
-        let path = folder.join(name);
-        apart(&path, &[model.to_owned()])?;
-        write_text(&path, &text)?;
+    let files: Vec<(String, String)> = files.chain(list).collect();
+    for (name, _) in &files {
+        apart(&folder.join(name), &[model.to_owned()])?;
     }
-    Ok(())
+    Ok(write_folder(folder, &files)?)
 }
 
 fn line(entry: &Entry) -> String {
@@ -205,7 +202,7 @@ fn scene(row: &SceneRow, reduced: bool) {
         .chain(row.shafts.iter().map(|s| &s.0))
         .chain(row.bearings.iter().map(|b| &b.0))
         .chain(row.meshes.iter().map(|m| &m.0));
-    let width = names.map(|n| n.chars().count()).max().unwrap_or(0).max(8);
+    let width = column_width(names, 8);
     let print = |name: &str, cells: &[String]| {
         let cells = cells.iter().map(|c| format!(" {c:>14}"));
         console::data(format!("{name:width$}{}", cells.collect::<String>()));

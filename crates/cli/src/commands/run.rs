@@ -7,10 +7,14 @@ use crate::failure::Failure;
 use crate::output_name;
 use gearmesh_contact::ContactZone;
 use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
+use gearmesh_scene::system_run::megabytes;
 use gearmesh_scene::{Scene, SceneFile, SceneResult, load, run as run_scene};
 use gearmesh_signal::statistics::{mean, peak_to_peak};
 use serde_json::json;
 use std::path::Path;
+
+/// Results from this size on are announced \[bytes\].
+const WORTH_A_WORD: f64 = 50e6;
 
 /// Runs the command.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -31,6 +35,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let loaded = load(*scene)?;
     loaded.scene.notes.iter().for_each(console::note);
     console::unit_slips(loaded.unit_slips());
+    demand_size(loaded.result_bytes(), "run.pitches", arguments)?;
     let result = run_scene(&loaded, &|done, total| {
         console::note(format!("torque {done} of {total} solved"))
     })?;
@@ -41,6 +46,26 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         console::json(&figures(&result)?);
     } else {
         table(&result)?.into_iter().for_each(console::data);
+    }
+    Ok(())
+}
+
+/// Refuses a result that is larger than it may be, before anything of it is written; a large one is announced.
+///
+/// # Errors
+/// [`Failure`] naming the option that allows more.
+pub fn demand_size(bytes: f64, key: &str, a: &RunArguments) -> Result<(), Failure> {
+    if bytes > 1e9 * a.most_result_gb {
+        return Err(Failure::input(format!(
+            "{}: {key}: the result will have {}, allowed are {} GB; give --most-result-GB {:.0} to allow it",
+            a.scene.display(),
+            megabytes(bytes),
+            a.most_result_gb,
+            (1e-9 * bytes).ceil()
+        )));
+    }
+    if bytes >= WORTH_A_WORD {
+        console::note(format!("the result will have {}", megabytes(bytes)));
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 //! The table for people is in `system_table.rs`.
 
 use crate::arguments::RunArguments;
+use crate::commands::run::demand_size;
 use crate::commands::{losses, pressures, ratings, system_table};
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
@@ -10,7 +11,8 @@ use crate::interrupt;
 use gearmesh_model::Named;
 use gearmesh_scene::system::LoadedSystem;
 use gearmesh_scene::system_run::{
-    Advance, Outcome, ResultKind, RunJob, RunOptions, SystemResult, is_overdamped, run as run_job,
+    Advance, Outcome, ResultKind, ResultSize, RunJob, RunOptions, SystemResult, is_overdamped,
+    run as run_job,
 };
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -21,6 +23,9 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     loaded.scene.notes.iter().for_each(console::note);
     let job = RunJob::from_scene(loaded)?;
     job.head.notes.iter().for_each(console::note);
+    if let Some(size) = ResultSize::of(&job) {
+        demand_size(size.bytes(), "output.interval_s", arguments)?;
+    }
     let resumes = job.kind.resumes();
     let bar = RunBar::new(job.kind.of_result().name_in_files());
     let progress = |advance: Advance| {

@@ -9,6 +9,7 @@ use crate::console;
 use crate::failure::Failure;
 use bearing_lines::BearingLines;
 use gearmesh_model::Column;
+use gearmesh_report::column_width;
 use gearmesh_signal::statistics::{crest_factor, kurtosis, mean, peak_to_peak, rms};
 use gearmesh_signal::{
     Band, OrderBlocks, Resampler, SidebandSettings, Spectrum, Window, amplitude_spectrum, envelope,
@@ -30,11 +31,7 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
                 console::json(&json!({ "columns": columns.map(each).collect::<Vec<_>>() }));
                 return Ok(());
             }
-            let width = columns
-                .clone()
-                .map(|column| column.name.chars().count())
-                .max();
-            let width = width.unwrap_or(0);
+            let width = column_width(columns.clone().map(|column| &column.name), 0);
             for Column {
                 name,
                 unit,

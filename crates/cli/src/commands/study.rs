@@ -9,7 +9,7 @@ use crate::interrupt;
 use crate::offline;
 use crate::page_file;
 use gearmesh_report::study_page::study_page;
-use gearmesh_report::{short, study_figures, usual_unit};
+use gearmesh_report::{column_width, short, study_figures, usual_unit};
 use gearmesh_scene::study::{
     CaseResult, Selected, SelectedValue, SeriesOver, Study, StudyOptions, StudyOutcome,
     gather_study, run_study,
@@ -110,8 +110,7 @@ fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Res
 fn table(study: &Study, outcome: &StudyOutcome) -> Vec<String> {
     let cases = &outcome.cases[..];
     let names: Vec<String> = cases.iter().map(|result| result.case.name()).collect();
-    let widest = names.iter().map(|name| name.chars().count()).max();
-    let width = widest.unwrap_or(0).max(4);
+    let width = column_width(&names, 4);
     let found = cases.iter().find_map(|case| case.figures.as_ref().ok());
     // Of runs in time it is told whether it is stated or not.
     let has_series = found.is_some_and(|all| {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use gearmesh_model::Column;
-use gearmesh_report::{short, usual_unit};
+use gearmesh_report::{column_width, short, usual_unit};
 use gearmesh_scene::system_run::{
     ColumnSummary, EigenResult, MeshPassing, ResultKind, RunRecord, SystemResult, foremost,
     is_overdamped, is_prominent, rank, shares_in_words, stem,
@@ -114,8 +114,7 @@ fn table_of(
 ) -> Vec<String> {
     let shown = &found[..found.len().min(MOST_LINES)];
     let stems = shown.iter().map(|column| stem(&column.name, &column.unit));
-    let width = stems.map(|stem| stem.chars().count()).max();
-    let width = width.unwrap_or(0).max(6);
+    let width = column_width(stems, 6);
     let row = |name: &str, unit: &str, cells: Vec<String>| {
         let cells = cells.iter().map(|cell| format!(" {cell:>11}"));
         format!("{name:width$} {unit:<7}{}", cells.collect::<String>())
@@ -160,7 +159,7 @@ fn sweep(result: &SystemResult) -> Vec<String> {
         let (factor, unit) = usual_unit(unit, largest);
         factors.push(factor);
         let cell = format!("pk-pk {} {unit}", last_parts(stem));
-        widths.push(cell.chars().count().max(12));
+        widths.push(column_width([&cell], 12));
         head += &format!("  {cell:>12}");
     }
     let mut lines = vec![head];

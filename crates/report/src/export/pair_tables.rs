@@ -6,14 +6,14 @@ use super::{Table, ratings_table};
 
 /// `curves` (torque and angle), `contact` (and pair of teeth and slice), `torques`, `ratings`.
 #[must_use]
-pub fn pair_tables(result: &SceneResult) -> Vec<Table> {
+pub fn pair_tables(result: &SceneResult) -> Vec<Table<'static>> {
     let mut tables = vec![curves(result), contact(result), torques(result)];
     tables.extend(ratings_table(&result.ratings));
     tables
 }
 
 /// A row for each torque and angle.
-fn curves(result: &SceneResult) -> Table {
+fn curves(result: &SceneResult) -> Table<'static> {
     let (torques, angles) = (result.torque_nm.len(), result.angles());
     let mut table = Table::new("curves");
     let each_torque = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
@@ -40,7 +40,7 @@ fn curves(result: &SceneResult) -> Table {
 }
 
 /// A row for each torque, angle, pair of teeth and slice that are looked at.
-fn contact(result: &SceneResult) -> Table {
+fn contact(result: &SceneResult) -> Table<'static> {
     let (angles, slots, slices) = (result.angles(), result.slots, result.slices);
     let mut columns: [Vec<f64>; 11] = Default::default();
     for (k, &torque_nm) in result.torque_nm.iter().enumerate() {
@@ -98,7 +98,7 @@ fn contact(result: &SceneResult) -> Table {
 }
 
 /// A row for each torque.
-fn torques(result: &SceneResult) -> Table {
+fn torques(result: &SceneResult) -> Table<'static> {
     let mut table = Table::new("torques");
     table.numbers("torque_Nm", result.torque_nm.clone());
     let figures = |value: &dyn Fn(&[f64]) -> f64, values: &[f64]| -> Vec<f64> {

@@ -38,7 +38,58 @@ impl SceneResult {
     /// [`FileError`] when the file is missing, cut, altered, of another kind, or an array does not fit the others.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let (mut tree, version) = DataTree::read_with_version(path, &RESULT_FORMAT)?;
-        read_record(&mut tree, path, version)
+        let result: Self = read_record(&mut tree, path, version)?;
+        match result.contradiction() {
+            None => Ok(result),
+            Some((item, problem)) => Err(FileError::Contradiction {
+                path: path.to_owned(),
+                item,
+                problem,
+            }),
+        }
+    }
+
+    /// A number that does not go with the arrays that are there: its name, and what is wrong with it.
+    fn contradiction(&self) -> Option<(String, String)> {
+        let found = |item: &str, problem: String| Some((item.to_owned(), problem));
+        for (item, length) in [
+            ("torque_Nm", self.torque_nm.len()),
+            ("angle_rad", self.angle_rad.len()),
+        ] {
+            if length == 0 {
+                return found(item, "it is empty".to_owned());
+            }
+        }
+        let angles = self.angles();
+        if self.pitches > angles {
+            let problem = format!("it is {}, there are {angles} angles", self.pitches);
+            return found("pitches", problem);
+        }
+        let slots = self.slots;
+        if let Some(count) = (self.pair_count.iter()).find(|count| **count as usize > slots) {
+            let problem = format!("it says {count}, there are {slots} contact lines");
+            return found("pair_count", problem);
+        }
+        let gauges = self.strain.iter().enumerate();
+        let of_gauge = |(i, series): (usize, &StrainSeries)| {
+            let period = series.coverage.period_pitches;
+            (format!("gauges/{i}/period_pitches"), period)
+        };
+        let of_mesh = (
+            "contact/period_pitches".to_owned(),
+            self.contact_coverage.period_pitches,
+        );
+        let mut periods = std::iter::once(of_mesh).chain(gauges.clone().map(of_gauge));
+        if let Some((item, _)) = periods.find(|(_, period)| *period == 0) {
+            return Some((item, "it is 0, at least 1 is needed".to_owned()));
+        }
+        for (i, series) in gauges {
+            if !(1..=2).contains(&series.gear) {
+                let problem = format!("it is {}, there are gears 1 and 2", series.gear);
+                return found(&format!("gauges/{i}/gear"), problem);
+            }
+        }
+        None
     }
 }
 

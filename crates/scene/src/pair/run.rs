@@ -221,6 +221,15 @@ impl LoadedScene {
         Plan::new(self)
     }
 
+    /// Bytes of the forces, pressures and places of contact of a result, nearly all of it.
+    #[must_use]
+    pub fn result_bytes(&self) -> f64 {
+        let slots = self.line_slots(&self.angles_rad());
+        let slices = (slots * self.layout.slices * self.scene.positions()) as f64;
+        let (of_each_torque, of_all) = (2 * self.scene.torques_nm.len(), 3);
+        8.0 * slices * (of_each_torque + of_all) as f64
+    }
+
     /// Driver angles of the scene \[rad\].
     pub fn angles_rad(&self) -> Vec<f64> {
         let step = TAU / self.models[0].teeth as f64 / self.scene.points_per_pitch as f64;

@@ -21,6 +21,7 @@ use super::error::SystemRunError;
 use super::from_scene::varied;
 use super::in_time::begin;
 use super::job::{RunJob, RunKind};
+use super::recorded_columns::ResultSize;
 use super::recorder::{Course, Moment, Recorder, Selection};
 use crate::system::{LoadedSystem, Run, Start, SystemPlan, SystemScene, step_in_words};
 
@@ -256,6 +257,15 @@ impl Trial<'_> {
 }
 
 impl SystemPlan {
+    /// Adds the size of the result, where it has rows.
+    #[must_use]
+    pub fn with_result(mut self, size: Option<ResultSize>) -> Self {
+        if let Some(size) = size {
+            self.lines.push(format!("result     {size}"));
+        }
+        self
+    }
+
     /// Adds what the run will cost.
     #[must_use]
     pub fn with_cost(mut self, scene: &SystemScene, cost: Option<RunCost>) -> Self {

@@ -54,6 +54,11 @@ pub(super) fn begin(
     Ok(Simulation::from_state(system, found.state, *params)?)
 }
 
+/// Output times of a run, its start included.
+pub(super) fn samples(run: &InTime) -> f64 {
+    (run.end_s / run.interval_s + 1e-9).floor() + 1.0
+}
+
 /// What is made of the accepted steps.
 struct Tape<'a> {
     run: &'a InTime,
@@ -83,7 +88,7 @@ impl<'a> Tape<'a> {
             end_s: run.end_s,
             problem,
         };
-        let samples = (run.end_s / run.interval_s + 1e-9).floor() + 1.0;
+        let samples = samples(run);
         if samples.is_nan() || samples < 2.0 {
             return Err(refused("there is no row but the first"));
         }
@@ -113,6 +118,49 @@ impl<'a> Tape<'a> {
         let (system, state) = (simulation.system(), simulation.state());
         self.recorder = Recorder::new(system, state, selection, abscissas, Course::InTime);
         self.before = simulation.info().energy;
+    }
+
+    /// What does not go with this run: its name, and what is wrong with it.
+    fn contradiction(&self, time_s: f64, recorded: &Recorded) -> Option<(&'static str, String)> {
+        let windows = self.run.windows.len();
+        let columns = self.recorder.columns().len();
+        for (item, found, needed) in [
+            (
+                "recorded/angles",
+                recorded.angles.len(),
+                self.recorder.save().len(),
+            ),
+            (
+                "recorded/statistics",
+                recorded.statistics[0].len(),
+                self.statistics.save().len(),
+            ),
+            (
+                "recorded/window",
+                recorded.statistics[1].len(),
+                self.window.save().len(),
+            ),
+            (
+                "recorded/windows",
+                recorded.windows.len(),
+                4 * columns * recorded.closed.min(windows),
+            ),
+        ] {
+            if found != needed {
+                return Some((item, format!("it has {found} entries, {needed} are needed")));
+            }
+        }
+        if recorded.next_sample > self.samples || recorded.closed > windows {
+            let problem = format!("there are {} rows and {windows} windows", self.samples);
+            return Some(("recorded/progress", problem));
+        }
+        // A run that has come to its end has no checkpoint.
+        let last_s = self.run.end_s + self.run.interval_s;
+        let problem = format!(
+            "its time is {time_s} s, the run ends at {} s",
+            self.run.end_s
+        );
+        (time_s > last_s).then_some(("simulation/scalars", problem))
     }
 
     fn resume_at(&mut self, simulation: &Simulation, recorded: Recorded) {
@@ -258,6 +306,14 @@ pub(super) fn run_in_time(
             let path = PartFolder::beside(options.output);
             let (checkpoint, recorded) = from_tree(&mut tree, &path).map_err(damaged)?;
             let simulation = Simulation::resume(system, run.params, &checkpoint)?;
+            let time_s = simulation.state().time_s;
+            if let Some((item, problem)) = tape.contradiction(time_s, &recorded) {
+                return Err(damaged(FileError::Contradiction {
+                    path,
+                    item: item.to_owned(),
+                    problem,
+                }));
+            }
             wall_s = recorded.wall_s;
             head.notes = notes_of(&mut tree, &path).map_err(damaged)?;
             tape.resume_at(&simulation, recorded);

@@ -56,7 +56,7 @@ pub use mesh_misalignment::MeshAxes;
 pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;
-pub use recorded_columns::recorded_columns;
+pub use recorded_columns::{ResultSize, megabytes, recorded_columns};
 pub use recorder::{Course, Moment, Recorder, Selection};
 pub(crate) use recorder::{body_column, element_column};
 pub use result::{EigenResult, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
