@@ -20,6 +20,7 @@
 pub mod accuracy_page;
 pub mod body_view;
 mod column_width;
+mod column_words;
 pub mod comparison;
 mod comparison_table;
 mod contact_pattern;
@@ -55,5 +56,5 @@ pub use pair_orders::{PairOrders, Shaft};
 pub use printable::printable;
 pub use quantity::{Quantity, Unit};
 pub use record::{RecordColumn, RecordError, RecordKind, RecordUncertainty, ReferenceRecord};
-pub use short_number::{short, usual_unit};
+pub use short_number::{short, short_beside, usual_unit};
 pub use study_figures::study_figures;

@@ -13,6 +13,7 @@ use crate::ratings;
 use crate::record::ReferenceRecord;
 use crate::result_series::series;
 use crate::scene_comparison::{SceneComparisonError, compare_scene};
+use crate::short;
 use crate::system_page;
 use gearmesh_model::FileError;
 use gearmesh_scene::SceneResult;
@@ -84,7 +85,10 @@ pub fn scene_page(
     let pairs = chapters.iter().map(|c| c.result.title.as_str());
     let others = systems.iter().map(|c| c.result.head.title.as_str());
     let titles: Vec<&str> = pairs.chain(others).collect();
-    let mut page = Page::new("gearmesh report").subtitle(titles.join(" - "));
+    let mut page = match &titles[..] {
+        [title] => Page::new(*title).subtitle("gearmesh report"),
+        _ => Page::new("gearmesh report").subtitle(titles.join(" - ")),
+    };
     for chapter in chapters {
         let r = &chapter.result;
         page = page
@@ -166,7 +170,7 @@ fn overview(r: &SceneResult) -> Section {
             "µε",
         );
     }
-    let mut section = Section::new(r.title.clone()).push(figures);
+    let mut section = Section::new(r.title.clone()).push(stiffness_and_pressure(r, figures));
     let mut table = Table::new(format!("By torque: transmission error, mean mesh stiffness (secant and tangent), largest Hertz pressure, face load factor{mark}"))
         .column("torque N m", Align::Right)
         .column("TE mean µm", Align::Right)
@@ -219,6 +223,25 @@ fn overview(r: &SceneResult) -> Section {
         section = section.push(Text::note(format!("Warning: {warning}")));
     }
     section
+}
+
+/// What the largest torque finds, after the transmission error: mean stiffness and largest pressure.
+fn stiffness_and_pressure(r: &SceneResult, figures: KeyFigures) -> KeyFigures {
+    let last = r.torque_nm.len() - 1;
+    let block = r.pressure_pa.len() / r.torque_nm.len();
+    let pressures = r.pressure_pa[last * block..].iter().copied();
+    let stiffness = gearmesh_signal::statistics::mean(r.averaged(&r.secant_n_per_m, last));
+    figures
+        .figure(
+            "mesh stiffness, secant, mean",
+            short(stiffness.unwrap_or(f64::NAN) * 1e-6),
+            "N/µm",
+        )
+        .figure(
+            "largest pressure p_H",
+            format!("{:.0}", pressures.fold(0.0, f64::max) * 1e-6),
+            "MPa",
+        )
 }
 
 /// What stands behind the name of a mean or a whole curve that a longer run may change.
@@ -281,15 +304,17 @@ fn transmission_error(chapter: &SceneChapter) -> Section {
             chart = chart.series(
                 LineSeries::new(format!("{torque} N m reference"), values)
                     .style(LineStyle::Dashed)
-                    .colour(colour)
-                    .hidden(),
+                    .colour(colour),
             );
         }
     }
+    let dashed = match chapter.record {
+        Some(_) => " Dashed: the reference.",
+        None => "",
+    };
     let section = Section::new(format!("{}: transmission error", r.title))
         .push(Text::paragraph(
-            "TE = r_b2 theta_2 - r_b1 theta_1, zero where unmodified flanks first touch without load, negative under load. \
-             Reference curves are switched on in the legend.",
+            format!("TE = r_b2 theta_2 − r_b1 theta_1, zero where unmodified flanks first touch without load, negative under load.{dashed}"),
         ))
         .push(chart);
     match order_spectrum(r) {

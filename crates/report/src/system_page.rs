@@ -3,6 +3,7 @@
 //! | sections | file |
 //! | --- | --- |
 //! | key figures, a line a channel | `at_a_glance.rs` |
+//! | line loads over the face, tilt of the axes at rest | `across_the_face.rs` |
 //! | which columns, in which charts, with which units | `columns.rs` |
 //! | time histories, spectra, energy | `transient.rs` |
 //! | balls and cages of bearings whose balls move | `bearings.rs` |
@@ -13,6 +14,7 @@
 //! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
 //! | what was judged after the run | `../ratings.rs` |
 
+mod across_the_face;
 mod at_a_glance;
 mod bearings;
 mod columns;
@@ -30,6 +32,7 @@ use gearmesh_scene::system_run::{MeshPassing, ResultKind, SystemResult, is_promi
 use self::columns::turning;
 use crate::page::{KeyFigures, Section, Text};
 use crate::ratings;
+use crate::short;
 
 /// All sections of a result.
 pub(crate) fn sections(
@@ -56,7 +59,10 @@ pub(crate) fn sections(
                 sections.push(sweep::sweep_section(r, sweep));
             }
         }
-        ResultKind::Static => sections.extend(equilibria::equilibria(r)?),
+        ResultKind::Static => {
+            sections.extend(across_the_face::section(r)?);
+            sections.extend(equilibria::equilibria(r)?);
+        }
         ResultKind::Eigen => sections.push(eigen::eigen(r)),
     }
     sections.extend(losses::section(r)?);
@@ -79,8 +85,8 @@ fn overview(r: &SystemResult, passings: &[MeshPassing]) -> Result<Section, FileE
         _ => KeyFigures::new(),
     };
     for mesh in turning(passings) {
-        let label = format!("mesh frequency {}", mesh.mesh.name);
-        figures = figures.figure(label, format!("{:.3}", mesh.frequency_hz), "Hz");
+        let label = format!("{}: mesh frequency", mesh.mesh.name);
+        figures = figures.figure(label, short(mesh.frequency_hz), "Hz");
     }
     if r.record.is_some() {
         let error = r.relative_energy_error().unwrap_or(f64::NAN);
@@ -110,7 +116,7 @@ fn provenance(r: &SystemResult) -> Section {
     if !r.head.notes.is_empty() {
         let text = "What was assumed, and what follows from the scene:";
         section = section.push(Text::paragraph(text));
-        section = section.push(Text::preformatted(r.head.notes.join("\n")));
+        section = section.push(Text::list(&r.head.notes));
     }
     if !r.head.inputs.is_empty() {
         section = section.push(Text::preformatted(r.head.inputs.join("\n")));

@@ -136,7 +136,7 @@ fn at_a_glance(of: &Analysed<'_>) -> Section {
                 )
         });
     let figures = of.backlash_m.into_iter().fold(figures, |figures, m| {
-        figures.figure("least normal backlash", short(1e3 * m), "mm")
+        figures.figure("least normal backlash", short(1e6 * m), "µm")
     });
     let figures = figures
         .figure(

@@ -254,5 +254,5 @@ fn a_pair_is_rated() {
     let page = desk.path("report.html");
     succeeds(&["report", argument(&output), "-o", argument(&page)]);
     let page = std::fs::read_to_string(page).unwrap();
-    assert!(page.contains("small pair: rating") && page.contains("the same in revolutions"));
+    assert!(page.contains("<h2>Rating</h2>") && page.contains("the same in revolutions"));
 }

@@ -154,7 +154,7 @@ pub(super) fn accuracy(r: &SystemResult) -> Result<Section, FileError> {
     if let Some(record) = &r.record {
         section = section.push(run_table(record));
     }
-    Ok(section
+    section = section
         .push(chart(
             "Energies",
             Axis::new("energy", "J"),
@@ -177,13 +177,18 @@ pub(super) fn accuracy(r: &SystemResult) -> Result<Section, FileError> {
             Axis::new("violation", "m or rad"),
             &[("run/largest_violation", "violation")],
             AxisScale::Logarithmic,
-        )?)
-        .push(chart(
+        )?);
+    // A fixed step is a number of the table.
+    let steps = r.rows.read("run/step_s")?;
+    if steps.iter().any(|step| *step != steps[0]) {
+        section = section.push(chart(
             "Step",
             Axis::new("step", "s"),
             &[("run/step_s", "step")],
             AxisScale::Logarithmic,
-        )?))
+        )?);
+    }
+    Ok(section)
 }
 
 pub(super) fn run_table(record: &RunRecord) -> Table {

@@ -40,7 +40,7 @@ mod static_series;
 mod stored_checkpoint;
 mod summary;
 
-pub use column_names::{is_of_pair, is_prominent, rank, stem, unit_in_name, varying};
+pub use column_names::{is_of_pair, is_prominent, rank, rounding, stem, unit_in_name, varying};
 pub use column_statistics::{ColumnStatistics, Figures};
 pub use cost::RunCost;
 pub use eigen_run::participation;
