@@ -93,7 +93,6 @@ impl File {
         let begun = own_s();
         let made = import(bytes, "box", Meshes::Iso6336).unwrap();
         let each_us = 1e6 * (own_s() - begun) / self.next as f64;
-        println!("{what}: {each_us:.1} us a component, {} of them", self.next);
         assert!(
             each_us < MOST_US,
             "{what}: {each_us:.1} us a component, {} of them",
