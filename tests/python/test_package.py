@@ -243,11 +243,40 @@ def test_a_study_goes_on_where_it_was(tmp_path):
     )
     found = gm.study(tables, tmp_path / "out")
     assert len(found.cases) == 3 and len(found.rows) == 3
+    assert "lengths" in (tmp_path / "out" / "study.html").read_text(encoding="utf-8")
     files = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "out").glob("*.h5")}
     gm.Study(tables).run(tmp_path / "out")
     assert {path.name: path.stat().st_mtime_ns for path in (tmp_path / "out").glob("*.h5")} == files
     with pytest.raises(gm.InputError):
         gm.study({**tables, "parameter": [dict(name="end", keys=["run.end"], values=[1.0])]}, tmp_path / "wrong")
+
+
+def test_two_gears_of_one_hand_are_refused_before_they_are_reduced(pinion):
+    helical = pinion.but(helix_angle_deg=15.0, hand="right", mesh=None)
+    other = helical.but(name="wheel", teeth=40)
+    with pytest.raises(gm.InputError, match="tooth.hand is 'right', as gear_1's"):
+        gm.Pair(helical, other, centre_distance_mm=97.0, torques_Nm=50)
+    with pytest.raises(TypeError, match="is not reduced yet"):
+        gm.Pair(helical, other.but(hand="left"), centre_distance_mm=97.0, torques_Nm=50)
+
+
+def test_tables_of_a_scene_know_where_its_files_lie(tmp_path, monkeypatch):
+    scene = gm.Scene("fe_models/first_pair/drive.toml")
+    monkeypatch.chdir(tmp_path)
+    tables = scene.tables
+    tables["run"]["end_s"] = 1e-3
+    again = gm.Scene(tables)
+    assert again.folder == scene.folder
+    assert any("mesh frequency at the start 230.000 Hz" in line for line in again.plan())
+
+
+def test_what_a_run_warns_of_is_in_its_result(tmp_path):
+    tables = gm.Scene("fe_models/first_pair/drive.toml").tables
+    tables["run"]["end_s"] = 2e-3
+    tables["load"][0]["torque_Nm"] = 100.0
+    warnings = gm.Scene(tables).run().warnings
+    # The sign of its torque is that of its speed.
+    assert any("load `torque on wheel` drives" in text for text in warnings), warnings
 
 
 def test_the_schema_is_that_of_the_program():

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use gearmesh_report::export::{Cells, Table, pair_tables, system_tables};
+use gearmesh_scene::rating::RatingResult;
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_scene::{ResultFile, SceneResult};
 use numpy::PyArray1;
@@ -85,19 +86,21 @@ impl NativeResult {
 
     /// What the user should know: assumptions that do not hold, periods not seen whole, energy that was lost.
     #[getter]
-    fn warnings(&self) -> Vec<String> {
-        match &self.0 {
+    fn warnings(&self) -> PyResult<Vec<String>> {
+        Ok(match &self.0 {
             Kept::Pair(pair) => {
                 let mut warnings = pair.head.warnings.clone();
                 warnings.extend(pair.head.incomplete());
+                warnings.extend(pair.head.ratings.iter().flat_map(RatingResult::reported));
                 warnings
             }
             Kept::System(result) => {
                 let mut warnings = result.head.notes.clone();
                 warnings.extend(result.problem());
+                warnings.extend(result.warnings().map_err(file_error)?);
                 warnings
             }
-        }
+        })
     }
 
     /// Names of all data sets of a pair, of the columns of a multibody result.

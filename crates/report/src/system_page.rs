@@ -10,6 +10,7 @@
 //! | pairs of bevel teeth: forces, contact pattern, path | `tooth_pairs.rs` |
 //! | orbits of gears, lines of shafts and cages | `orbits.rs` |
 //! | curves over the speed | `sweep.rs` |
+//! | the stages, their loads beside what follows from their teeth | `stages.rs` |
 //! | what friction takes, part by part | `losses.rs` |
 //! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
 //! | what was judged after the run | `../ratings.rs` |
@@ -22,6 +23,7 @@ mod eigen;
 mod equilibria;
 mod losses;
 mod orbits;
+mod stages;
 mod sweep;
 mod tooth_pairs;
 mod transient;
@@ -99,7 +101,11 @@ fn overview(r: &SystemResult, passings: &[MeshPassing]) -> Result<Section, FileE
     if !figures.is_empty() {
         section = section.push(figures);
     }
-    for table in tables {
+    let warnings = r.warnings()?;
+    for warning in warnings {
+        section = section.push(Text::note(format!("Warning: {warning}")));
+    }
+    for table in stages::table(r)?.into_iter().chain(tables) {
         section = section.push(table);
     }
     for passing in passings {

@@ -387,6 +387,7 @@ fn natural_frequencies_and_participations_have_their_closed_form() {
     for settle in [None, Some(settling)] {
         let desk = Desk::new();
         let kind = RunKind::Eigen(EigenJob {
+            torques: Vec::new(),
             points: vec![
                 EigenPoint {
                     speed_rad_per_s: None,

@@ -23,7 +23,6 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         SceneFile::Pair(scene) => scene,
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
-            console::unit_slips(loaded.unit_slips());
             return run_system::run(loaded, arguments);
         }
     };
@@ -34,11 +33,11 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     }
     let loaded = load(*scene)?;
     loaded.scene.notes.iter().for_each(console::note);
-    console::unit_slips(loaded.unit_slips());
+    let told = |done, total| console::note(format!("torque {done} of {total} solved"));
     demand_size(loaded.result_bytes(), "run.pitches", arguments)?;
-    let result = run_scene(&loaded, &|done, total| {
-        console::note(format!("torque {done} of {total} solved"))
-    })?;
+    // Slips of units are among the warnings of the result; what is refused may follow from them.
+    let result =
+        run_scene(&loaded, &told).inspect_err(|_| console::unit_slips(loaded.unit_slips()))?;
     result.write(&arguments.output).map_err(Failure::work)?;
     result.warnings.iter().for_each(console::warning);
     ratings::warn(&result.ratings);

@@ -4,7 +4,7 @@
 
 use crate::arguments::RunArguments;
 use crate::commands::run::demand_size;
-use crate::commands::{losses, pressures, ratings, system_table};
+use crate::commands::{losses, ratings, stages, system_table};
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -21,7 +21,10 @@ use std::time::Duration;
 /// Runs a scene.
 pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure> {
     loaded.scene.notes.iter().for_each(console::note);
-    let job = RunJob::from_scene(loaded)?;
+    let slips = loaded.unit_slips();
+    // Slips are among the notes of the job; what is refused may follow from them.
+    let job = RunJob::from_scene(loaded).inspect_err(|_| console::unit_slips(slips))?;
+    let before = job.head.notes.len();
     job.head.notes.iter().for_each(console::note);
     if let Some(size) = ResultSize::of(&job) {
         demand_size(size.bytes(), "output.interval_s", arguments)?;
@@ -59,8 +62,9 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     }
     drop(stop);
     let result = SystemResult::open(&arguments.output).map_err(Failure::work)?;
-    ratings::warn(&result.ratings);
-    warn_of_pressures(&result)?;
+    (result.head.notes.iter().skip(before)).for_each(console::note);
+    let warnings = result.warnings().map_err(Failure::work)?;
+    warnings.iter().for_each(console::warning);
     if arguments.json {
         console::json(&figures(&result)?);
     } else {
@@ -73,16 +77,6 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
         Some(problem) => Err(Failure::work(problem)),
         None => Ok(()),
     }
-}
-
-/// Contacts of gears and bearings are elastic, whatever presses them.
-fn warn_of_pressures(result: &SystemResult) -> Result<(), Failure> {
-    let columns = result
-        .summaries(|name| name.contains("pressure"))
-        .map_err(Failure::work)?;
-    let pressures = columns.into_iter().filter(|c| c.unit == "Pa");
-    pressures::warn(pressures.map(|c| (c.name, c.figures.largest)));
-    Ok(())
 }
 
 /// The figures for machines.
@@ -99,6 +93,10 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
         value["run"] = run;
     }
     value["ratings"] = ratings::json(&result.ratings);
+    value["warnings"] = json!(result.warnings().map_err(Failure::work)?);
+    if let stages @ Value::Object(_) = stages::json(result)? {
+        value["stages"] = stages;
+    }
     if let losses @ Value::Object(_) = losses::json(result)? {
         value["losses"] = losses;
     }

@@ -10,7 +10,7 @@ use gearmesh_scene::system_run::{
 };
 
 use crate::commands::periods::MARK;
-use crate::commands::{losses, mesh_axes, ratings};
+use crate::commands::{losses, mesh_axes, ratings, stages};
 use crate::failure::Failure;
 
 /// Lines of the table of columns; all are in the JSON and in the file.
@@ -25,6 +25,7 @@ const MOST_SHARES: usize = 3;
 /// The figures for people.
 pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let mut lines = vec![format!("{}: {}", result.head.title, result.kind)];
+    lines.extend(stages::lines(result)?);
     lines.extend(match result.kind {
         ResultKind::Transient => columns(result)?,
         ResultKind::SpeedSweep => sweep(result),

@@ -322,6 +322,7 @@ pub fn run(
             .flat_map(|c| part(c).iter().copied())
             .collect()
     };
+    let slips = loaded.unit_slips().into_iter().map(|slip| slip.to_string());
     let mut result = SceneResult {
         title: scene.title.clone(),
         scene_toml: scene.document.text.clone(),
@@ -361,7 +362,7 @@ pub fn run(
         torque_balance: curves.iter().map(|c| c.torque_balance).collect(),
         strain: Vec::new(),
         ratings: Vec::new(),
-        warnings: warnings.sentences(),
+        warnings: (slips.chain(warnings.sentences())).collect(),
         seconds: [contact_seconds, 0.0],
         angle_rad: angles,
     };

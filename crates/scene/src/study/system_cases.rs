@@ -9,8 +9,9 @@ use gearmesh_model::FileError;
 
 use super::cases::{Selected, SelectedValue, StudyError};
 use super::elsewhere::SentCase;
-use super::figure::{Figure, FigureKinds, Wanted, line_amplitude, resonance};
+use super::figure::{Figure, FigureKinds, RATINGS, Wanted, line_amplitude, resonance};
 use super::study_file::Study;
+use crate::rating::figure_names;
 use crate::system::{SystemScene, unknown};
 use crate::system_run::{
     Figures, Outcome, ResultKind, RunHead, RunJob, RunKind, RunOptions, SystemResult,
@@ -46,7 +47,13 @@ pub(super) fn column_names(scene: &SystemScene) -> Result<(Vec<String>, FigureKi
         }
     };
     let columns = recorded_columns(&job).into_iter();
-    Ok((columns.map(|column| column.name).collect(), kinds))
+    let ratings = job.ratings.iter();
+    let of_ratings = ratings.flat_map(|rating| {
+        let names = figure_names(&rating.rule).into_iter();
+        names.map(|figure| rating_column(&rating.name, figure))
+    });
+    let all = columns.map(|column| column.name).chain(of_ratings);
+    Ok((all.collect(), kinds))
 }
 
 /// Runs a case, or waits for the other study in the same folder that is at it; none if it was stopped.
@@ -172,6 +179,7 @@ fn selected_of(
         return Err(problem);
     }
     let of = |one: &Wanted| match result.kind {
+        _ if one.is_of_rating() => of_rating(result, one),
         ResultKind::SpeedSweep => of_sweep(result, one),
         ResultKind::Eigen => of_modes(result, one),
         ResultKind::Transient | ResultKind::Static => of_rows(result, one, from_s),
@@ -192,6 +200,36 @@ fn told(one: &Wanted, unit: &str, figures: Figures) -> Selected {
         torque_nm: None,
         value: value.map_or(SelectedValue::Series(figures), SelectedValue::Single),
     }
+}
+
+/// Name of the column of a rating's figure.
+fn rating_column(rating: &str, figure: &str) -> String {
+    format!("{RATINGS}{rating}/{figure}")
+}
+
+/// A figure of a rating of the run.
+fn of_rating(result: &SystemResult, one: &Wanted) -> Result<Selected, String> {
+    for rated in &result.ratings {
+        let mut figures = rated.figures.iter();
+        if let Some(f) = figures.find(|f| rating_column(&rated.name, f.name) == one.column) {
+            return Ok(Selected {
+                column: one.name(),
+                unit: f.unit.to_owned(),
+                torque_nm: None,
+                value: SelectedValue::Single(f.value),
+            });
+        }
+        if let Some(problem) = &rated.problem
+            && one.column.starts_with(&rating_column(&rated.name, ""))
+        {
+            return Err(format!("{} is not rated: {problem}", rated.name));
+        }
+    }
+    let all = result.ratings.iter();
+    let names: Vec<String> = all
+        .flat_map(|r| r.figures.iter().map(|f| rating_column(&r.name, f.name)))
+        .collect();
+    Err(unknown("column", &one.column, &names))
 }
 
 /// Of a run in time or of equilibria.

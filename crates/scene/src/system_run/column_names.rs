@@ -54,6 +54,7 @@ pub fn rank(name: &str) -> u8 {
             "transmission_error_m" => 0,
             "loaded_pairs" | "apart" => 1,
             mesh if mesh.starts_with("normal_force_") || mesh.ends_with("_force_1_N") => 1,
+            "moment_1_Nm" | "moment_2_Nm" => 1,
             "force_radial_N" | "force_shaft_z_N" => 2,
             pair if is_of_pair(pair) => 9,
             strain if strain.starts_with("strain_") => 3,

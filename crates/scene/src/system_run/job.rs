@@ -7,7 +7,7 @@ use std::time::Duration;
 use gearmesh_dynamics::{Params, System};
 use gearmesh_model::bytes_digest;
 
-use crate::system::{RatingJob, Start};
+use crate::system::{RatingJob, StageSummary, Start};
 
 use super::error::SystemRunError;
 use super::recorder::Selection;
@@ -64,6 +64,8 @@ pub struct EigenJob {
     pub settle: Option<Settling>,
     /// Highest frequency that is kept \[Hz\].
     pub most_frequency_hz: Option<f64>,
+    /// Loads that are torques, whose stiffness is not symmetric.
+    pub torques: Vec<String>,
     /// Makes the system for a point.
     pub system_at: SystemAt<EigenPoint>,
 }
@@ -123,6 +125,10 @@ pub struct MeshRecord {
     pub teeth: [usize; 2],
     /// As in [`crate::system::BuiltMesh`]; empty in files of older programs.
     pub flank_corners_m: Vec<f64>,
+    /// The stage without load; none of bevel pairs and in files of older programs.
+    pub stage: Option<StageSummary>,
+    /// Speeds of gear 1 and 2 about their z at the start \[rad/s\]; none in files of older programs.
+    pub speeds_rad_per_s: Option<[f64; 2]>,
 }
 
 /// Where a result comes from; kept in it.

@@ -10,6 +10,7 @@
 //! | how an unfinished run is kept and resumed | [`PartFolder`] | `part_folder.rs`, `stored_checkpoint.rs` |
 //! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
 //! | what is judged after the run | [`RatingResult`](crate::rating::RatingResult) | `rating.rs` |
+//! | the stages, their loads beside what follows from their teeth | [`StageTable`] | `stages.rs` |
 //! | what friction takes, part by part | [`PowerLosses`] | `losses.rs` |
 //! | its figures at a glance, what of each period it saw | [`ColumnSummary`], [`MeshPassing`] | `summary.rs`, `column_names.rs`, `mesh_passing.rs` |
 
@@ -36,6 +37,7 @@ mod result_kind;
 mod result_record;
 mod run_record;
 mod speed_plan;
+mod stages;
 mod static_series;
 mod stored_checkpoint;
 mod summary;
@@ -63,6 +65,7 @@ pub use result::{EigenResult, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
 pub use result_kind::ResultKind;
 pub use run_record::RunRecord;
 pub use speed_plan::{SpeedPlan, Window};
+pub use stages::{StageLine, StageLoad, StageRow, StageTable};
 pub use summary::{ColumnSummary, foremost};
 
 /// Runs a job and writes its result.

@@ -15,6 +15,7 @@ use super::result_kind::ResultKind;
 use super::result_record::{Contents, STATED_UNITS};
 use super::run_record::RunRecord;
 use super::speed_plan::Window;
+use super::stages::StageLoad;
 use crate::rating::RatingResult;
 
 /// Name and version of the result file.
@@ -36,6 +37,9 @@ pub struct EigenResult {
     /// Share of each force element in the strain energy of each mode, `[mode][element]`; empty in files of older
     /// programs.
     pub strain: Vec<Vec<f64>>,
+    /// Loads of gear meshes at the point, by the mesh's place in the head; of `kinematic` ones and in files of older
+    /// programs none.
+    pub loads: Vec<(usize, StageLoad)>,
 }
 
 /// A measured speed sweep.

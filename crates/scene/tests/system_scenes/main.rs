@@ -24,6 +24,7 @@ mod rolling_bearings;
 mod run_out;
 mod shafts;
 mod shipped;
+mod stages;
 mod start;
 mod static_pairs;
 #[path = "../system_runs/mod.rs"]
