@@ -1,70 +1,63 @@
-//! Keys that a kind of bearing does not use.
+//! Keys that a kind of bearing, or a type of a catalogue, does not use.
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
 use super::BearingFile;
+use super::given::given;
+use crate::catalogue::CatalogueType;
+
+/// Keys of a file, each with whether it is given, and the kinds that use them.
+type Group<'a> = (&'a [(&'a str, bool)], &'a [&'a str]);
+
+fn refuse(
+    keys: &TableKeys<'_>,
+    chosen: (&str, &str),
+    groups: &[Group<'_>],
+) -> Result<(), InputError> {
+    for (given, users) in groups {
+        for (key, is_given) in *given {
+            keys.refuse_unused(chosen, &[(key, *is_given, users)])?;
+        }
+    }
+    Ok(())
+}
 
 /// Keys that the chosen kind does not use are errors.
-pub(super) fn refuse(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    const BALLS: &[&str] = &["deep-groove", "angular-contact"];
-    const ALL_BALLS: &[&str] = &[
+pub(super) fn by_kind(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputError> {
+    const SIZES: &[&str] = &[
         "deep-groove",
         "angular-contact",
         "four-point",
         "thrust-ball",
-        "catalogue",
-    ];
-    const ROLLERS: &[&str] = &["cylindrical-roller", "tapered-roller"];
-    const ROLLERS_OR_LISTED: &[&str] = &[
         "cylindrical-roller",
         "tapered-roller",
         "spherical-roller",
         "catalogue",
     ];
-    const LISTED: &[&str] = &["catalogue"];
-    const PRELOADED: &[&str] = &[
+    let balls = &[SIZES[0], SIZES[1], SIZES[2], SIZES[3], "catalogue"];
+    let rollers = &SIZES[4..];
+    let preloaded = &[
         "angular-contact",
         "thrust-ball",
         "tapered-roller",
         "catalogue",
     ];
-    keys.refuse_unused(
+    refuse(
+        keys,
         ("kind", file.kind.word()),
         &[
-            ("balls", file.balls.is_some(), ALL_BALLS),
+            (&given!(file; pitch_diameter_mm), SIZES),
             (
-                "ball_diameter_mm",
-                file.ball_diameter_mm.is_some(),
-                ALL_BALLS,
+                &given!(file; balls, ball_diameter_mm, inner_conformity, outer_conformity),
+                balls,
             ),
             (
-                "pitch_diameter_mm",
-                file.pitch_diameter_mm.is_some(),
-                &[
-                    "deep-groove",
-                    "angular-contact",
-                    "four-point",
-                    "thrust-ball",
-                    "cylindrical-roller",
-                    "tapered-roller",
-                    "spherical-roller",
-                    "catalogue",
-                ],
+                &given!(file; rollers, roller_diameter_mm, roller_length_mm),
+                rollers,
             ),
             (
-                "inner_conformity",
-                file.inner_conformity.is_some(),
-                ALL_BALLS,
-            ),
-            (
-                "outer_conformity",
-                file.outer_conformity.is_some(),
-                ALL_BALLS,
-            ),
-            (
-                "contact_angle_deg",
-                file.contact_angle_deg.is_some(),
+                &given!(file; contact_angle_deg),
                 &[
                     "angular-contact",
                     "four-point",
@@ -74,8 +67,7 @@ pub(super) fn refuse(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), Inp
                 ],
             ),
             (
-                "radial_clearance_um",
-                file.radial_clearance_um.is_some(),
+                &given!(file; radial_clearance_um),
                 &[
                     "deep-groove",
                     "four-point",
@@ -85,56 +77,92 @@ pub(super) fn refuse(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), Inp
                 ],
             ),
             (
-                "raceway_diameters_mm",
-                file.raceway_diameters_mm.is_some(),
-                BALLS,
+                &given!(file; raceway_diameters_mm),
+                &["deep-groove", "angular-contact"],
             ),
             (
-                "shoulder_heights_mm",
-                file.shoulder_heights_mm.is_some(),
+                &given!(file; shoulder_heights_mm),
                 &["deep-groove", "angular-contact", "four-point", "catalogue"],
             ),
-            ("rollers", file.rollers.is_some(), ROLLERS_OR_LISTED),
             (
-                "roller_diameter_mm",
-                file.roller_diameter_mm.is_some(),
-                ROLLERS_OR_LISTED,
+                &given!(file; profile),
+                &["cylindrical-roller", "tapered-roller"],
             ),
             (
-                "roller_length_mm",
-                file.roller_length_mm.is_some(),
-                ROLLERS_OR_LISTED,
-            ),
-            ("profile", file.profile.is_some(), ROLLERS),
-            (
-                "laminae",
-                file.laminae.is_some(),
+                &given!(file; laminae),
                 &["cylindrical-roller", "tapered-roller", "spherical-roller"],
             ),
             (
-                "end_radius_ratio",
-                file.end_radius_ratio.is_some(),
+                &given!(file; end_radius_ratio, rib_height_mm),
                 &["tapered-roller"],
             ),
             (
-                "rib_height_mm",
-                file.rib_height_mm.is_some(),
-                &["tapered-roller"],
-            ),
-            (
-                "roller_profile_radius_mm",
-                file.roller_profile_radius_mm.is_some(),
+                &given!(file; roller_profile_radius_mm, inner_groove_radius_mm),
                 &["spherical-roller"],
             ),
+            (&given!(file; designation, r#type), &["catalogue"]),
+            (&given!(file; preload_N, preload_um), preloaded),
+            // Of the others four-point and thrust bearings have one row, spherical roller bearings two that face one sphere.
             (
-                "inner_groove_radius_mm",
-                file.inner_groove_radius_mm.is_some(),
-                &["spherical-roller"],
+                &given!(file; arrangement, row_distance_mm),
+                &[
+                    "deep-groove",
+                    "angular-contact",
+                    "cylindrical-roller",
+                    "tapered-roller",
+                    "catalogue",
+                ],
             ),
-            ("designation", file.designation.is_some(), LISTED),
-            ("type", file.r#type.is_some(), LISTED),
-            ("preload_N", file.preload_N.is_some(), PRELOADED),
-            ("preload_um", file.preload_um.is_some(), PRELOADED),
+        ],
+    )
+}
+
+/// Keys that the type of a catalogue's line does not use.
+pub(super) fn by_type(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    kind: CatalogueType,
+) -> Result<(), InputError> {
+    const BALLS: &[&str] = &[
+        "deep-groove",
+        "angular-contact",
+        "angular-contact-double-row",
+        "four-point",
+        "thrust-ball",
+    ];
+    refuse(
+        keys,
+        ("type", kind.word()),
+        &[
+            (
+                &given!(file; balls, ball_diameter_mm, inner_conformity, outer_conformity),
+                BALLS,
+            ),
+            (&given!(file; shoulder_heights_mm), &BALLS[..4]),
+            (
+                &given!(file; rollers, roller_diameter_mm, roller_length_mm),
+                &["cylindrical-roller", "tapered-roller", "spherical-roller"],
+            ),
+            // The play of the others is said by their contact angle or preload_um.
+            (
+                &given!(file; radial_clearance_um),
+                &[
+                    "deep-groove",
+                    "four-point",
+                    "cylindrical-roller",
+                    "spherical-roller",
+                ],
+            ),
+            (
+                &given!(file; arrangement, row_distance_mm),
+                &[
+                    "deep-groove",
+                    "angular-contact",
+                    "angular-contact-double-row",
+                    "cylindrical-roller",
+                    "tapered-roller",
+                ],
+            ),
         ],
     )
 }

@@ -206,7 +206,7 @@ fn other_types_are_checked() {
         let pair = format!("{text}arrangement = \"O\"\nrow_distance_mm = 20.0\n");
         let found = complaint(&pair);
         assert!(
-            found.contains("arrangement") && found.contains(kind) && found.contains("one row"),
+            found.contains("arrangement") && found.contains(kind) && found.contains("is not used"),
             "{found}"
         );
         let faulty =
