@@ -21,6 +21,10 @@ use crate::operation::Operation;
 use crate::ring_load::{RingLoad, by_ring};
 use crate::ring_pose::{RingPose, cross};
 
+/// Share of the free contact angle up to which a ball of an angular-contact bearing may touch its groove on the side away from
+/// the load, where a shoulder is missing.
+pub(crate) const FAR_SIDE: f64 = 0.5;
+
 /// Newton's iterations of one ball before it is given up.
 const MOST_ITERATIONS: usize = 60;
 
@@ -361,7 +365,7 @@ impl Ball<'_> {
             return Ok(());
         }
         let angle = inner.sine.atan2(inner.cosine);
-        let climbs = angle * free.signum() < -0.5 * free.abs();
+        let climbs = angle * free.signum() < -FAR_SIDE * free.abs();
         if free != 0.0 && inner.load > NO_FORCE_N && climbs {
             return Err(BearingError::PulledOut);
         }

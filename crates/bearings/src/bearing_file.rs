@@ -8,7 +8,6 @@ mod element_keys;
 mod fault_keys;
 mod fit_keys;
 mod friction_keys;
-mod given;
 mod roller_keys;
 mod unused_keys;
 

@@ -1,12 +1,11 @@
 //! Keys of `[fit]`: how the rings are seated and how warm everything is.
 
-use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::{InputError, given};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::element_keys::Clearances;
-use super::given::given;
 use super::{MM, UM};
 use crate::definition::{BearingDefinition, BearingGeometry, BearingMaterial};
 use crate::fit::{Fit, Seat, raceways_m};

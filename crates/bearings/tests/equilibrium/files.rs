@@ -246,7 +246,7 @@ fn other_types_are_checked() {
     refused(
         BARRELS,
         ("rollers = 19", "rollers = 19\nrow_distance_mm = 22.0"),
-        &["row_distance_mm", "one sphere"],
+        &["row_distance_mm", "is not used"],
     );
     refused(
         BARRELS,

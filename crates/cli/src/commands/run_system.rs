@@ -56,6 +56,7 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     let result = SystemResult::open(&arguments.output).map_err(Failure::work)?;
     ratings::warn(&result.ratings);
     warn_of_pressures(&result)?;
+    warn_of_repeated_steps(&result);
     if arguments.json {
         console::json(&figures(&result)?);
     } else {
@@ -67,6 +68,18 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     match result.problem() {
         Some(problem) => Err(Failure::work(problem)),
         None => Ok(()),
+    }
+}
+
+/// Steps that found no equilibrium of forces are repeated shorter; many of them speak of a force that jumps.
+fn warn_of_repeated_steps(result: &SystemResult) {
+    let Some(record) = &result.record else { return };
+    // One in a hundred costs little and is usual where bodies strike each other.
+    if 100.0 * record.unconverged > record.steps {
+        console::warning(format!(
+            "{} of {} steps did not converge and were repeated shorter; look for forces that jump with position or speed, or allow shorter steps",
+            record.unconverged, record.steps
+        ));
     }
 }
 
