@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Rolling bearings: geometry, Hertz contact, equilibrium of every ball and roller, rating life.
 //!
 //! | step | type | file |

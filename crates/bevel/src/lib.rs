@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Bevel gears: blank, flanks from machine settings, local synthesis, tooth contact analysis.
 //!
 //! | step | type | file |

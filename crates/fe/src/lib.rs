@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Linear elasticity on hexahedra, tetrahedra and wedges: elements, assembly, constraints, ordering, factorisation.
 //!
 //! Arrays go in (node coordinates, elements), arrays come out (stiffness, displacements, strain operators).

@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! The contract between the offline and the online side, and every HDF5 file of gearmesh.
 //!
 //! | to store | use |

@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! The offline stage: from a gear definition to its [`ReducedGear`](gearmesh_model::ReducedGear).
 //!
 //! | step | file |

@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! Comparison with reference records, tables and the HTML report.
 //!
 //! | you have | you want | use |

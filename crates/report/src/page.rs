@@ -1,17 +1,5 @@
 //! A report as one HTML file that opens without a network.
 //!
-//! ```
-//! use gearmesh_report::page::{Axis, LineChart, LineSeries, Page, Section, Text};
-//! let chart = LineChart::new("Transmission error", Axis::new("driver angle", "deg"), Axis::new("TE", "µm"))
-//!     .x_values(vec![0.0, 1.0, 2.0])
-//!     .series(LineSeries::new("50 N·m", vec![-20.0, -21.0, -20.5]));
-//! let html = Page::new("Gear pair A")
-//!     .section(Section::new("Static run").push(Text::paragraph("Quasi-static.")).push(chart))
-//!     .render()?;
-//! assert!(html.contains("Gear pair A"));
-//! # Ok::<(), gearmesh_report::page::PageError>(())
-//! ```
-//!
 //! Style, script and data are inside the file: the numbers as base64 of 32-bit floats, the charts drawn by uPlot (MIT,
 //! vendored in assets/ with its licence), the field pictures by a small rasteriser on a canvas. A content security
 //! policy in the page forbids every request. All texts are escaped.

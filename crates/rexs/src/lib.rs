@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! REXS, the gear industry's exchange format for gearboxes: XML, JSON or a zip of one, versions 1.0 to 2.0.0.
 //!
 //! Data walk one way: bytes ([`container`]) → text of a [`model::Model`] ([`xml`], [`json`]) → names of version 2.0.0
