@@ -265,7 +265,9 @@ fn every_designation_can_be_built() {
             .name,
         "7205B"
     );
-    for unknown in ["6299", "62", "6205-2RS", "6205B", "é205", "NU204é", "61819", ""] {
+    for unknown in [
+        "6299", "62", "6205-2RS", "6205B", "é205", "NU204é", "61819", "",
+    ] {
         assert!(designations::find(unknown).is_none(), "{unknown}");
     }
 }

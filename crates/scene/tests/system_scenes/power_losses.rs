@@ -130,6 +130,15 @@ along = [0.6, 0.0, 0.8]
 kind = "static"
 "#;
 
+/// The shaft for a twentieth of a second instead of at rest.
+fn coasting() -> String {
+    changed(
+        SHAFT,
+        "kind = \"static\"\n",
+        "kind = \"transient\"\nend_s = 0.05\n[solver]\nstep_s = 1e-4\nstart = \"equilibrium\"\n[output]\ninterval_s = 1e-2\n",
+    )
+}
+
 /// The loss of a bearing in equilibrium is reported, and the shaft turns freely; where friction would not act it is
 /// refused.
 // Damping of the tilt would brake a shaft that turns while it is tilted.
@@ -161,11 +170,11 @@ fn bearings_tell_their_loss() {
     );
     // The tangent stands where the bearing itself does: the same loads, the same loss.
     let tangent = run(&linear);
-    let column = "elements/ball bearing/friction/friction_torque_Nm";
+    let column = "elements/ball bearing_friction/friction_torque_Nm";
     let same = tangent.rows.read(column).unwrap()[0];
     assert!((same / torque - 1.0).abs() < 1e-9, "{same} {torque}");
     let moving = changed(
-        SHAFT,
+        &coasting(),
         "file = \"balls.toml\", radial_damping_N_s_per_mm = 1.0, axial_damping_N_s_per_mm = 1.0, tilt_damping_Nm_s_per_rad = 0.0",
         "file = \"balls.toml\"",
     );
@@ -187,11 +196,7 @@ fn tangents_brake_as_their_bearings() {
     let folder = tempfile::tempdir().unwrap();
     let rubs = format!("{BALLS}[friction]\nviscosity_mm2_per_s = 30.0\nseal_torque_Nm = 0.2\n");
     fs::write(folder.path().join("balls.toml"), rubs).unwrap();
-    let coasting = changed(
-        SHAFT,
-        "kind = \"static\"\n",
-        "kind = \"transient\"\nend_s = 0.05\n[solver]\nstep_s = 1e-4\nstart = \"equilibrium\"\n[output]\ninterval_s = 1e-2\n",
-    );
+    let coasting = coasting();
     let linear = changed(
         &coasting,
         "kind = \"quasi-static\", file",
@@ -200,12 +205,8 @@ fn tangents_brake_as_their_bearings() {
     let speed = |text: &str| {
         let loaded = load(text, folder.path()).unwrap();
         let result = Desk::new().run(RunJob::from_scene(loaded).unwrap());
-        *(result
-            .rows
-            .read("shaft/angular_velocity_z_rad_per_s")
-            .unwrap())
-        .last()
-        .unwrap()
+        let column = "bodies/shaft/angular_velocity_z_rad_per_s";
+        *result.rows.read(column).unwrap().last().unwrap()
     };
     let [own, tangent] = [&coasting, &linear].map(|text| speed(text));
     let lost = 100.0 * PI - own;
