@@ -22,6 +22,8 @@ struct Case {
     force_n: [f64; 3],
     tilt_rad: Option<[f64; 2]>,
     moment_nm: Option<[f64; 2]>,
+    /// Of the inner ring; at rest without.
+    #[serde(default)]
     rpm: f64,
     place_um: [f64; 3],
     tilt_mrad: [f64; 2],
