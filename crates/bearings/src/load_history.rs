@@ -180,11 +180,13 @@ impl LoadHistory {
                     ..Operation::default()
                 };
                 let pose = bearing.equilibrium(&load, &operation)?;
-                let (_, elements) = bearing.loads(&pose, &operation)?;
+                let (ring, elements) = bearing.loads(&pose, &operation)?;
                 let life = Life::of(definition, &elements, load.force_n, &operation, lubrication);
                 let judged = Judged {
                     definition,
                     bearing,
+                    pose: &pose,
+                    ring: &ring,
                     loads: &elements,
                     force_n: load.force_n,
                     operation: &operation,

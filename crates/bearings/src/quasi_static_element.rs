@@ -19,6 +19,7 @@ use crate::operation::{Control, Operation};
 use crate::quasi_static::QuasiStaticBearing;
 use crate::quasi_static::RowLoads;
 use crate::ring_channels::{RING_CHANNELS, race_loads, ring_channels, sample_ring};
+use crate::ring_load::RingLoad;
 use crate::ring_pose::RingPose;
 
 /// Damping beside the elastic bearing.
@@ -49,6 +50,8 @@ pub struct QuasiStaticElement {
     damping: RingDamping,
     control: Control,
     element_loads: bool,
+    /// Whether another element carries the load, so that nothing but its friction acts.
+    friction_alone: bool,
     /// With a friction torque: the definition it is computed from, and whether it acts.
     rubbing: Option<(BearingDefinition, bool)>,
     /// Time, cage's angle and speeds of the rings at the last accepted step.
@@ -110,6 +113,7 @@ impl QuasiStaticElement {
             damping,
             control,
             element_loads: false,
+            friction_alone: false,
             rubbing: definition.friction.map(|_| (definition.clone(), true)),
             kept: Kept::default(),
         })
@@ -129,6 +133,14 @@ impl QuasiStaticElement {
         if let Some((_, acts)) = &mut self.rubbing {
             *acts = false;
         }
+        self
+    }
+
+    /// Nothing but the friction torque acts, of the loads of its balls or rollers where the rings stand: beside an
+    /// element that carries the load as this bearing would, such as its tangent. Its channels are torque and power.
+    #[must_use]
+    pub fn friction_alone(mut self) -> Self {
+        self.friction_alone = true;
         self
     }
 
@@ -244,9 +256,11 @@ impl ForceElement for QuasiStaticElement {
         let motion = self.motion(view);
         let operation = self.operation(view.time_s);
         self.places.take_from(&self.kept_places);
-        let ring = self
-            .bearing
-            .evaluate_from(&pose(&motion), &operation, &mut self.places)?;
+        let ring = if self.friction_alone {
+            RingLoad::default()
+        } else {
+            (self.bearing).evaluate_from(&pose(&motion), &operation, &mut self.places)?
+        };
         let (mut damping, rates) = (self.damping_matrix(), rates(&motion));
         let mut viscous = damping * rates;
         if self.kept.friction_nm > 0.0 {
@@ -289,6 +303,9 @@ impl ForceElement for QuasiStaticElement {
             let operation = self.operation(view.time_s);
             let found = self.friction(&pose(&self.motion(view)), &operation);
             self.kept.friction_nm = found.map_or(0.0, |friction| friction.total_nm());
+            if self.friction_alone {
+                self.kept_places.take_from(&self.places);
+            }
         }
         Ok(())
     }
@@ -330,7 +347,11 @@ impl ForceElement for QuasiStaticElement {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        let mut channels = ring_channels();
+        let mut channels = if self.friction_alone {
+            Vec::new()
+        } else {
+            ring_channels()
+        };
         if self.element_loads {
             let count: usize = self.bearing.rows.iter().map(|row| row.elements()).sum();
             for element in 1..=count {
@@ -376,6 +397,9 @@ impl ForceElement for QuasiStaticElement {
             let friction = friction.unwrap_or_default();
             let at = out.len() - 2;
             out[at..].copy_from_slice(&[friction.total_nm(), friction.power_w()]);
+        }
+        if self.friction_alone {
+            return;
         }
         let load = ring.load - self.damping_matrix() * rates(&motion);
         let force = motion.to_world(&load.fixed_rows::<3>(0).into_owned());

@@ -2,6 +2,7 @@
 
 mod csv_rows;
 mod former_keys;
+mod given;
 mod kinds;
 mod near_names;
 mod number_ranges;

@@ -15,6 +15,7 @@ use super::job::MeshRecord;
 use super::recorder::{body_column, element_column};
 use super::result::SystemResult;
 use super::result_kind::ResultKind;
+use super::run_record::RunRecord;
 use crate::pair::warnings::excessive_pressure;
 use crate::rating::RatingResult;
 
@@ -222,6 +223,17 @@ impl StageTable {
     }
 }
 
+/// Steps that found no equilibrium of forces are repeated shorter; many of them are the sign of a force that jumps. One in
+/// a hundred costs little and is usual where bodies strike each other.
+fn repeated_steps(record: &RunRecord) -> Option<String> {
+    (100.0 * record.unconverged > record.steps).then(|| {
+        format!(
+            "{} of {} steps did not converge and were repeated shorter; look for forces that jump with position or speed, or allow shorter steps",
+            record.unconverged, record.steps
+        )
+    })
+}
+
 impl SystemResult {
     /// What is to be reported of the figures: what cannot be rated or is beyond a limit of bearings, pressures under which
     /// steel yields, meshes that are open, power that does not balance. What was said before the run is among the notes of
@@ -246,6 +258,7 @@ impl SystemResult {
             }
         }
         found.extend(excessive_pressure(pressures.into_iter()));
+        found.extend(self.record.as_ref().and_then(repeated_steps));
         // Open meshes of natural frequencies are among the notes.
         if self.kind != ResultKind::Eigen {
             found.extend(self.stages()?.iter().flat_map(StageTable::warnings));
@@ -377,4 +390,21 @@ enum Span {
     Window(usize),
     /// Operating point of natural frequencies.
     Point(usize),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_than_one_repeated_step_in_a_hundred_is_reported() {
+        let record = |unconverged| RunRecord {
+            steps: 1000.0,
+            unconverged,
+            ..RunRecord::default()
+        };
+        assert_eq!(repeated_steps(&record(10.0)), None);
+        let warning = repeated_steps(&record(42.0));
+        assert!(warning.is_some_and(|text| text.starts_with("42 of 1000 steps")));
+    }
 }
