@@ -204,17 +204,15 @@ impl QuasiStaticElement {
         }
     }
 
-    fn damping_matrix(&self) -> Matrix6<f64> {
+    /// Damping by the rates of the displacement and by the angular velocity, of which the rate of the tilt counts alone.
+    fn damping_matrix(&self, motion: &RelativeMotion) -> Matrix6<f64> {
         let d = &self.damping;
-        let (radial, tilt) = (d.radial_n_s_per_m, d.tilt_nm_s_per_rad);
-        Matrix6::from_diagonal(&Vector6::new(
-            radial,
-            radial,
-            d.axial_n_s_per_m,
-            tilt,
-            tilt,
-            0.0,
-        ))
+        let radial = d.radial_n_s_per_m;
+        let along = Vector6::new(radial, radial, d.axial_n_s_per_m, 0.0, 0.0, 0.0);
+        let mut damping = Matrix6::from_diagonal(&along);
+        let tilt = d.tilt_nm_s_per_rad * motion.tilt_rate_by_velocity();
+        damping.fixed_view_mut::<3, 3>(3, 3).copy_from(&tilt);
+        damping
     }
 
     fn keep(&mut self, view: &View<'_>, cage_angle_rad: f64) {
@@ -261,7 +259,7 @@ impl ForceElement for QuasiStaticElement {
         } else {
             (self.bearing).evaluate_from(&pose(&motion), &operation, &mut self.places)?
         };
-        let (mut damping, rates) = (self.damping_matrix(), rates(&motion));
+        let (mut damping, rates) = (self.damping_matrix(&motion), rates(&motion));
         let mut viscous = damping * rates;
         if self.kept.friction_nm > 0.0 {
             let (moment, slope) = self.rubs(rates[5]);
@@ -279,7 +277,11 @@ impl ForceElement for QuasiStaticElement {
         loads.add_pair_force(places, &motion.generalised_force(&load));
         if loads.wants_tangents() {
             let jacobian = motion.jacobian();
-            let along = ring.tangent * jacobian - damping * motion.rate_jacobian(&jacobian);
+            let mut by_pose = ring.tangent;
+            let turned = self.damping.tilt_nm_s_per_rad * motion.tilt_rate_by_rotation();
+            let mut corner = by_pose.fixed_view_mut::<3, 3>(3, 3);
+            corner -= turned;
+            let along = by_pose * jacobian - damping * motion.rate_jacobian(&jacobian);
             let by_position = jacobian.tr_mul(&along) + motion.geometric_tangent(&jacobian, &load);
             let by_velocity = -jacobian.tr_mul(&(damping * jacobian));
             loads.add_pair_tangents(places, &by_position, &by_velocity);
@@ -401,7 +403,7 @@ impl ForceElement for QuasiStaticElement {
         if self.friction_alone {
             return;
         }
-        let load = ring.load - self.damping_matrix() * rates(&motion);
+        let load = ring.load - self.damping_matrix(&motion) * rates(&motion);
         let force = motion.to_world(&load.fixed_rows::<3>(0).into_owned());
         sample_ring(&load, &force, out);
     }

@@ -313,6 +313,9 @@ pub struct ImportArguments {
     /// Scenes of reduced gears (`hybrid` meshes) in place of the springs of ISO 6336: reduce the gear files first
     #[arg(long)]
     pub reduced: bool,
+    /// Scenes that run in time, driven at the speeds of the file, in place of scenes at rest
+    #[arg(long)]
+    pub transient: bool,
     /// Write the files only: neither check them nor run the scenes at rest
     #[arg(long)]
     pub no_run: bool,

@@ -22,6 +22,7 @@ pub mod gear;
 pub mod gear_bodies;
 pub mod gear_text;
 pub mod import;
+pub mod in_time;
 pub mod json;
 pub mod ledger;
 pub mod loads;
@@ -48,7 +49,8 @@ pub mod versions;
 pub mod xml;
 
 pub use error::RexsError;
-pub use import::{Import, ImportedFile, import};
+pub use import::{Import, ImportedFile, import, import_to_run};
+pub use in_time::Running;
 pub use ledger::{About, Entry, Ledger, Weight};
 pub use scene_text::{Meshes, model_file};
 pub use sheet::{Port, Sheet};

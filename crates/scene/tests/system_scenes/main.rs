@@ -30,6 +30,7 @@ mod static_pairs;
 #[path = "../system_runs/mod.rs"]
 mod system_runs;
 mod tables;
+mod tilted_shafts;
 
 use gearmesh_scene::system::BuiltSystem;
 

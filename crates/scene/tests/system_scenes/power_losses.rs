@@ -120,7 +120,7 @@ speed_rpm = 3000.0
 name = "ball bearing"
 body_2 = "shaft"
 axis = [0, 0, 1]
-model = { kind = "quasi-static", file = "balls.toml", radial_damping_N_s_per_mm = 1.0, axial_damping_N_s_per_mm = 1.0, tilt_damping_Nm_s_per_rad = 0.0 }
+model = { kind = "quasi-static", file = "balls.toml", radial_damping_N_s_per_mm = 1.0, axial_damping_N_s_per_mm = 1.0, tilt_damping_Nm_s_per_rad = 0.5 }
 [[load]]
 name = "push"
 body = "shaft"
@@ -140,8 +140,7 @@ fn coasting() -> String {
 }
 
 /// The loss of a bearing in equilibrium is reported, and the shaft turns freely; where friction would not act it is
-/// refused.
-// Damping of the tilt would brake a shaft that turns while it is tilted.
+/// refused. Damping of the tilt does not brake a shaft that turns while it is tilted.
 #[test]
 fn bearings_tell_their_loss() {
     let folder = tempfile::tempdir().unwrap();
