@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use gearmesh_report::export::{Cells, Table, pair_tables, system_tables};
+use gearmesh_report::export::{Cells, Table, pair_tables, system_tables, torque_table};
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_scene::{ResultFile, SceneResult};
 use numpy::PyArray1;
@@ -146,19 +146,19 @@ impl NativeResult {
                 .map_err(|error| InputError::new_err(error.to_string()))?,
         };
         let found = PyDict::new(py);
-        for Table { name, columns } in tables {
-            let table = PyDict::new(py);
-            for (head, cells) in columns {
-                match cells {
-                    Cells::Numbers(values) => {
-                        table.set_item(head, PyArray1::from_vec(py, values))?;
-                    }
-                    Cells::Texts(texts) => table.set_item(head, texts)?,
-                }
-            }
-            found.set_item(name, table)?;
+        for table in tables {
+            found.set_item(table.name.clone(), columns(py, table)?)?;
         }
         Ok(found)
+    }
+
+    /// The table `torques` of a pair: the figures of each torque.
+    fn torque_figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Kept::Pair(pair) = &self.0 else {
+            return Ok(PyDict::new(py));
+        };
+        let result = pair.result(py)?;
+        columns(py, py.detach(|| torque_table(&result)))
     }
 
     /// Writes a pair's result; that of a multibody scene is a file already.
@@ -173,4 +173,16 @@ impl NativeResult {
             )),
         }
     }
+}
+
+/// The columns of a table by name.
+fn columns(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
+    let found = PyDict::new(py);
+    for (head, cells) in table.columns {
+        match cells {
+            Cells::Numbers(values) => found.set_item(head, PyArray1::from_vec(py, values))?,
+            Cells::Texts(texts) => found.set_item(head, texts)?,
+        }
+    }
+    Ok(found)
 }

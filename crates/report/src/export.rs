@@ -20,7 +20,7 @@ mod system_tables;
 pub use csv_text::{csv_text, study_table};
 pub use functions::{Function, functions};
 pub use mat_bytes::mat_bytes;
-pub use pair_tables::pair_tables;
+pub use pair_tables::{pair_tables, torque_table};
 pub use parquet_bytes::parquet_bytes;
 pub use system_tables::system_tables;
 

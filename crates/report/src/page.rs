@@ -20,6 +20,7 @@ mod error;
 mod field_picture;
 mod flank_chart;
 mod line_chart;
+mod map_chart;
 mod markup;
 mod packed;
 mod path_chart;
@@ -33,6 +34,7 @@ pub use error::PageError;
 pub use field_picture::{FieldPicture, FieldValues, Mark, MarkSign, ViewWindow};
 pub use flank_chart::FlankChart;
 pub use line_chart::{Axis, AxisScale, LineChart, LineSeries, LineStyle, SeriesColour};
+pub use map_chart::MapChart;
 pub use path_chart::PathChart;
 pub use polar_chart::PolarChart;
 pub use scatter_chart::{PointSeries, ScatterChart};
@@ -73,6 +75,8 @@ pub enum Block {
     PathChart(PathChart),
     /// A tooth flank with what touches on it.
     FlankChart(FlankChart),
+    /// Colours over two axes.
+    MapChart(MapChart),
     /// Points over two axes.
     ScatterChart(ScatterChart),
 }
@@ -96,6 +100,7 @@ block_from!(
     PolarChart,
     PathChart,
     FlankChart,
+    MapChart,
     ScatterChart
 );
 
@@ -249,6 +254,7 @@ fn render_block(html: &mut String, block: &Block) -> Result<(), PageError> {
         Block::PolarChart(chart) => chart.render(html)?,
         Block::PathChart(chart) => chart.render(html)?,
         Block::FlankChart(chart) => chart.render(html)?,
+        Block::MapChart(chart) => chart.render(html)?,
         Block::ScatterChart(chart) => chart.render(html)?,
         Block::LineChart(chart) => render_figure(html, "line", chart.title(), &chart.payload()?)?,
         Block::SpectrumChart(chart) => {

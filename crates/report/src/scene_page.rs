@@ -20,7 +20,6 @@ use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_signal::RigSettings;
 use gearmesh_signal::rig::process;
-use gearmesh_signal::statistics::{mean, peak_to_peak};
 
 /// A gear's cross-section coloured by stress.
 #[derive(Debug, Clone)]
@@ -135,31 +134,24 @@ pub fn scene_page(
 
 fn overview(r: &SceneResult) -> Section {
     let last = r.torque_nm.len() - 1;
-    let te_mean = |k: usize| mean(r.averaged(&r.te_m, k));
-    let te_range = |k: usize| peak_to_peak(r.curve(&r.te_m, k));
     let mark = mark(&r.contact_coverage);
-    let figure = |value: Result<f64, gearmesh_signal::statistics::StatisticsError>| {
-        value.unwrap_or(f64::NAN) * 1e6
-    };
+    let f = r.figures(last);
     let mut figures = KeyFigures::new()
-        .figure("torque", format!("{}", r.torque_nm[last]), "N m")
+        .figure("torque", format!("{}", f.torque_nm), "N m")
         .figure(
             format!("TE mean{mark}"),
-            format!("{:.3}", figure(te_mean(last))),
+            format!("{:.3}", 1e6 * f.te_mean_m),
             "µm",
         )
         .figure(
             format!("TE peak-to-peak{mark}"),
-            format!("{:.3}", figure(te_range(last))),
+            format!("{:.3}", 1e6 * f.te_peak_to_peak_m),
             "µm",
         )
-        .figure(
-            format!("K_Hbeta{mark}"),
-            format!("{:.3}", r.k_h_beta[last]),
-            "",
-        );
+        .figure(format!("K_Hbeta{mark}"), format!("{:.3}", f.k_h_beta), "");
     if let Some(s) = r.strain.first() {
-        let range = figure(peak_to_peak(r.curve(&s.method_2, last)));
+        let [least, most] = r.strain_ends(0, 2, last);
+        let range = 1e6 * (most - least);
         figures = figures.figure(
             format!("strain range {}{}", s.name, mark_of_extremes(&s.coverage)),
             format!("{range:.0}"),
@@ -178,29 +170,26 @@ fn overview(r: &SceneResult) -> Section {
     if r.has_axial_force() {
         table = table.column("axial force gear 1 N", Align::Right);
     }
-    let block = r.pressure_pa.len() / r.torque_nm.len();
-    for (k, torque) in r.torque_nm.iter().enumerate() {
-        let average = |values: &[f64]| mean(r.averaged(values, k)).unwrap_or(f64::NAN) * 1e-6;
-        let pressure = r.pressure_pa[k * block..(k + 1) * block]
-            .iter()
-            .copied()
-            .fold(0.0, f64::max);
+    for f in (0..r.torque_nm.len()).map(|k| r.figures(k)) {
         let mut row = vec![
-            format!("{torque}"),
-            format!("{:.3}", figure(te_mean(k))),
-            format!("{:.3}", figure(te_range(k))),
-            format!("{:.2}", average(&r.secant_n_per_m)),
-            format!("{:.2}", average(&r.tangent_n_per_m)),
-            format!("{:.0}", pressure * 1e-6),
-            format!("{:.3}", r.k_h_beta[k]),
+            format!("{}", f.torque_nm),
+            format!("{:.3}", 1e6 * f.te_mean_m),
+            format!("{:.3}", 1e6 * f.te_peak_to_peak_m),
+            format!("{:.2}", 1e-6 * f.secant_mean_n_per_m),
+            format!("{:.2}", 1e-6 * f.tangent_mean_n_per_m),
+            format!("{:.0}", 1e-6 * f.pressure_largest_pa),
+            format!("{:.3}", f.k_h_beta),
         ];
         if r.has_axial_force() {
-            let axial = mean(r.averaged(&r.axial_force_1_n, k)).unwrap_or(f64::NAN);
-            row.push(format!("{axial:.1}"));
+            row.push(format!("{:.1}", f.axial_force_1_mean_n));
         }
         table = table.row(row);
     }
-    section = section.push(table);
+    section = section.push(table).push(Text::paragraph(format!(
+        "{}. Errors: {}. Curves are drawn over the even positions.",
+        capital(&r.means_over()),
+        r.errors_in_words()
+    )));
     for (number, words) in [1, 2].into_iter().zip(&r.microgeometry) {
         // Results of older programs do not say.
         if !words.is_empty() {
@@ -219,6 +208,12 @@ fn overview(r: &SceneResult) -> Section {
         section = section.push(Text::note(format!("Warning: {warning}")));
     }
     section
+}
+
+fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase());
+    first.into_iter().flatten().chain(letters).collect()
 }
 
 /// What stands behind the name of a mean or a whole curve that a longer run may change.

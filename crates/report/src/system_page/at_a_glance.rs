@@ -85,11 +85,12 @@ pub(super) fn tables(
     passings: &[MeshPassing],
 ) -> Vec<Table> {
     let extent = Extent::of(r);
+    let still = || ["Meshes and bearings", "Springs, couplings and beams"].map(str::to_owned);
     let (titles, heads): (_, &[&str]) = match extent {
         Extent::Time => (
             [
-                "Meshes, bearings and speeds over the whole run",
-                "Springs, couplings and beams over the whole run",
+                format!("Meshes, bearings and speeds: {}", r.statistics_in_words()),
+                "Springs, couplings and beams over the same time".to_owned(),
             ],
             &[
                 "mean",
@@ -100,14 +101,8 @@ pub(super) fn tables(
                 "dominant Hz",
             ],
         ),
-        Extent::Equilibrium => (
-            ["Meshes and bearings", "Springs, couplings and beams"],
-            &["value"],
-        ),
-        Extent::Equilibria => (
-            ["Meshes and bearings", "Springs, couplings and beams"],
-            &["mean", "least", "largest", "peak to peak"],
-        ),
+        Extent::Equilibrium => (still(), &["value"]),
+        Extent::Equilibria => (still(), &["mean", "least", "largest", "peak to peak"]),
     };
     let [first, rest] = titles.map(|title| {
         let table = Table::new(title)
