@@ -103,8 +103,13 @@ def test_the_program_gives_the_same_curves(pair, result, tmp_path):
     assert stored.keys() == result.keys()
     for name in ("te_m", "force_N", "stiffness_tangent_N_per_m"):
         assert np.array_equal(stored[name], result[name]), name
-    ranges = [row["te_peak_to_peak_m"] for row in printed["rows"]]
-    assert np.ptp(result["te_m"], axis=1) == pytest.approx(ranges, rel=1e-12)
+    # The same figures: means of whole periods, peaks also between the even positions.
+    torques = result.tables()["torques"]
+    for name in ("te_mean_m", "te_peak_to_peak_m"):
+        assert [row[name] for row in printed["rows"]] == pytest.approx(list(torques[name]), rel=1e-12), name
+    assert (torques["te_peak_to_peak_m"] >= np.ptp(result["te_m"], axis=1)).all()
+    shown = f"TE mean {1e6 * torques['te_mean_m'][0]:.3f} um, peak to peak {1e6 * torques['te_peak_to_peak_m'][0]:.3f} um"
+    assert shown in repr(result)
 
 
 def test_arrays_are_the_memory_of_the_result(result, tmp_path):
@@ -288,7 +293,9 @@ def test_pandas_reads_the_tables(result):
     assert np.array_equal(curves["te_m"].to_numpy(), result["te_m"].ravel())
     assert list(curves["torque_Nm"].unique()) == [50.0, 100.0]
     torques = result.to_pandas("torques")
-    assert torques["te_peak_to_peak_m"].to_numpy() == pytest.approx(np.ptp(result["te_m"], axis=1), rel=1e-12)
+    added = np.split(result["between/te_m"], np.cumsum(result["between/count"])[:-1])
+    ranges = [np.ptp(np.concatenate(both)) for both in zip(result["te_m"], added)]
+    assert torques["te_peak_to_peak_m"].to_numpy() == pytest.approx(ranges, rel=1e-12)
     with pytest.raises(KeyError, match="it has curves, contact, torques"):
         result.to_pandas("curve")
 

@@ -120,6 +120,7 @@ pub struct ColumnFile {
     file: File,
     version: u32,
     columns: Vec<Column>,
+    beside: Vec<Column>,
     rows: usize,
 }
 
@@ -138,6 +139,7 @@ impl ColumnFile {
             file,
             version,
             columns: Vec::new(),
+            beside: Vec::new(),
             rows: 0,
         };
         for (place, name) in order.lines().enumerate() {
@@ -175,6 +177,18 @@ impl ColumnFile {
             unit(&column.name).clone_into(&mut column.unit);
         }
         self
+    }
+
+    /// The same file; the columns whose names begin so stand beside the others.
+    pub fn with_beside(mut self, start: &str) -> Self {
+        let all = std::mem::take(&mut self.columns);
+        (self.beside, self.columns) = all.into_iter().partition(|c| c.name.starts_with(start));
+        self
+    }
+
+    /// The columns that stand beside the others; all are read alike.
+    pub fn beside(&self) -> &[Column] {
+        &self.beside
     }
 
     /// The columns, in the order of the rows they came from.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use gearmesh_report::export::{Cells, Table, pair_tables, system_tables};
+use gearmesh_report::export::{Cells, Table, pair_tables, system_tables, torque_table};
 use gearmesh_scene::rating::RatingResult;
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_scene::{ResultFile, SceneResult};
@@ -147,23 +147,19 @@ impl NativeResult {
             Kept::System(result) => system_tables(result),
         };
         let found = PyDict::new(py);
-        for Table { name, columns } in tables {
-            let table = PyDict::new(py);
-            for (head, cells) in columns {
-                match cells {
-                    Cells::Numbers(values) => {
-                        table.set_item(head, PyArray1::from_vec(py, values))?;
-                    }
-                    Cells::Texts(texts) => table.set_item(head, texts)?,
-                    Cells::Column(file, name) => {
-                        let values = file.read(&name).map_err(file_error)?;
-                        table.set_item(head, PyArray1::from_vec(py, values))?;
-                    }
-                }
-            }
-            found.set_item(name, table)?;
+        for table in tables {
+            found.set_item(table.name.clone(), columns(py, table)?)?;
         }
         Ok(found)
+    }
+
+    /// The table `torques` of a pair: the figures of each torque.
+    fn torque_figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Kept::Pair(pair) = &self.0 else {
+            return Ok(PyDict::new(py));
+        };
+        let result = pair.result(py)?;
+        columns(py, py.detach(|| torque_table(&result)))
     }
 
     /// Writes a pair's result; that of a multibody scene is a file already.
@@ -178,4 +174,20 @@ impl NativeResult {
             )),
         }
     }
+}
+
+/// The columns of a table by name.
+fn columns<'py>(py: Python<'py>, table: Table<'_>) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    for (head, cells) in table.columns {
+        match cells {
+            Cells::Numbers(values) => found.set_item(head, PyArray1::from_vec(py, values))?,
+            Cells::Texts(texts) => found.set_item(head, texts)?,
+            Cells::Column(file, name) => {
+                let values = file.read(&name).map_err(file_error)?;
+                found.set_item(head, PyArray1::from_vec(py, values))?;
+            }
+        }
+    }
+    Ok(found)
 }

@@ -20,7 +20,7 @@ mod system_tables;
 pub use csv_text::{study_table, write_csv};
 pub use functions::{Function, functions};
 pub use mat_bytes::write_mat;
-pub use pair_tables::pair_tables;
+pub use pair_tables::{pair_tables, torque_table};
 pub use parquet_bytes::write_parquet;
 pub use system_tables::system_tables;
 

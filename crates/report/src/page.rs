@@ -8,6 +8,7 @@ mod error;
 mod field_picture;
 mod flank_chart;
 mod line_chart;
+mod map_chart;
 mod markup;
 mod packed;
 mod path_chart;
@@ -22,6 +23,7 @@ pub use error::PageError;
 pub use field_picture::{FieldPicture, FieldValues, Mark, MarkSign, ViewWindow};
 pub use flank_chart::FlankChart;
 pub use line_chart::{Axis, AxisScale, LineChart, LineSeries, LineStyle, SeriesColour};
+pub use map_chart::MapChart;
 pub use path_chart::PathChart;
 pub use polar_chart::PolarChart;
 pub use scatter_chart::{PointSeries, ScatterChart};
@@ -63,6 +65,8 @@ pub enum Block {
     PathChart(PathChart),
     /// A tooth flank with what touches on it.
     FlankChart(FlankChart),
+    /// Colours over two axes.
+    MapChart(MapChart),
     /// Points over two axes.
     ScatterChart(ScatterChart),
 }
@@ -86,6 +90,7 @@ block_from!(
     PolarChart,
     PathChart,
     FlankChart,
+    MapChart,
     ScatterChart
 );
 
@@ -238,7 +243,7 @@ impl Page {
 }
 
 /// With a capital letter in front.
-fn capital(words: &str) -> String {
+pub(crate) fn capital(words: &str) -> String {
     let mut letters = words.chars();
     let first = letters.next().map(|letter| letter.to_uppercase());
     first.into_iter().flatten().chain(letters).collect()
@@ -252,6 +257,7 @@ fn render_block(page: &mut String, block: &Block) -> Result<(), PageError> {
         Block::PolarChart(chart) => chart.render(page)?,
         Block::PathChart(chart) => chart.render(page)?,
         Block::FlankChart(chart) => chart.render(page)?,
+        Block::MapChart(chart) => chart.render(page)?,
         Block::ScatterChart(chart) => chart.render(page)?,
         Block::LineChart(chart) => render_figure(page, "line", chart.title(), &chart.payload()?)?,
         Block::SpectrumChart(chart) => {

@@ -112,6 +112,8 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
                 })
             });
             value["rows"] = json!(result.rows.rows());
+            value["statistics_from_s"] = json!(result.statistics_from_s);
+            value["samples_per_row"] = json!(result.samples_per_row);
             value["columns"] = columns.collect();
             let meshes = passings.iter().map(|mesh| {
                 json!({

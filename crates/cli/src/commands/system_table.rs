@@ -102,6 +102,7 @@ fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
             all - shown
         ));
     }
+    lines.push(result.statistics_in_words());
     lines.extend(passings.iter().map(MeshPassing::in_words));
     Ok(lines)
 }

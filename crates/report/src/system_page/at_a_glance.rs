@@ -90,12 +90,20 @@ pub(super) fn tables(
     passings: &[MeshPassing],
 ) -> Vec<Table> {
     let extent = Extent::of(r);
-    let (titles, heads): ([&str; 3], &[&str]) = match extent {
+    let still = || {
+        [
+            "Meshes and bearings",
+            "Line loads of the slices",
+            "Springs, couplings and beams",
+        ]
+        .map(str::to_owned)
+    };
+    let (titles, heads): (_, &[&str]) = match extent {
         Extent::Time => (
             [
-                "Meshes, bearings and speeds over the whole run",
-                "Line loads of the slices over the whole run",
-                "Springs, couplings and beams over the whole run",
+                format!("Meshes, bearings and speeds: {}", r.statistics_in_words()),
+                "Line loads of the slices over the same time".to_owned(),
+                "Springs, couplings and beams over the same time".to_owned(),
             ],
             &[
                 "mean",
@@ -106,22 +114,8 @@ pub(super) fn tables(
                 "dominant Hz",
             ],
         ),
-        Extent::Equilibrium => (
-            [
-                "Meshes and bearings",
-                "Line loads of the slices",
-                "Springs, couplings and beams",
-            ],
-            &["value"],
-        ),
-        Extent::Equilibria => (
-            [
-                "Meshes and bearings",
-                "Line loads of the slices",
-                "Springs, couplings and beams",
-            ],
-            &["mean", "least", "largest", "peak to peak"],
-        ),
+        Extent::Equilibrium => (still(), &["value"]),
+        Extent::Equilibria => (still(), &["mean", "least", "largest", "peak to peak"]),
     };
     let [first, slices, rest] = titles.map(|title| {
         let table = Table::new(title)

@@ -36,6 +36,14 @@ pub enum Assumption {
     LocalTermCapped,
 }
 
+/// All of them, in the order in which a position states its figures.
+pub(super) const ASSUMPTIONS: [Assumption; 4] = [
+    Assumption::NarrowContact,
+    Assumption::ElasticMaterial,
+    Assumption::SmallDeflection,
+    Assumption::LocalTermCapped,
+];
+
 impl Assumption {
     fn text(self, value: f64) -> String {
         match self {

@@ -239,6 +239,19 @@ fn of_rows(result: &SystemResult, one: &Wanted, from_s: f64) -> Result<Selected,
         let names = result.rows.columns().iter().map(|c| &c.name[..]);
         return Err(unknown("column", &one.column, &names.collect::<Vec<_>>()));
     };
+    let in_time = result.kind == ResultKind::Transient;
+    let is_line = matches!(one.figure(), Some(Figure::Line(_)));
+    // Those of the run itself, which has seen more than its rows hold.
+    let place = (result.rows.columns().iter()).position(|column| column.name == one.column);
+    let own = place.and_then(|place| result.statistics.get(place));
+    if let (true, false, true, Some(figures)) = (in_time, is_line, from_s == 0.0, own) {
+        return Ok(told(one, &column.unit, *figures));
+    }
+    let from_s = if in_time && from_s == 0.0 {
+        result.statistics_from_s
+    } else {
+        from_s
+    };
     let mut first = 0;
     // Equilibria have no time.
     if from_s > 0.0 {
@@ -252,7 +265,12 @@ fn of_rows(result: &SystemResult, one: &Wanted, from_s: f64) -> Result<Selected,
             ));
         }
     }
-    let values = &result.rows.read(&one.column).map_err(say)?[first..];
+    let values = if is_line {
+        result.read_for_spectrum(&one.column)
+    } else {
+        result.rows.read(&one.column)
+    };
+    let values = &values.map_err(say)?[first..];
     if let Some(Figure::Line(hz)) = one.figure() {
         let interval_s = result.interval_s().map_err(say)?;
         if values.len() < 8 || 2.0 * hz * interval_s > 1.0 {

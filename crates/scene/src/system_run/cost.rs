@@ -51,7 +51,7 @@ pub struct RunCost {
 struct Trial<'a> {
     params: &'a Params,
     start: Start,
-    /// Rows every so often \[s\]; none where nothing is recorded.
+    /// Samples every so often \[s\]; none where nothing is recorded.
     interval_s: Option<f64>,
     /// Share of the time in which rows are recorded.
     recorded: f64,
@@ -92,7 +92,7 @@ impl RunCost {
                 let trial = Trial {
                     params: &run.params,
                     start: run.start,
-                    interval_s: Some(run.interval_s),
+                    interval_s: Some(run.interval_s / run.samples_per_row() as f64),
                     recorded: 1.0,
                     end_s: run.end_s,
                     budget: TRIALS,
@@ -113,7 +113,7 @@ impl RunCost {
                     let trial = Trial {
                         params: &run.params,
                         start: run.start,
-                        interval_s: Some(run.interval_s),
+                        interval_s: Some(run.interval_s / run.samples_per_row() as f64),
                         recorded: measured / run.end_s,
                         end_s: run.end_s,
                         budget: TRIALS / MOST_TRIALS as u32,

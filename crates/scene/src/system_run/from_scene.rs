@@ -41,6 +41,7 @@ impl RunJob {
                 start,
                 end_s,
                 interval_s: scene.output.interval_s.unwrap_or(end_s),
+                statistics_from_s: scene.output.statistics_from_s.unwrap_or(0.5 * end_s),
                 windows,
             })
         };

@@ -3,7 +3,7 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | what is to be run | [`RunJob`], made from a scene by [`RunJob::from_scene`] | `job.rs`, `from_scene.rs` |
-//! | motion in time, in rows or measured speed by speed | [`run`] | `in_time.rs`, `speed_plan.rs`, `column_statistics.rs`, `mesh_pace.rs` |
+//! | motion in time, in rows or measured speed by speed | [`run`] | `in_time.rs`, `low_pass.rs`, `speed_plan.rs`, `column_statistics.rs`, `mesh_pace.rs` |
 //! | equilibria, natural frequencies | [`run`] | `static_series.rs`, `eigen_run.rs` |
 //! | what it will cost | [`RunCost`] | `cost.rs` |
 //! | what a row holds | [`Recorder`] | `recorder.rs`, `counted_angles.rs` |
@@ -24,6 +24,7 @@ mod from_scene;
 mod in_time;
 mod job;
 mod losses;
+mod low_pass;
 mod mesh_misalignment;
 mod mesh_pace;
 mod mesh_passing;
@@ -54,6 +55,7 @@ pub use job::{
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
 pub use losses::{PowerLoss, PowerLosses};
+pub use low_pass::LOW_PASS_BAND;
 pub use mesh_misalignment::MeshAxes;
 pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
@@ -61,7 +63,7 @@ pub use part_folder::PartFolder;
 pub use recorded_columns::{ResultSize, megabytes, recorded_columns};
 pub use recorder::{Course, Moment, Recorder, Selection};
 pub(crate) use recorder::{body_column, element_column};
-pub use result::{EigenResult, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
+pub use result::{EigenResult, FOLDED_SHARE, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
 pub use result_kind::ResultKind;
 pub use run_record::RunRecord;
 pub use speed_plan::{SpeedPlan, Window};

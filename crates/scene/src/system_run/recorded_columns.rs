@@ -35,7 +35,7 @@ impl ResultSize {
     #[must_use]
     pub fn of(job: &RunJob) -> Option<Self> {
         let rows = match &job.kind {
-            RunKind::Transient(run) => in_time::samples(run),
+            RunKind::Transient(run) => in_time::rows(run),
             RunKind::Static(series) => series.points.len() as f64,
             RunKind::SpeedSweep(_) | RunKind::Eigen(_) => return None,
         };

@@ -28,6 +28,9 @@ pub(super) struct Contents {
     pub created_utc: String,
     pub record: Option<RunRecord>,
     pub statistics: Vec<Figures>,
+    pub statistics_from_s: Option<f64>,
+    pub samples_per_row: Option<f64>,
+    pub folded: Vec<f64>,
     pub sweep: Option<SweepResult>,
     pub ratings: Vec<RatingResult>,
     pub bodies: Vec<String>,
@@ -53,7 +56,24 @@ impl Record for Contents {
         }
         if transient {
             f.group("statistics", |f| {
-                figure_fields(&mut self.statistics, f, &[("column", OPEN)])
+                figure_fields(&mut self.statistics, f, &[("column", OPEN)])?;
+                let what =
+                    "begin of the statistics; files of older programs have those of all rows";
+                f.number_if_there("from_s", &mut self.statistics_from_s, "s", what)?;
+                let what =
+                    "samples for each row, from which statistics and filtered columns are made";
+                f.number_if_there("samples_per_row", &mut self.samples_per_row, "1", what)?;
+                let is_there = if f.is_reading() {
+                    f.has("folded")
+                } else {
+                    f.is_listing() || !self.folded.is_empty()
+                };
+                if is_there {
+                    let axes = [("column", self.statistics.len())];
+                    let what = "RMS value of what vibrates faster than rows can tell";
+                    f.numbers("folded", &mut self.folded, &axes, "of the column", what)?;
+                }
+                Ok(())
             })?;
         }
         if sweep {

@@ -12,6 +12,8 @@ pub struct Recorded {
     pub next_sample: u64,
     /// Wall time used \[s\].
     pub wall_s: f64,
+    /// Rows that are not written yet.
+    pub rows: Vec<f64>,
     /// Counted angles.
     pub angles: Vec<f64>,
     /// Statistics of all rows, then of the window that is open.
@@ -42,6 +44,7 @@ pub fn to_tree(checkpoint: &Checkpoint, recorded: &Recorded) -> DataTree {
         ("simulation/matrix", c.matrix.clone()),
         ("recorded/progress", progress.to_vec()),
         ("recorded/angles", r.angles.clone()),
+        ("recorded/rows", r.rows.clone()),
         ("recorded/statistics", r.statistics[0].clone()),
         ("recorded/window", r.statistics[1].clone()),
         ("recorded/windows", r.windows.clone()),
@@ -100,6 +103,7 @@ pub fn from_tree(tree: &mut DataTree, path: &Path) -> Result<(Checkpoint, Record
         wall_s,
         closed: closed? as usize,
         angles: take("recorded/angles")?,
+        rows: take("recorded/rows")?,
         statistics: [take("recorded/statistics")?, take("recorded/window")?],
         windows: take("recorded/windows")?,
     };
