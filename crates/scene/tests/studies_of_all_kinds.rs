@@ -80,6 +80,25 @@ fn a_bevel_pair_is_analysed_in_each_assembly() {
     assert!(told.contains("parameter.0.keys: `tca.ofset_um`"), "{told}");
 }
 
+/// Assemblies in which teeth jam fail, as `gearmesh tca` refuses them; the others say how much backlash is left.
+#[test]
+fn bevel_assemblies_that_jam_fail() {
+    let offset =
+        "[[parameter]]\nname = \"offset\"\nkeys = [\"tca.offset_um\"]\nvalues = [-5000.0, 100.0]\n";
+    for pair in ["bevel_20_20.toml", "bevel_20_20_loaded.toml"] {
+        let text = format!("scene = \"{pair}\"\ncolumns = [\"backlash_least_mm\"]\n{offset}");
+        let (outcome, _) = studied(&fe_models(), &text).unwrap();
+        let told = outcome.cases[1].figures.as_ref().unwrap_err();
+        assert!(told.contains("teeth jam"), "{told}");
+        let [designed, moved] = [0, 2].map(|case| numbers(&outcome, case)[0]);
+        // No backlash is asked for, and an offset to the first order changes none.
+        assert!(
+            designed.abs() < 1e-3 && moved.abs() < 0.02,
+            "{designed} {moved}"
+        );
+    }
+}
+
 /// Under the torques of its `[load]` a bevel pair has a line for each, with the figures that this assembly has by itself.
 #[test]
 fn a_bevel_pair_is_loaded_in_each_assembly() {

@@ -442,12 +442,26 @@ fn contact_analysis_says_what_is_wrong() {
             "teeth jam: while the pinion's concave flanks touch",
         ],
     );
+    refused(
+        &gearmesh(&["check", argument(&far)]),
+        1,
+        &["far.toml:", "teeth jam"],
+    );
     let near = desk.file(
         "near.toml",
         format!("{text}\n[tca]\ngear_axial_um = -100.0\n"),
     );
-    let run = succeeds(&["tca", argument(&near)]);
-    assert!(run.stderr.contains("warning: teeth jam"), "{}", run.stderr);
+    for command in ["tca", "check"] {
+        let run = succeeds(&[command, argument(&near)]);
+        assert!(run.stderr.contains("warning: teeth jam"), "{}", run.stderr);
+    }
+    // Both ways of the V/H check, found or not, have their rows.
+    let run = succeeds(&["tca", &shipped("bevel_20_20.toml")]).stdout;
+    for way in ["offset", "shaft angle"] {
+        for end in ["toe", "heel"] {
+            assert!(run.contains(&format!("{end} by {way}")), "{run}");
+        }
+    }
     let loaded = std::fs::read_to_string(shipped("bevel_20_20_loaded.toml")).unwrap();
     let heavy = changed(&loaded, "[50.0, 100.0, 200.0]", "[5000.0]")
         .replace("positions_per_pitch = 16", "positions_per_pitch = 4");
