@@ -103,8 +103,13 @@ def test_the_program_gives_the_same_curves(pair, result, tmp_path):
     assert stored.keys() == result.keys()
     for name in ("te_m", "force_N", "stiffness_tangent_N_per_m"):
         assert np.array_equal(stored[name], result[name]), name
-    ranges = [row["te_peak_to_peak_m"] for row in printed["rows"]]
-    assert np.ptp(result["te_m"], axis=1) == pytest.approx(ranges, rel=1e-12)
+    # The same figures: means of whole periods, peaks also between the even positions.
+    torques = result.tables()["torques"]
+    for name in ("te_mean_m", "te_peak_to_peak_m"):
+        assert [row[name] for row in printed["rows"]] == pytest.approx(list(torques[name]), rel=1e-12), name
+    assert (torques["te_peak_to_peak_m"] >= np.ptp(result["te_m"], axis=1)).all()
+    shown = f"TE mean {1e6 * torques['te_mean_m'][0]:.3f} um, peak to peak {1e6 * torques['te_peak_to_peak_m'][0]:.3f} um"
+    assert shown in repr(result)
 
 
 def test_arrays_are_the_memory_of_the_result(result, tmp_path):
@@ -243,11 +248,40 @@ def test_a_study_goes_on_where_it_was(tmp_path):
     )
     found = gm.study(tables, tmp_path / "out")
     assert len(found.cases) == 3 and len(found.rows) == 3
+    assert "lengths" in (tmp_path / "out" / "study.html").read_text(encoding="utf-8")
     files = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "out").glob("*.h5")}
     gm.Study(tables).run(tmp_path / "out")
     assert {path.name: path.stat().st_mtime_ns for path in (tmp_path / "out").glob("*.h5")} == files
     with pytest.raises(gm.InputError):
         gm.study({**tables, "parameter": [dict(name="end", keys=["run.end"], values=[1.0])]}, tmp_path / "wrong")
+
+
+def test_two_gears_of_one_hand_are_refused_before_they_are_reduced(pinion):
+    helical = pinion.but(helix_angle_deg=15.0, hand="right", mesh=None)
+    other = helical.but(name="wheel", teeth=40)
+    with pytest.raises(gm.InputError, match="tooth.hand is 'right', as gear_1's"):
+        gm.Pair(helical, other, centre_distance_mm=97.0, torques_Nm=50)
+    with pytest.raises(TypeError, match="is not reduced yet"):
+        gm.Pair(helical, other.but(hand="left"), centre_distance_mm=97.0, torques_Nm=50)
+
+
+def test_tables_of_a_scene_know_where_its_files_lie(tmp_path, monkeypatch):
+    scene = gm.Scene("fe_models/first_pair/drive.toml")
+    monkeypatch.chdir(tmp_path)
+    tables = scene.tables
+    tables["run"]["end_s"] = 1e-3
+    again = gm.Scene(tables)
+    assert again.folder == scene.folder
+    assert any("mesh frequency at the start 230.000 Hz" in line for line in again.plan())
+
+
+def test_what_a_run_warns_of_is_in_its_result(tmp_path):
+    tables = gm.Scene("fe_models/first_pair/drive.toml").tables
+    tables["run"]["end_s"] = 2e-3
+    tables["load"][0]["torque_Nm"] = 100.0
+    warnings = gm.Scene(tables).run().warnings
+    # The sign of its torque is that of its speed.
+    assert any("load `torque on wheel` drives" in text for text in warnings), warnings
 
 
 def test_the_schema_is_that_of_the_program():
@@ -259,7 +293,9 @@ def test_pandas_reads_the_tables(result):
     assert np.array_equal(curves["te_m"].to_numpy(), result["te_m"].ravel())
     assert list(curves["torque_Nm"].unique()) == [50.0, 100.0]
     torques = result.to_pandas("torques")
-    assert torques["te_peak_to_peak_m"].to_numpy() == pytest.approx(np.ptp(result["te_m"], axis=1), rel=1e-12)
+    added = np.split(result["between/te_m"], np.cumsum(result["between/count"])[:-1])
+    ranges = [np.ptp(np.concatenate(both)) for both in zip(result["te_m"], added)]
+    assert torques["te_peak_to_peak_m"].to_numpy() == pytest.approx(ranges, rel=1e-12)
     with pytest.raises(KeyError, match="it has curves, contact, torques"):
         result.to_pandas("curve")
 

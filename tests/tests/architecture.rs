@@ -7,12 +7,16 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use packages::{Kinds, dependencies, packages, text};
 
+#[path = "architecture/crate_pages.rs"]
+mod crate_pages;
 #[path = "architecture/files.rs"]
 mod files;
 #[path = "architecture/one_feature_set.rs"]
 mod one_feature_set;
 #[path = "architecture/packages.rs"]
 mod packages;
+#[path = "architecture/pages.rs"]
+mod pages;
 #[path = "architecture/sources.rs"]
 mod sources;
 #[path = "architecture/vocabulary.rs"]

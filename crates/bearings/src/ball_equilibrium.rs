@@ -10,17 +10,20 @@ mod race_control;
 
 use nalgebra::{Matrix2, Matrix2x6, Matrix3, Matrix3x2, Matrix3x6, Vector2, Vector3};
 
+use crate::axial_plane::{AxialPlane, FromRing};
 use crate::ball_kinematics::{BallInMotion, BallMotion, ContactAngles, RaceControl};
 use crate::ball_row::{BallRow, Groove};
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
+use crate::element_search::NO_FORCE_N;
 use crate::error::BearingError;
 use crate::operation::Operation;
-use crate::ring_load::RingLoad;
+use crate::ring_load::{RingLoad, by_ring};
 use crate::ring_pose::{RingPose, cross};
 
-/// Forces that count as none \[N\].
-const NO_FORCE_N: f64 = 1e-9;
+/// Share of the free contact angle up to which a ball of an angular-contact bearing may touch its groove on the side away from
+/// the load, where a shoulder is missing.
+pub(crate) const FAR_SIDE: f64 = 0.5;
 
 /// Newton's iterations of one ball before it is given up.
 const MOST_ITERATIONS: usize = 60;
@@ -33,19 +36,14 @@ pub(crate) struct Ball<'a> {
     pub outer: &'a Groove,
     pub pose: &'a RingPose,
     pub operation: &'a Operation,
-    /// Radial unit vector at its angle.
-    pub e_r: Vector3<f64>,
+    pub plane: AxialPlane,
     pub number: usize,
 }
 
 /// The contact with the inner ring for a place of the ball.
 struct InnerContact {
-    /// Ball's centre from the ring's middle.
-    w: Vector3<f64>,
-    /// Radial and circumferential unit vectors of the ring at the ball.
-    e: Vector3<f64>,
-    t: Vector3<f64>,
-    radius: f64,
+    /// The ball's centre.
+    at: FromRing,
     /// From the groove's centre to the ball's centre.
     n: Vector3<f64>,
     /// ∂n/∂α.
@@ -99,10 +97,6 @@ impl State {
 }
 
 impl Ball<'_> {
-    fn in_plane(&self, v: &Vector3<f64>) -> Vector2<f64> {
-        Vector2::new(self.e_r.dot(v), v.z)
-    }
-
     /// Equilibrium, then load and tangent.
     pub fn add(
         &self,
@@ -137,11 +131,9 @@ impl Ball<'_> {
     fn starts(&self) -> [Option<Vector2<f64>>; 2] {
         let row = self.row;
         let (inner, outer) = (self.inner, self.outer);
-        // Nearest point of the inner ring's circle of groove centres, in the ball's plane.
         let a = &self.pose.axis;
-        let e = (self.e_r - a * self.e_r.dot(a)).normalize();
-        let centre = self.pose.centre_m + e * inner.centre_radius_m + a * inner.centre_z_m;
-        let centre = self.in_plane(&centre);
+        let circle = (inner.centre_radius_m, inner.centre_z_m);
+        let centre = self.plane.nearest(self.pose, circle);
         let from = Vector2::new(outer.centre_radius_m, outer.centre_z_m);
         let between = centre - from;
         let distance = between.norm();
@@ -217,7 +209,7 @@ impl Ball<'_> {
             (motion, control)
         });
         let mut state = State {
-            residual: -self.in_plane(&inner.n) * inner.load - outer.n * outer.load,
+            residual: -self.plane.part(&inner.n) * inner.load - outer.n * outer.load,
             inner,
             outer,
             motion,
@@ -225,7 +217,7 @@ impl Ball<'_> {
         if let Some((motion, _)) = &state.motion {
             state.residual[0] += motion.centrifugal_n.value;
             let [inner, outer] = state.friction();
-            state.residual -= self.in_plane(&state.inner.m) * inner.0 + state.outer.m * outer.0;
+            state.residual -= self.plane.part(&state.inner.m) * inner.0 + state.outer.m * outer.0;
         }
         state
     }
@@ -233,12 +225,11 @@ impl Ball<'_> {
     fn inner_contact(&self, place: &Vector2<f64>) -> InnerContact {
         let groove = self.inner;
         let a = &self.pose.axis;
-        let w = self.e_r * place[0] + Vector3::z() * place[1] - self.pose.centre_m;
-        let height = w.dot(a);
-        let radial = w - a * height;
-        let radius = radial.norm();
-        let e = radial / radius;
-        let (out, up) = (radius - groove.centre_radius_m, height - groove.centre_z_m);
+        let at = self.plane.seen_from_ring(self.pose, place);
+        let (out, up) = (
+            at.radius - groove.centre_radius_m,
+            at.height - groove.centre_z_m,
+        );
         // Between a micrometre and a metre: no need of `hypot`, which takes five times as long.
         let length = (out * out + up * up).sqrt().max(f64::MIN_POSITIVE);
         let (cosine, sine) = (-out / length, -up / length);
@@ -250,12 +241,9 @@ impl Ball<'_> {
         };
         let (load, slope) = groove.contact.load(approach);
         InnerContact {
-            w,
-            e,
-            t: a.cross(&e),
-            radius,
-            n: -(e * cosine + a * sine),
-            m: e * sine - a * cosine,
+            n: -(at.e * cosine + a * sine),
+            m: at.e * sine - a * cosine,
+            at,
             length,
             cosine,
             sine,
@@ -289,10 +277,10 @@ impl Ball<'_> {
         let c = &state.inner;
         let [(friction, by), _] = state.friction();
         let by_angle = c.m / c.length;
-        let hoop = (-c.load * c.cosine + friction * c.sine) / c.radius;
+        let hoop = (-c.load * c.cosine + friction * c.sine) / c.at.radius;
         c.n * (c.n * c.slope).transpose()
             + c.m * (c.m * (c.load / c.length)).transpose()
-            + c.t * (c.t * hoop).transpose()
+            + c.at.t * (c.at.t * hoop).transpose()
             + (c.m * by[0] - c.n * friction) * by_angle.transpose()
     }
 
@@ -305,7 +293,7 @@ impl Ball<'_> {
     ) -> (Matrix2<f64>, Vector2<f64>) {
         let (i, o) = (&state.inner, &state.outer);
         let [inner, outer] = state.friction();
-        let m_i = self.in_plane(&i.m);
+        let m_i = self.plane.part(&i.m);
         let mut tangent = plane.tr_mul(&(by_point * plane));
         tangent +=
             o.n * (o.n * o.slope).transpose() + o.m * (o.m * (o.load / o.length)).transpose();
@@ -322,17 +310,13 @@ impl Ball<'_> {
         (tangent, through_inner)
     }
 
-    fn plane(&self) -> Matrix3x2<f64> {
-        Matrix3x2::from_columns(&[self.e_r, Vector3::z()])
-    }
-
     /// Newton's method with backtracking on the residual.
     fn equilibrium(
         &self,
         start: Vector2<f64>,
         control: RaceControl,
     ) -> Result<(Vector2<f64>, State), BearingError> {
-        let plane = self.plane();
+        let plane = self.plane.vectors();
         let mut place = start;
         let mut state = self.state(&place, control);
         for _ in 0..MOST_ITERATIONS {
@@ -381,7 +365,7 @@ impl Ball<'_> {
             return Ok(());
         }
         let angle = inner.sine.atan2(inner.cosine);
-        let climbs = angle * free.signum() < -0.5 * free.abs();
+        let climbs = angle * free.signum() < -FAR_SIDE * free.abs();
         if free != 0.0 && inner.load > NO_FORCE_N && climbs {
             return Err(BearingError::PulledOut);
         }
@@ -391,7 +375,7 @@ impl Ball<'_> {
     fn no_equilibrium(&self, unbalanced_n: f64) -> BearingError {
         BearingError::NoBallEquilibrium {
             ball: self.number + 1,
-            angle_deg: self.e_r.y.atan2(self.e_r.x).to_degrees(),
+            angle_deg: self.plane.degrees(),
             unbalanced_n,
         }
     }
@@ -402,36 +386,25 @@ impl Ball<'_> {
         if c.load == 0.0 && friction == 0.0 {
             return;
         }
-        let plane = self.plane();
+        let plane = self.plane.vectors();
         let by_point = self.inner_by_point(state);
         let force = c.n * c.load + c.m * friction;
-        ring.add_at_fixed_point(&c.w, &force, &by_point);
+        ring.add_at_fixed_point(&c.at.w, &force, &by_point);
         // How the ball follows: tangent δv = −C δq.
         let (tangent, through_inner) = self.plane_tangent(state, &plane, &by_point);
         let Some(inverse) = tangent.try_inverse() else {
             return;
         };
-        let mut by_ring = Matrix3x6::zeros();
-        by_ring.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
-        by_ring.neg_mut();
-        by_ring.fixed_view_mut::<3, 3>(0, 3).copy_from(&cross(&c.w));
-        let mut force_by_ring = by_point * by_ring;
-        let turn = cross(&force);
-        let mut block = force_by_ring.fixed_view_mut::<3, 3>(0, 3);
-        block -= turn;
-        let through = through_inner * (by_ring.tr_mul(&c.m) / c.length).transpose();
+        let (relative, force_by_ring) = by_ring(&c.at.w, &force, &by_point);
+        let through = through_inner * (relative.tr_mul(&c.m) / c.length).transpose();
         let follows: Matrix2x6<f64> = -(inverse * (plane.tr_mul(&force_by_ring) + through));
         // The friction depends on the outer contact's angle, too.
-        let mut by_place = by_point * plane;
         let by_outer = (state.outer.m / state.outer.length).transpose() * by[1];
-        by_place += c.m * by_outer;
-        let force_follows = by_place * follows;
-        let mut block = ring.tangent.fixed_view_mut::<3, 6>(0, 0);
-        block += force_follows;
-        let mut block = ring.tangent.fixed_view_mut::<3, 6>(3, 0);
-        block += cross(&c.w) * force_follows - turn * (plane * follows);
+        let by_place = by_point * plane + c.m * by_outer;
+        let moves = plane * follows;
+        ring.add_following(&c.at.w, &force, &(by_place * follows), &moves);
         if friction != 0.0 {
-            self.add_friction_moment(state, &by_ring, &(plane * follows), &follows, ring);
+            self.add_friction_moment(state, &(relative + moves), &follows, ring);
         }
     }
 
@@ -439,24 +412,24 @@ impl Ball<'_> {
     fn add_friction_moment(
         &self,
         state: &State,
-        by_ring: &Matrix3x6<f64>,
-        moves: &Matrix3x6<f64>,
+        relative: &Matrix3x6<f64>,
         follows: &Matrix2x6<f64>,
         ring: &mut RingLoad,
     ) {
         let c = &state.inner;
         let [(friction, by), _] = state.friction();
         let arm = -0.5 * self.row.ball_diameter_m;
-        let relative = by_ring + moves;
         let by_inner = (relative.tr_mul(&c.m) / c.length).transpose() * by[0];
         let by_outer = (state.outer.m / state.outer.length).transpose() * follows * by[1];
         let mut turned = Matrix3x6::zeros();
-        turned.fixed_view_mut::<3, 3>(0, 3).copy_from(&-cross(&c.t));
-        turned -= c.e * (relative.tr_mul(&c.t) / c.radius).transpose();
+        turned
+            .fixed_view_mut::<3, 3>(0, 3)
+            .copy_from(&-cross(&c.at.t));
+        turned -= c.at.e * (relative.tr_mul(&c.at.t) / c.at.radius).transpose();
         let mut moment = ring.load.fixed_rows_mut::<3>(3);
-        moment += c.t * (arm * friction);
+        moment += c.at.t * (arm * friction);
         let mut block = ring.tangent.fixed_view_mut::<3, 6>(3, 0);
-        block += (c.t * (by_inner + by_outer) + turned * friction) * arm;
+        block += (c.at.t * (by_inner + by_outer) + turned * friction) * arm;
     }
 
     fn unloaded(&self) -> ElementLoad {

@@ -12,79 +12,10 @@
 //! Source: A. B. Jones, *A general theory for elastically constrained ball and radial roller bearings under arbitrary load and
 //! speed conditions*, J. Basic Eng. 82 (1960); derived anew in docs/theory/rolling_bearings.md.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use crate::dual::Dual;
 
 /// A number with its derivatives by α_i and α_o.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ByAngles {
-    pub value: f64,
-    pub by: [f64; 2],
-}
-
-impl ByAngles {
-    fn constant(value: f64) -> Self {
-        Self {
-            value,
-            by: [0.0; 2],
-        }
-    }
-
-    fn map(self, value: f64, slope: f64) -> Self {
-        Self {
-            value,
-            by: self.by.map(|d| slope * d),
-        }
-    }
-
-    fn sqrt(self) -> Self {
-        let root = self.value.sqrt();
-        self.map(root, 0.5 / root)
-    }
-}
-
-impl Add for ByAngles {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        Self {
-            value: self.value + o.value,
-            by: [self.by[0] + o.by[0], self.by[1] + o.by[1]],
-        }
-    }
-}
-
-impl Neg for ByAngles {
-    type Output = Self;
-    fn neg(self) -> Self {
-        self.map(-self.value, -1.0)
-    }
-}
-
-impl Sub for ByAngles {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        self + (-o)
-    }
-}
-
-// The product rule adds.
-#[allow(clippy::suspicious_arithmetic_impl)]
-impl Mul for ByAngles {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
-        let by = |i: usize| self.by[i] * o.value + self.value * o.by[i];
-        Self {
-            value: self.value * o.value,
-            by: [by(0), by(1)],
-        }
-    }
-}
-
-impl Div for ByAngles {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        self * o.map(1.0 / o.value, -1.0 / (o.value * o.value))
-    }
-}
+type ByAngles = Dual<2>;
 
 /// Race on which balls roll without spin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::axial_plane::AxialPlane;
 use crate::ball_equilibrium::Ball;
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
@@ -64,9 +65,7 @@ impl BallRow {
     /// Angle of a ball \[rad\].
     #[must_use]
     pub fn angle_rad(&self, ball: usize, operation: &Operation) -> f64 {
-        self.first_angle_rad
-            + operation.cage_angle_rad
-            + std::f64::consts::TAU * ball as f64 / self.balls as f64
+        operation.element_angle_rad(self.first_angle_rad, ball, self.balls)
     }
 
     /// The groove of a ring.
@@ -137,7 +136,7 @@ impl BallRow {
                 outer,
                 pose,
                 operation,
-                e_r,
+                plane: AxialPlane { e_r },
                 number,
             };
             each(ball.add(place, ring)?);

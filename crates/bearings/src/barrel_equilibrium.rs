@@ -11,13 +11,8 @@ use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
 use crate::barrel_row::BarrelRow;
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
+use crate::element_search::{ElementSearch, NO_FORCE_N, Unbalanced};
 use crate::error::BearingError;
-
-/// Forces that count as none \[N\].
-const NO_FORCE_N: f64 = 1e-9;
-
-/// Newton's iterations of one roller before it is given up.
-const MOST_ITERATIONS: usize = 200;
 
 /// One roller at its angle.
 pub(crate) struct Barrel<'a> {
@@ -48,6 +43,20 @@ struct State {
 struct Point {
     arm: Vector2<f64>,
     by_tilt: Vector2<f64>,
+}
+
+impl Unbalanced<3> for State {
+    fn residual(&self) -> Vector3<f64> {
+        self.residual
+    }
+
+    fn tangent(&self) -> Matrix3<f64> {
+        self.tangent
+    }
+
+    fn scale_n(&self) -> f64 {
+        self.scale
+    }
 }
 
 impl State {
@@ -152,53 +161,17 @@ impl Barrel<'_> {
         )
     }
 
-    /// Newton's method; steps that do not lessen the unbalanced force are turned towards it and shortened.
     fn equilibrium(&self, start: Vector3<f64>) -> Result<(Vector3<f64>, State), BearingError> {
-        let arm = self.arm_m();
-        let size_of = |r: &Vector3<f64>| Vector3::new(r[0], r[1], r[2] / arm).norm();
-        let mut place = start;
-        let mut state = self.state(&place, |_, _| {});
-        let mut lift = 0.0_f64;
-        let mut size = size_of(&state.residual);
-        for _ in 0..MOST_ITERATIONS {
-            size = size_of(&state.residual);
-            if size <= 1e-13 * state.scale || state.scale <= NO_FORCE_N {
-                return Ok((place, state));
-            }
-            let stiffest = state.tangent[(0, 0)]
-                .max(state.tangent[(1, 1)])
-                .max(state.tangent[(2, 2)] / (arm * arm))
-                .max(1e3);
-            let extra = (lift + 1e-14) * stiffest;
-            let raised = state.tangent
-                + Matrix3::from_diagonal(&Vector3::new(extra, extra, extra * arm * arm));
-            let Some(step) = raised.lu().solve(&state.residual) else {
-                lift = (10.0 * lift).max(1e-6);
-                continue;
-            };
-            let moved = Vector3::new(step[0], step[1], step[2] * arm).norm();
-            if moved <= 4e-16 * self.row.pitch_radius_m {
-                return Ok((place, state));
-            }
-            let next = place + step * (50e-6 / moved).min(1.0);
-            let found = self.state(&next, |_, _| {});
-            if size_of(&found.residual) < size {
-                (place, state) = (next, found);
-                lift = if lift < 1e-8 { 0.0 } else { 0.1 * lift };
-            } else {
-                if size <= 1e-9 * state.scale && lift > 1e-3 {
-                    return Ok((place, state));
-                }
-                lift = (10.0 * lift).max(1e-6);
-            }
-        }
-        if size <= 1e-9 * state.scale + NO_FORCE_N {
-            return Ok((place, state));
-        }
-        Err(BearingError::NoRollerEquilibrium {
+        let search = ElementSearch {
+            arms: Vector3::new(1.0, 1.0, self.arm_m()),
+            longest_step_m: 50e-6,
+            rounding_m: 4e-16 * self.row.pitch_radius_m,
+        };
+        let found = search.run(start, |place| self.state(place, |_, _| {}));
+        found.map_err(|given_up| BearingError::NoRollerEquilibrium {
             roller: self.number + 1,
             angle_deg: self.angle_rad.to_degrees(),
-            unbalanced_n: size,
+            unbalanced_n: given_up.left_n,
         })
     }
 

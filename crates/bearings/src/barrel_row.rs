@@ -97,9 +97,7 @@ impl BarrelRow {
         let orbit = 0.5 * (inner * (1.0 - ratio) + outer * (1.0 + ratio));
         let (mut force, mut by_sphere) = (Vector3::zeros(), Matrix3::zeros());
         for (number, place) in places.iter_mut().enumerate() {
-            let angle_rad = self.first_angle_rad
-                + operation.cage_angle_rad
-                + std::f64::consts::TAU * number as f64 / self.rollers as f64;
+            let angle_rad = operation.element_angle_rad(self.first_angle_rad, number, self.rollers);
             let (sine, cosine) = angle_rad.sin_cos();
             let axes = Matrix3::new(cosine, -sine, 0.0, sine, cosine, 0.0, 0.0, 0.0, 1.0);
             let barrel = Barrel {

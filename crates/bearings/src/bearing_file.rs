@@ -4,6 +4,7 @@ mod arrangement_keys;
 mod ball_keys;
 mod barrel_keys;
 mod catalogue_keys;
+mod element_keys;
 mod fault_keys;
 mod fit_keys;
 mod friction_keys;
@@ -263,7 +264,7 @@ impl BearingFromFile {
     pub fn from_document(document: &InputDocument) -> Result<Self, InputError> {
         let file: BearingFile = document.parse()?;
         let keys = TableKeys::new(document, "");
-        unused_keys::refuse(&file, &keys)?;
+        unused_keys::by_kind(&file, &keys)?;
         let mut notes = Vec::new();
         let stated = |mm: Option<f64>| mm.map(|value| MM * value);
         let mut boundary = (stated(file.bore_mm), stated(file.outside_diameter_mm));

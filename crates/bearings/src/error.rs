@@ -50,6 +50,19 @@ pub enum BearingError {
         /// The largest one with an equilibrium.
         found_mrad: f64,
     },
+    /// A tilted ring presses balls of an angular-contact bearing against the side that has no shoulder.
+    #[error(
+        "an inner ring held at {asked_mrad:.3} mrad presses balls against the side of the groove where an angular-contact bearing has no shoulder: beyond \
+         {found_mrad:.3} mrad one touches at more than {end_deg:.1} deg against the direction of its load: hold the ring straighter, or give more thrust"
+    )]
+    TiltedBeyondGroove {
+        /// The tilt that is held.
+        asked_mrad: f64,
+        /// The largest one with an equilibrium.
+        found_mrad: f64,
+        /// Contact angle on the side without shoulder at which the groove ends.
+        end_deg: f64,
+    },
     /// Balls of an angular-contact bearing on the side where it has no groove.
     #[error(
         "the load pulls the rings of an angular-contact bearing apart: a single row bears axial loads along +z only; give it a preload, a second row, or turn the load round"

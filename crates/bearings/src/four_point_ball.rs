@@ -6,27 +6,22 @@
 //! or four contacts no spin rolls at all of them, and the gyroscopic moment is left out. Forces have a potential, whose
 //! least value is sought.
 
-use nalgebra::{Matrix2, Matrix2x6, Matrix3, Matrix3x2, Matrix3x6, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix2x6, Matrix3, Vector2, Vector3};
 
+use crate::axial_plane::AxialPlane;
 use crate::element_load::{ElementLoad, OtherSide};
 use crate::element_place::ElementPlace;
+use crate::element_search::{ElementSearch, NO_FORCE_N, Unbalanced};
 use crate::error::BearingError;
 use crate::four_point_row::{Arc, FourPointRow};
-use crate::ring_load::RingLoad;
-use crate::ring_pose::{RingPose, cross};
-
-/// Forces that count as none \[N\].
-const NO_FORCE_N: f64 = 1e-9;
-
-/// Newton's iterations of one ball before it is given up.
-const MOST_ITERATIONS: usize = 200;
+use crate::ring_load::{RingLoad, by_ring};
+use crate::ring_pose::RingPose;
 
 /// One ball at its angle.
 pub(crate) struct FourPointBall<'a> {
     pub row: &'a FourPointRow,
     pub pose: &'a RingPose,
-    /// Radial unit vector at its angle.
-    pub e_r: Vector3<f64>,
+    pub plane: AxialPlane,
     pub number: usize,
     pub centrifugal_n: f64,
 }
@@ -55,26 +50,31 @@ struct State {
     scale: f64,
 }
 
-impl FourPointBall<'_> {
-    fn plane(&self) -> Matrix3x2<f64> {
-        Matrix3x2::from_columns(&[self.e_r, Vector3::z()])
+impl Unbalanced<2> for State {
+    fn residual(&self) -> Vector2<f64> {
+        self.residual
     }
 
+    fn tangent(&self) -> Matrix2<f64> {
+        self.tangent
+    }
+
+    fn scale_n(&self) -> f64 {
+        self.scale
+    }
+}
+
+impl FourPointBall<'_> {
     /// Contacts and forces with the ball's centre at (r, z).
     fn state(&self, place: &Vector2<f64>) -> State {
         let row = self.row;
         let a = &self.pose.axis;
-        let w = self.e_r * place[0] + Vector3::z() * place[1] - self.pose.centre_m;
-        let height = w.dot(a);
-        let radial = w - a * height;
-        let radius = radial.norm();
-        let e = radial / radius;
-        let t = a.cross(&e);
-        let plane = self.plane();
+        let at = self.plane.seen_from_ring(self.pose, place);
+        let plane = self.plane.vectors();
         let mut state = State {
             inner: [Contact::default(); 2],
             outer: [Contact::default(); 2],
-            w,
+            w: at.w,
             force: Vector3::zeros(),
             by_point: Matrix3::zeros(),
             residual: Vector2::new(self.centrifugal_n, 0.0),
@@ -83,7 +83,10 @@ impl FourPointBall<'_> {
         };
         for (arc, contact) in row.inner.iter().zip(&mut state.inner) {
             let groove = &arc.groove;
-            let (out, up) = (radius - groove.centre_radius_m, height - groove.centre_z_m);
+            let (out, up) = (
+                at.radius - groove.centre_radius_m,
+                at.height - groove.centre_z_m,
+            );
             let Some((length, cosine, sine)) = direction(arc, -out, -up) else {
                 continue;
             };
@@ -91,11 +94,11 @@ impl FourPointBall<'_> {
             if load == 0.0 {
                 continue;
             }
-            let n = -(e * cosine + a * sine);
-            let m = e * sine - a * cosine;
+            let n = -(at.e * cosine + a * sine);
+            let m = at.e * sine - a * cosine;
             state.force += n * load;
             state.by_point += n * (n * slope).transpose() + m * (m * (load / length)).transpose()
-                - t * (t * (load * cosine / radius)).transpose();
+                - at.t * (at.t * (load * cosine / at.radius)).transpose();
             state.scale += load;
             *contact = Contact {
                 load,
@@ -130,13 +133,11 @@ impl FourPointBall<'_> {
     /// Between the two arcs whose centres are farthest apart for their arms: those press most.
     fn start(&self) -> Vector2<f64> {
         let row = self.row;
-        let a = &self.pose.axis;
-        let e = (self.e_r - a * self.e_r.dot(a)).normalize();
         let mut best = (f64::NEG_INFINITY, Vector2::zeros());
         for inner in &row.inner {
             let groove = &inner.groove;
-            let centre = self.pose.centre_m + e * groove.centre_radius_m + a * groove.centre_z_m;
-            let centre = Vector2::new(self.e_r.dot(&centre), centre.z);
+            let circle = (groove.centre_radius_m, groove.centre_z_m);
+            let centre = self.plane.nearest(self.pose, circle);
             for outer in &row.outer {
                 let from = Vector2::new(outer.groove.centre_radius_m, outer.groove.centre_z_m);
                 let between = centre - from;
@@ -152,47 +153,17 @@ impl FourPointBall<'_> {
         best.1
     }
 
-    /// Newton's method; steps that do not lessen the unbalanced force are turned towards it and shortened.
     fn equilibrium(&self, start: Vector2<f64>) -> Result<(Vector2<f64>, State), BearingError> {
-        let arm = self.row.outer[0].groove.arm_m;
-        let mut place = start;
-        let mut state = self.state(&place);
-        let mut lift = 0.0_f64;
-        for _ in 0..MOST_ITERATIONS {
-            let size = state.residual.norm();
-            if size <= 1e-14 * state.scale || state.scale <= NO_FORCE_N {
-                return Ok((place, state));
-            }
-            let stiffest = state.tangent.amax().max(1e3);
-            let raised = state.tangent + Matrix2::identity() * ((lift + 1e-14) * stiffest);
-            let Some(step) = raised.try_inverse().map(|inverse| inverse * state.residual) else {
-                lift = (10.0 * lift).max(1e-6);
-                continue;
-            };
-            if step.norm() <= 4e-16 * self.row.pitch_radius_m {
-                return Ok((place, state));
-            }
-            let factor = (0.2 * arm / step.norm()).min(1.0);
-            let next = place + step * factor;
-            let found = self.state(&next);
-            if found.residual.norm() < size {
-                (place, state) = (next, found);
-                lift = if lift < 1e-8 { 0.0 } else { 0.1 * lift };
-            } else {
-                if size <= 1e-9 * state.scale + NO_FORCE_N && lift > 1.0 {
-                    return Ok((place, state));
-                }
-                lift = (10.0 * lift).max(1e-6);
-            }
-        }
-        let size = state.residual.norm();
-        if size <= 1e-9 * state.scale + NO_FORCE_N {
-            return Ok((place, state));
-        }
-        Err(BearingError::NoBallEquilibrium {
+        let search = ElementSearch {
+            arms: Vector2::repeat(1.0),
+            longest_step_m: 0.2 * self.row.outer[0].groove.arm_m,
+            rounding_m: 4e-16 * self.row.pitch_radius_m,
+        };
+        let found = search.run(start, |place| self.state(place));
+        found.map_err(|given_up| BearingError::NoBallEquilibrium {
             ball: self.number + 1,
-            angle_deg: self.e_r.y.atan2(self.e_r.x).to_degrees(),
-            unbalanced_n: size,
+            angle_deg: self.plane.degrees(),
+            unbalanced_n: given_up.left_n,
         })
     }
 
@@ -224,19 +195,11 @@ impl FourPointBall<'_> {
         let Some(inverse) = state.tangent.try_inverse() else {
             return;
         };
-        let plane = self.plane();
-        let turn = cross(force);
-        let mut by_ring = Matrix3x6::zeros();
-        by_ring.fixed_view_mut::<3, 3>(0, 0).copy_from(&-by_point);
-        by_ring
-            .fixed_view_mut::<3, 3>(0, 3)
-            .copy_from(&(by_point * cross(w) - turn));
-        let follows: Matrix2x6<f64> = -(inverse * plane.tr_mul(&by_ring));
-        let force_follows = by_point * plane * follows;
-        let mut block = ring.tangent.fixed_view_mut::<3, 6>(0, 0);
-        block += force_follows;
-        let mut block = ring.tangent.fixed_view_mut::<3, 6>(3, 0);
-        block += cross(w) * force_follows - turn * (plane * follows);
+        let plane = self.plane.vectors();
+        let (_, force_by_ring) = by_ring(w, force, by_point);
+        let follows: Matrix2x6<f64> = -(inverse * plane.tr_mul(&force_by_ring));
+        let moves = plane * follows;
+        ring.add_following(w, force, &(by_point * moves), &moves);
     }
 
     /// The side that carries more first.

@@ -6,6 +6,7 @@
 
 use nalgebra::Vector3;
 
+use crate::axial_plane::AxialPlane;
 use crate::ball_row::Groove;
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
@@ -63,9 +64,7 @@ impl FourPointRow {
     /// Angle of a ball \[rad\].
     #[must_use]
     pub fn angle_rad(&self, ball: usize, operation: &Operation) -> f64 {
-        self.first_angle_rad
-            + operation.cage_angle_rad
-            + std::f64::consts::TAU * ball as f64 / self.balls as f64
+        operation.element_angle_rad(self.first_angle_rad, ball, self.balls)
     }
 
     /// Speed of the cage \[rad/s\]: pure rolling at the angle α, (ω_i (1 − γ) + ω_o (1 + γ))/2, γ = D cos α/d_m.
@@ -95,7 +94,9 @@ impl FourPointRow {
             let ball = FourPointBall {
                 row: self,
                 pose,
-                e_r: Vector3::new(cosine, sine, 0.0),
+                plane: AxialPlane {
+                    e_r: Vector3::new(cosine, sine, 0.0),
+                },
                 number,
                 centrifugal_n: self.ball_mass_kg * self.pitch_radius_m * orbit * orbit,
             };

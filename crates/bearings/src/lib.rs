@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Rolling bearings: geometry, Hertz contact, equilibrium of every ball and roller, rating life.
 //!
 //! | step | type | file |
@@ -22,6 +25,7 @@
 //! SI units. Frame: that of the outer ring, z its axis; the pose of the inner ring is seen in it, loads act on the inner ring.
 //! Formulas are derived in docs/theory/rolling_bearings.md.
 
+mod axial_plane;
 mod ball_equilibrium;
 mod ball_kinematics;
 pub mod ball_row;
@@ -38,6 +42,7 @@ pub mod dynamic;
 pub mod element_load;
 pub mod element_place;
 pub mod element_room;
+mod element_search;
 mod error;
 pub mod estimate;
 pub mod faults;

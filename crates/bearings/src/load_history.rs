@@ -18,6 +18,7 @@ use crate::operation::Operation;
 use crate::quasi_static::QuasiStaticBearing;
 use crate::ratings::Ratings;
 use crate::ring_equilibrium::{AppliedBearingLoad, TiltCondition};
+use crate::warnings::{BearingWarning, Concern, Judged};
 
 /// Groups in an octave of the load's magnitude.
 const FINENESS: f64 = 64.0;
@@ -58,7 +59,7 @@ struct Group {
 }
 
 /// Lives over a history.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct HistoryLife {
     /// L10 by ISO 281 in millions of turns; none where the standard gives no factors for this bearing.
     pub basic_mrev: Option<f64>,
@@ -72,6 +73,8 @@ pub struct HistoryLife {
     pub mean_speed_rad_per_s: f64,
     /// Groups of loads that were judged.
     pub groups: usize,
+    /// What is beyond its limit under one of the loads: of each concern the worst one.
+    pub warnings: Vec<BearingWarning>,
 }
 
 impl HistoryLife {
@@ -144,6 +147,7 @@ impl LoadHistory {
         let turned: f64 = self.groups.values().map(|group| group.turns_rad).sum();
         let power = exponent(&definition.geometry);
         let (mut all, mut reference, mut modified, mut loads) = (0.0, 0.0, 0.0, Some(0.0));
+        let mut worst: BTreeMap<Concern, BearingWarning> = BTreeMap::new();
         for group in self.groups.values() {
             let turns = if turned > 0.0 {
                 group.turns_rad
@@ -176,8 +180,24 @@ impl LoadHistory {
                     ..Operation::default()
                 };
                 let pose = bearing.equilibrium(&load, &operation)?;
-                let (_, elements) = bearing.loads(&pose, &operation)?;
+                let (ring, elements) = bearing.loads(&pose, &operation)?;
                 let life = Life::of(definition, &elements, load.force_n, &operation, lubrication);
+                let judged = Judged {
+                    definition,
+                    bearing,
+                    pose: &pose,
+                    ring: &ring,
+                    loads: &elements,
+                    force_n: load.force_n,
+                    operation: &operation,
+                    life: &life,
+                };
+                for warning in judged.warnings() {
+                    let known = worst.get(&warning.concern);
+                    if known.is_none_or(|known| warning.excess() > known.excess()) {
+                        worst.insert(warning.concern, warning);
+                    }
+                }
                 reference += 0.5 * turns / life.reference_mrev;
                 modified += life.modified_mrev.map_or(0.0, |mrev| 0.5 * turns / mrev);
                 equivalent_n = life.equivalent_n;
@@ -195,6 +215,7 @@ impl LoadHistory {
             modified_mrev: lubrication.map(|_| all / modified),
             mean_speed_rad_per_s: turned / self.weight,
             groups: self.groups.len(),
+            warnings: worst.into_values().collect(),
         })
     }
 }

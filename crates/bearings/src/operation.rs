@@ -31,4 +31,10 @@ impl Operation {
     pub fn is_turning(&self) -> bool {
         self.inner_rad_per_s != 0.0 || self.outer_rad_per_s != 0.0
     }
+
+    /// Angle of a ball or roller, counted from 0, of so many that go round with the cage \[rad\].
+    #[must_use]
+    pub fn element_angle_rad(&self, first_rad: f64, number: usize, count: usize) -> f64 {
+        first_rad + self.cage_angle_rad + std::f64::consts::TAU * number as f64 / count as f64
+    }
 }

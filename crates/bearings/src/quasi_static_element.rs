@@ -19,6 +19,7 @@ use crate::operation::{Control, Operation};
 use crate::quasi_static::QuasiStaticBearing;
 use crate::quasi_static::RowLoads;
 use crate::ring_channels::{RING_CHANNELS, race_loads, ring_channels, sample_ring};
+use crate::ring_load::RingLoad;
 use crate::ring_pose::RingPose;
 
 /// Damping beside the elastic bearing.
@@ -49,6 +50,8 @@ pub struct QuasiStaticElement {
     damping: RingDamping,
     control: Control,
     element_loads: bool,
+    /// Whether another element carries the load, so that nothing but its friction acts.
+    friction_alone: bool,
     /// With a friction torque: the definition it is computed from, and whether it acts.
     rubbing: Option<(BearingDefinition, bool)>,
     /// Time, cage's angle and speeds of the rings at the last accepted step.
@@ -110,6 +113,7 @@ impl QuasiStaticElement {
             damping,
             control,
             element_loads: false,
+            friction_alone: false,
             rubbing: definition.friction.map(|_| (definition.clone(), true)),
             kept: Kept::default(),
         })
@@ -129,6 +133,14 @@ impl QuasiStaticElement {
         if let Some((_, acts)) = &mut self.rubbing {
             *acts = false;
         }
+        self
+    }
+
+    /// Nothing but the friction torque acts, of the loads of its balls or rollers where the rings stand: beside an
+    /// element that carries the load as this bearing would, such as its tangent. Its channels are torque and power.
+    #[must_use]
+    pub fn friction_alone(mut self) -> Self {
+        self.friction_alone = true;
         self
     }
 
@@ -192,17 +204,15 @@ impl QuasiStaticElement {
         }
     }
 
-    fn damping_matrix(&self) -> Matrix6<f64> {
+    /// Damping by the rates of the displacement and by the angular velocity, of which the rate of the tilt counts alone.
+    fn damping_matrix(&self, motion: &RelativeMotion) -> Matrix6<f64> {
         let d = &self.damping;
-        let (radial, tilt) = (d.radial_n_s_per_m, d.tilt_nm_s_per_rad);
-        Matrix6::from_diagonal(&Vector6::new(
-            radial,
-            radial,
-            d.axial_n_s_per_m,
-            tilt,
-            tilt,
-            0.0,
-        ))
+        let radial = d.radial_n_s_per_m;
+        let along = Vector6::new(radial, radial, d.axial_n_s_per_m, 0.0, 0.0, 0.0);
+        let mut damping = Matrix6::from_diagonal(&along);
+        let tilt = d.tilt_nm_s_per_rad * motion.tilt_rate_by_velocity();
+        damping.fixed_view_mut::<3, 3>(3, 3).copy_from(&tilt);
+        damping
     }
 
     fn keep(&mut self, view: &View<'_>, cage_angle_rad: f64) {
@@ -244,10 +254,12 @@ impl ForceElement for QuasiStaticElement {
         let motion = self.motion(view);
         let operation = self.operation(view.time_s);
         self.places.take_from(&self.kept_places);
-        let ring = self
-            .bearing
-            .evaluate_from(&pose(&motion), &operation, &mut self.places)?;
-        let (mut damping, rates) = (self.damping_matrix(), rates(&motion));
+        let ring = if self.friction_alone {
+            RingLoad::default()
+        } else {
+            (self.bearing).evaluate_from(&pose(&motion), &operation, &mut self.places)?
+        };
+        let (mut damping, rates) = (self.damping_matrix(&motion), rates(&motion));
         let mut viscous = damping * rates;
         if self.kept.friction_nm > 0.0 {
             let (moment, slope) = self.rubs(rates[5]);
@@ -265,7 +277,11 @@ impl ForceElement for QuasiStaticElement {
         loads.add_pair_force(places, &motion.generalised_force(&load));
         if loads.wants_tangents() {
             let jacobian = motion.jacobian();
-            let along = ring.tangent * jacobian - damping * motion.rate_jacobian(&jacobian);
+            let mut by_pose = ring.tangent;
+            let turned = self.damping.tilt_nm_s_per_rad * motion.tilt_rate_by_rotation();
+            let mut corner = by_pose.fixed_view_mut::<3, 3>(3, 3);
+            corner -= turned;
+            let along = by_pose * jacobian - damping * motion.rate_jacobian(&jacobian);
             let by_position = jacobian.tr_mul(&along) + motion.geometric_tangent(&jacobian, &load);
             let by_velocity = -jacobian.tr_mul(&(damping * jacobian));
             loads.add_pair_tangents(places, &by_position, &by_velocity);
@@ -289,6 +305,9 @@ impl ForceElement for QuasiStaticElement {
             let operation = self.operation(view.time_s);
             let found = self.friction(&pose(&self.motion(view)), &operation);
             self.kept.friction_nm = found.map_or(0.0, |friction| friction.total_nm());
+            if self.friction_alone {
+                self.kept_places.take_from(&self.places);
+            }
         }
         Ok(())
     }
@@ -330,7 +349,11 @@ impl ForceElement for QuasiStaticElement {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        let mut channels = ring_channels();
+        let mut channels = if self.friction_alone {
+            Vec::new()
+        } else {
+            ring_channels()
+        };
         if self.element_loads {
             let count: usize = self.bearing.rows.iter().map(|row| row.elements()).sum();
             for element in 1..=count {
@@ -377,7 +400,10 @@ impl ForceElement for QuasiStaticElement {
             let at = out.len() - 2;
             out[at..].copy_from_slice(&[friction.total_nm(), friction.power_w()]);
         }
-        let load = ring.load - self.damping_matrix() * rates(&motion);
+        if self.friction_alone {
+            return;
+        }
+        let load = ring.load - self.damping_matrix(&motion) * rates(&motion);
         let force = motion.to_world(&load.fixed_rows::<3>(0).into_owned());
         sample_ring(&load, &force, out);
     }

@@ -1,6 +1,6 @@
 //! What rolling elements do to the inner ring, and its derivatives.
 
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector5, Vector6};
+use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3, Vector5, Vector6};
 
 use crate::ring_pose::cross;
 
@@ -61,17 +61,41 @@ impl RingLoad {
         force += f;
         let mut moment = self.load.fixed_rows_mut::<3>(3);
         moment += w.cross(f);
-        let (arm, turn) = (cross(w), cross(f));
-        let by_shift = -by_point;
-        let by_turn = by_point * arm - turn;
-        let mut block = self.tangent.fixed_view_mut::<3, 3>(0, 0);
-        block += by_shift;
-        let mut block = self.tangent.fixed_view_mut::<3, 3>(0, 3);
-        block += by_turn;
+        let (_, force_by_ring) = by_ring(w, f, by_point);
         // δ(w × f) = −[f]× (−δu) + [w]× δf
-        let mut block = self.tangent.fixed_view_mut::<3, 3>(3, 0);
-        block += turn + arm * by_shift;
-        let mut block = self.tangent.fixed_view_mut::<3, 3>(3, 3);
-        block += arm * by_turn;
+        let mut by_shift = Matrix3x6::zeros();
+        by_shift.fixed_columns_mut::<3>(0).fill_with_identity();
+        self.add_following(w, f, &force_by_ring, &-by_shift);
     }
+
+    /// Adds what the ring's motion changes of a force f at the place w: its own change, and the moment by how its point moves.
+    pub(crate) fn add_following(
+        &mut self,
+        w: &Vector3<f64>,
+        f: &Vector3<f64>,
+        force_by_ring: &Matrix3x6<f64>,
+        moves: &Matrix3x6<f64>,
+    ) {
+        let mut rows = self.tangent.fixed_rows_mut::<3>(0);
+        rows += force_by_ring;
+        let mut rows = self.tangent.fixed_rows_mut::<3>(3);
+        rows += cross(w) * force_by_ring - cross(f) * moves;
+    }
+}
+
+/// How a point at the place w moves against the ring with the ring, B = (−1, \[w\]×), and how a force f there changes:
+/// `by_point` B δq + δφ × f.
+pub(crate) fn by_ring(
+    w: &Vector3<f64>,
+    f: &Vector3<f64>,
+    by_point: &Matrix3<f64>,
+) -> (Matrix3x6<f64>, Matrix3x6<f64>) {
+    let mut relative = Matrix3x6::zeros();
+    relative.fixed_columns_mut::<3>(0).fill_with_identity();
+    relative.neg_mut();
+    relative.fixed_columns_mut::<3>(3).copy_from(&cross(w));
+    let mut force = by_point * relative;
+    let mut turned = force.fixed_columns_mut::<3>(3);
+    turned -= cross(f);
+    (relative, force)
 }

@@ -8,15 +8,14 @@
 
 use nalgebra::{Matrix3, Matrix3x6, Vector2, Vector3};
 
+use crate::axial_plane::AxialPlane;
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
+use crate::element_search::{ElementSearch, NO_FORCE_N, Unbalanced};
 use crate::error::BearingError;
-use crate::ring_load::RingLoad;
+use crate::ring_load::{RingLoad, by_ring};
 use crate::ring_pose::{RingPose, cross};
 use crate::roller_row::{Lamina, RollerRow};
-
-/// Forces that count as none \[N\].
-const NO_FORCE_N: f64 = 1e-9;
 
 /// Share of its weight, which is left out, that a roller may have left over where the search does not end, as on one that nothing but a slow turn throws
 /// between race and rib.
@@ -25,9 +24,6 @@ const LEFT_OVER: f64 = 1e-3;
 /// Standard gravity \[m/s²\].
 const GRAVITY_M_PER_S2: f64 = 9.80665;
 
-/// Newton's iterations of one roller before it is given up.
-const MOST_ITERATIONS: usize = 100;
-
 /// Proximal steps of one roller before it is left where Newton's method leaves it.
 const MOST_PROXIMAL_STEPS: usize = 30;
 
@@ -35,8 +31,7 @@ const MOST_PROXIMAL_STEPS: usize = 30;
 pub(crate) struct Roller<'a> {
     pub row: &'a RollerRow,
     pub pose: &'a RingPose,
-    /// Radial unit vector at its angle.
-    pub e_r: Vector3<f64>,
+    pub plane: AxialPlane,
     pub number: usize,
     /// Speed of the cage \[rad/s\].
     pub orbit: f64,
@@ -62,6 +57,20 @@ struct State {
     inner_load: f64,
     outer_load: f64,
     rib_load: f64,
+}
+
+impl Unbalanced<3> for State {
+    fn residual(&self) -> Vector3<f64> {
+        self.residual
+    }
+
+    fn tangent(&self) -> Matrix3<f64> {
+        self.tangent
+    }
+
+    fn scale_n(&self) -> f64 {
+        self.scale
+    }
 }
 
 impl Roller<'_> {
@@ -98,21 +107,16 @@ impl Roller<'_> {
         let (along, across) = self.axes(place[2]);
         let p = Vector2::new(place[0], place[1]) + along * at_m;
         let a = &self.pose.axis;
-        let w = self.e_r * p[0] + Vector3::z() * p[1] - self.pose.centre_m;
-        let height = w.dot(a);
-        let radial = w - a * height;
-        let radius = radial.norm();
-        let e = radial / radius;
-        let t = a.cross(&e);
+        let at = self.plane.seen_from_ring(self.pose, &p);
         // Away from the axis of the ring; the ring is pushed the other way.
-        let n = e * normal.0 + a * normal.1;
-        let (load, slope) = law(normal.0 * radius + normal.1 * height);
+        let n = at.e * normal.0 + a * normal.1;
+        let (load, slope) = law(normal.0 * at.radius + normal.1 * at.height);
         let point = InnerPoint {
-            w,
+            w: at.w,
             force: -n * load,
             // The load falls as the point moves along n.
             by_point: n * (n * slope).transpose()
-                - t * (t * (load * normal.0 / radius)).transpose(),
+                - at.t * (at.t * (load * normal.0 / at.radius)).transpose(),
             by_tilt: across * at_m,
         };
         (point, load)
@@ -171,7 +175,7 @@ impl Roller<'_> {
             if load == 0.0 {
                 return;
             }
-            let force = -self.in_plane(&point.force);
+            let force = -self.plane.part(&point.force);
             let stiffness = self.plane_block(&point.by_point);
             add_point(&mut state, &force, &stiffness, &point.by_tilt);
             match lamina {
@@ -216,14 +220,9 @@ impl Roller<'_> {
         self.orbit * radial
     }
 
-    fn in_plane(&self, v: &Vector3<f64>) -> Vector2<f64> {
-        Vector2::new(self.e_r.dot(v), v.z)
-    }
-
     fn plane_block(&self, m: &Matrix3<f64>) -> nalgebra::Matrix2<f64> {
-        let r = m * self.e_r;
-        let z = m.column(2);
-        nalgebra::Matrix2::new(self.e_r.dot(&r), self.e_r.dot(&z), r.z, z.z)
+        let plane = self.plane.vectors();
+        plane.tr_mul(&(m * plane))
     }
 
     /// Where a cylindrical roller lies on the outer race under its centrifugal force, all of its length taken to bear; where nothing throws it, far inside. Between
@@ -244,12 +243,10 @@ impl Roller<'_> {
     /// Halfway between the races, or thrown out.
     fn start(&self) -> Vector3<f64> {
         let row = self.row;
-        let a = &self.pose.axis;
-        let tilt = 0.5 * self.e_r.dot(a).asin();
-        let middle = Vector3::new(0.0, 0.0, row.middle_z_m) + self.e_r * row.pitch_radius_m;
-        let turned =
-            a * row.middle_z_m + (self.e_r - a * self.e_r.dot(a)).normalize() * row.pitch_radius_m;
-        let shift = self.in_plane(&(turned + self.pose.centre_m - middle)) * 0.5;
+        let tilt = 0.5 * self.plane.e_r.dot(&self.pose.axis).asin();
+        let middle = (row.pitch_radius_m, row.middle_z_m);
+        let turned = self.plane.nearest(self.pose, middle);
+        let shift = (turned - Vector2::new(middle.0, middle.1)) * 0.5;
         if row.rib.is_none() {
             let halfway_m = row.pitch_radius_m + shift[0];
             let thrown_m = self.thrown_out_m();
@@ -306,74 +303,39 @@ impl Roller<'_> {
         first
     }
 
-    /// Newton's method; each step is shortened, then turned towards the force, until the unbalanced force falls. With a spring to a place (N/m; about the
-    /// circumferential direction by the square of [`Self::arm_m`]), if one is given.
+    /// Newton's method. With a spring to a place (N/m; about the circumferential direction by the square of [`Self::arm_m`]), if one is given.
     fn newton(
         &self,
         start: Vector3<f64>,
         spring: Option<(Vector3<f64>, f64)>,
     ) -> Result<(Vector3<f64>, State), BearingError> {
-        let row = self.row;
-        let arm = self.arm_m();
-        let size_of = |r: &Vector3<f64>| Vector3::new(r[0], r[1], r[2] / arm).norm();
-        let state_at = |place: &Vector3<f64>| {
+        let arms = Vector3::new(1.0, 1.0, self.arm_m());
+        let search = ElementSearch {
+            arms,
+            longest_step_m: 50e-6,
+            rounding_m: 4e-16 * self.row.pitch_radius_m,
+        };
+        let found = search.run(start, |place| {
             let mut state = self.state(place);
             if let Some((at, stiffness)) = spring {
-                for (axis, share) in [1.0, 1.0, arm * arm].into_iter().enumerate() {
-                    state.residual[axis] -= stiffness * share * (place[axis] - at[axis]);
-                    state.tangent[(axis, axis)] += stiffness * share;
-                }
+                let springs = arms.component_mul(&arms) * stiffness;
+                state.residual -= springs.component_mul(&(place - at));
+                state.tangent += Matrix3::from_diagonal(&springs);
             }
             state
-        };
-        let mut place = start;
-        let mut state = state_at(&place);
-        let mut lift = 0.0_f64;
-        for _ in 0..MOST_ITERATIONS {
-            let size = size_of(&state.residual);
-            if size <= 1e-13 * state.scale || state.scale <= NO_FORCE_N {
-                return Ok((place, state));
+        });
+        found.or_else(|given_up| {
+            if given_up.left_n <= LEFT_OVER * self.row.mass_kg * GRAVITY_M_PER_S2 {
+                return Ok((given_up.place, given_up.state));
             }
-            let stiffest = state.tangent[(0, 0)]
-                .max(state.tangent[(2, 2)] / (arm * arm))
-                .max(1e3);
-            let mut raised = state.tangent;
-            let extra = (lift + 1e-13) * stiffest;
-            raised[(0, 0)] += extra;
-            raised[(1, 1)] += extra;
-            raised[(2, 2)] += extra * arm * arm;
-            let step = raised
-                .lu()
-                .solve(&state.residual)
-                .ok_or_else(|| self.no_equilibrium(size))?;
-            let moved = Vector3::new(step[0], step[1], step[2] * arm).norm();
-            if moved <= 4e-16 * row.pitch_radius_m {
-                return Ok((place, state));
-            }
-            let factor = (50e-6 / moved).min(1.0);
-            let next = place + step * factor;
-            let found = state_at(&next);
-            if size_of(&found.residual) < size {
-                (place, state) = (next, found);
-                lift = if lift < 1e-8 { 0.0 } else { 0.1 * lift };
-            } else {
-                if size <= 1e-9 * state.scale {
-                    return Ok((place, state));
-                }
-                lift = (10.0 * lift).max(1e-6);
-            }
-        }
-        let left_n = size_of(&state.residual);
-        if left_n <= LEFT_OVER * row.mass_kg * GRAVITY_M_PER_S2 {
-            return Ok((place, state));
-        }
-        Err(self.no_equilibrium(left_n))
+            Err(self.no_equilibrium(given_up.left_n))
+        })
     }
 
     fn no_equilibrium(&self, unbalanced_n: f64) -> BearingError {
         BearingError::NoRollerEquilibrium {
             roller: self.number + 1,
-            angle_deg: self.e_r.y.atan2(self.e_r.x).to_degrees(),
+            angle_deg: self.plane.degrees(),
             unbalanced_n,
         }
     }
@@ -391,21 +353,15 @@ impl Roller<'_> {
                 return;
             }
             ring.add_at_fixed_point(&point.w, &point.force, &point.by_point);
-            let mut by_ring = Matrix3x6::zeros();
-            by_ring
-                .fixed_view_mut::<3, 3>(0, 0)
-                .copy_from(&-point.by_point);
-            let turn = cross(&point.force);
-            by_ring
-                .fixed_view_mut::<3, 3>(0, 3)
-                .copy_from(&(point.by_point * cross(&point.w) - turn));
-            let tilt = self.e_r * point.by_tilt[0] + Vector3::z() * point.by_tilt[1];
-            let moves = Matrix3::from_columns(&[self.e_r, Vector3::z(), tilt]);
+            let (_, force_by_ring) = by_ring(&point.w, &point.force, &point.by_point);
+            let plane = self.plane.vectors();
+            let tilt = plane * point.by_tilt;
+            let moves = Matrix3::from_columns(&[self.plane.e_r, Vector3::z(), tilt]);
             // Force on the roller is minus that on the ring; as a moment by the way its point goes with φ.
-            roller_by_ring -= moves.tr_mul(&by_ring);
+            roller_by_ring -= moves.tr_mul(&force_by_ring);
             let by_place = point.by_point * moves;
             force_by_place += by_place;
-            moment_by_place += cross(&point.w) * by_place - turn * moves;
+            moment_by_place += cross(&point.w) * by_place - cross(&point.force) * moves;
         });
         if self.row.rib.is_none() {
             roller_by_ring.set_row(1, &nalgebra::RowVector6::zeros());

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::axial_plane::AxialPlane;
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
 use crate::error::BearingError;
@@ -81,9 +82,7 @@ impl RollerRow {
     /// Angle of a roller \[rad\].
     #[must_use]
     pub fn angle_rad(&self, roller: usize, operation: &Operation) -> f64 {
-        self.first_angle_rad
-            + operation.cage_angle_rad
-            + std::f64::consts::TAU * roller as f64 / self.rollers as f64
+        operation.element_angle_rad(self.first_angle_rad, roller, self.rollers)
     }
 
     /// Speed of the cage and of a roller about its axis \[rad/s\], by pure rolling at the rollers' middle.
@@ -122,7 +121,9 @@ impl RollerRow {
             let roller = Roller {
                 row: self,
                 pose,
-                e_r: Vector3::new(cosine, sine, 0.0),
+                plane: AxialPlane {
+                    e_r: Vector3::new(cosine, sine, 0.0),
+                },
                 number,
                 orbit,
                 spin,

@@ -1,9 +1,10 @@
 //! Where a ring that is held at a large tilt comes to rest: found from the straight ring, the tilt growing step by
 //! step.
 
+use crate::ball_equilibrium::FAR_SIDE;
 use crate::error::BearingError;
 use crate::operation::Operation;
-use crate::quasi_static::QuasiStaticBearing;
+use crate::quasi_static::{QuasiStaticBearing, Row};
 use crate::ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 use crate::ring_pose::RingPose;
 
@@ -11,7 +12,10 @@ use crate::ring_pose::RingPose;
 const FIRST_STEP: f64 = 0.25;
 
 /// Share of the tilt below which steps are not shortened any more.
-const LEAST_STEP: f64 = 1e-2;
+const LEAST_STEP: f64 = 1e-3;
+
+/// Share of the tilt beyond the last equilibrium at which the elements are asked what ends it.
+const BEYOND: f64 = 1e-2;
 
 impl QuasiStaticBearing {
     /// From the straight ring to the tilted one at rest; `failure` is what the direct search ended with.
@@ -20,7 +24,8 @@ impl QuasiStaticBearing {
     ///
     /// # Errors
     /// `failure` where no tilt is held, or the straight ring finds no equilibrium either;
-    /// [`BearingError::NoEquilibriumAtTilt`] with the tilt that was reached.
+    /// [`BearingError::TiltedBeyondGroove`] where balls then leave their groove, [`BearingError::NoEquilibriumAtTilt`]
+    /// otherwise, both with the tilt that was reached.
     pub(crate) fn tilt_up(
         &self,
         load: &AppliedBearingLoad,
@@ -50,27 +55,52 @@ impl QuasiStaticBearing {
         let mut step = FIRST_STEP;
         while here.0 < 1.0 {
             let next = (here.0 + step).min(1.0);
-            let ahead = if here.0 > before.0 {
-                (next - here.0) / (here.0 - before.0)
-            } else {
-                0.0
+            // Where the last two places lead on to.
+            let on = |share: f64| {
+                let way = here.0 - before.0;
+                let ahead = if way > 0.0 {
+                    (share - here.0) / way
+                } else {
+                    0.0
+                };
+                let mut five = here.1 + (here.1 - before.1) * ahead;
+                (five[3], five[4]) = (share * tilt[0], share * tilt[1]);
+                RingPose::from_five(&five)
             };
-            let mut start = here.1 + (here.1 - before.1) * ahead;
-            (start[3], start[4]) = (next * tilt[0], next * tilt[1]);
-            match rest(RingPose::from_five(&start), &tilted_by(next)) {
+            if step < LEAST_STEP {
+                let beyond = on(here.0 + BEYOND);
+                return Err(self.tilt_limit(size_rad, here.0, &beyond, resting));
+            }
+            match rest(on(next), &tilted_by(next)) {
                 Ok(found) => {
                     (before, here) = (here, (next, found.to_five()));
                     step *= 1.5;
                 }
                 Err(_) => step *= 0.5,
             }
-            if step < LEAST_STEP {
-                return Err(BearingError::NoEquilibriumAtTilt {
-                    asked_mrad: 1e3 * size_rad,
-                    found_mrad: 1e3 * here.0 * size_rad,
-                });
-            }
         }
         Ok(RingPose::from_five(&here.1))
+    }
+
+    /// Why no more tilt than the share that was found has an equilibrium: what the elements say a little beyond.
+    fn tilt_limit(
+        &self,
+        asked_rad: f64,
+        found: f64,
+        beyond: &RingPose,
+        resting: &Operation,
+    ) -> BearingError {
+        let (asked_mrad, found_mrad) = (1e3 * asked_rad, 1e3 * asked_rad * found);
+        match (self.evaluate(beyond, resting), &self.rows[0]) {
+            (Err(BearingError::PulledOut), Row::Ball(row)) => BearingError::TiltedBeyondGroove {
+                asked_mrad,
+                found_mrad,
+                end_deg: (FAR_SIDE * row.free_angle_rad.abs()).to_degrees(),
+            },
+            _ => BearingError::NoEquilibriumAtTilt {
+                asked_mrad,
+                found_mrad,
+            },
+        }
     }
 }

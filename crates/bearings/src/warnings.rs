@@ -8,16 +8,20 @@
 //! | minimum load | P_ref of ISO/TS 16281 at speed | 0.01 C for balls, 0.02 C for rollers | SKF's rule of thumb; guidance |
 //! | speed | n d_m | 500 000 mm/min for balls, cylindrical rollers 450 000, tapered 350 000 | SKF's catalogue, grease at light loads; guidance |
 //! | load of the life | P_ref | 0.5 C | ISO 281 |
+//! | displacement | way of the ring beyond its play | a tenth of an element's diameter | contacts are small against the bodies (Hertz) |
+//! | moment | that which the rings exert | C₀ at half the larger of pitch diameter and distance of the rows | no row carries more than C₀ |
 //! | laminae | their number | 30 | ISO/TS 16281 |
 
 use std::f64::consts::PI;
 use std::fmt;
 
-use crate::definition::{BallBearingKind, BearingDefinition, BearingGeometry};
+use crate::definition::{BallBearingKind, BearingDefinition, BearingGeometry, Preload};
 use crate::life::Life;
 use crate::operation::Operation;
 use crate::quasi_static::{QuasiStaticBearing, RowLoads};
 use crate::ratings::Ratings;
+use crate::ring_load::RingLoad;
+use crate::ring_pose::RingPose;
 use crate::static_safety::StaticSafety;
 
 /// What a warning is about.
@@ -35,6 +39,10 @@ pub enum Concern {
     Speed,
     /// A load beyond the formulas of the life.
     LifeLoad,
+    /// Rings that move as no bearing does.
+    Displacement,
+    /// A moment that no bearing carries.
+    Moment,
     /// Too few laminae.
     Laminae,
 }
@@ -50,6 +58,8 @@ impl Concern {
             Self::MinimumLoad => "minimum-load",
             Self::Speed => "speed",
             Self::LifeLoad => "life-load",
+            Self::Displacement => "displacement",
+            Self::Moment => "moment",
             Self::Laminae => "laminae",
         }
     }
@@ -98,6 +108,10 @@ pub struct Judged<'a> {
     pub definition: &'a BearingDefinition,
     /// The same, evaluated.
     pub bearing: &'a QuasiStaticBearing,
+    /// Where its inner ring stands.
+    pub pose: &'a RingPose,
+    /// What its elements do to the inner ring.
+    pub ring: &'a RingLoad,
     /// Loads of its balls or rollers.
     pub loads: &'a RowLoads,
     /// Force on its inner ring \[N\].
@@ -139,6 +153,7 @@ impl Judged<'_> {
         self.pressure(&mut found);
         self.shoulders(&mut found);
         self.least_and_most_load(&mut found);
+        self.nonsense(&mut found);
         self.speed(&mut found);
         if let BearingGeometry::Roller(g) = &self.definition.geometry {
             let laminae = g.laminae;
@@ -255,6 +270,60 @@ impl Judged<'_> {
             format!(
                 "life: P_ref {load:.0} N is more than 0.5 C = {:.0} N, up to which the formulas of ISO 281 hold",
                 0.5 * c
+            )
+        });
+    }
+
+    /// Displacements and moments that speak of a slip of units or of another bearing.
+    fn nonsense(&self, found: &mut Found) {
+        let (diameter_m, pitch_m, play_m) = match &self.definition.geometry {
+            BearingGeometry::Ball(g) => {
+                let distance_m = g.groove_distance_m();
+                let radial_m = g.radial_clearance_m().max(0.0);
+                // Play along the axis of a deep groove: 2A sin α₀ from one side to the other.
+                let axial_m = match g.kind {
+                    BallBearingKind::AngularContact | BallBearingKind::Thrust => 0.0,
+                    _ => {
+                        2.0 * distance_m
+                            * (1.0 - (1.0 - 0.5 * radial_m / distance_m).powi(2))
+                                .max(0.0)
+                                .sqrt()
+                    }
+                };
+                (g.ball_diameter_m, g.pitch_diameter_m, radial_m.max(axial_m))
+            }
+            BearingGeometry::Roller(g) => (
+                g.diameter_m,
+                g.pitch_diameter_m,
+                g.radial_clearance_m.max(0.0),
+            ),
+        };
+        let play_m = match self.definition.preload {
+            Preload::Displacement(shift_m) => play_m.max(-shift_m),
+            _ => play_m,
+        };
+        let (value, limit) = (
+            1e3 * (self.pose.centre_m.norm() - play_m),
+            100.0 * diameter_m,
+        );
+        found.check(Concern::Displacement, value, limit, || {
+            format!(
+                "displacement: the inner ring moves by {value:.2} mm beyond its play, more than {limit:.2} mm, a tenth of the {}' diameter: contacts are no longer small, as Hertz's theory wants them; check the units of load and sizes",
+                self.elements()
+            )
+        });
+        let distance_m = self
+            .definition
+            .arrangement
+            .rows()
+            .iter()
+            .fold(0.0, |most: f64, row| most.max(2.0 * row.0.abs()));
+        let [x, y] = [self.ring.load[3], self.ring.load[4]];
+        let ratings = Ratings::of(self.definition);
+        let (value, limit) = (x.hypot(y), 0.5 * ratings.static_n * pitch_m.max(distance_m));
+        found.check(Concern::Moment, value, limit, || {
+            format!(
+                "moment: the rings exert {value:.0} N m on each other, more than {limit:.0} N m, what C0 makes at half the pitch diameter or distance of the rows: no bearing of this size carries it; check the tilt and its unit"
             )
         });
     }

@@ -140,6 +140,15 @@ impl Mesh<'_> {
         Some([self.flanks[0].point(at[0])?, self.flanks[1].point(at[1])?])
     }
 
+    /// Relative speed along the normal at a point of the gear that touches, with the teeth's ratio of speeds: n·v₁₂ over
+    /// the pinion's speed and the mean cone distance.
+    pub(crate) fn slip(&self, p: &SurfacePoint) -> f64 {
+        let [m1, m2] = &self.assembly.members;
+        let v = m1.axis().cross(&(p.r - m1.apex_m))
+            + m2.axis().cross(&(p.r - m2.apex_m)) * self.assembly.ratio;
+        p.n.dot(&v) / self.flanks[0].blank.mean_cone_m
+    }
+
     /// Contact of both surfaces, also beyond the blanks' limits, from a contact nearby. None where Newton finds none.
     pub fn touch(&self, pinion_turn: f64, start: &Touch) -> Option<Touch> {
         self.solve(pinion_turn, start, &Meeting::Faces)

@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Bevel gears: blank, flanks from machine settings, local synthesis, tooth contact analysis.
 //!
 //! | step | type | file |
@@ -14,15 +17,18 @@
 //! | contact of flanks and edges | [`Mesh`] | `contact_point.rs`, `ease_off.rs` |
 //! | path of contact, transmission error, ellipses | [`tooth_contact`] | `tca.rs`, `contact_path.rs`, `contact_search.rs`, `contact_ellipse.rs` |
 //! | points and normals for a measuring machine | [`Tooth::nominal_grid_csv`] | `nominal_grid.rs` |
+//! | both sides in an assembly, and the backlash between them | [`AssembledPair`] | `assembled_pair.rs`, `pair_meeting.rs` |
 //! | what brings the contact to toe and heel | [`VhCheck`] | `vh_check.rs` |
 //! | the mate by local synthesis or an ease-off | [`Synthesis`] | `local_synthesis.rs`, `settings_search.rs` |
 //! | all of it for a file | [`PairDesign`] | `pair_design.rs` |
+//! | a member's solid for CAD | [`SolidOutline`] | `solid_outline.rs` |
 //! | a member as a body: blank, material, mesh, gauges | [`BevelGear`] | `bevel_gear.rs`, `gear_file.rs` |
 //!
 //! SI units. Frames, signs and formulas stand in docs/theory/bevel_gears.md and nowhere else. In short: z is a
 //! member's axis, from the pitch apex to the
 //! heel; the mean point of a flank under study lies on +x; member 1 is the pinion, member 2 the gear.
 
+pub mod assembled_pair;
 pub mod assembly;
 mod azimuth_surface;
 pub mod basic_settings;
@@ -54,11 +60,13 @@ mod piecewise;
 mod point_grid;
 pub mod settings;
 pub mod settings_search;
+pub mod solid_outline;
 pub mod table_thickness;
 pub mod tca;
 pub mod tooth;
 pub mod vh_check;
 
+pub use assembled_pair::AssembledPair;
 pub use assembly::{Assembly, AssemblyError, Placement};
 pub use basic_settings::{Process, basic_settings, crown_settings};
 pub use bevel_gear::{BevelBlank, BevelContourPoint, BevelGauge, BevelGear};
@@ -78,7 +86,8 @@ pub use local_synthesis::{Synthesis, SynthesisTarget};
 pub use pair_design::{Cutting, PairDesign};
 pub use pair_file::PairFile;
 pub use settings::{FaceMill, MachineSettings, Roll, Tool};
+pub use solid_outline::{SlotSection, SolidOutline};
 pub use table_thickness::TableThickness;
 pub use tca::{Sensitivity, TcaRequest, ToothContact, sensitivity, tooth_contact};
 pub use tooth::{Tooth, ToothCheck};
-pub use vh_check::{VhCheck, VhSetting};
+pub use vh_check::{VhCause, VhCheck, VhSetting, VhStop};

@@ -106,9 +106,7 @@ pub fn tooth_contact(
     };
     let is_conjugate = are_conjugate(flanks, blank);
     if is_conjugate && request.error == AssemblyError::default() {
-        return Err(BevelError::NoContact {
-            hint: "they are conjugate and touch along a line, which has no path of contact; look at their ease-off",
-        });
+        return Err(touches_along_lines());
     }
     let search = ContactSearch::new(mesh)?;
     let contacts = pair_contacts(&search, request.per_pitch);
@@ -192,6 +190,13 @@ pub fn tooth_contact(
     })
 }
 
+/// Conjugate flanks have no path of contact.
+pub(crate) fn touches_along_lines() -> BevelError {
+    BevelError::NoContact {
+        hint: "they are conjugate and touch along a line, which has no path of contact; look at their ease-off",
+    }
+}
+
 /// Whether flanks touch along a line in the pair as designed.
 pub fn are_conjugate(flanks: [&Flank; 2], blank: &PairBlank) -> bool {
     first_touch(flanks, blank, &AssemblyError::default())
@@ -254,13 +259,7 @@ pub fn mean_contact(mesh: &Mesh<'_>, first: &Touch) -> Result<Touch, BevelError>
     let none = BevelError::NoContact {
         hint: "no position has the ratio of speeds of the teeth",
     };
-    let slip = |touch: &Touch| {
-        let [m1, m2] = &mesh.assembly.members;
-        let p = &touch.points[1];
-        let v = m1.axis().cross(&(p.r - m1.apex_m))
-            + m2.axis().cross(&(p.r - m2.apex_m)) * mesh.assembly.ratio;
-        p.n.dot(&v) / flank_size(mesh)
-    };
+    let slip = |touch: &Touch| mesh.slip(&touch.points[1]);
     let mut a = *first;
     let mut fa = slip(&a);
     let Some(mut b) = mesh.touch(a.pinion_turn_rad + 1e-3, &a) else {
@@ -288,10 +287,6 @@ pub fn mean_contact(mesh: &Mesh<'_>, first: &Touch) -> Result<Touch, BevelError>
     Err(none)
 }
 
-fn flank_size(mesh: &Mesh<'_>) -> f64 {
-    mesh.flanks[0].blank.mean_cone_m
-}
-
 /// How far the mean contact moves on the gear's flank by each assembly error: ΔL and Δh per metre or radian.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensitivity {
@@ -305,16 +300,13 @@ pub struct Sensitivity {
     pub shaft_angle: [f64; 2],
 }
 
-/// The mean contact in an assembly, from a contact nearby, and where it lies on the gear, L and h \[m\].
-///
-/// # Errors
-/// [`BevelError::NoContact`].
-pub(crate) fn mean_place_m(
+/// Where the mean contact of an assembly lies on the gear, L and h \[m\], from one nearby.
+fn mean_place_m(
     flanks: [&Flank; 2],
     blank: &PairBlank,
     error: &AssemblyError,
     near: &Touch,
-) -> Result<(Touch, [f64; 2]), BevelError> {
+) -> Result<[f64; 2], BevelError> {
     let none = || BevelError::NoContact {
         hint: "make the errors smaller",
     };
@@ -323,27 +315,23 @@ pub(crate) fn mean_place_m(
         flanks,
         assembly: &assembly,
     };
-    let start = mesh.touch(near.pinion_turn_rad, near);
-    let start = match start {
-        Some(start) => start,
-        None => first_touch(flanks, blank, error)?.1,
-    };
+    let start = mesh.touch(near.pinion_turn_rad, near).ok_or_else(none)?;
     let mean = mean_contact(&mesh, &start)?;
     let p = flanks[1].point(mean.at[1]).ok_or_else(none)?;
-    Ok((mean, flanks[1].place(&p.r)))
+    Ok(flanks[1].place(&p.r))
 }
 
-/// Sensitivity of the mean contact round an assembly, by central differences over 0.1 µm and 1 µrad.
+/// Sensitivity of the mean contact round an assembly, by central differences over 0.1 µm and 1 µrad. `mean`: the mean
+/// contact in this assembly.
 ///
 /// # Errors
 /// [`BevelError::NoContact`].
 pub fn sensitivity(
     flanks: [&Flank; 2],
     blank: &PairBlank,
-    error: &AssemblyError,
+    (error, mean): (&AssemblyError, &Touch),
 ) -> Result<Sensitivity, BevelError> {
-    let (_, first) = first_touch(flanks, blank, error)?;
-    let place = |error: &AssemblyError| Ok(mean_place_m(flanks, blank, error, &first)?.1);
+    let place = |error: &AssemblyError| mean_place_m(flanks, blank, error, mean);
     let slope = |by: AssemblyError, size: f64| -> Result<[f64; 2], BevelError> {
         let shifted = |sign: f64| place(&error.plus(&by.scaled(sign)));
         let (up, down) = (shifted(1.0)?, shifted(-1.0)?);

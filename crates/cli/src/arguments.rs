@@ -116,12 +116,15 @@ pub struct RunArguments {
     /// Wall time between checkpoints of a multibody run
     #[arg(long, default_value = "10", value_parser = positive)]
     pub checkpoint_s: f64,
+    /// Largest result that is written: rows of all columns, or the forces of all positions of a pair
+    #[arg(long = "most-result-GB", default_value = "1", value_parser = positive)]
+    pub most_result_gb: f64,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
 }
 
-/// A number of seconds that is more than zero.
+/// A number that is more than zero.
 fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "no number".to_owned())?;
     if value > 0.0 && value < 1e9 {
@@ -310,6 +313,9 @@ pub struct ImportArguments {
     /// Scenes of reduced gears (`hybrid` meshes) in place of the springs of ISO 6336: reduce the gear files first
     #[arg(long)]
     pub reduced: bool,
+    /// Scenes that run in time, driven at the speeds of the file, in place of scenes at rest
+    #[arg(long)]
+    pub transient: bool,
     /// Write the files only: neither check them nor run the scenes at rest
     #[arg(long)]
     pub no_run: bool,

@@ -23,7 +23,10 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let sound = interrupt::install().and_then(|()| overwriting::refuse(&arguments.command));
+    gearmesh_fe::split_alike();
+    let sound = gearmesh_geometry::input::demand_threads().map_err(failure::Failure::from);
+    let sound = sound.and_then(|()| interrupt::install());
+    let sound = sound.and_then(|()| overwriting::refuse(&arguments.command));
     let outcome = sound.and_then(|()| match &arguments.command {
         Command::Mesh(a) => commands::mesh::run(a),
         Command::Reduce(a) => commands::reduce::run(a),

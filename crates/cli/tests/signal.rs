@@ -247,7 +247,11 @@ fn curves_go_to_a_table_or_a_page() {
     assert_near(strongest.unwrap().0.parse().unwrap(), 7.0);
     signal("map", &["--shaft", "disc", "-o", argument(&html)]);
     let page = std::fs::read_to_string(&html).unwrap();
-    assert!(page.contains("order 7") && page.contains("Three tones"));
+    // At one speed over the time: a map, no lines.
+    for part in ["orders over the time", "class=\"polar map\"", "Three tones"] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("data-kind=\"line\""));
 }
 
 #[test]

@@ -47,7 +47,7 @@ impl CoupledPlaces<'_> {
     }
 
     /// The same with its derivatives by both places up the flank, and by those along the teeth \[m/N per m\], which are zero where slices do
-    /// not walk that way. Of a slice with itself half of what its compliance changes by.
+    /// not walk that way. Of a slice with itself each is half the derivative of its compliance.
     #[inline(always)]
     #[must_use]
     pub fn coupling(&self, slices: [usize; 2]) -> (Coupling, [f64; 2]) {

@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! Contact of two elastic gears: patches, their compliance and local contact, the complementarity problem; involute pairs at rest.
 //!
 //! | question | answer | file |

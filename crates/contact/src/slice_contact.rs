@@ -66,8 +66,8 @@ pub struct SliceContact {
     run: Vec<usize>,
     shares: Vec<f64>,
     c: Vec<f64>,
-    /// ∂C_ij/∂u_i of each gear, `[i][j]`, between patches that carried at the last solve; of a patch with itself half of what its compliance changes
-    /// by.
+    /// ∂C_ij/∂u_i of each gear, `[i][j]`, between patches that carried load at the last solve. Of a patch with itself
+    /// both places move, and this is half the derivative of its compliance.
     rates: [Vec<f64>; 2],
     /// The same along the teeth, of gears on which slices walk that way; else empty.
     along: [Vec<f64>; 2],

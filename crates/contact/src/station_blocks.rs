@@ -18,7 +18,7 @@ use std::sync::{Arc, OnceLock};
 pub struct Coupling {
     /// C_ab.
     pub value: f64,
-    /// ∂/∂u_a; of a slice with itself half of what its compliance changes by.
+    /// ∂C_ab/∂u_a. Of a slice with itself both places move, and this is half the derivative of its compliance.
     pub by_a: f64,
     /// ∂/∂u_b.
     pub by_b: f64,

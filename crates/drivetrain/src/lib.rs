@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! Gear pairs as force elements of a multibody system.
 //!
 //! | question | answer | file |

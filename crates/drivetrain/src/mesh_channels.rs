@@ -9,7 +9,7 @@
 //! axial      F_a = −F·e_z     along gear 1's z
 //! ```
 //!
-//! all of them on gear 1; gear 2 feels the opposite force.
+//! all of them on gear 1; gear 2 feels the opposite force. Moments are those on the bodies, about their own z.
 
 use gearmesh_dynamics::elements::Channel;
 use gearmesh_geometry::Flank;
@@ -77,6 +77,19 @@ pub(crate) fn forces() -> [Channel; FORCES] {
         channel("radial_force_1_N", "radial force on gear 1, positive apart"),
         channel("axial_force_1_N", "axial force on gear 1 along its z"),
     ]
+}
+
+/// Number of [`moments`].
+pub(crate) const MOMENTS: usize = 2;
+
+/// Moments of the mesh on both gears: M₁ and M₂ with M₁ ω₁ + M₂ ω₂ = −P of the teeth's friction where nothing accelerates.
+pub(crate) fn moments() -> [Channel; MOMENTS] {
+    [1, 2].map(|gear| {
+        let what = format!(
+            "moment of the mesh on the body of gear {gear} about its own z, counter-clockwise positive"
+        );
+        Channel::new(format!("moment_{gear}_Nm"), "N·m", what)
+    })
 }
 
 /// F_t, F_r and F_a \[N\] on gear 1 at the last pose, which is given.

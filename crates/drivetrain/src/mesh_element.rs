@@ -9,7 +9,7 @@ use crate::error::DrivetrainError;
 use crate::flank_contacts::FlankContacts;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
-use crate::mesh_channels::{self, FORCES, POWERS, SliceLineLoads, force_on_gear_1};
+use crate::mesh_channels::{self, FORCES, MOMENTS, POWERS, SliceLineLoads, force_on_gear_1};
 use crate::pair_channels::PairChannels;
 use crate::pose::Pose;
 use crate::strain_gauges::{ModalPart, StrainGauges};
@@ -288,6 +288,7 @@ impl ForceElement for MeshElement {
             .chain(mesh_channels::state())
             .chain(strain)
             .chain(mesh_channels::forces())
+            .chain(mesh_channels::moments())
             .chain(slices.map(SliceLineLoads::channels).into_iter().flatten())
             .chain(
                 self.pairs
@@ -313,11 +314,10 @@ impl ForceElement for MeshElement {
         }
         let own = if self.mesh.rubs() { POWERS } else { 0 };
         let (out, powers) = out.split_at_mut(out.len() - own);
+        let force = motion.generalised_force(&self.mesh.load().load);
         if let [friction, power] = powers {
-            let mesh = self.mesh.load();
             let body = view.body(self.bodies[0]);
-            let force = motion.generalised_force(&mesh.load);
-            *friction = mesh.friction_w;
+            *friction = self.mesh.load().friction_w;
             *power = -(force.fixed_rows::<3>(0).dot(&body.velocity_m_per_s)
                 + (force.fixed_rows::<3>(3)).dot(&body.angular_velocity_rad_per_s));
         }
@@ -349,6 +349,8 @@ impl ForceElement for MeshElement {
         }
         let rest = places.into_slice();
         let (forces, rest) = rest.split_at_mut(FORCES);
+        let (moments, rest) = rest.split_at_mut(MOMENTS);
+        moments.copy_from_slice(&[force[5], force[11]]);
         let of_pairs = self.pairs.map_or(0, |_| PairChannels::COUNT);
         let (slices, pairs) = rest.split_at_mut(rest.len() - of_pairs);
         forces.copy_from_slice(&force_on_gear_1(&self.mesh, &Pose::from(&motion)));

@@ -126,6 +126,8 @@ fn gauges_are_channels_of_the_mesh() {
             "tangential_force_1_N",
             "radial_force_1_N",
             "axial_force_1_N",
+            "moment_1_Nm",
+            "moment_2_Nm",
         ]
     );
     let of = |name: &str| names.iter().filter(|(element, _)| element == name).count();

@@ -108,7 +108,8 @@ impl Simulation {
     /// Goes on from a checkpoint with the system and the parameters that wrote it.
     ///
     /// # Errors
-    /// [`DynamicsError::Checkpoint`] if an array has another length than the system needs, [`DynamicsError::Parameter`].
+    /// [`DynamicsError::Checkpoint`] if an array has another length than the system needs,
+    /// [`DynamicsError::CheckpointNumber`], [`DynamicsError::Parameter`].
     pub fn resume(
         mut system: System,
         params: Params,
@@ -151,6 +152,14 @@ impl Simulation {
                     found,
                     expected,
                 });
+            }
+        }
+        for (what, found, is_fine) in [
+            ("its time", c.scalars[0], c.scalars[0] >= 0.0),
+            ("its step", c.scalars[1], c.scalars[1] > 0.0),
+        ] {
+            if !(is_fine && found.is_finite()) {
+                return Err(DynamicsError::CheckpointNumber { what, found });
             }
         }
         let (matrix, gradient) = c.matrix.split_at(saved_matrix);

@@ -255,6 +255,14 @@ pub enum DynamicsError {
         /// Unknowns.
         size: usize,
     },
+    /// A checkpoint with a number that no run has.
+    #[error("the checkpoint cannot be resumed: {what} is {found} s; begin the run anew")]
+    CheckpointNumber {
+        /// Which number.
+        what: &'static str,
+        /// What it is \[s\].
+        found: f64,
+    },
     /// A checkpoint does not belong to the system.
     #[error(
         "the checkpoint does not fit the system: {what} has {found} entries, the system needs {expected}: resume with the scene that wrote it"

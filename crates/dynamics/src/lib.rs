@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Multibody dynamics: bodies, joints and force elements in space, integrated by the Lie-group generalized-alpha scheme.
 //!
 //! | question | answer | file |

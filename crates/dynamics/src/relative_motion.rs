@@ -163,6 +163,33 @@ impl MarkerPair {
 }
 
 impl RelativeMotion {
+    /// c: the z axis of B, A axes.
+    fn axis(&self) -> Vector3<f64> {
+        self.rotation.column(2).into()
+    }
+
+    /// How fast the z axis of B tilts against that of A, A axes \[rad/s\]: c × ċ = ω − (ω·c) c. Spin of B about its own
+    /// axis is no part of it, however the axis lies.
+    #[must_use]
+    pub fn tilt_rate_rad_per_s(&self) -> Vector3<f64> {
+        self.tilt_rate_by_velocity() * self.angular_velocity_rad_per_s
+    }
+
+    /// Its derivative by ω: 1 − c cᵀ.
+    #[must_use]
+    pub fn tilt_rate_by_velocity(&self) -> Matrix3<f64> {
+        let c = self.axis();
+        Matrix3::identity() - c * c.transpose()
+    }
+
+    /// Its derivative by the rotation of B against A, A axes, ω constant \[1/s\].
+    #[must_use]
+    pub fn tilt_rate_by_rotation(&self) -> Matrix3<f64> {
+        let (c, w) = (self.axis(), self.angular_velocity_rad_per_s);
+        // dc = φ × c
+        (Matrix3::from_diagonal_element(c.dot(&w)) + c * w.transpose()) * skew(&c)
+    }
+
     /// Q as a quaternion.
     #[must_use]
     pub fn quaternion(&self) -> UnitQuaternion<f64> {

@@ -73,6 +73,7 @@ impl Accepted<'_> {
 #[derive(Debug, Clone)]
 pub struct OutputGrid {
     interval_s: f64,
+    parts: u64,
     next: u64,
     state: State,
 }
@@ -83,15 +84,30 @@ impl OutputGrid {
     pub fn new(interval_s: f64, like: &State) -> Self {
         Self {
             interval_s,
+            parts: 1,
             next: 0,
             state: like.clone(),
         }
     }
 
+    /// The same times, and the intervals between them in so many equal parts.
+    #[must_use]
+    pub fn in_parts(mut self, parts: u64) -> Self {
+        self.parts = parts.max(1);
+        self
+    }
+
+    /// Time of a number \[s\]: those of whole intervals do not depend on the parts.
+    fn time_s(&self, number: u64) -> f64 {
+        let part = (number % self.parts) as f64 / self.parts as f64;
+        ((number / self.parts) as f64 + part) * self.interval_s
+    }
+
     /// Begins with the first grid time not before `time_s`.
     #[must_use]
     pub fn from_time(mut self, time_s: f64) -> Self {
-        self.next = (time_s / self.interval_s - 1e-9).ceil().max(0.0) as u64;
+        let parts = self.parts as f64;
+        self.next = (time_s / self.interval_s * parts - 1e-9).ceil().max(0.0) as u64;
         self
     }
 
@@ -111,8 +127,8 @@ impl OutputGrid {
     /// Calls `write` with the interpolated state at every grid time that the step reaches.
     pub fn visit(&mut self, step: &mut Accepted<'_>, mut write: impl FnMut(&State, &mut System)) {
         let end = step.to.time_s + 1e-9 * self.interval_s;
-        while self.next as f64 * self.interval_s <= end {
-            step.interpolate(self.next as f64 * self.interval_s, &mut self.state);
+        while self.time_s(self.next) <= end {
+            step.interpolate(self.time_s(self.next), &mut self.state);
             write(&self.state, step.system);
             self.next += 1;
         }

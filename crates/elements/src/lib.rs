@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Kinds of finite elements, for all who name, mesh, compute or store them: [`CellKind`] by the nodes, [`Element`] by
 //! the formulation. Numbering of nodes and edges stands here and nowhere else; formulas are in `gearmesh-fe`.
 

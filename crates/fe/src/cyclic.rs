@@ -28,7 +28,7 @@ use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
 use faer::reborrow::ReborrowMut;
-use faer::{Mat, MatMut, MatRef, Par, Side, c64};
+use faer::{Mat, MatMut, MatRef, Side, c64};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -126,8 +126,8 @@ impl CyclicInterface {
             return;
         }
         let factor = self.factors[k].as_ref();
-        solve_lower_triangular_in_place(factor, loads.rb_mut(), Par::rayon(0));
-        solve_upper_triangular_in_place(factor.adjoint(), loads, Par::rayon(0));
+        solve_lower_triangular_in_place(factor, loads.rb_mut(), faer::get_global_parallelism());
+        solve_upper_triangular_in_place(factor.adjoint(), loads, faer::get_global_parallelism());
     }
 
     /// Λ⁻¹(p_R + e^{-ikα} p_L).
@@ -136,7 +136,11 @@ impl CyclicInterface {
         let mut y = Mat::from_fn(self.cut, loads.ncols(), |i, j| {
             back * loads[(self.cut + i, j)] + c64::new(loads[(i, j)], 0.0)
         });
-        solve_lower_triangular_in_place(self.factors[k].as_ref(), y.as_mut(), Par::rayon(0));
+        solve_lower_triangular_in_place(
+            self.factors[k].as_ref(),
+            y.as_mut(),
+            faer::get_global_parallelism(),
+        );
         y
     }
 

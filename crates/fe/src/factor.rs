@@ -200,7 +200,7 @@ impl Factor {
             })?;
         values.resize(length, 0.0);
 
-        let par = Par::rayon(0);
+        let par = faer::get_global_parallelism();
         let request = symbolic
             .cholesky
             .factorize_numeric_llt_scratch::<f64>(par, Spec::default());
@@ -258,9 +258,8 @@ impl Factor {
 
     /// Solves K X = B; B (free x columns) is overwritten with X. Blocks of 32 columns run in parallel.
     ///
-    /// For one factor each column is the same to the last bit for any number of threads. (The values of the
-    /// factor itself come from parallel dense kernels and are promised to rounding only.) Scratch memory: one block per
-    /// thread.
+    /// For one factor each column is the same to the last bit for any number of threads; the values of the factor
+    /// itself are so after [`crate::split_alike`]. Scratch memory: one block per thread.
     ///
     /// # Panics
     /// If `rhs` does not have [`Factor::size`] rows.

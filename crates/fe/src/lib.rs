@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Linear elasticity on hexahedra, tetrahedra and wedges: elements, assembly, constraints, ordering, factorisation.
 //!
 //! Arrays go in (node coordinates, elements), arrays come out (stiffness, displacements, strain operators).
@@ -100,6 +103,7 @@ mod material;
 mod model;
 mod modes;
 mod ordering;
+mod parts;
 mod quadratic_mesh;
 mod quadrature;
 mod reference_points;
@@ -136,6 +140,7 @@ pub use modes::{
     search_modes, shifted_stiffness,
 };
 pub use ordering::DofOrdering;
+pub use parts::{PARTS, split_alike};
 pub use quadratic_mesh::{QuadraticMesh, arc_middle, chord_middle};
 pub use quadrature::WeightedPoint;
 pub use rigid_group::{RigidGroup, rigid_motions};

@@ -2,12 +2,14 @@
 
 mod csv_rows;
 mod former_keys;
+mod given;
 mod kinds;
 mod near_names;
 mod number_ranges;
 mod number_table;
 mod readable_file;
 mod table_keys;
+mod threads;
 mod unit_slips;
 mod wording;
 
@@ -22,6 +24,7 @@ pub use readable_file::{
     MOST_MESH_BYTES, MOST_TEXT_BYTES, UnreadableFile, demand_readable, read_bytes,
 };
 pub use table_keys::TableKeys;
+pub use threads::demand_threads;
 
 use serde::de::DeserializeOwned;
 use std::fmt::Display;

@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Gear definition, tooth flanks, fillet, microgeometry and the kinematics of a pair.
 //!
 //! The way through this crate is the way the theory goes:

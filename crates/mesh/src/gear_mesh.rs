@@ -16,9 +16,9 @@ use crate::solid_body::SolidBody;
 use crate::tet_split;
 use crate::twist::Twist;
 use gearmesh_elements::CellKind;
-use gearmesh_geometry::{Blank, CutIntoShaft, Element, Flank, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Blank, Element, Flank, GearDefinition, ProfileCurve};
 use std::collections::BTreeMap;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
 const NONE: u32 = u32::MAX;
 /// Rounding of radii.
@@ -107,8 +107,14 @@ impl GearMesh {
             layers.planes_m.clone()
         };
         let (n_levels, n_layers) = (levels_m.len(), layers.count());
-        let in_layer =
-            |quad: usize, layer: usize| !section.web_only[quad] || layers.web.contains(&layer);
+        let reach = |quad: usize| {
+            let radii = section.quads[quad].map(|n| section.nodes[n][0].hypot(section.nodes[n][1]));
+            radii.into_iter().fold(0.0, f64::max)
+        };
+        let in_layer = |quad: usize, layer: usize| match layers.stub_radius_m(layer) {
+            None => !section.web_only[quad] || layers.web.contains(&layer),
+            Some(radius) => reach(quad) <= radius * (1.0 + SAME_RADIUS),
+        };
         // Section node and level of the nodes of a quad's element, VTK order.
         let places = |quad: usize, layer: usize| -> Vec<(usize, usize)> {
             let corners = section.quads[quad];
@@ -186,7 +192,15 @@ impl GearMesh {
     /// Nodes above and below some nodes of the cross-section: those of the first, from −z to +z, then those of the
     /// second, ...
     fn columns(&self, section_nodes: impl IntoIterator<Item = usize>) -> Vec<u32> {
-        let levels = 0..self.levels_m.len();
+        self.columns_between(0..self.levels_m.len(), section_nodes)
+    }
+
+    /// As [`GearMesh::columns`], on some levels.
+    fn columns_between(
+        &self,
+        levels: Range<usize>,
+        section_nodes: impl IntoIterator<Item = usize>,
+    ) -> Vec<u32> {
         section_nodes
             .into_iter()
             .flat_map(|n| levels.clone().filter_map(move |level| self.node(n, level)))
@@ -215,32 +229,41 @@ impl GearMesh {
         }
     }
 
-    /// Nodes at which the gear is held: those of the bore, or of a gear cut into its shaft those of the end faces within the
-    /// shaft's outline.
+    /// Nodes at which the gear is held: those of the bore, or of a gear cut into its shaft those at the ends of the
+    /// shaft's stubs.
     pub fn held(&self, blank: &Blank) -> Vec<u32> {
         match blank.cut_into_shaft() {
             None => self.bore(),
-            Some(shaft) => self.shaft_faces(shaft).concat(),
+            Some(_) => self.stub_ends().concat(),
         }
     }
 
-    /// Nodes of the back and of the front face within the shaft's outline; none of a face where the shaft does not go
-    /// on.
-    pub fn shaft_faces(&self, shaft: &CutIntoShaft) -> [Vec<u32>; 2] {
+    /// Nodes at the ends of the shaft's stubs on the back and the front face; none where the shaft does not go on.
+    pub fn stub_ends(&self) -> [Vec<u32>; 2] {
         let levels = [0, self.levels_m.len() - 1];
         [0, 1].map(|face| {
-            let radius = shaft.end_radii_m[face] * (1.0 + SAME_RADIUS);
-            let within = |node: &u32| {
-                let [x, y, _] = self.nodes[*node as usize];
-                x.hypot(y) <= radius
-            };
+            if self.layers.stub_radii_m[face] == 0.0 {
+                return Vec::new();
+            }
             let mut nodes: Vec<u32> = (0..self.section.nodes.len())
                 .filter_map(|n| self.node(n, levels[face]))
-                .filter(within)
                 .collect();
             nodes.sort_unstable();
             nodes
         })
+    }
+
+    /// Elements of the shaft's stubs, whose mass is the shaft's; none of a gear with a bore.
+    pub fn stub_elements(&self) -> Vec<u32> {
+        let quads = 0..self.section.quads.len();
+        let stubs = (0..self.layers.count()).filter(|layer| !self.layers.face.contains(layer));
+        quads
+            .flat_map(|quad| {
+                stubs
+                    .clone()
+                    .filter_map(move |layer| self.element(quad, layer))
+            })
+            .collect()
     }
 
     /// Nodes of the bore.
@@ -268,7 +291,13 @@ impl GearMesh {
 
     /// Nodes of a tooth with the ring below it, the i-th of each tooth the image of the i-th of tooth 0.
     pub fn cell_nodes(&self, tooth: usize) -> Vec<u32> {
-        self.columns(self.section.cell_nodes[tooth].iter().copied())
+        // A shaft as thick as the ring goes on below it: what is beyond the faces is no part of the teeth.
+        let step = (self.levels_m.len() - 1) / self.layers.count();
+        let face = &self.layers.face;
+        self.columns_between(
+            step * face.start..step * face.end + 1,
+            self.section.cell_nodes[tooth].iter().copied(),
+        )
     }
 
     /// Elements of a tooth with the ring below it.

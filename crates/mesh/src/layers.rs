@@ -5,20 +5,28 @@
 //! 19 (1952) 526). Layers that grow with the distance from the edge win that back.
 
 use crate::grading::{Pieces, graded};
-use gearmesh_geometry::{Element, GearDefinition};
+use gearmesh_geometry::{CutIntoShaft, Element, GearDefinition};
+use std::ops::Range;
 
 /// Thickness of the layers at the web's faces, as a share of `axial_m`.
 const AT_EDGE: f64 = 0.2;
 /// Growth of the thickness with the distance from there.
 const GROWTH: f64 = 0.5;
 
-/// The layers of a gear.
+/// Layers of a stub of shaft, at least.
+const STUB_LAYERS: usize = 2;
+
+/// The layers of a gear, and of the stubs of the shaft that it is cut into.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layers {
-    /// Axial positions of the node planes \[m\], from −b/2 to b/2.
+    /// Axial positions of the node planes \[m\]: from −b/2 to b/2, and on to the ends of the stubs.
     pub planes_m: Vec<f64>,
-    /// Layers that the web occupies; all layers for a solid blank.
-    pub web: std::ops::Range<usize>,
+    /// Layers that the web occupies; those of the face for a solid blank.
+    pub web: Range<usize>,
+    /// Layers between the gear's faces.
+    pub face: Range<usize>,
+    /// Radii of the stubs behind and in front of them \[m\]; 0 where there is none.
+    pub stub_radii_m: [f64; 2],
 }
 
 impl Layers {
@@ -35,24 +43,55 @@ impl Layers {
         levels
     }
 
+    /// Radius of the stub that a layer belongs to \[m\]; none between the gear's faces.
+    pub fn stub_radius_m(&self, layer: usize) -> Option<f64> {
+        let front = layer >= self.face.end;
+        (front || layer < self.face.start).then(|| self.stub_radii_m[usize::from(front)])
+    }
+
     /// A single layer of the given width about mid-face, which the web fills too.
     pub fn single(width_m: f64) -> Self {
+        Self::between_faces(vec![-0.5 * width_m, 0.5 * width_m], 0..1)
+    }
+
+    fn between_faces(planes_m: Vec<f64>, web: Range<usize>) -> Self {
         Self {
-            planes_m: vec![-0.5 * width_m, 0.5 * width_m],
-            web: 0..1,
+            face: 0..planes_m.len() - 1,
+            planes_m,
+            web,
+            stub_radii_m: [0.0; 2],
         }
+    }
+
+    /// The same with even layers of a shaft's stubs beyond the faces, at most `axial_m` thick.
+    fn with_stubs(mut self, shaft: &CutIntoShaft, axial_m: f64) -> Self {
+        let half = self.planes_m[self.planes_m.len() - 1];
+        let [back, front] = shaft.stub_lengths_m().map(|length| {
+            let count = match length {
+                0.0 => 0,
+                _ => ((length / axial_m).ceil() as usize).max(STUB_LAYERS),
+            };
+            (1..=count)
+                .map(|k| half + length * k as f64 / count as f64)
+                .collect::<Vec<f64>>()
+        });
+        let behind = back.len();
+        self.planes_m
+            .splice(0..0, back.into_iter().rev().map(|z| -z));
+        self.planes_m.extend(front);
+        for range in [&mut self.web, &mut self.face] {
+            *range = range.start + behind..range.end + behind;
+        }
+        self.stub_radii_m = shaft.end_radii_m;
+        self
     }
 
     /// An even number of equal layers, at most `axial_m` thick.
     fn even(width_m: f64, axial_m: f64) -> Self {
         let pairs = (0.5 * width_m / axial_m * (1.0 - 1e-9)).ceil().max(1.0);
         let count = 2 * pairs as usize;
-        Self {
-            planes_m: (0..=count)
-                .map(|k| width_m * (k as f64 / count as f64 - 0.5))
-                .collect(),
-            web: 0..count,
-        }
+        let planes = (0..=count).map(|k| width_m * (k as f64 / count as f64 - 0.5));
+        Self::between_faces(planes.collect(), 0..count)
     }
 
     /// Layers of a gear. The web has an even number of them, so that its middle, mid-face of a symmetric gear, is a
@@ -104,9 +143,10 @@ impl Layers {
                 planes.extend(&graded(from, to, thickness, any)[1..]);
             }
         }
-        Self {
-            planes_m: planes,
-            web,
+        let layers = Self::between_faces(planes, web);
+        match gear.blank.cut_into_shaft() {
+            Some(shaft) => layers.with_stubs(shaft, axial),
+            None => layers,
         }
     }
 }

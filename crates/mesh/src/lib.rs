@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! From a gear definition to hexahedra of eight or twenty nodes: one tooth cell and one body sector of the
 //! cross-section are meshed in quads by gmsh, copied round the axis and layered along it. Or to tetrahedra of ten
 //! nodes: the teeth by splitting such layers, the body as a free mesh of its revolved contour.

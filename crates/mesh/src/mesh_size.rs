@@ -60,7 +60,7 @@ impl MeshSize {
             return None;
         }
         let layers = Layers::new(gear);
-        let all = layers.count() as f64;
+        let all = layers.face.len() as f64;
         let web = if gear.blank.web().is_some() {
             layers.web.len() as f64
         } else {
@@ -94,7 +94,15 @@ impl MeshSize {
         let mut body_nodes = 0.0;
         for pair in circles.windows(2) {
             let ((outer, web_only), (inner, _)) = (pair[0], pair[1]);
-            let layers = if web_only { web } else { all };
+            let stubs = (0..layers.count()).filter(|&layer| {
+                let radius = layers.stub_radius_m(layer);
+                radius.is_some_and(|radius| outer < radius * (1.0 + 1e-6))
+            });
+            let layers = if web_only {
+                web
+            } else {
+                all + stubs.count() as f64
+            };
             if element == Element::Tet10 {
                 let share = web_share(gear, web_only);
                 let thin = thinnest(gear, web_only);

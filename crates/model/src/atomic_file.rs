@@ -2,7 +2,7 @@
 //! a link points to is not overwritten.
 
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::Write;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -26,6 +26,29 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
             path: path.to_owned(),
             action: "write",
             source,
+        })
+    })
+}
+
+/// Writes a file part by part, so that it need not be held in memory.
+///
+/// # Errors
+/// Those of `fill`, [`FileError::NotARegularFile`], [`FileError::OutputIsALink`], [`FileError::Io`]; `path` is then as
+/// it was.
+pub fn write_streamed<E: From<FileError>>(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<&mut File>) -> Result<(), E>,
+) -> Result<(), E> {
+    let staging = (folder_of(path), TEMPORARY_SUFFIX);
+    write_atomically_from(staging, path, |_, file| {
+        let mut out = BufWriter::with_capacity(1 << 20, file);
+        fill(&mut out)?;
+        out.flush().map_err(|source| {
+            E::from(FileError::Io {
+                path: path.to_owned(),
+                action: "write",
+                source,
+            })
         })
     })
 }
@@ -157,7 +180,7 @@ pub(crate) fn write_atomically_from<E: From<FileError>>(
 }
 
 /// What names of temporary files begin with: the same for all writes of one file name.
-fn temporary_prefix(path: &Path) -> String {
+pub(crate) fn temporary_prefix(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default();
     let digest = blake3::hash(name.as_encoded_bytes()).to_hex();
     format!(".gearmesh-{}-", &digest[..16])

@@ -3,6 +3,7 @@
 //!
 //! Besides the columns, which are the one-dimensional datasets under `columns/`, the file is an ordinary [`DataTree`].
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use hdf5::{Dataset, File};
@@ -119,6 +120,7 @@ pub struct ColumnFile {
     file: File,
     version: u32,
     columns: Vec<Column>,
+    beside: Vec<Column>,
     rows: usize,
 }
 
@@ -137,6 +139,7 @@ impl ColumnFile {
             file,
             version,
             columns: Vec::new(),
+            beside: Vec::new(),
             rows: 0,
         };
         for (place, name) in order.lines().enumerate() {
@@ -145,6 +148,7 @@ impl ColumnFile {
             if place == 0 {
                 opened.rows = rows;
             }
+            reader.demand_numbers(&dataset, name)?;
             if dataset.shape() != [opened.rows] {
                 return Err(FileError::WrongShape {
                     path: path.to_owned(),
@@ -175,6 +179,18 @@ impl ColumnFile {
         self
     }
 
+    /// The same file; the columns whose names begin so stand beside the others.
+    pub fn with_beside(mut self, start: &str) -> Self {
+        let all = std::mem::take(&mut self.columns);
+        (self.beside, self.columns) = all.into_iter().partition(|c| c.name.starts_with(start));
+        self
+    }
+
+    /// The columns that stand beside the others; all are read alike.
+    pub fn beside(&self) -> &[Column] {
+        &self.beside
+    }
+
     /// The columns, in the order of the rows they came from.
     pub fn columns(&self) -> &[Column] {
         &self.columns
@@ -194,6 +210,23 @@ impl ColumnFile {
         let reader = Reader { path: &self.path };
         reader.dataset(&self.dataset(name)?, name.to_owned(), &mut tree)?;
         tree.take_f64(&self.path, name, &[self.rows])
+    }
+
+    /// Some rows of a column.
+    ///
+    /// # Errors
+    /// [`FileError::Missing`], [`FileError::WrongType`], [`FileError::Hdf5`].
+    ///
+    /// # Panics
+    /// If there are not so many rows.
+    pub fn read_rows(&self, name: &str, rows: Range<usize>) -> Result<Vec<f64>, FileError> {
+        assert!(rows.end <= self.rows, "{rows:?} of {} rows", self.rows);
+        let dataset = self.dataset(name)?;
+        let reader = Reader { path: &self.path };
+        reader.demand_numbers(&dataset, name)?;
+        let read = dataset.read_slice_1d::<f64, _>(rows);
+        let failed = |error| hdf5_error(&self.path, &format!("read \"{name}\" of"))(error);
+        Ok(read.map_err(failed)?.to_vec())
     }
 
     fn dataset(&self, name: &str) -> Result<Dataset, FileError> {
@@ -242,6 +275,8 @@ mod tests {
             let values = file.read(name).unwrap();
             let expected: Vec<f64> = (0..rows).map(|i| factor * i as f64).collect();
             assert_eq!(values, expected);
+            assert_eq!(file.read_rows(name, 5..9).unwrap(), expected[5..9]);
+            assert!(file.read_rows(name, rows..rows).unwrap().is_empty());
         }
         assert!(matches!(file.read("b"), Err(FileError::Missing { .. })));
     }

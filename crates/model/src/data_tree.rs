@@ -120,6 +120,17 @@ impl DataTree {
         self.texts.insert(name.into(), text.into());
     }
 
+    /// Array and place of the first entry that is not a number; none in any file that is complete.
+    pub(crate) fn first_not_a_number(&self) -> Option<(&str, usize)> {
+        self.arrays.iter().find_map(|(name, array)| {
+            let Values::F64(values) = &array.values else {
+                return None;
+            };
+            let index = values.iter().position(|value| value.is_nan())?;
+            Some((&name[..], index))
+        })
+    }
+
     /// The names directly below a group (`""` is the root), each once, sorted.
     pub fn children(&self, group: &str) -> Vec<String> {
         let prefix = if group.is_empty() {

@@ -82,7 +82,7 @@ pub(crate) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Everything in the file, but for one group of the root.
+    /// Everything in the file, but for one group of the root. No array of the writer holds what is not a number.
     pub(crate) fn tree(&self, file: &File, skip: Option<&str>) -> Result<DataTree, FileError> {
         let mut tree = DataTree::default();
         for name in file
@@ -95,7 +95,14 @@ impl Reader<'_> {
             }
         }
         self.group(file, "", skip, &mut tree)?;
-        Ok(tree)
+        match tree.first_not_a_number() {
+            None => Ok(tree),
+            Some((name, index)) => Err(FileError::Contradiction {
+                path: self.path.to_owned(),
+                item: name.to_owned(),
+                problem: format!("entry {index} is not a number"),
+            }),
+        }
     }
 
     fn group(
@@ -173,6 +180,22 @@ impl Reader<'_> {
         };
         tree.arrays.insert(name, array);
         Ok(())
+    }
+
+    /// Demands that a dataset holds 64-bit floating point numbers.
+    pub(crate) fn demand_numbers(
+        &self,
+        dataset: &hdf5::Dataset,
+        name: &str,
+    ) -> Result<(), FileError> {
+        let failed = |error| hdf5_error(self.path, &format!("read \"{name}\" of"))(error);
+        let stored = dataset.dtype().and_then(|stored| stored.to_descriptor());
+        let stored = stored.map_err(failed)?;
+        if stored == f64::type_descriptor() {
+            return Ok(());
+        }
+        let found = format!("{stored}");
+        Err(wrong_type(self.path, name, &found, "64-bit floating point"))
     }
 
     fn axis_labels(&self, dataset: &hdf5::Dataset) -> Result<Vec<String>, FileError> {

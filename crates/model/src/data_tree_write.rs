@@ -30,19 +30,14 @@ impl DataTree {
 
     /// A file that is complete holds numbers only: what could not be computed is told before it is written.
     pub(crate) fn check_numbers(&self, path: &Path) -> Result<(), FileError> {
-        for (name, array) in &self.arrays {
-            let Values::F64(values) = &array.values else {
-                continue;
-            };
-            if let Some(index) = values.iter().position(|value| value.is_nan()) {
-                return Err(FileError::NotANumber {
-                    path: path.to_owned(),
-                    item: name.clone(),
-                    index,
-                });
-            }
+        match self.first_not_a_number() {
+            None => Ok(()),
+            Some((name, index)) => Err(FileError::NotANumber {
+                path: path.to_owned(),
+                item: name.to_owned(),
+                index,
+            }),
         }
-        Ok(())
     }
 
     pub(crate) fn check_names(&self, path: &Path) -> Result<(), FileError> {

@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! The contract between the offline and the online side, and every HDF5 file of gearmesh.
 //!
 //! | to store | use |
@@ -49,13 +53,16 @@ mod row_log;
 mod seal;
 mod shaft_faces;
 mod shaft_faces_file;
+mod staged_folder;
 mod stored_gear;
 #[doc(hidden)]
 pub mod synthetic;
 mod text_heap;
 mod timestamp;
 
-pub use atomic_file::{demand_output, wait_for_writes, write_by, write_bytes, write_text};
+pub use atomic_file::{
+    demand_output, wait_for_writes, write_by, write_bytes, write_streamed, write_text,
+};
 pub use bevel_body::{BevelBody, BevelMember, BevelNearField, SpiralHand};
 pub use column_file::{Column, ColumnFile, write_columns};
 pub use csv_cell::{csv_cell, no_formula, without_apostrophe};
@@ -80,5 +87,6 @@ pub use root_crack::RootCrack;
 pub use row_log::{LockedLog, RowLog};
 pub use seal::{bytes_digest, file_digest};
 pub use shaft_faces::{FaceMass, ShaftFaces};
+pub use staged_folder::write_folder;
 pub use stored_gear::StoredGear;
 pub use timestamp::utc_now;

@@ -250,8 +250,10 @@ impl ReducedGear {
                 "one hand or both, each once",
             ));
         }
-        if self.grid.slices == 0 {
-            return Err(out_of_range("slices", 0, "at least 1"));
+        // The grid has stations at the edges and in the middle of the slices that the gear was reduced with.
+        if !(1..=self.grid.z_m.len()).contains(&self.grid.slices) {
+            let (found, allowed) = (self.grid.slices, "1 to the number of axial stations");
+            return Err(out_of_range("slices", found, allowed));
         }
         Ok(())
     }

@@ -30,7 +30,12 @@ _SHOWN = {
 }
 
 # Names of axes in files as those of coordinates, and the data sets that hold these.
-_DIMENSIONS = {"driver angle": "angle", "contact line": "line"}
+_DIMENSIONS = {
+    "driver angle": "angle",
+    "contact line": "line",
+    "position between": "position",
+    "contact line between": "line_between",
+}
 _COORDINATES = {"torque": "torque_Nm", "angle": "angle_rad"}
 
 
@@ -250,7 +255,7 @@ class Result:
         title = html.escape(self.title)
         if self.kind != "pair":
             return f"<b>{title}</b><br>{html.escape(repr(self))}"
-        table = self.tables()["torques"]
+        table = self._native.torque_figures()
         shown = {name: head for name, head in _SHOWN.items() if name in table}
         heads = "".join(f"<th>{head}</th>" for head, _ in shown.values())
         rows = ""
@@ -268,9 +273,9 @@ class Result:
             calls = "".join(f", `{name}` called {calls} times" for name, calls in self.calls.items())
             return f"<Result {self.title!r}: {head}{calls}>"
         lines = [f"<Result {self.title!r}: {len(self['angle_rad'])} positions at each torque"]
-        for row, torque in zip(self["te_m"], self["torque_Nm"]):
-            mean_um, range_um = 1e6 * row.mean(), 1e6 * np.ptp(row)
-            lines.append(f"  {torque:g} N m: TE mean {mean_um:.3f} um, peak to peak {range_um:.3f} um")
+        figures = self._native.torque_figures()
+        for torque, mean_m, range_m in zip(*(figures[name] for name in ("torque_Nm", "te_mean_m", "te_peak_to_peak_m"))):
+            lines.append(f"  {torque:g} N m: TE mean {1e6 * mean_m:.3f} um, peak to peak {1e6 * range_m:.3f} um")
         if len(lines) > 7:
             lines[6:] = [f"  ... {len(lines) - 6} torques more"]
         return "\n".join(lines) + ">"

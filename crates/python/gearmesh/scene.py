@@ -23,11 +23,17 @@ Functions = Mapping[str, Callable[..., Any]]
 """Python functions by the names that the scene has for them."""
 
 
+class SceneTables(dict[str, Any]):
+    """The tables of a scene, with the folder where the files lie that it names."""
+
+    folder: Path
+
+
 class Scene:
     """A scene of either kind (docs/scene.md), checked: a gear pair at rest, or a multibody system.
 
-    source: a scene file, or its tables as a dict. folder: where files lie that the scene names; that of the file, or
-    the working directory. functions: the Python functions that the scene names, see "Python functions in a scene" in
+    source: a scene file, or its tables as a dict. folder: where files lie that the scene names; that of the file or of the
+    Scene that the tables are from, or the working directory. functions: the Python functions that the scene names, see "Python functions in a scene" in
     docs/python.md. Raises FileNotFoundError, InputError with file, line and key.
 
     Attributes: kind ("pair" or "system"), title, toml (text of the file), tables (the same as dicts).
@@ -40,7 +46,8 @@ class Scene:
         functions: Functions | None = None,
     ) -> None:
         if isinstance(source, dict):
-            self._take(to_toml(source), "Scene", Path(folder or ".").absolute(), functions)
+            beside = folder or getattr(source, "folder", ".")
+            self._take(to_toml(source), "Scene", Path(beside).absolute(), functions)
         else:
             file, beside = Path(source), Path(folder or Path(source).parent)
             self._take(file.read_text(encoding="utf-8"), str(source), beside.absolute(), functions)
@@ -71,8 +78,10 @@ class Scene:
 
     @property
     def tables(self) -> Tables:
-        """The file as nested dicts; a copy."""
-        return from_toml(self.toml, self.file)
+        """The file as nested dicts; a copy. It knows the folder of the files that it names: Scene(scene.tables) finds them."""
+        tables = SceneTables(from_toml(self.toml, self.file))
+        tables.folder = self.folder
+        return tables
 
     def but(self, changes: Mapping[str, Any]) -> Scene:
         """The same scene with keys changed: dotted paths, items of lists by number, {"run.torques_Nm": [100.0]}.
@@ -159,6 +168,20 @@ def _functions_named(value: Any) -> Iterator[str]:
             yield from _functions_named(item)
 
 
+def refuse_one_hand(gear_1: Any, gear_2: Any) -> None:
+    """Two helical gears of one hand do not mesh on parallel axes: said before minutes go into reducing them."""
+
+    def hand(gear: Any) -> str | None:
+        tables = getattr(gear, "tables", None)
+        return tables.get("tooth", {}).get("hand") if isinstance(tables, dict) else None
+
+    first, second = hand(gear_1), hand(gear_2)
+    if first is not None and first == second:
+        raise _native.InputError(
+            f"gear_2: tooth.hand is {second!r}, as gear_1's: gears on parallel axes have opposite hands; change one of them"
+        )
+
+
 class Pair(Scene):
     """A gear pair at rest, position by position.
 
@@ -187,6 +210,7 @@ class Pair(Scene):
         gear_2_flanks: Tables | None = None,
         **tables: Any,
     ) -> None:
+        refuse_one_hand(gear_1, gear_2)
         for place, gear in enumerate((gear_1, gear_2), 1):
             if callable(getattr(gear, "reduce", None)):
                 raise TypeError(f"gear_{place}: a Gear is not reduced yet; give its model, gear_{place}.reduce()")

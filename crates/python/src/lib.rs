@@ -64,4 +64,11 @@ mod native {
     #[pymodule_export]
     #[allow(non_upper_case_globals)]
     const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_init]
+    fn init(_: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        gearmesh_fe::split_alike();
+        let threads = gearmesh_geometry::input::demand_threads();
+        threads.map_err(|error| InputError::new_err(error.to_string()))
+    }
 }

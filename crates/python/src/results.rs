@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use gearmesh_report::export::{Cells, Table, pair_tables, system_tables};
+use gearmesh_report::export::{Cells, Table, pair_tables, system_tables, torque_table};
+use gearmesh_scene::rating::RatingResult;
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_scene::{ResultFile, SceneResult};
 use numpy::PyArray1;
@@ -85,19 +86,21 @@ impl NativeResult {
 
     /// What the user should know: assumptions that do not hold, periods not seen whole, energy that was lost.
     #[getter]
-    fn warnings(&self) -> Vec<String> {
-        match &self.0 {
+    fn warnings(&self) -> PyResult<Vec<String>> {
+        Ok(match &self.0 {
             Kept::Pair(pair) => {
                 let mut warnings = pair.head.warnings.clone();
                 warnings.extend(pair.head.incomplete());
+                warnings.extend(pair.head.ratings.iter().flat_map(RatingResult::reported));
                 warnings
             }
             Kept::System(result) => {
                 let mut warnings = result.head.notes.clone();
                 warnings.extend(result.problem());
+                warnings.extend(result.warnings().map_err(file_error)?);
                 warnings
             }
-        }
+        })
     }
 
     /// Names of all data sets of a pair, of the columns of a multibody result.
@@ -141,24 +144,22 @@ impl NativeResult {
                 let result = pair.result(py)?;
                 py.detach(|| pair_tables(&result))
             }
-            Kept::System(result) => py
-                .detach(|| system_tables(result))
-                .map_err(|error| InputError::new_err(error.to_string()))?,
+            Kept::System(result) => system_tables(result),
         };
         let found = PyDict::new(py);
-        for Table { name, columns } in tables {
-            let table = PyDict::new(py);
-            for (head, cells) in columns {
-                match cells {
-                    Cells::Numbers(values) => {
-                        table.set_item(head, PyArray1::from_vec(py, values))?;
-                    }
-                    Cells::Texts(texts) => table.set_item(head, texts)?,
-                }
-            }
-            found.set_item(name, table)?;
+        for table in tables {
+            found.set_item(table.name.clone(), columns(py, table)?)?;
         }
         Ok(found)
+    }
+
+    /// The table `torques` of a pair: the figures of each torque.
+    fn torque_figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Kept::Pair(pair) = &self.0 else {
+            return Ok(PyDict::new(py));
+        };
+        let result = pair.result(py)?;
+        columns(py, py.detach(|| torque_table(&result)))
     }
 
     /// Writes a pair's result; that of a multibody scene is a file already.
@@ -173,4 +174,20 @@ impl NativeResult {
             )),
         }
     }
+}
+
+/// The columns of a table by name.
+fn columns<'py>(py: Python<'py>, table: Table<'_>) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    for (head, cells) in table.columns {
+        match cells {
+            Cells::Numbers(values) => found.set_item(head, PyArray1::from_vec(py, values))?,
+            Cells::Texts(texts) => found.set_item(head, texts)?,
+            Cells::Column(file, name) => {
+                let values = file.read(&name).map_err(file_error)?;
+                found.set_item(head, PyArray1::from_vec(py, values))?;
+            }
+        }
+    }
+    Ok(found)
 }

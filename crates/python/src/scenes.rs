@@ -184,7 +184,7 @@ fn run_system(
 ) -> PyResult<(NativeResult, Vec<String>)> {
     watched(py, progress, OnInterrupt::Wait, move |watch| {
         let loaded = scene.load().map_err(input_error)?;
-        let mut notes = notes(&loaded.scene.notes, &loaded.unit_slips());
+        let mut notes = loaded.scene.notes.clone();
         let job = RunJob::from_scene(loaded).map_err(system_error)?;
         notes.extend(job.head.notes.iter().cloned());
         let stage = job.kind.of_result().to_string();

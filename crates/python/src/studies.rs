@@ -1,7 +1,7 @@
 //! Studies whose cases other processes compute.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use gearmesh_geometry::GearDefinition;
@@ -10,8 +10,9 @@ use gearmesh_model::ReducedGear;
 use gearmesh_model::write_text;
 use gearmesh_reduction::{ReductionOptions, read_body, reduce, reduce_imported};
 use gearmesh_report::study_figures;
+use gearmesh_report::study_page::study_page;
 use gearmesh_scene::study::{
-    CaseRunner, MadeFile, SentCase, Study, StudyCases, StudyError, StudyOptions,
+    CaseResult, CaseRunner, MadeFile, SentCase, Study, StudyCases, StudyError, StudyOptions,
     gather_study as gather, run_study,
 };
 use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
@@ -64,8 +65,16 @@ pub(crate) fn study(
         if outcome.stopped {
             return Err(PyKeyboardInterrupt::new_err(""));
         }
-        Ok(study_figures(&study, &outcome.cases).to_string())
+        told(&study, &outcome.cases, &folder)
     })
+}
+
+/// What `gearmesh study --json` prints; the page study.html is written beside the results.
+fn told(study: &Study, cases: &[CaseResult], folder: &Path) -> PyResult<String> {
+    let page = study_page(study, cases).render();
+    let page = page.map_err(|error| WorkError::new_err(error.to_string()))?;
+    write_text(&folder.join("study.html"), &page).map_err(file_error)?;
+    Ok(study_figures(study, cases).to_string())
 }
 
 fn reduced(
@@ -101,7 +110,7 @@ pub(crate) fn gather_study(
     py.detach(|| {
         let study = Study::read(&path).map_err(input_error)?;
         let outcome = gather(&study, &folder, &failures).map_err(study_error)?;
-        Ok(study_figures(&study, &outcome.cases).to_string())
+        told(&study, &outcome.cases, &folder)
     })
 }
 

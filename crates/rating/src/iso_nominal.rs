@@ -12,16 +12,22 @@
 //! ```
 //!
 //! Y_F and Y_S are those of the section where the tangent of the tooth's own fillet makes 30° with its centre line, in
-//! the normal section, with the load at the highest point of single contact. Y_DT is 1 up to ε_αn = 2.05; from ε_αn = 2
-//! on there is no such point and no σ_F0. Below half a tooth height of rim Y_B is not defined, and the gear has no
-//! σ_F0.
+//! the normal section, with the load ε_αn − 1 normal base pitches below the tip: at the highest point of single contact
+//! below ε_αn = 2, at the inner point of triple contact from there on. For teeth so deep
+//!
+//! ```text
+//! Y_DT = 1                       ε_αn ≤ 2.05, or flanks of a tolerance class above 4
+//! Y_DT = 2.366 − 0.666 ε_αn      2.05 < ε_αn < 2.5 and tolerance class 4 or better (ISO 1328-1)
+//! ```
+//!
+//! since only flanks of small errors share the load among three pairs (ISO 6336-3:2006, deep tooth factor, from memory;
+//! its ends meet 1 at 2.05 and 0.7 at 2.5 within 1e-3). From ε_αn = 2.5 on there is no σ_F0 here, nor below half a tooth
+//! height of rim, where Y_B is not defined.
 
-use crate::root_section::{
-    RootConstruction, RootSection, RootSectionError, highest_single_contact_roll_rad,
-};
+use crate::root_section::{RootConstruction, RootSection, RootSectionError};
 use crate::virtual_gear::VirtualGear;
 use gearmesh_geometry::{GearPair, Material, ToothDefinition, ToothGeometry};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Factors of σ_H0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +55,28 @@ pub struct IsoRoot {
     pub helix_factor: f64,
     /// Y_B.
     pub rim_factor: f64,
+    /// Y_DT.
+    pub deep_tooth_factor: f64,
+    /// Contact ratio ε_αn of the virtual spur gears.
+    pub virtual_contact_ratio: f64,
+}
+
+/// Contact ratio ε_αn up to which Y_DT is 1 for flanks of every class.
+const DEEP: f64 = 2.05;
+
+/// Contact ratio ε_αn from which there is no σ_F0.
+const DEEPEST: f64 = 2.5;
+
+/// Worst tolerance class of ISO 1328-1 whose flanks share the load among three pairs.
+const SHARING_CLASS: usize = 4;
+
+/// Y_DT at a contact ratio ε_αn below 2.5; a class that is not known counts as one above 4, which is safe.
+fn deep_tooth_factor(ratio: f64, tolerance_class: Option<usize>) -> f64 {
+    if ratio > DEEP && tolerance_class.is_some_and(|class| class <= SHARING_CLASS) {
+        2.366 - 0.666 * ratio
+    } else {
+        1.0
+    }
 }
 
 impl IsoPressure {
@@ -95,8 +123,8 @@ impl IsoPressure {
 
 impl IsoRoot {
     /// The factors of one gear of a pair, by its definition and its geometry, over the common face width \[m\];
-    /// `rim_m`: rim below the root circle, none of a solid gear. None where the method has none: ε_αn from 2 on, no 30°
-    /// tangent, or a rim below half a tooth height.
+    /// `rim_m`: rim below the root circle, none of a solid gear; `tolerance_class`: of ISO 1328-1, the worse one of both
+    /// gears. None where the method has none: ε_αn from 2.5 on, no 30° tangent, or a rim below half a tooth height.
     ///
     /// # Errors
     /// [`RootSectionError`] where the normal section is that of no spur gear.
@@ -104,7 +132,7 @@ impl IsoRoot {
         (tooth, own): (&ToothDefinition, &ToothGeometry),
         pair: &GearPair,
         face_width_m: f64,
-        rim_m: Option<f64>,
+        (rim_m, tolerance_class): (Option<f64>, Option<usize>),
     ) -> Result<Option<Self>, RootSectionError> {
         let gear = VirtualGear::new(tooth)?;
         let ratio = gear.contact_ratio(pair.contact_ratio());
@@ -113,9 +141,13 @@ impl IsoRoot {
         let Some(rim_factor) = rim_factor else {
             return Ok(None);
         };
+        if ratio >= DEEPEST {
+            return Ok(None);
+        }
         let section = |spur: &ToothGeometry| {
-            let roll = highest_single_contact_roll_rad(spur, ratio)?;
-            RootSection::new(spur, roll, RootConstruction::Tangent30)
+            let below_tip_rad = (ratio - 1.0).max(0.0) * TAU / spur.teeth as f64;
+            let roll_rad = spur.flank_end_roll_rad - below_tip_rad;
+            RootSection::new(spur, roll_rad, RootConstruction::Tangent30)
         };
         let form = gear.interpolated(|spur| {
             Ok(section(spur)?.iso_form_factor(tooth.module_m, tooth.pressure_angle_rad))
@@ -129,13 +161,19 @@ impl IsoRoot {
                 stress_correction_factor,
                 helix_factor: 1.0 - overlap * helix_deg / 120.0,
                 rim_factor,
+                deep_tooth_factor: deep_tooth_factor(ratio, tolerance_class),
+                virtual_contact_ratio: ratio,
             })),
-            (
-                Err(RootSectionError::NoSingleContact { .. } | RootSectionError::NoTangent { .. }),
-                _,
-            ) => Ok(None),
+            (Err(RootSectionError::NoTangent { .. }), _) => Ok(None),
             (Err(error), _) | (_, Err(error)) => Err(error),
         }
+    }
+
+    /// Whether a tolerance class of 4 or better would lower σ_F0, and to what share.
+    #[must_use]
+    pub fn share_of_fine_classes(&self) -> Option<f64> {
+        let share = deep_tooth_factor(self.virtual_contact_ratio, Some(SHARING_CLASS));
+        (share < self.deep_tooth_factor).then_some(share)
     }
 
     /// σ_F0 \[Pa\] under the tangential force F_t \[N\] at the reference circle, over the face width b and with the
@@ -147,6 +185,7 @@ impl IsoRoot {
             * self.stress_correction_factor
             * self.helix_factor
             * self.rim_factor
+            * self.deep_tooth_factor
     }
 }
 

@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Rating: is the tooth strong enough, and for how long.
 //!
 //! | you have | you want | use |

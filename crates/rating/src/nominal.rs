@@ -69,7 +69,8 @@ pub struct NominalStresses {
 
 impl NominalRating {
     /// The rating of a pair that was made of two gears with these teeth; its force acts at `load` for Lewis's stress,
-    /// over the width of the narrower gear. `rims_m`: thickness of rims below the root circles, none of solid gears.
+    /// over the width of the narrower gear. `rims_m`: thickness of rims below the root circles, none of solid gears;
+    /// `tolerance_class`: of ISO 1328-1, the worse one of both gears, where it is known.
     ///
     /// # Errors
     /// [`NominalError`].
@@ -78,7 +79,7 @@ impl NominalRating {
         teeth: [&ToothDefinition; 2],
         materials: [Material; 2],
         rims_m: [Option<f64>; 2],
-        load: LoadPoint,
+        (load, tolerance_class): (LoadPoint, Option<usize>),
     ) -> Result<Self, NominalError> {
         let [first, second] = teeth;
         let factor = |tooth| VirtualGear::new(tooth)?.lewis_factor(load, pair.contact_ratio());
@@ -102,7 +103,8 @@ impl NominalRating {
         let gear_1 = &pair.gear_1;
         let iso = |k: usize| {
             let own = [&pair.gear_1, &pair.gear_2][k];
-            IsoRoot::new((teeth[k], own), pair, face_width_m, rims_m[k])
+            let blank = (rims_m[k], tolerance_class);
+            IsoRoot::new((teeth[k], own), pair, face_width_m, blank)
         };
         Ok(Self {
             lewis_factors: [factor(first)?, factor(second)?],

@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! Strain at gauges from slice forces, without any displacement field: one row of numbers per gauge.
 //!
 //! Method 1 of *Transmission Error and Strain Analysis of Lightweight Gears* (seed 004 in docs/sources.md) superposes

@@ -6,13 +6,13 @@
 use crate::flank_loads::{GridLoad, SparseVector, dot};
 use crate::gear_body::GearBody;
 use crate::gear_modes::GearModes;
+use crate::modes_on_faces::{FoundMode, hold_faces};
 use crate::repeated_mesh::RepeatedMesh;
 use crate::rigid_mass::REFERENCE_M;
-use crate::shaft_faces::{ConstraintModes, RIGID_MOTION};
+use crate::shaft_faces::{HeldFaces, RIGID_MOTION};
 use crate::tooth_vectors::on_all_teeth;
 use crate::{Progress, ReductionError};
-use faer::MatRef;
-use gearmesh_fe::mass_product;
+use faer::{Mat, MatRef};
 use gearmesh_geometry::{HubSupport, ModeRange};
 use gearmesh_model::{FaceMass, ModalBasis, ReferencePoint, RigidBody, ShaftFaces};
 use rayon::prelude::*;
@@ -25,8 +25,8 @@ pub struct DynamicsRequest<'a> {
     pub hub: HubSupport,
     /// Natural modes; none where not asked for.
     pub modes: Option<ModeRange>,
-    /// Motions of the two faces of a gear that is cut into its shaft.
-    pub faces: Option<&'a ConstraintModes>,
+    /// The faces of a gear that is cut into its shaft.
+    pub faces: Option<&'a HeldFaces>,
 }
 
 /// Parts of the reduced gear for the dynamics.
@@ -72,36 +72,39 @@ pub fn dynamics(
         .collect();
     let rows = || on_all_teeth(&body.mesh, &directions);
     if let Some(faces) = request.faces {
+        result.shaft_faces = faces.front_face();
         let check = (RIGID_MOTION.to_string(), faces.rigid_residual);
-        result.checks.push(check);
-        result.shaft_faces = Some(faces.faces(&rows(), gauges));
+        result
+            .checks
+            .extend(result.shaft_faces.is_some().then_some(check));
     }
     let Some(density) = request.density_kg_per_m3 else {
         return Ok(result);
     };
     progress.stage("mass");
-    let alone = request.modes.is_none() && request.faces.is_none();
+    let alone = request.modes.is_none() && result.shaft_faces.is_none();
     if request.hub == HubSupport::Fixed && alone {
         result.rigid_body = Some(body.rigid_body(density)?);
         return Ok(result);
     }
     let rigid = body.rigid_mass(density)?;
     result.rigid_body = Some(rigid.body.clone());
-    let momenta = request
-        .faces
-        .map(|faces| mass_product(&body.model, density, faces.front()))
+    let of_front = result.shaft_faces.as_ref().and(request.faces);
+    let momenta = of_front
+        .map(|faces| body.mass_product(density, faces.front()))
         .transpose()?;
-    let mut face_mass = request.faces.zip(momenta.as_ref()).map(|(faces, momenta)| {
+    if let (Some(front), Some(faces), Some(momenta)) = (&mut result.shaft_faces, of_front, &momenta)
+    {
         let product = |with: MatRef<'_, f64>| -> Vec<f64> {
             let matrix = momenta.transpose() * with;
             (0..36).map(|n| matrix[(n / 6, n % 6)]).collect()
         };
-        FaceMass {
+        front.mass = Some(FaceMass {
             mass: product(faces.front()),
             coupling: product(rigid.motions.as_ref()),
             modes: Vec::new(),
-        }
-    });
+        });
+    }
     let rows = rows();
     if request.hub == HubSupport::ReferencePoint {
         let flank = rows
@@ -119,38 +122,57 @@ pub fn dynamics(
         }
     }
     if let Some(range) = request.modes {
-        let (mut flank, mut readings, mut coupling) = (Vec::new(), Vec::new(), Vec::new());
+        let mut basis = ModalBasis::default();
+        let mut of_front = Vec::new();
+        let mut take = |omega_squared: f64, nodal_diameters: usize, field: &[f64]| {
+            basis.omega_squared.push(omega_squared);
+            basis.nodal_diameters.push(nodal_diameters);
+            (basis.flank).par_extend(rows.par_iter().map(|row| dot(row, field)));
+            (basis.gauges).extend(gauges.iter().map(|row| dot(row, field)));
+            let along = |momenta: &Mat<f64>| -> Vec<f64> {
+                let columns = momenta.col_iter();
+                columns
+                    .map(|column| column.iter().zip(field).map(|(m, u)| m * u).sum())
+                    .collect()
+            };
+            basis.coupling.extend(along(&rigid.momenta));
+            of_front.extend(momenta.iter().flat_map(along));
+        };
+        let mut on_stubs = Vec::new();
         let GearModes {
             modes,
             complete_to_hz,
             solves,
             ..
         } = body.natural_modes(&rigid, range, progress, |_, mode, field| {
-            flank.par_extend(rows.par_iter().map(|row| dot(row, field)));
-            readings.extend(gauges.iter().map(|row| dot(row, field)));
-            coupling.extend(mode.coupling);
-            if let (Some(mass), Some(momenta)) = (&mut face_mass, &momenta) {
-                let at = |q: usize| momenta.col(q).iter().zip(field).map(|(m, u)| m * u).sum();
-                mass.modes.extend((0..6).map(at).collect::<Vec<f64>>());
+            if request.faces.is_some() {
+                on_stubs.push(FoundMode {
+                    omega_squared: mode.omega_squared,
+                    nodal_diameters: mode.nodal_diameters,
+                    field: field.to_vec(),
+                });
+            } else {
+                take(mode.omega_squared, mode.nodal_diameters, field);
             }
         })?;
+        if let Some(faces) = request.faces {
+            let held = hold_faces(&on_stubs, faces, body, density, progress)?;
+            for mode in held {
+                take(mode.omega_squared, mode.nodal_diameters, &mode.field);
+            }
+        }
         let worst = modes
             .iter()
             .fold(0.0, |w: f64, m| w.max(m.relative_residual));
         let name = "residual of the natural modes".to_string();
         result.checks.push((name, worst));
-        result.modes = Some(ModalBasis {
-            omega_squared: modes.iter().map(|m| m.omega_squared).collect(),
-            nodal_diameters: modes.iter().map(|m| m.nodal_diameters).collect(),
-            complete_to_hz,
-            flank,
-            gauges: readings,
-            coupling,
-        });
+        basis.complete_to_hz = complete_to_hz;
+        let front = result.shaft_faces.as_mut();
+        if let Some(mass) = front.and_then(|front| front.mass.as_mut()) {
+            mass.modes = of_front;
+        }
+        result.modes = Some(basis);
         result.solves = Some(solves);
-    }
-    if let Some(faces) = &mut result.shaft_faces {
-        faces.mass = face_mass;
     }
     Ok(result)
 }

@@ -2,6 +2,7 @@
 
 use crate::cyclic_body::CyclicBody;
 use crate::flank_loads::SparseVector;
+use crate::part::Part;
 use crate::repeated_mesh::RepeatedMesh;
 use crate::single_sector::SingleSector;
 use crate::tooth_submodel::Deformation;
@@ -16,7 +17,7 @@ use gearmesh_mesh::python::PythonEnvironment;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// A gear held at its bore, ready to be loaded. How it is solved shows in nothing but time and memory.
+/// A gear held at its bore, or at the ends of its shaft's stubs, ready to be loaded. How it is solved shows in nothing but time and memory.
 pub struct GearBody<M = GearMesh> {
     /// Mesh.
     pub mesh: M,
@@ -24,6 +25,8 @@ pub struct GearBody<M = GearMesh> {
     pub model: FeModel,
     /// Free degrees of freedom.
     pub dofs: DofMap,
+    /// Stubs of the shaft that the gear is cut into: part of the stiffness; their mass is the shaft's.
+    pub(crate) stubs: Option<Part>,
     /// Wall time by stage.
     pub stage_seconds: Vec<(String, f64)>,
     pub(crate) solver: Solver,
@@ -72,12 +75,16 @@ impl GearBody {
             Deformation::Spatial => gear.reduction.symmetry,
             Deformation::PlaneStrain => Symmetry::Off,
         };
-        Self::held(
+        let of_stubs = mesh.stub_elements();
+        let stubs = (!of_stubs.is_empty()).then(|| Part::new(&model, &of_stubs));
+        let stubs = stubs.transpose()?;
+        let body = Self::held(
             (mesh, model, &bore),
             (symmetry, deformation),
             meshed_s,
             progress,
-        )
+        )?;
+        Ok(Self { stubs, ..body })
     }
 }
 
@@ -122,6 +129,7 @@ impl<M: RepeatedMesh> GearBody<M> {
             mesh,
             model,
             dofs,
+            stubs: None,
             stage_seconds,
             solver,
             deformation,

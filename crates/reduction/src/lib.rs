@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! The offline stage: from a gear definition to its [`ReducedGear`](gearmesh_model::ReducedGear).
 //!
 //! | step | file |
@@ -20,7 +24,7 @@
 //! | points in the frame of a tooth | `tooth_frame.rs` |
 //! | what all of them ask of a mesh | `toothed_mesh.rs`, `repeated_mesh.rs` |
 //! | mass, rigid motions, natural modes for the dynamics | `rigid_mass.rs`, `dynamics.rs` |
-//! | two faces of a gear that is cut into its shaft | `shaft_faces.rs` |
+//! | faces of a gear that is cut into its shaft; natural modes with them held | `shaft_faces.rs`; `modes_on_faces.rs` |
 //! | natural modes: the search, one harmonic of it, what a shape is like | `gear_modes.rs`, `harmonic_problem.rs`, `mode_figures.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
 //! | memory that all this will take, before it is taken | `memory_estimate.rs`, `mode_count.rs` |
@@ -55,6 +59,7 @@ mod imported_outline;
 pub mod memory_estimate;
 pub mod mode_count;
 pub mod mode_figures;
+mod modes_on_faces;
 pub mod near_field;
 mod part;
 pub mod reduce;

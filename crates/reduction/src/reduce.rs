@@ -10,7 +10,7 @@ use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
 use crate::near_field::calibrate;
 use crate::root_crack::{CRACK_SYMMETRY, root_crack};
-use crate::shaft_faces::ConstraintModes;
+use crate::shaft_faces::HeldFaces;
 use crate::tooth_submodel::Deformation;
 use crate::{Progress, ReductionError};
 use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
@@ -64,7 +64,7 @@ pub fn reduce(
     };
     let FlankCompliance {
         submodels,
-        c_hub,
+        mut c_hub,
         c_tooth,
         symmetry,
         pattern_identity,
@@ -96,7 +96,7 @@ pub fn reduce(
         .collect::<Result<_, ReductionError>>()?;
     let mut gauges = gauge_readings(&body, &loads, &submodels, &asked, progress);
     lap("gauges");
-    let faces = ConstraintModes::new(gear, &body, progress)?;
+    let faces = HeldFaces::new(gear, &body, (&loads, &gauge_rows), progress)?;
     if faces.is_some() {
         lap("faces of the shaft");
     }
@@ -125,13 +125,16 @@ pub fn reduce(
         errors.state(&mut further, &mut gauges);
         lap("error estimate");
     }
+    if let Some(faces) = &faces {
+        faces.hold(grid.len(), &mut c_hub, &mut gauges);
+    }
     let crack = gear.crack.as_ref();
     let crack = crack
         .map(|definition| {
             let of_side = flanks.iter().position(|&side| side == definition.side);
             // Checked when the definition was read.
             let loads = &loads[of_side.unwrap_or_default()];
-            root_crack(gear, definition, &body, loads, progress)
+            root_crack(gear, definition, (&body, faces.as_ref()), loads, progress)
         })
         .transpose()?;
     if let Some(crack) = &crack {

@@ -14,6 +14,7 @@ use crate::flank_compliance::{IDENTITY_ALLOWED, checked};
 use crate::flank_loads::{GridLoad, SparseVector};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
+use crate::shaft_faces::HeldFaces;
 use crate::tooth_vectors::on_tooth;
 use crate::{Progress, ReductionError};
 use faer::{Mat, Side};
@@ -42,7 +43,8 @@ pub struct CrackedRows {
     pub jumps: usize,
 }
 
-/// Computes the rows of a gear's crack. `loads` are those of the crack's side of tooth 0.
+/// Computes the rows of a gear's crack. `loads` are those of the crack's side of tooth 0, `faces` those at which its
+/// shaft goes on.
 ///
 /// # Errors
 /// [`ReductionError::AtCrack`] where loads or gauges touch the crack, [`ReductionError::Fe`] where the crack cuts a
@@ -50,7 +52,7 @@ pub struct CrackedRows {
 pub fn root_crack(
     gear: &GearDefinition,
     definition: &CrackDefinition,
-    body: &GearBody,
+    (body, faces): (&GearBody, Option<&HeldFaces>),
     loads: &[GridLoad],
     progress: &dyn Progress,
 ) -> Result<CrackedRows, ReductionError> {
@@ -113,6 +115,23 @@ pub fn root_crack(
             }
         }
         progress.advance(batch * BATCH + chunk.len(), jumps);
+    }
+    if let Some(faces) = faces {
+        let of_side = gear
+            .reduction
+            .flanks
+            .iter()
+            .position(|&s| s == definition.side);
+        let flanks = gear.reduction.flanks.len();
+        let first = of_side.unwrap_or_default() * of_flank;
+        let flank = Mat::from_fn(teeth * of_flank, faces.flank.ncols(), |row, q| {
+            let (tooth, place) = (row / of_flank, row % of_flank);
+            faces.flank[(tooth * flanks * of_flank + first + place, q)]
+        });
+        let own = faces.read(&columns);
+        of_jumps -= faces.excess(own.as_ref(), own.as_ref());
+        of_loads -= faces.excess(own.as_ref(), flank.as_ref());
+        of_gauges -= faces.excess(own.as_ref(), faces.gauges.as_ref());
     }
     let factor = doubled.factor(of_jumps.as_ref())?;
     checked(CRACK_SYMMETRY, factor.asymmetry(), IDENTITY_ALLOWED)?;

@@ -6,7 +6,7 @@ use crate::repeated_mesh::RepeatedMesh;
 use crate::sector_condensation::SectorCondensation;
 use crate::sector_stiffness::sector_stiffness;
 use crate::separating_circle::separating_circle;
-use crate::tooth_substructure::{ToothSubstructure, gather};
+use crate::tooth_substructure::{ToothSubstructure, gather, sum_in_order};
 use faer::Mat;
 use faer::sparse::SparseColMatRef;
 use gearmesh_fe::{
@@ -233,15 +233,16 @@ impl SectorSubstructure {
 
     /// Σ over all sectors of XᵀKX of hub, web and rim without the tooth cells.
     pub fn energy_products(&self, frames: &CylindricalFrames, fields: &[Vec<f64>]) -> Mat<f64> {
-        let zero = || Mat::<f64>::zeros(fields.len(), fields.len());
-        self.images
+        let products = self
+            .images
             .par_iter()
             .map(|image| {
                 let nodes: Vec<u32> = self.body_nodes.iter().map(|&i| image[i]).collect();
                 let x = gather(frames, &nodes, fields);
                 x.transpose() * (self.body_stiffness.as_ref() * &x)
             })
-            .reduce(zero, |a, b| a + b)
+            .collect();
+        sum_in_order(products, fields.len())
     }
 }
 

@@ -148,15 +148,21 @@ impl ToothSubstructure {
 
     /// Σ over the given teeth of XᵀKX for fields over the whole mesh, in Cartesian components.
     pub fn energy_products(&self, frames: &CylindricalFrames, fields: &[Vec<f64>]) -> Mat<f64> {
-        let zero = || Mat::<f64>::zeros(fields.len(), fields.len());
-        self.images
+        let products = self
+            .images
             .par_iter()
             .map(|nodes| {
                 let x = gather(frames, nodes, fields);
                 x.transpose() * (self.stiffness.as_ref() * &x)
             })
-            .reduce(zero, |a, b| a + b)
+            .collect();
+        sum_in_order(products, fields.len())
     }
+}
+
+/// Sum of square matrices in their order: the same to the last bit, however many threads have made them.
+pub(crate) fn sum_in_order(products: Vec<Mat<f64>>, size: usize) -> Mat<f64> {
+    (products.into_iter()).fold(Mat::zeros(size, size), |sum, product| sum + product)
 }
 
 /// Splits one Cartesian entry of a vector into the cylindrical components of its node.

@@ -10,6 +10,34 @@ function axis(label, unit, more = {}) {
   };
 }
 
+function textWidth(text) {
+  const ctx = document.createElement("canvas").getContext("2d");
+  ctx.font = "600 12px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+  return ctx.measureText(text).width;
+}
+
+// Where a curve swings within a few pixels, lines would fill the paper: a band from its least to its largest value there, and a line in
+// the band's middle. Four pixels are one place; a place that has few points is drawn as it is.
+const PLACE = 4, FEW = 6, straight = uPlot.paths.linear();
+const translucent = colour => (colour.startsWith("#") ? `${colour}59` : colour.replace("rgb(", "rgba(").replace(")", ", 0.35)"));
+function bandPaths(u, series, first, last) {
+  const x = u.data[0], y = u.data[series], ratio = devicePixelRatio, size = PLACE * ratio;
+  if ((last - first) * size < FEW * u.bbox.width) return { ...straight(u, series, first, last), fill: null };
+  const stroke = new Path2D(), fill = new Path2D(), places = new Map();
+  for (let k = first; k <= last; k++) {
+    if (y[k] == null) continue;
+    const place = Math.floor(u.valToPos(x[k], "x", true) / size), known = places.get(place);
+    if (known) { known[0] = Math.min(known[0], y[k]); known[1] = Math.max(known[1], y[k]); } else places.set(place, [y[k], y[k]]);
+  }
+  const run = [...places].map(([place, ends]) => [(place + 0.5) * size, ...ends.map(v => u.valToPos(v, "y", true))]);
+  run.forEach(([at, low, high], k) => {
+    const middle = (low + high) / 2;
+    k && at - run[k - 1][0] < 1.5 * size ? stroke.lineTo(at, middle) : stroke.moveTo(at, middle);
+    fill.rect(at - size / 2, high, size, low - high);
+  });
+  return { stroke, fill };
+}
+
 // Powers of ten, of many every second or third; where the axis spans less than two, also 2 and 5 times them.
 function logSplits(u, axisIndex, min, max) {
   const steps = max / min > 100 ? [1] : [1, 2, 5], splits = [];
@@ -32,7 +60,9 @@ function chart(figure, place, hint, data, optionsFor, window, d) {
     if (plot) { shown = plot.series.map(s => s.show); plot.destroy(); }
     const width = drawingWidth(place), options = optionsFor(width);
     options.width = width;
-    options.height = Math.round(Math.min(430, Math.max(260, width * 0.38)));
+    // As high as the title of the ordinate is long.
+    const title = textWidth(options.axes[1].label) + 80;
+    options.height = Math.round(Math.max(Math.min(430, Math.max(260, width * 0.38)), Math.min(title, 520)));
     if (shown) options.series.forEach((s, i) => { s.show = shown[i]; });
     options.scales.x = { ...options.scales.x, time: false };
     options.hooks = { ...options.hooks, setScale: [(u, key) => { if (key === "x" && u.status === 1) range = zoomed(u); }] };
@@ -62,7 +92,7 @@ function legendForKeyboard(plot) {
   });
 }
 
-const legendValue = (u, v) => number(v, 5);
+const legendValue = (u, v) => (v == null ? "" : number(v, 5));
 
 // Named abscissas: a dashed line each, the names above the chart where there is room.
 function marks(u, list, base) {
@@ -99,13 +129,14 @@ function lineChart(figure, place, d) {
     scales: { x: {}, y: d.log ? { distr: 3 } : {} },
     axes: [axis(d.x.label, d.x.unit, { size: 34 }), axis(d.y.label, d.y.unit, d.log ? logAxis : { size: 64 })],
     series: [{ label: withUnit(d.x.label, d.x.unit), value: legendValue }, ...d.series.map(s => ({
-      label: s.name, stroke: seriesColour(s.colour), width: 1.5, dash: DASHES[s.dash], show: s.shown, points: { show: false }, value: legendValue,
+      label: s.name, stroke: seriesColour(s.colour), width: 1.5, ...(d.log ? {} : { fill: translucent(seriesColour(s.colour)), paths: bandPaths }), dash: DASHES[s.dash], show: s.shown, points: { show: false }, value: legendValue,
     }))],
     legend: { markers: { width: 2, dash: (u, i) => ({ solid: "solid", dashed: "dashed", dotted: "dotted" })[d.series[i - 1].dash] } },
     focus: { alpha: 0.5 },
     cursor: { drag: { x: true, y: true, uni: 40 }, focus: { prox: 14 }, points: { size: 6 } },
   });
-  chart(figure, place, "Drag to zoom, double click for all, click a name to switch a curve.", data, options, d.window, d);
+  const bands = !d.log && data[0].length * PLACE > FEW * 300 ? " Band: least to largest within a few pixels." : "";
+  chart(figure, place, "Drag to zoom, double click for all, click a name to switch a curve." + bands, data, options, d.window, d);
 }
 
 function spectrumChart(figure, place, d) {

@@ -228,14 +228,24 @@ function fieldPicture(figure, place, d) {
     ctx.beginPath(); ctx.moveTo(x, y); ctx.lineTo(x + pixels, y); ctx.stroke();
     ctx.textBaseline = "bottom"; ctx.textAlign = "left"; ctx.fillText(text, x, y - 4 * ratio);
   }
+  // What the bar shows, in lines that have room, and the unit.
+  function heads(ctx, room) {
+    ctx.font = "12px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+    const lines = [""];
+    for (const word of d.quantity.split(" ")) {
+      const longer = `${lines[lines.length - 1]} ${word}`.trim();
+      if (lines[lines.length - 1] && ctx.measureText(longer).width > room) lines.push(word); else lines[lines.length - 1] = longer;
+    }
+    return d.unit ? [...lines, `[${d.unit}]`] : lines;
+  }
   function paintBar() {
-    const w = 92, h = height / ratio, ctx = bar.getContext("2d"), top = 44, bottom = h - 12;
+    const w = 92, h = height / ratio, ctx = bar.getContext("2d"), top = 12 + 16 * heads(ctx, w - 6).length, bottom = h - 12;
     bar.width = w * ratio; bar.height = h * ratio; bar.style.height = `${h}px`;
     ctx.scale(ratio, ratio);
     for (let y = top; y < bottom; y++) { const [r, g, b] = mapColour(VIRIDIS, (bottom - y) / (bottom - top)); ctx.fillStyle = `rgb(${r}, ${g}, ${b})`; ctx.fillRect(4, y, 18, 1.5); }
     ctx.strokeStyle = cssColour("--faint"); ctx.strokeRect(4, top, 18, bottom - top);
     ctx.fillStyle = cssColour("--ink"); ctx.font = "12px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif"; ctx.textBaseline = "middle";
-    ctx.fillText(d.quantity, 4, 10, w - 6); ctx.fillText(`[${d.unit}]`, 4, 26, w - 6);
+    heads(ctx, w - 6).forEach((words, k) => ctx.fillText(words, 4, 10 + 16 * k, w - 6));
     ctx.textAlign = "left";
     const mark = (v, text) => { const y = bottom - (bottom - top) * (v - low) / (high - low); ctx.fillRect(22, y - 0.5, 4, 1); ctx.fillText(text, 30, y, w - 32); };
     mark(high, (largest > high * (1 + 1e-6) ? "≥ " : "") + number(high));

@@ -14,17 +14,19 @@ const isDark = () => document.documentElement.dataset.theme === "dark";
 function number(v, digits = 4) {
   if (v == null || Number.isNaN(v)) return "–";
   if (v === 0) return "0";
-  const size = Math.abs(v);
-  const text = size >= 1e6 || size < 1e-3 ? v.toExponential(digits - 2) : String(Number(v.toPrecision(digits)));
-  return text.replace(/-/g, "−");
+  const size = Math.abs(v), sign = v < 0 ? "−" : "";
+  if (size < 1e6 && size >= 1e-3) return sign + String(Number(size.toPrecision(digits)));
+  const [m, n] = Number(size.toPrecision(digits)).toExponential().split("e");
+  return sign + (m === "1" ? "" : `${m}·`) + `10${raised(Number(n))}`;
 }
+
+const raised = n => String(n).replace(/-/g, "⁻").replace(/\d/g, digit => "⁰¹²³⁴⁵⁶⁷⁸⁹"[digit]);
 
 // A number of a logarithmic axis: 0.001 to 1000 in full, others as m × 10ⁿ.
 function power(v) {
   const n = Math.floor(Math.log10(v) + 1e-9), m = Number((v / 10 ** n).toPrecision(3));
   if (n >= -3 && n <= 3) return number(v);
-  const raised = String(n).replace(/-/g, "⁻").replace(/\d/g, digit => "⁰¹²³⁴⁵⁶⁷⁸⁹"[digit]);
-  return m === 1 ? `10${raised}` : `${m}·10${raised}`;
+  return (m === 1 ? "" : `${m}·`) + `10${raised(n)}`;
 }
 
 const withUnit = (label, unit) => (unit ? `${label} [${unit}]` : label);

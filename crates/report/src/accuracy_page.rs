@@ -2,8 +2,9 @@
 
 use gearmesh_scene::accuracy::{Accuracy, EffectFound, Goal, Tried, words};
 
+use crate::column_words::words_and_unit;
 use crate::page::{Align, Axis, Page, PointSeries, ScatterChart, Section, Table, Text};
-use crate::short;
+use crate::{short, short_beside};
 
 /// A goal in words.
 #[must_use]
@@ -17,7 +18,8 @@ pub fn goal_in_words(goal: Goal) -> String {
 /// The page of an outcome; `scene` names it.
 #[must_use]
 pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
-    let point = |one: &Tried| [one.seconds, 100.0 * one.error()];
+    let times = Times::of(found);
+    let point = |one: &Tried| [times.factor * one.seconds, 100.0 * one.error()];
     let of = |alone: bool| -> Vec<&Tried> {
         let others = found.tried.iter().filter(|one| is_drawn(one));
         others.filter(|one| one.alone.is_some() == alone).collect()
@@ -36,7 +38,7 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
             "Largest error of the columns against {}",
             found.time.words()
         ),
-        Axis::new(found.time.words(), "s"),
+        Axis::new(found.time.words(), times.unit),
         Axis::new("largest error", "%"),
     )
     .logarithmic(true, true)
@@ -45,15 +47,15 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
     .series(series("not beaten", unbeaten(found)).joined());
     let reference = &found.tried[0];
     let told = format!(
-        "Errors are those against the reference, every knob at its top, which takes {} s of {}. {} settings were run. What no knob changes is in none of the errors.",
-        short(reference.seconds),
+        "Errors are those against the reference, every knob at its top, which takes {} of {}. {} settings were run. What no knob changes is in none of the errors.",
+        times.words(reference.seconds),
         found.time.words(),
         found.tried.len()
     );
     let mut section = Section::new("What accuracy costs").push(Text::paragraph(told));
     if let Some((knob, error)) = found.unsettled() {
         section = section.push(Text::paragraph(format!(
-            "The reference itself: the last step of {} still changes the columns by up to {} %.",
+            "The reference itself: the last step of `{}` still changes the columns by up to {} %.",
             knob.name,
             short(100.0 * error)
         )));
@@ -63,10 +65,10 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
     }
     for advice in &found.advice {
         let text = format!(
-            "# {}: error {} %, {} s, {} times faster than the reference\n{}",
+            "# {}: error {} %, {}, {} times faster than the reference\n{}",
             goal_in_words(advice.goal),
             short(100.0 * advice.tried.error()),
-            short(advice.tried.seconds),
+            times.words(advice.tried.seconds),
             short(reference.seconds / advice.tried.seconds),
             advice.toml.join("\n")
         );
@@ -74,9 +76,9 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
     }
     let mut page = Page::new(format!("What accuracy costs: {scene}"))
         .section(section)
-        .section(Section::new("Every setting").push(table(found)));
+        .section(Section::new("Every setting").push(table(found, &times)));
     if !found.effects.is_empty() {
-        page = page.section(Section::new("Effects").push(effects(found)));
+        page = page.section(Section::new("Effects").push(effects(found, &times)));
     }
     if !found.left_out.is_empty() || !found.failed.is_empty() {
         let mut section = Section::new("What was not varied");
@@ -106,33 +108,71 @@ fn unbeaten(found: &Accuracy) -> Vec<&Tried> {
     tried
 }
 
-fn table(found: &Accuracy) -> Table {
+/// The unit in which the times of a page are read: that in which the reference takes at least one.
+struct Times {
+    unit: &'static str,
+    factor: f64,
+}
+
+impl Times {
+    fn of(found: &Accuracy) -> Self {
+        let (unit, factor) = match found.tried[0].seconds {
+            s if s >= 1.0 => ("s", 1.0),
+            s if s >= 1e-3 => ("ms", 1e3),
+            _ => ("µs", 1e6),
+        };
+        Self { unit, factor }
+    }
+
+    fn words(&self, seconds: f64) -> String {
+        format!("{} {}", short(self.factor * seconds), self.unit)
+    }
+}
+
+/// An error or a change in per cent; what is rounding of the whole is none.
+fn percent(share: f64) -> String {
+    short_beside(100.0 * share, 100.0)
+}
+
+/// Counts are whole numbers.
+fn counted(count: f64) -> String {
+    match count == count.round() {
+        true => format!("{count:.0}"),
+        false => short(count),
+    }
+}
+
+fn table(found: &Accuracy, times: &Times) -> Table {
     let mut table =
         Table::new("Settings, by what differs from the reference: time, and error of each column")
             .column("setting", Align::Phrase)
-            .column(format!("{} s", found.time.words()), Align::Right)
+            .column(
+                format!("{} {}", found.time.words(), times.unit),
+                Align::Right,
+            )
             .column("iterations", Align::Right);
     let any_reduced = found.tried.iter().any(|one| one.reduction_s > 0.0);
     if any_reduced {
         table = table.column("reduction s", Align::Right);
     }
     for column in &found.columns {
-        table = table.column(format!("{column} %"), Align::Right);
+        table = table.column(format!("{} %", words_and_unit(column).0), Align::Right);
     }
     for one in &found.tried {
         let setting = words(&found.knobs, &one.rungs);
-        let mut cells = vec![setting, short(one.seconds), short(one.effort.iterations)];
+        let time = short(times.factor * one.seconds);
+        let mut cells = vec![setting, time, counted(one.effort.iterations)];
         if any_reduced {
             cells.push(short(one.reduction_s));
         }
-        cells.extend(one.errors.iter().map(|error| short(100.0 * error)));
+        cells.extend(one.errors.iter().map(|error| percent(*error)));
         table.push_row(cells);
     }
     table
 }
 
 /// What each effect changes, in the scene as it is, and takes.
-fn effects(found: &Accuracy) -> Table {
+fn effects(found: &Accuracy, times: &Times) -> Table {
     let mut table = Table::new("With each effect against without it, all else as the scene has it")
         .column("effect", Align::Phrase)
         .column("in the scene", Align::Left);
@@ -140,11 +180,12 @@ fn effects(found: &Accuracy) -> Table {
         table = table.column(format!("{head} with / without"), Align::Right);
     }
     table = table.column(
-        format!("{} with / without s", found.time.words()),
+        format!("{} with / without {}", found.time.words(), times.unit),
         Align::Right,
     );
     for column in &found.columns {
-        table = table.column(format!("changes {column} by %"), Align::Right);
+        let words = words_and_unit(column).0;
+        table = table.column(format!("changes {words} by %"), Align::Right);
     }
     for EffectFound {
         effect,
@@ -153,7 +194,8 @@ fn effects(found: &Accuracy) -> Table {
         changes,
     } in &found.effects
     {
-        let both = |with: f64, without: f64| format!("{} / {}", short(with), short(without));
+        let both = |with: f64, without: f64| format!("{} / {}", counted(with), counted(without));
+        let time = |effort| short(times.factor * found.time.of(effort));
         let present = if effect.present { "yes" } else { "no" };
         let counts = [
             effect.name.clone(),
@@ -161,9 +203,9 @@ fn effects(found: &Accuracy) -> Table {
             both(with.states, without.states),
             both(with.calls, without.calls),
             both(with.iterations, without.iterations),
-            both(found.time.of(with), found.time.of(without)),
+            format!("{} / {}", time(with), time(without)),
         ];
-        let changes = changes.iter().map(|change| short(100.0 * change));
+        let changes = changes.iter().map(|change| percent(*change));
         table.push_row(counts.into_iter().chain(changes));
     }
     table

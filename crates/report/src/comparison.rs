@@ -7,7 +7,9 @@ use gearmesh_signal::rig::{OrderFilter, RigError, RigSettings, RigSignal, proces
 use gearmesh_signal::statistics::{
     StatisticsError, correlation, largest_deviation, peak_to_peak, rms, rms_deviation,
 };
-use gearmesh_signal::{AngleSeries, AngleSeriesError, OrderError, SeriesError, best_offset};
+use gearmesh_signal::{
+    AngleSeries, AngleSeriesError, OrderError, SeriesError, ShaftPeriod, best_offset,
+};
 
 /// Why two series cannot be compared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -291,6 +293,19 @@ pub fn compare(
         ours,
         reference,
     })
+}
+
+impl SeriesComparison {
+    /// Counts the best offset within half of our period to either side: turned by a period, ours is itself, and which
+    /// of the equal offsets is the best is rounding.
+    #[must_use]
+    pub fn with_offset_within(mut self, period: ShaftPeriod) -> Self {
+        let turn = period.rad();
+        self.best_offset_rad = self
+            .best_offset_rad
+            .map(|angle| angle - turn * (angle / turn).round());
+        self
+    }
 }
 
 fn harmonics(

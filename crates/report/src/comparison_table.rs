@@ -1,5 +1,6 @@
 //! The comparison as text: one block for each quantity, one line for each torque, units in the heads.
 
+use crate::column_width;
 use crate::comparison::{BothSides, HarmonicComparison, SeriesComparison};
 use std::fmt::Write as _;
 
@@ -205,13 +206,7 @@ fn percent(both: &BothSides) -> String {
 /// Right-aligned columns, two blanks between them.
 fn write_aligned(text: &mut String, rows: &[Vec<String>]) {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |i: usize| {
-        rows.iter()
-            .filter_map(|r| r.get(i))
-            .map(|s| s.chars().count())
-            .max()
-            .unwrap_or(0)
-    };
+    let width = |i: usize| column_width(rows.iter().filter_map(|r| r.get(i)), 0);
     let widths: Vec<usize> = (0..columns).map(width).collect();
     for row in rows {
         for (cell, width) in row.iter().zip(&widths) {

@@ -138,12 +138,11 @@ impl Flank {
             quads.push([first, first + 1, above + 1, above]);
             shown.push(factor * value);
         }
-        let most = shown.iter().copied().fold(0.0, f64::max);
         (!quads.is_empty()).then(|| {
             FieldPicture::new(title, quantity, unit)
                 .mesh(nodes.collect(), quads)
                 .values(FieldValues::PerElement(shown))
-                .colour_range(0.0, most)
+                .colours_of_most()
         })
     }
 }

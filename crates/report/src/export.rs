@@ -17,14 +17,18 @@ mod pair_tables;
 mod parquet_bytes;
 mod system_tables;
 
-pub use csv_text::{csv_text, study_table};
+pub use csv_text::{study_table, write_csv};
 pub use functions::{Function, functions};
-pub use mat_bytes::mat_bytes;
-pub use pair_tables::pair_tables;
-pub use parquet_bytes::parquet_bytes;
+pub use mat_bytes::write_mat;
+pub use pair_tables::{pair_tables, torque_table};
+pub use parquet_bytes::write_parquet;
 pub use system_tables::system_tables;
 
-use gearmesh_model::FileError;
+use std::borrow::Cow;
+use std::io;
+use std::ops::Range;
+
+use gearmesh_model::{ColumnFile, FileError};
 use gearmesh_scene::rating::RatingResult;
 use thiserror::Error;
 
@@ -37,6 +41,9 @@ pub enum ExportError {
     /// A CSV file is damaged, or a text cannot be written into one.
     #[error("CSV: {0}")]
     Csv(#[from] csv::Error),
+    /// The table cannot be written.
+    #[error("{0}")]
+    Write(#[from] io::Error),
     /// The Parquet library refuses.
     #[error("Parquet: {0}")]
     Parquet(#[from] parquet::errors::ParquetError),
@@ -53,24 +60,53 @@ pub enum ExportError {
 }
 
 /// A column: numbers, or texts.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Cells {
+#[derive(Debug)]
+pub enum Cells<'a> {
     /// Numbers; what is not there is NaN.
     Numbers(Vec<f64>),
     /// Texts.
     Texts(Vec<String>),
+    /// Numbers of a column of a file, read when they are needed.
+    Column(&'a ColumnFile, String),
 }
 
+impl Cells<'_> {
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        match self {
+            Self::Numbers(values) => values.len(),
+            Self::Texts(values) => values.len(),
+            Self::Column(file, _) => file.rows(),
+        }
+    }
+
+    /// The numbers of some rows; none of texts.
+    ///
+    /// # Errors
+    /// [`FileError`] if the column of a file cannot be read.
+    pub fn numbers(&self, rows: Range<usize>) -> Result<Option<Cow<'_, [f64]>>, FileError> {
+        Ok(match self {
+            Self::Numbers(values) => Some(Cow::Borrowed(&values[rows])),
+            Self::Texts(_) => None,
+            Self::Column(file, name) => Some(Cow::Owned(file.read_rows(name, rows)?)),
+        })
+    }
+}
+
+/// Numbers of a table that are in memory at once where it is written row by row: 32 MB.
+const BLOCK_NUMBERS: usize = 1 << 22;
+
 /// Columns of one length with a name each, unit in the name.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Table {
+#[derive(Debug, Default)]
+pub struct Table<'a> {
     /// What it is called behind `--table`.
     pub name: String,
     /// Columns in order.
-    pub columns: Vec<(String, Cells)>,
+    pub columns: Vec<(String, Cells<'a>)>,
 }
 
-impl Table {
+impl Table<'_> {
     /// A table without columns.
     #[must_use]
     pub fn new(name: &str) -> Self {
@@ -93,16 +129,21 @@ impl Table {
     /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
-        match self.columns.first() {
-            None => 0,
-            Some((_, Cells::Numbers(values))) => values.len(),
-            Some((_, Cells::Texts(values))) => values.len(),
-        }
+        self.columns.first().map_or(0, |(_, cells)| cells.rows())
+    }
+
+    /// Its rows in blocks, none of them empty, that go into memory.
+    fn blocks(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let block = (BLOCK_NUMBERS / self.columns.len().max(1)).max(1);
+        let rows = self.rows();
+        (0..rows)
+            .step_by(block)
+            .map(move |first| first..rows.min(first + block))
     }
 }
 
 /// Ratings, a row a figure; none where nothing was rated.
-fn ratings_table(ratings: &[RatingResult]) -> Option<Table> {
+fn ratings_table(ratings: &[RatingResult]) -> Option<Table<'static>> {
     let figures = || {
         let of = |rating| {
             let rating: &RatingResult = rating;

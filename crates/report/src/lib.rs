@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! Comparison with reference records, tables and the HTML report.
 //!
 //! | you have | you want | use |
@@ -15,6 +19,8 @@
 
 pub mod accuracy_page;
 pub mod body_view;
+mod column_width;
+mod column_words;
 pub mod comparison;
 mod comparison_table;
 mod contact_pattern;
@@ -41,6 +47,7 @@ pub mod study_page;
 pub mod system_comparison;
 mod system_page;
 
+pub use column_width::column_width;
 pub use comparison::{
     ComparisonError, HarmonicComparison, RigView, SeriesComparison, compare, compare_with_column,
 };
@@ -49,5 +56,5 @@ pub use pair_orders::{PairOrders, Shaft};
 pub use printable::printable;
 pub use quantity::{Quantity, Unit};
 pub use record::{RecordColumn, RecordError, RecordKind, RecordUncertainty, ReferenceRecord};
-pub use short_number::{short, usual_unit};
+pub use short_number::{short, short_beside, usual_unit};
 pub use study_figures::study_figures;

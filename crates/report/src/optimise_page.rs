@@ -1,9 +1,16 @@
-//! The page of an optimisation: what was found, the front, what was tried.
+//! The page of an optimisation: what was found, the front, what was tried, what was asked.
 
-use gearmesh_scene::optimise::{Optimisation, Optimum, Trial};
+use gearmesh_scene::optimise::{Judged, Optimisation, Optimum, Trial};
 
-use crate::page::{Align, Axis, KeyFigures, Page, PointSeries, ScatterChart, Section, Table, Text};
+use crate::column_words::{axis, head, parameter, words_and_unit};
+use crate::page::{Align, KeyFigures, Page, PointSeries, ScatterChart, Section, Table, Text};
 use crate::short;
+
+/// Choices of the front that differ by less than this share of its extent in every objective are one row.
+const ALIKE: f64 = 0.02;
+
+/// A variable this near to a bound, as a share of its range, stands at it.
+const AT_BOUND: f64 = 1e-3;
 
 /// The page of an outcome.
 #[must_use]
@@ -13,11 +20,13 @@ pub fn optimise_page(problem: &Optimisation, found: &Optimum) -> Page {
     for (k, objective) in tables.objective.iter().enumerate() {
         let least = found.front.iter().map(|trial| trial.objectives[k]);
         let least = least.fold(f64::INFINITY, f64::min);
-        let before = found.before.as_ref();
-        let before = before.map_or(String::new(), |before| {
-            format!("as it is {}", short(before[k]))
+        let (words, unit) = words_and_unit(&objective.name);
+        let before = found.before.as_ref().map_or(String::new(), |before| {
+            format!("; as it is {}", short(before[k]))
         });
-        figures = figures.figure(format!("least {}", objective.name), short(least), before);
+        let behind = format!("{unit}{before}");
+        let behind = behind.trim_start_matches("; ").to_owned();
+        figures = figures.figure(format!("least {words}"), short(least), behind);
     }
     let scatter = match problem.samples() {
         1 => String::new(),
@@ -34,30 +43,30 @@ pub fn optimise_page(problem: &Optimisation, found: &Optimum) -> Page {
     let mut section = Section::new("What was found")
         .push(figures)
         .push(Text::paragraph(told));
-    let names: Vec<&str> = tables.objective.iter().map(|o| &o.name[..]).collect();
     // Every pair of objectives is a picture.
-    for a in 0..names.len() {
-        for b in a + 1..names.len() {
+    for a in 0..tables.objective.len() {
+        for b in a + 1..tables.objective.len() {
             section = section.push(picture(problem, found, [a, b]));
         }
     }
-    if names.len() == 1 {
+    if let [objective] = &tables.objective[..] {
         for (k, variable) in tables.variable.iter().enumerate() {
             let points = |trials: &[Trial]| {
-                trials
-                    .iter()
-                    .map(|t| [t.values[k], t.objectives[0]])
-                    .collect()
+                let points = trials.iter().map(|t| [t.values[k], t.objectives[0]]);
+                points.collect()
             };
-            let title = format!("{} over {}", names[0], variable.name);
+            let (what, over) = (
+                words_and_unit(&objective.name).0,
+                words_and_unit(&variable.name).0,
+            );
             section = section.push(
                 ScatterChart::new(
-                    title,
-                    Axis::new(variable.name.clone(), ""),
-                    Axis::new(names[0], ""),
+                    format!("{what} over {over}"),
+                    axis(parameter(&variable.name, &variable.keys)),
+                    axis(words_and_unit(&objective.name)),
                 )
                 .series(PointSeries::new("tried", points(&found.tried)))
-                .series(PointSeries::new("best", points(&found.front)).joined()),
+                .series(PointSeries::new("best", points(&found.front)).marked()),
             );
         }
     }
@@ -65,6 +74,7 @@ pub fn optimise_page(problem: &Optimisation, found: &Optimum) -> Page {
     Page::new(tables.title.clone())
         .subtitle("Optimisation")
         .section(section)
+        .section(question(problem, found))
         .footer(format!("by gearmesh {}", env!("CARGO_PKG_VERSION")))
 }
 
@@ -73,25 +83,27 @@ fn picture(problem: &Optimisation, found: &Optimum, [a, b]: [usize; 2]) -> Scatt
     let point = |trial: &Trial| [trial.objectives[a], trial.objectives[b]];
     let label = |trial: &Trial| {
         let pairs = problem.tables.variable.iter().zip(&trial.values);
-        let words = pairs.map(|(variable, value)| format!("{} {}", variable.name, short(*value)));
+        let words = pairs.map(|(variable, value)| {
+            let (words, unit) = parameter(&variable.name, &variable.keys);
+            format!("{words} {} {unit}", short(*value))
+                .trim_end()
+                .to_owned()
+        });
         words.collect::<Vec<_>>().join(", ")
     };
     // What is far beyond the front would press it into a corner.
     let most = |k: usize| {
-        let of_front = || found.front.iter().map(move |trial| trial.objectives[k]);
-        let (low, high) = (
-            of_front().fold(f64::INFINITY, f64::min),
-            of_front().fold(f64::NEG_INFINITY, f64::max),
-        );
+        let [low, high] = ends(found.front.iter().map(|trial| trial.objectives[k]));
         high + (high - low)
     };
     let (most_a, most_b) = (most(a), most(b));
     let near = |trial: &&Trial| trial.objectives[a] <= most_a && trial.objectives[b] <= most_b;
     let tried: Vec<&Trial> = found.tried.iter().filter(near).collect();
+    let [name_a, name_b] = [a, b].map(|k| words_and_unit(&objectives[k].name).0);
     let mut chart = ScatterChart::new(
-        format!("{} against {}", objectives[b].name, objectives[a].name),
-        Axis::new(objectives[a].name.clone(), ""),
-        Axis::new(objectives[b].name.clone(), ""),
+        format!("{name_b} against {name_a}"),
+        axis(words_and_unit(&objectives[a].name)),
+        axis(words_and_unit(&objectives[b].name)),
     )
     .series(PointSeries::new(
         "tried",
@@ -106,41 +118,195 @@ fn picture(problem: &Optimisation, found: &Optimum, [a, b]: [usize; 2]) -> Scatt
         };
         front.labels(found.front.iter().map(label).collect())
     });
-    if let Some(before) = &found.before
-        && before[a] <= most_a
-        && before[b] <= most_b
-    {
-        chart = chart.series(PointSeries::new(
-            "scene as it is",
-            vec![[before[a], before[b]]],
-        ));
+    if let Some(before) = &found.before {
+        chart = match before[a] <= most_a && before[b] <= most_b {
+            true => chart
+                .series(PointSeries::new("scene as it is", vec![[before[a], before[b]]]).marked()),
+            false => chart.told(format!(
+                "the scene as it is, at {} and {}, is outside",
+                short(before[a]),
+                short(before[b])
+            )),
+        };
     }
     chart
 }
 
+/// Least and largest.
+fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+        [low.min(value), high.max(value)]
+    })
+}
+
+/// Choices of the front without those that are almost one that stands there already.
+fn distinct(front: &[Trial]) -> Vec<&Trial> {
+    let objectives = front.first().map_or(0, |trial| trial.objectives.len());
+    let extents: Vec<f64> = (0..objectives)
+        .map(|k| {
+            let [low, high] = ends(front.iter().map(|trial| trial.objectives[k]));
+            high - low
+        })
+        .collect();
+    let mut kept: Vec<&Trial> = Vec::new();
+    for trial in front {
+        let is_alike = |other: &&Trial| {
+            let pairs = trial.objectives.iter().zip(&other.objectives).zip(&extents);
+            pairs
+                .into_iter()
+                .all(|((a, b), extent)| (a - b).abs() <= ALIKE * extent)
+        };
+        // The least of an objective is always there.
+        let is_end = (0..objectives).any(|k| {
+            let least = ends(front.iter().map(|trial| trial.objectives[k]))[0];
+            trial.objectives[k] == least
+        });
+        if is_end || !kept.iter().any(is_alike) {
+            kept.push(trial);
+        }
+    }
+    kept
+}
+
 fn front_table(problem: &Optimisation, found: &Optimum) -> Table {
     let tables = &problem.tables;
-    let mut table = Table::new(if tables.objective.len() == 1 {
-        "Best choice"
-    } else {
-        "Pareto front"
+    let rows = distinct(&found.front);
+    let all = found.front.len();
+    let mut table = Table::new(match tables.objective.len() {
+        1 => "Best choice".to_owned(),
+        _ if rows.len() < all => format!(
+            "Pareto front, {} of {all} choices: the others differ from one of these by at most {} % of the front's extent in every objective (all are in front.csv)",
+            rows.len(),
+            100.0 * ALIKE
+        ),
+        _ => "Pareto front".to_owned(),
     });
-    let heads = tables
-        .variable
-        .iter()
-        .map(|v| &v.name)
-        .chain(tables.objective.iter().map(|o| &o.name));
-    for head in heads {
-        table = table.column(head.clone(), Align::Right);
+    let variables = tables.variable.iter();
+    let variables = variables.map(|v| parameter(&v.name, &v.keys));
+    let objectives = tables.objective.iter().map(|o| words_and_unit(&o.name));
+    for name in variables.chain(objectives) {
+        table = table.column(head(name), Align::Right);
     }
-    for trial in &found.front {
-        table.push_row(
-            trial
-                .values
-                .iter()
-                .chain(&trial.objectives)
-                .map(|value| short(*value)),
-        );
+    for trial in rows {
+        let cells = trial.values.iter().chain(&trial.objectives);
+        table.push_row(cells.map(|value| short(*value)));
     }
     table
+}
+
+/// What was asked: variables with their bounds, objectives, scatter.
+fn question(problem: &Optimisation, found: &Optimum) -> Section {
+    let tables = &problem.tables;
+    let mut variables = Table::new("Variables, their bounds, and what the front has of them")
+        .column("variable", Align::Left)
+        .column("from", Align::Right)
+        .column("to", Align::Right)
+        .column("front", Align::Right)
+        .column("at a bound", Align::Left)
+        .column("keys", Align::Phrase);
+    for (k, variable) in tables.variable.iter().enumerate() {
+        let [low, high] = ends(found.front.iter().map(|trial| trial.values[k]));
+        let near = AT_BOUND * (variable.to - variable.from);
+        let count = |bound: f64| {
+            let values = found.front.iter().map(|trial| trial.values[k]);
+            values.filter(|value| (value - bound).abs() <= near).count()
+        };
+        let at = match [count(variable.from), count(variable.to)] {
+            [0, 0] => "none".to_owned(),
+            [lower, 0] => format!("{lower} at the lower"),
+            [0, upper] => format!("{upper} at the upper"),
+            [lower, upper] => format!("{lower} at the lower, {upper} at the upper"),
+        };
+        variables.push_row([
+            head(parameter(&variable.name, &variable.keys)),
+            short(variable.from),
+            short(variable.to),
+            match low == high {
+                true => short(low),
+                false => format!("{} to {}", short(low), short(high)),
+            },
+            at,
+            code(&variable.keys),
+        ]);
+    }
+    let mut objectives = Table::new("Objectives, sums of what is to be small")
+        .column("objective", Align::Left)
+        .column("column", Align::Left)
+        .column("torque N m", Align::Right)
+        .column("weight", Align::Right);
+    for objective in &tables.objective {
+        for term in &objective.term {
+            objectives.push_row([
+                head(words_and_unit(&objective.name)),
+                format!("`{}`", term.column),
+                term.torque_Nm
+                    .map_or_else(|| "mean of all".to_owned(), |torque| torque.to_string()),
+                term.weight.to_string(),
+            ]);
+        }
+    }
+    let mut section = Section::new("What was asked")
+        .push(variables)
+        .push(objectives);
+    if !tables.scatter.is_empty() {
+        let judged = match tables.judged_by.unwrap_or_default() {
+            Judged::Mean => "their mean counts",
+            Judged::Worst => "the worst of them counts",
+        };
+        let mut scatter = Table::new(format!(
+            "Scatter: every choice is tried on {} pairs, {judged}",
+            problem.samples()
+        ))
+        .column("what scatters", Align::Left)
+        .column("by", Align::Left)
+        .column("keys", Align::Phrase);
+        for one in &tables.scatter {
+            let by = match (&one.normal, &one.uniform) {
+                (Some(normal), _) => format!(
+                    "normal, mean {}, standard deviation {}",
+                    short(normal.mean),
+                    short(normal.deviation)
+                ),
+                (None, Some(range)) => {
+                    format!("even, {} to {}", short(range.from), short(range.to))
+                }
+                (None, None) => String::new(),
+            };
+            scatter.push_row([head(parameter(&one.name, &one.keys)), by, code(&one.keys)]);
+        }
+        section = section.push(scatter);
+    }
+    section
+}
+
+fn code(keys: &[String]) -> String {
+    let keys = keys.iter().map(|key| format!("`{key}`"));
+    keys.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 116 rows that read the same say less than a few that differ.
+    #[test]
+    fn a_front_has_no_rows_that_read_the_same() {
+        let trial = |a: f64, b: f64| Trial {
+            values: vec![a],
+            objectives: vec![a, b],
+        };
+        let near = |at: f64| (0..50).map(move |k| at + 1e-5 * f64::from(k));
+        let front: Vec<Trial> = [0.0, 0.5, 1.0]
+            .into_iter()
+            .flat_map(near)
+            .map(|a| trial(a, 1.0 - a))
+            .collect();
+        let kept = distinct(&front);
+        assert!((3..=4).contains(&kept.len()), "{}", kept.len());
+        // The least of both objectives.
+        assert_eq!(kept[0].objectives[0], 0.0);
+        assert_eq!(kept[kept.len() - 1], &front[front.len() - 1]);
+        let apart = [trial(0.0, 1.0), trial(0.5, 0.4), trial(1.0, 0.0)];
+        assert_eq!(distinct(&apart).len(), 3);
+    }
 }

@@ -1,17 +1,5 @@
 //! A report as one HTML file that opens without a network.
 //!
-//! ```
-//! use gearmesh_report::page::{Axis, LineChart, LineSeries, Page, Section, Text};
-//! let chart = LineChart::new("Transmission error", Axis::new("driver angle", "deg"), Axis::new("TE", "µm"))
-//!     .x_values(vec![0.0, 1.0, 2.0])
-//!     .series(LineSeries::new("50 N·m", vec![-20.0, -21.0, -20.5]));
-//! let html = Page::new("Gear pair A")
-//!     .section(Section::new("Static run").push(Text::paragraph("Quasi-static.")).push(chart))
-//!     .render()?;
-//! assert!(html.contains("Gear pair A"));
-//! # Ok::<(), gearmesh_report::page::PageError>(())
-//! ```
-//!
 //! Style, script and data are inside the file: the numbers as base64 of 32-bit floats, the charts drawn by uPlot (MIT,
 //! vendored in assets/ with its licence), the field pictures by a small rasteriser on a canvas. A content security
 //! policy in the page forbids every request. All texts are escaped.
@@ -20,6 +8,7 @@ mod error;
 mod field_picture;
 mod flank_chart;
 mod line_chart;
+mod map_chart;
 mod markup;
 mod packed;
 mod path_chart;
@@ -28,11 +17,13 @@ mod scatter_chart;
 mod spectrum_chart;
 mod table;
 mod text;
+mod typography;
 
 pub use error::PageError;
 pub use field_picture::{FieldPicture, FieldValues, Mark, MarkSign, ViewWindow};
 pub use flank_chart::FlankChart;
 pub use line_chart::{Axis, AxisScale, LineChart, LineSeries, LineStyle, SeriesColour};
+pub use map_chart::MapChart;
 pub use path_chart::PathChart;
 pub use polar_chart::PolarChart;
 pub use scatter_chart::{PointSeries, ScatterChart};
@@ -42,6 +33,7 @@ pub use text::Text;
 
 use markup::{escape, json_for_script};
 use std::fmt::Write as _;
+use typography::{html, plain};
 
 const STYLE: &str = include_str!("../assets/page.css");
 const CHART_SCRIPT: &str = include_str!("../assets/charts.js");
@@ -73,6 +65,8 @@ pub enum Block {
     PathChart(PathChart),
     /// A tooth flank with what touches on it.
     FlankChart(FlankChart),
+    /// Colours over two axes.
+    MapChart(MapChart),
     /// Points over two axes.
     ScatterChart(ScatterChart),
 }
@@ -96,6 +90,7 @@ block_from!(
     PolarChart,
     PathChart,
     FlankChart,
+    MapChart,
     ScatterChart
 );
 
@@ -176,86 +171,100 @@ impl Page {
     /// # Errors
     /// [`PageError`]: the block, what was found and what is expected.
     pub fn render(&self) -> Result<String, PageError> {
-        let mut html = String::new();
-        let title = escape(&self.title);
+        let mut page = String::new();
         let _ = write!(
-            html,
+            page,
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
-             script-src 'unsafe-inline'; img-src data:\">\n<title>{title}</title>\n\
-             <style>{UPLOT_STYLE}\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n"
+             script-src 'unsafe-inline'; img-src data:\">\n<title>{}</title>\n\
+             <style>{UPLOT_STYLE}\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n",
+            escape(&plain(&self.title)),
+            html(&self.title)
         );
         if let Some(subtitle) = &self.subtitle {
-            let _ = writeln!(html, "<p class=\"subtitle\">{}</p>", escape(subtitle));
+            let _ = writeln!(page, "<p class=\"subtitle\">{}</p>", html(subtitle));
         }
-        html.push_str("</header>\n");
-        self.navigation(&mut html);
-        html.push_str("<main>\n");
-        for (i, section) in self.sections.iter().enumerate() {
+        page.push_str("</header>\n");
+        // A heading with nothing below it says nothing.
+        let sections = || {
+            let sections = self.sections.iter().enumerate();
+            sections.filter(|(_, section)| !section.blocks.is_empty())
+        };
+        self.navigation(&mut page, sections());
+        page.push_str("<main>\n");
+        for (i, section) in sections() {
             let _ = writeln!(
-                html,
+                page,
                 "<section id=\"s{i}\">\n<h2>{}</h2>",
-                escape(&section.heading)
+                html(&self.heading(section))
             );
             for block in &section.blocks {
-                render_block(&mut html, block)?;
+                render_block(&mut page, block)?;
             }
-            html.push_str("</section>\n");
+            page.push_str("</section>\n");
         }
-        html.push_str("</main>\n");
+        page.push_str("</main>\n");
         if let Some(footer) = &self.footer {
-            let _ = writeln!(html, "<footer>{}</footer>", escape(footer));
+            let _ = writeln!(page, "<footer>{}</footer>", html(footer));
         }
         let _ = write!(
-            html,
+            page,
             "<script>\n/* uPlot 1.6.32\n{UPLOT_LICENCE}*/\n{UPLOT_SCRIPT}\n</script>\n\
              <script>\n\"use strict\";\n{PAGE_SCRIPT}\n{DOWNLOAD_SCRIPT}\n{CHART_SCRIPT}\n{FIELD_SCRIPT}\n</script>\n</body>\n</html>\n"
         );
-        Ok(html)
+        Ok(page)
     }
 
-    fn navigation(&self, html: &mut String) {
-        html.push_str("<nav aria-label=\"Sections\"><ul>");
-        // What all headings begin with stands above them already.
-        let of_one = match &self.sections[..] {
-            [first, rest @ ..] => {
-                let start = format!("{}: ", first.heading);
-                let common = rest.iter().all(|s| s.heading.starts_with(&start));
-                common.then_some(start)
-            }
-            [] => None,
-        };
-        for (i, section) in self.sections.iter().enumerate() {
-            let heading = &section.heading;
-            let stripped = of_one
-                .as_ref()
-                .and_then(|start| heading.strip_prefix(start));
-            let _ = write!(
-                html,
-                "<li><a href=\"#s{i}\">{}</a></li>",
-                escape(stripped.unwrap_or(heading))
-            );
+    /// A heading without what stands above it already: the title of the page.
+    fn heading<'a>(&'a self, section: &'a Section) -> String {
+        if section.heading == self.title {
+            return "At a glance".to_owned();
         }
-        html.push_str("</ul><button type=\"button\" id=\"theme\" hidden>Dark</button></nav>\n");
+        let rest = section.heading.strip_prefix(&self.title[..]);
+        match rest.and_then(|rest| rest.strip_prefix(": ")) {
+            Some(rest) => capital(rest),
+            None => section.heading.clone(),
+        }
+    }
+
+    fn navigation<'a>(
+        &'a self,
+        page: &mut String,
+        sections: impl Iterator<Item = (usize, &'a Section)>,
+    ) {
+        page.push_str("<nav aria-label=\"Sections\"><ul>");
+        for (i, section) in sections {
+            let heading = html(&self.heading(section));
+            let _ = write!(page, "<li><a href=\"#s{i}\">{heading}</a></li>");
+        }
+        page.push_str("</ul><button type=\"button\" id=\"theme\" hidden>Dark</button></nav>\n");
     }
 }
 
-fn render_block(html: &mut String, block: &Block) -> Result<(), PageError> {
+/// With a capital letter in front.
+pub(crate) fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase());
+    first.into_iter().flatten().chain(letters).collect()
+}
+
+fn render_block(page: &mut String, block: &Block) -> Result<(), PageError> {
     match block {
-        Block::Text(text) => text.render(html),
-        Block::KeyFigures(figures) => figures.render(html),
-        Block::Table(table) => table.render(html)?,
-        Block::PolarChart(chart) => chart.render(html)?,
-        Block::PathChart(chart) => chart.render(html)?,
-        Block::FlankChart(chart) => chart.render(html)?,
-        Block::ScatterChart(chart) => chart.render(html)?,
-        Block::LineChart(chart) => render_figure(html, "line", chart.title(), &chart.payload()?)?,
+        Block::Text(text) => text.render(page),
+        Block::KeyFigures(figures) => figures.render(page),
+        Block::Table(table) => table.render(page)?,
+        Block::PolarChart(chart) => chart.render(page)?,
+        Block::PathChart(chart) => chart.render(page)?,
+        Block::FlankChart(chart) => chart.render(page)?,
+        Block::MapChart(chart) => chart.render(page)?,
+        Block::ScatterChart(chart) => chart.render(page)?,
+        Block::LineChart(chart) => render_figure(page, "line", chart.title(), &chart.payload()?)?,
         Block::SpectrumChart(chart) => {
-            render_figure(html, "spectrum", chart.title(), &chart.payload()?)?
+            render_figure(page, "spectrum", chart.title(), &chart.payload()?)?
         }
         Block::FieldPicture(picture) => {
-            render_figure(html, "field", picture.title(), &picture.payload()?)?
+            render_figure(page, "field", picture.title(), &picture.payload()?)?
         }
     }
     Ok(())
@@ -263,7 +272,7 @@ fn render_block(html: &mut String, block: &Block) -> Result<(), PageError> {
 
 /// A figure that the script fills from its payload.
 fn render_figure(
-    html: &mut String,
+    page: &mut String,
     kind: &str,
     title: &str,
     payload: &serde_json::Value,
@@ -272,11 +281,11 @@ fn render_figure(
         block: title.to_string(),
         reason: e.to_string(),
     })?;
-    let title = escape(title);
     let _ = write!(
-        html,
-        "<figure class=\"chart\" data-kind=\"{kind}\">\n<figcaption>{title}</figcaption>\n<div class=\"drawing\"></div>\n\
-         <noscript>This figure needs JavaScript.</noscript>\n<script type=\"application/json\">{json}</script>\n</figure>\n"
+        page,
+        "<figure class=\"chart\" data-kind=\"{kind}\">\n<figcaption>{}</figcaption>\n<div class=\"drawing\"></div>\n\
+         <noscript>This figure needs JavaScript.</noscript>\n<script type=\"application/json\">{json}</script>\n</figure>\n",
+        html(title)
     );
     Ok(())
 }

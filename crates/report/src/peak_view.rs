@@ -91,6 +91,7 @@ mod tests {
             coverage: Coverage::of_contact(47, pitches),
             method_1: Vec::new(),
             method_2: strain.clone(),
+            between: Default::default(),
         };
         (PeakView::of(&r, &series, &strain), r, strain)
     }

@@ -3,8 +3,8 @@
 use crate::comparison_table;
 use crate::contact_pattern;
 use crate::page::{
-    Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle, Page,
-    PageError, Section, SeriesColour, SpectrumChart, SpectrumSeries, Table, Text,
+    self, Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle,
+    Page, PageError, Section, SeriesColour, SpectrumChart, SpectrumSeries, Table, Text,
 };
 use crate::pair_orders::{PairOrders, Shaft};
 use crate::peak_view::PeakView;
@@ -16,11 +16,11 @@ use crate::scene_comparison::{SceneComparisonError, compare_scene};
 use crate::system_page;
 use gearmesh_model::FileError;
 use gearmesh_scene::SceneResult;
+use gearmesh_scene::pair::PairFigures;
 use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_signal::RigSettings;
 use gearmesh_signal::rig::process;
-use gearmesh_signal::statistics::{mean, peak_to_peak};
 
 /// A gear's cross-section coloured by stress.
 #[derive(Debug, Clone)]
@@ -84,7 +84,10 @@ pub fn scene_page(
     let pairs = chapters.iter().map(|c| c.result.title.as_str());
     let others = systems.iter().map(|c| c.result.head.title.as_str());
     let titles: Vec<&str> = pairs.chain(others).collect();
-    let mut page = Page::new("gearmesh report").subtitle(titles.join(" - "));
+    let mut page = match &titles[..] {
+        [title] => Page::new(*title).subtitle("gearmesh report"),
+        _ => Page::new("gearmesh report").subtitle(titles.join(" - ")),
+    };
     for chapter in chapters {
         let r = &chapter.result;
         page = page
@@ -135,38 +138,31 @@ pub fn scene_page(
 
 fn overview(r: &SceneResult) -> Section {
     let last = r.torque_nm.len() - 1;
-    let te_mean = |k: usize| mean(r.averaged(&r.te_m, k));
-    let te_range = |k: usize| peak_to_peak(r.curve(&r.te_m, k));
     let mark = mark(&r.contact_coverage);
-    let figure = |value: Result<f64, gearmesh_signal::statistics::StatisticsError>| {
-        value.unwrap_or(f64::NAN) * 1e6
-    };
+    let f = r.figures(last);
     let mut figures = KeyFigures::new()
-        .figure("torque", format!("{}", r.torque_nm[last]), "N m")
+        .figure("torque", format!("{}", f.torque_nm), "N m")
         .figure(
             format!("TE mean{mark}"),
-            format!("{:.3}", figure(te_mean(last))),
+            format!("{:.3}", 1e6 * f.te_mean_m),
             "µm",
         )
         .figure(
             format!("TE peak-to-peak{mark}"),
-            format!("{:.3}", figure(te_range(last))),
+            format!("{:.3}", 1e6 * f.te_peak_to_peak_m),
             "µm",
         )
-        .figure(
-            format!("K_Hbeta{mark}"),
-            format!("{:.3}", r.k_h_beta[last]),
-            "",
-        );
+        .figure(format!("K_Hbeta{mark}"), format!("{:.3}", f.k_h_beta), "");
     if let Some(s) = r.strain.first() {
-        let range = figure(peak_to_peak(r.curve(&s.method_2, last)));
+        let [least, most] = r.strain_ends(0, 2, last);
+        let range = 1e6 * (most - least);
         figures = figures.figure(
             format!("strain range {}{}", s.name, mark_of_extremes(&s.coverage)),
             format!("{range:.0}"),
             "µε",
         );
     }
-    let mut section = Section::new(r.title.clone()).push(figures);
+    let mut section = Section::new(r.title.clone()).push(stiffness_and_pressure(&f, figures));
     let mut table = Table::new(format!("By torque: transmission error, mean mesh stiffness (secant and tangent), largest Hertz pressure, face load factor{mark}"))
         .column("torque N m", Align::Right)
         .column("TE mean µm", Align::Right)
@@ -178,29 +174,26 @@ fn overview(r: &SceneResult) -> Section {
     if r.has_axial_force() {
         table = table.column("axial force gear 1 N", Align::Right);
     }
-    let block = r.pressure_pa.len() / r.torque_nm.len();
-    for (k, torque) in r.torque_nm.iter().enumerate() {
-        let average = |values: &[f64]| mean(r.averaged(values, k)).unwrap_or(f64::NAN) * 1e-6;
-        let pressure = r.pressure_pa[k * block..(k + 1) * block]
-            .iter()
-            .copied()
-            .fold(0.0, f64::max);
+    for f in (0..r.torque_nm.len()).map(|k| r.figures(k)) {
         let mut row = vec![
-            format!("{torque}"),
-            format!("{:.3}", figure(te_mean(k))),
-            format!("{:.3}", figure(te_range(k))),
-            format!("{:.2}", average(&r.secant_n_per_m)),
-            format!("{:.2}", average(&r.tangent_n_per_m)),
-            format!("{:.0}", pressure * 1e-6),
-            format!("{:.3}", r.k_h_beta[k]),
+            format!("{}", f.torque_nm),
+            format!("{:.3}", 1e6 * f.te_mean_m),
+            format!("{:.3}", 1e6 * f.te_peak_to_peak_m),
+            format!("{:.2}", 1e-6 * f.secant_mean_n_per_m),
+            format!("{:.2}", 1e-6 * f.tangent_mean_n_per_m),
+            format!("{:.0}", 1e-6 * f.pressure_largest_pa),
+            format!("{:.3}", f.k_h_beta),
         ];
         if r.has_axial_force() {
-            let axial = mean(r.averaged(&r.axial_force_1_n, k)).unwrap_or(f64::NAN);
-            row.push(format!("{axial:.1}"));
+            row.push(format!("{:.1}", f.axial_force_1_mean_n));
         }
         table = table.row(row);
     }
-    section = section.push(table);
+    section = section.push(table).push(Text::paragraph(format!(
+        "{}. Errors: {}. Curves are drawn over the even positions.",
+        page::capital(&r.means_over()),
+        r.errors_in_words()
+    )));
     for (number, words) in [1, 2].into_iter().zip(&r.microgeometry) {
         // Results of older programs do not say.
         if !words.is_empty() {
@@ -219,6 +212,21 @@ fn overview(r: &SceneResult) -> Section {
         section = section.push(Text::note(format!("Warning: {warning}")));
     }
     section
+}
+
+/// What the largest torque finds, after the transmission error: mean stiffness and largest pressure.
+fn stiffness_and_pressure(found: &PairFigures, figures: KeyFigures) -> KeyFigures {
+    figures
+        .figure(
+            "mesh stiffness, secant, mean",
+            format!("{:.2}", 1e-6 * found.secant_mean_n_per_m),
+            "N/µm",
+        )
+        .figure(
+            "largest pressure p_H",
+            format!("{:.0}", 1e-6 * found.pressure_largest_pa),
+            "MPa",
+        )
 }
 
 /// What stands behind the name of a mean or a whole curve that a longer run may change.
@@ -281,15 +289,17 @@ fn transmission_error(chapter: &SceneChapter) -> Section {
             chart = chart.series(
                 LineSeries::new(format!("{torque} N m reference"), values)
                     .style(LineStyle::Dashed)
-                    .colour(colour)
-                    .hidden(),
+                    .colour(colour),
             );
         }
     }
+    let dashed = match chapter.record {
+        Some(_) => " Dashed: the reference.",
+        None => "",
+    };
     let section = Section::new(format!("{}: transmission error", r.title))
         .push(Text::paragraph(
-            "TE = r_b2 theta_2 - r_b1 theta_1, zero where unmodified flanks first touch without load, negative under load. \
-             Reference curves are switched on in the legend.",
+            format!("TE = r_b2 theta_2 − r_b1 theta_1, zero where unmodified flanks first touch without load, negative under load.{dashed}"),
         ))
         .push(chart);
     match order_spectrum(r) {

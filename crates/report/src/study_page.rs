@@ -1,8 +1,11 @@
 //! The page of a study: what each parameter does to each column, columns against each other, all cases.
 
+mod cases_table;
+
 use gearmesh_scene::optimise::{Trial, front};
 use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, Study};
 
+use crate::column_words::{self, axis, shown};
 use crate::page::{Align, Axis, KeyFigures, Page, PointSeries, ScatterChart, Section, Table, Text};
 use crate::short;
 
@@ -14,9 +17,6 @@ const MOST_AGAINST: usize = 4;
 
 /// Torques that are drawn in one picture.
 const MOST_TORQUES: usize = 6;
-
-/// Rows of the table of cases; study.csv has all.
-const MOST_ROWS: usize = 500;
 
 /// Groups of as many cases each, by the values of a parameter that is drawn.
 const GROUPS: usize = 8;
@@ -32,7 +32,7 @@ pub fn study_page(study: &Study, cases: &[CaseResult]) -> Page {
     for column in columns.iter().take(8) {
         let [least, largest] = column.ends();
         let range = format!("{} … {}", short(least), short(largest));
-        figures = figures.figure(column.name.clone(), range, String::new());
+        figures = figures.figure(column.words.clone(), range, column.unit);
     }
     let failures = match failed {
         0 => String::new(),
@@ -60,7 +60,7 @@ pub fn study_page(study: &Study, cases: &[CaseResult]) -> Page {
     if let Some(section) = against_each_other(cases, &columns) {
         page = page.section(section);
     }
-    page.section(Section::new("Cases").push(table(study, cases)))
+    page.section(Section::new("Cases").push(cases_table::table(study, cases, &columns)))
         .footer(format!("by gearmesh {}", env!("CARGO_PKG_VERSION")))
 }
 
@@ -76,9 +76,12 @@ fn is_same_at_every_torque(of_cases: &[Vec<Selected>]) -> bool {
     of_cases.iter().any(|own| own.len() > 1) && of_cases.iter().all(is_one)
 }
 
-/// A column of a study: its numbers at each torque.
+/// A column of a study: its numbers at each torque, in the unit in which people read them.
 struct Column {
     name: String,
+    words: String,
+    unit: &'static str,
+    factor: f64,
     /// Name of a curve (a torque, or a figure of a series) and its number for each case.
     curves: Vec<(String, Vec<Option<f64>>)>,
 }
@@ -132,7 +135,25 @@ impl Column {
         let any = curves
             .iter()
             .any(|(_, values)| values.iter().any(Option::is_some));
-        any.then_some(Self { name, curves })
+        let mut column = Self {
+            words: String::new(),
+            unit: "",
+            factor: 1.0,
+            name,
+            curves,
+        };
+        let [least, largest] = column.ends();
+        let amount = least.abs().max(largest.abs());
+        (column.words, column.unit, column.factor) = shown(&column.name, amount);
+        let values = column.curves.iter_mut().flat_map(|(_, values)| values);
+        for value in values.flatten() {
+            *value *= column.factor;
+        }
+        any.then_some(column)
+    }
+
+    fn axis(&self) -> Axis {
+        Axis::new(self.words.clone(), self.unit)
     }
 
     fn ends(&self) -> [f64; 2] {
@@ -242,9 +263,13 @@ fn main_effects(study: &Study, cases: &[CaseResult], columns: &[Column]) -> Opti
         let groups = groups(cases, &parameter.name);
         for column in columns {
             let mut chart = ScatterChart::new(
-                format!("{} over {}", column.name, parameter.name),
-                Axis::new(parameter.name.clone(), ""),
-                Axis::new(column.name.clone(), ""),
+                format!(
+                    "{} over {}",
+                    column.words,
+                    column_words::parameter(&parameter.name, &parameter.keys).0
+                ),
+                axis(column_words::parameter(&parameter.name, &parameter.keys)),
+                column.axis(),
             );
             let (mut drawn, mut has_means) = (false, false);
             for (name, values) in column.curves.iter().take(MOST_TORQUES) {
@@ -264,10 +289,10 @@ fn main_effects(study: &Study, cases: &[CaseResult], columns: &[Column]) -> Opti
                 if means.len() > 1 {
                     let ranks = rank_correlation(&points);
                     table.push_row([
-                        parameter.name.clone(),
-                        column.name.clone(),
+                        column_words::parameter(&parameter.name, &parameter.keys).0,
+                        column.words.clone(),
                         name.clone(),
-                        short(largest - least),
+                        format!("{} {}", short(largest - least), column.unit),
                         ranks.map_or_else(String::new, |r| format!("{r:.2}")),
                     ]);
                 }
@@ -366,9 +391,9 @@ fn against_each_other(cases: &[CaseResult], columns: &[Column]) -> Option<Sectio
             let best = front(&all);
             let name = |trial: &Trial| cases[trial.values[0] as usize].case.name();
             let chart = ScatterChart::new(
-                format!("{} against {}", second.name, first.name),
-                Axis::new(first.name.clone(), ""),
-                Axis::new(second.name.clone(), ""),
+                format!("{} against {}", second.words, first.words),
+                first.axis(),
+                second.axis(),
             )
             .series(PointSeries::new("cases", all.iter().map(point).collect()))
             .series(
@@ -380,56 +405,6 @@ fn against_each_other(cases: &[CaseResult], columns: &[Column]) -> Option<Sectio
         }
     }
     drawn.then_some(section)
-}
-
-fn table(study: &Study, cases: &[CaseResult]) -> Table {
-    let count = cases.len();
-    let caption = match count > MOST_ROWS {
-        true => format!("The first {MOST_ROWS} of {count} cases"),
-        false => "All cases".to_owned(),
-    };
-    let mut table = Table::new(caption).column("case", Align::Left);
-    for column in &study.tables.columns {
-        table = table.column(column.clone(), Align::Right);
-    }
-    let columns = study.tables.columns.len();
-    let is_one = |place: usize| {
-        let own: Vec<_> = cases.iter().map(|c| of_column(c, place, columns)).collect();
-        is_same_at_every_torque(&own)
-    };
-    let once: Vec<bool> = (0..columns).map(is_one).collect();
-    for case in cases.iter().take(MOST_ROWS) {
-        let cells: Vec<String> = match &case.figures {
-            Err(problem) => {
-                let rest = std::iter::repeat_n(String::new(), columns.saturating_sub(1));
-                std::iter::once(format!("failed: {problem}"))
-                    .chain(rest)
-                    .collect()
-            }
-            Ok(_) => (0..columns)
-                .map(|place| {
-                    let own = of_column(case, place, columns);
-                    let rows = if once[place] { 1 } else { own.len() };
-                    let cells: Vec<_> = own.iter().take(rows).map(|one| cell(&one.value)).collect();
-                    cells.join(", ")
-                })
-                .collect(),
-        };
-        table.push_row(std::iter::once(case.case.name()).chain(cells));
-    }
-    if count > 30 { table.folded() } else { table }
-}
-
-fn cell(value: &SelectedValue) -> String {
-    match value {
-        SelectedValue::Single(value) => short(*value),
-        SelectedValue::Series(f) => format!(
-            "{} ({} … {})",
-            short(f.mean),
-            short(f.least),
-            short(f.largest)
-        ),
-    }
 }
 
 #[cfg(test)]

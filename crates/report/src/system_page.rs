@@ -3,16 +3,19 @@
 //! | sections | file |
 //! | --- | --- |
 //! | key figures, a line a channel | `at_a_glance.rs` |
+//! | line loads over the face, tilt of the axes at rest | `across_the_face.rs` |
 //! | which columns, in which charts, with which units | `columns.rs` |
 //! | time histories, spectra, energy | `transient.rs` |
 //! | balls and cages of bearings whose balls move | `bearings.rs` |
 //! | pairs of bevel teeth: forces, contact pattern, path | `tooth_pairs.rs` |
 //! | orbits of gears, lines of shafts and cages | `orbits.rs` |
 //! | curves over the speed | `sweep.rs` |
+//! | the stages, their loads beside what follows from their teeth | `stages.rs` |
 //! | what friction takes, part by part | `losses.rs` |
 //! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
 //! | what was judged after the run | `../ratings.rs` |
 
+mod across_the_face;
 mod at_a_glance;
 mod bearings;
 mod columns;
@@ -20,6 +23,7 @@ mod eigen;
 mod equilibria;
 mod losses;
 mod orbits;
+mod stages;
 mod sweep;
 mod tooth_pairs;
 mod transient;
@@ -30,6 +34,7 @@ use gearmesh_scene::system_run::{MeshPassing, ResultKind, SystemResult, is_promi
 use self::columns::turning;
 use crate::page::{KeyFigures, Section, Text};
 use crate::ratings;
+use crate::short;
 
 /// All sections of a result.
 pub(crate) fn sections(
@@ -56,7 +61,10 @@ pub(crate) fn sections(
                 sections.push(sweep::sweep_section(r, sweep));
             }
         }
-        ResultKind::Static => sections.extend(equilibria::equilibria(r)?),
+        ResultKind::Static => {
+            sections.extend(across_the_face::section(r)?);
+            sections.extend(equilibria::equilibria(r)?);
+        }
         ResultKind::Eigen => sections.push(eigen::eigen(r)),
     }
     sections.extend(losses::section(r)?);
@@ -79,8 +87,8 @@ fn overview(r: &SystemResult, passings: &[MeshPassing]) -> Result<Section, FileE
         _ => KeyFigures::new(),
     };
     for mesh in turning(passings) {
-        let label = format!("mesh frequency {}", mesh.mesh.name);
-        figures = figures.figure(label, format!("{:.3}", mesh.frequency_hz), "Hz");
+        let label = format!("{}: mesh frequency", mesh.mesh.name);
+        figures = figures.figure(label, short(mesh.frequency_hz), "Hz");
     }
     if r.record.is_some() {
         let error = r.relative_energy_error().unwrap_or(f64::NAN);
@@ -93,7 +101,11 @@ fn overview(r: &SystemResult, passings: &[MeshPassing]) -> Result<Section, FileE
     if !figures.is_empty() {
         section = section.push(figures);
     }
-    for table in tables {
+    let warnings = r.warnings()?;
+    for warning in warnings {
+        section = section.push(Text::note(format!("Warning: {warning}")));
+    }
+    for table in stages::table(r)?.into_iter().chain(tables) {
         section = section.push(table);
     }
     for passing in passings {
@@ -110,7 +122,7 @@ fn provenance(r: &SystemResult) -> Section {
     if !r.head.notes.is_empty() {
         let text = "What was assumed, and what follows from the scene:";
         section = section.push(Text::paragraph(text));
-        section = section.push(Text::preformatted(r.head.notes.join("\n")));
+        section = section.push(Text::list(&r.head.notes));
     }
     if !r.head.inputs.is_empty() {
         section = section.push(Text::preformatted(r.head.inputs.join("\n")));

@@ -1,5 +1,6 @@
 //! What drives and loads a scene: the spring that holds each train, torques and forces.
 
+use crate::in_time::{Running, driven_body};
 use crate::ledger::About;
 use crate::placement::Frame;
 use crate::source::Source;
@@ -29,13 +30,14 @@ pub struct Held {
 /// Stiffness with which each train is held where power goes in \[N m/rad\].
 const HELD_NM_PER_RAD: f64 = 1e6;
 
-/// Each train is held by a spring about its axis where most power goes in; all other torques and forces are loads.
+/// Each train is held by a spring about its axis where most power goes in, in time driven there if it turns; all other
+/// torques and forces are loads.
 ///
-/// Returns the springs.
+/// Returns the springs to the ground.
 pub fn drive(
     text: &mut String,
     source: &Source<'_>,
-    train: &Train,
+    (train, running): (&Train, Running),
     groups: &BTreeMap<i64, usize>,
 ) -> Vec<Held> {
     let mut held = Vec::new();
@@ -98,6 +100,23 @@ pub fn drive(
             }
         };
         let Some(body) = body else { continue };
+        let at = input.map_or(shaft.id, |t| t.shaft);
+        let speed_rpm = train.flow.speed_rpm.get(&at).copied().unwrap_or(0.0);
+        let turning = (running == Running::InTime && speed_rpm != 0.0)
+            .then(|| train.shaft(at))
+            .flatten();
+        if let Some(on) = turning {
+            let frame = on.frame.unwrap_or(Frame::WORLD);
+            let axis = frame.axes[0].map(|x| on.sign() * x);
+            text.push_str(&driven_body(
+                (&name, &body),
+                (frame.origin_mm, axis),
+                speed_rpm,
+                HELD_NM_PER_RAD,
+            ));
+            other_torques(text, train, mine, input);
+            continue;
+        }
         held.push(Held {
             spring: format!("held at {name}"),
             at: name.clone(),
@@ -109,24 +128,29 @@ pub fn drive(
             quoted(&body),
             number(HELD_NM_PER_RAD)
         ));
-        for &t in mine {
-            let is_input = input.is_some_and(|i| std::ptr::eq(i, t));
-            if is_input || t.nm == 0.0 {
-                continue;
-            }
-            let Some(on) = train.shaft(t.shaft) else {
-                continue;
-            };
-            text.push_str(&format!(
-                "\n[[load]]\nname = {}\nbody = {}\ntorque_Nm = {}\n",
-                quoted(&t.name),
-                quoted(&on.body(t.u_mm)),
-                number(t.nm)
-            ));
-        }
+        other_torques(text, train, mine, input);
     }
     forces(text, train);
     held
+}
+
+/// The torques of a train other than that which goes in where it is held or driven.
+fn other_torques(text: &mut String, train: &Train, mine: &[&Torque], input: Option<&Torque>) {
+    for &t in mine {
+        let is_input = input.is_some_and(|i| std::ptr::eq(i, t));
+        if is_input || t.nm == 0.0 {
+            continue;
+        }
+        let Some(on) = train.shaft(t.shaft) else {
+            continue;
+        };
+        text.push_str(&format!(
+            "\n[[load]]\nname = {}\nbody = {}\ntorque_Nm = {}\n",
+            quoted(&t.name),
+            quoted(&on.body(t.u_mm)),
+            number(t.nm)
+        ));
+    }
 }
 
 fn forces(text: &mut String, train: &Train) {

@@ -4,6 +4,7 @@ use crate::bevel;
 use crate::container::{Unpacked, unpack};
 use crate::error::RexsError;
 use crate::gear_text::gear_file;
+use crate::in_time::Running;
 use crate::ledger::{About, Ledger};
 use crate::model::{LoadCase, Model};
 use crate::scene_text::{Meshes, scene};
@@ -89,11 +90,24 @@ const KNOWN: [&str; 40] = [
     "topographical_modification",
 ];
 
-/// Imports a file. `stem` begins the names of the files that are made; `with` is what the scene computes its gear meshes with.
+/// Imports a file to scenes at rest. `stem` begins the names of the files that are made; `with` is what the scene computes its gear meshes with.
 ///
 /// # Errors
 /// [`RexsError`] for files that are no REXS or lack what a gearbox cannot do without.
 pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsError> {
+    import_to_run(bytes, stem, with, Running::AtRest)
+}
+
+/// As [`import`], to scenes at rest or in time.
+///
+/// # Errors
+/// As [`import`], and [`RexsError::Missing`] for scenes in time of a gearbox whose gears do not turn.
+pub fn import_to_run(
+    bytes: Vec<u8>,
+    stem: &str,
+    with: Meshes,
+    running: Running,
+) -> Result<Import, RexsError> {
     let unpacked = unpack(bytes)?;
     let mut ledger = Ledger::default();
     let mut model = parse(&unpacked)?;
@@ -125,6 +139,7 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
     }
     let mut made = Made {
         with,
+        running,
         ..Made::default()
     };
     if cases.is_empty() {
@@ -147,7 +162,7 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
             source.list_unused();
         }
     }
-    if cases.len() > 1 {
+    if cases.len() > 1 && running == Running::AtRest {
         match study(&made, &stem) {
             Some(text) => made.add(format!("{stem}_study.toml"), text),
             None => ledger.borrow_mut().assume(
@@ -217,6 +232,7 @@ fn parse(unpacked: &Unpacked) -> Result<Model, RexsError> {
 #[derive(Default)]
 struct Made {
     with: Meshes,
+    running: Running,
     files: Vec<ImportedFile>,
     scenes: Vec<String>,
     gears: Vec<String>,
@@ -258,7 +274,13 @@ impl Made {
                     .to_owned(),
             );
             let file = format!("{name}.toml");
-            let (text, held) = scene(source, &train, &title, &head, gravity, self.with);
+            let (text, held) = scene(
+                source,
+                &train,
+                (&title, &head),
+                gravity,
+                (self.with, self.running),
+            )?;
             self.sheets.push(Sheet::new(&file, &train, held));
             self.add(file.clone(), text);
             self.scenes.push(file);

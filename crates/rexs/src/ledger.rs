@@ -1,10 +1,11 @@
 //! The list of what became of a model: taken, assumed, not represented.
 
 use crate::scene_text::Meshes;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// What an entry is about. How much of a scene's figures it may change follows from that, and from nothing else.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum About {
     /// A load, stage, support or speed of the file does not act in the scene as the file has it.
     Lost,
@@ -56,7 +57,7 @@ impl About {
 }
 
 /// One line.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Entry {
     /// The component, or the file.
     pub subject: String,
@@ -77,7 +78,8 @@ pub struct Ledger {
     pub assumed: Vec<Entry>,
     /// What the model says and the files do not.
     pub not_represented: Vec<Entry>,
-    known: BTreeSet<(u8, Entry)>,
+    /// Places of the entries, by hash and list.
+    known: HashMap<(u64, u8), Vec<usize>>,
 }
 
 impl Ledger {
@@ -88,13 +90,18 @@ impl Ledger {
             about,
             is_value,
         };
+        let entries = match list {
+            0 => &mut self.taken,
+            1 => &mut self.assumed,
+            _ => &mut self.not_represented,
+        };
+        let mut hasher = DefaultHasher::new();
+        entry.hash(&mut hasher);
+        let same_hash = self.known.entry((hasher.finish(), list)).or_default();
         // Load cases read the same components again.
-        if self.known.insert((list, entry.clone())) {
-            match list {
-                0 => self.taken.push(entry),
-                1 => self.assumed.push(entry),
-                _ => self.not_represented.push(entry),
-            }
+        if same_hash.iter().all(|&place| entries[place] != entry) {
+            same_hash.push(entries.len());
+            entries.push(entry);
         }
     }
 

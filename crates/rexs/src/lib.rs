@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! REXS, the gear industry's exchange format for gearboxes: XML, JSON or a zip of one, versions 1.0 to 2.0.0.
 //!
 //! Data walk one way: bytes ([`container`]) → text of a [`model::Model`] ([`xml`], [`json`]) → names of version 2.0.0
@@ -18,6 +22,7 @@ pub mod gear;
 pub mod gear_bodies;
 pub mod gear_text;
 pub mod import;
+pub mod in_time;
 pub mod json;
 pub mod ledger;
 pub mod loads;
@@ -44,7 +49,8 @@ pub mod versions;
 pub mod xml;
 
 pub use error::RexsError;
-pub use import::{Import, ImportedFile, import};
+pub use import::{Import, ImportedFile, import, import_to_run};
+pub use in_time::Running;
 pub use ledger::{About, Entry, Ledger, Weight};
 pub use scene_text::{Meshes, model_file};
 pub use sheet::{Port, Sheet};

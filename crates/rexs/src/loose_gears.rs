@@ -5,7 +5,6 @@ use crate::bearing::{self, AxialSupport, Bearing};
 use crate::coupling;
 use crate::ledger::About;
 use crate::model::Component;
-use crate::shaft::Shaft;
 use crate::source::Source;
 use crate::structure::Structure;
 use crate::train::Train;
@@ -58,16 +57,6 @@ pub fn seat(
     } else {
         Seat::Fixed(shaft)
     })
-}
-
-/// The hub of a gear that turns loose on a shaft: its number is that of the gear.
-pub fn hub(gear: &Component, name: &str, carrier: &Shaft) -> Shaft {
-    let mut hub = carrier.clone();
-    hub.id = gear.id;
-    name.clone_into(&mut hub.name);
-    hub.hub_on = Some(carrier.id);
-    hub.speed_rpm = None;
-    hub
 }
 
 /// Bearings between a shaft and a gear: on the hub of one that turns loose, at the same place as on the shaft where none is given.

@@ -11,6 +11,7 @@ use crate::source::Source;
 use crate::structure::Structure;
 use crate::train::{TorqueSeat, Train};
 use crate::units::{ONE, RPM};
+use std::collections::{HashMap, HashSet};
 
 /// A member that turns about the common axis: teeth, its shaft in the scene, its words.
 struct Member {
@@ -20,11 +21,59 @@ struct Member {
     name: &'static str,
 }
 
+/// What may turn shafts, found once for all stages.
+struct Acting {
+    /// Shafts on which a load transmits torque, and those on which a brake acts.
+    loaded: HashSet<i64>,
+    braked: HashSet<i64>,
+    /// Gears of meshes by shaft.
+    gears: HashMap<i64, HashSet<i64>>,
+    /// Shafts at bevel stages, couplings and planetary stages that were joined.
+    joined: HashSet<i64>,
+}
+
+impl Acting {
+    fn of(train: &Train) -> Self {
+        let transmitting = train.loads.iter().filter(|l| l.transmits && !l.is_brake);
+        let braking = train.loads.iter().filter(|l| l.is_brake);
+        let mut gears: HashMap<i64, HashSet<i64>> = HashMap::new();
+        for gear in train.meshes.iter().flat_map(|m| m.gears) {
+            let seated = &train.gears[gear];
+            gears
+                .entry(seated.shaft)
+                .or_default()
+                .insert(seated.gear.id);
+        }
+        let bevels = train.bevels.iter().map(|b| b.shaft);
+        let coupled = train.couplings.iter().flat_map(|c| c.sides);
+        Self {
+            loaded: transmitting.map(|l| l.shaft).collect(),
+            braked: braking.map(|l| l.shaft).collect(),
+            gears,
+            joined: bevels.chain(coupled).collect(),
+        }
+    }
+}
+
 /// Joins the members of all planetary stages.
 pub fn join(source: &Source<'_>, structure: &Structure, train: &mut Train) {
+    let mut acting = Acting::of(train);
+    let mut pairs_of: HashMap<i64, Vec<(usize, [i64; 2])>> = HashMap::new();
+    for (place, stage) in structure.stages().iter().enumerate() {
+        let pairs = pairs_of.entry(stage.id).or_default();
+        pairs.push((place, stage.gears));
+    }
     for stage in source.model.of_kind(&["planetary_stage"]) {
-        let (about, what) = match members(source, structure, train, stage) {
-            Some((members, ratio)) => couple(source, train, stage, members, ratio),
+        let parts = structure.partners(stage.id, &["cylindrical_stage"]);
+        let mut pairs: Vec<_> = { parts.iter() }
+            .filter_map(|id| pairs_of.get(id))
+            .flatten()
+            .copied()
+            .collect();
+        pairs.sort_unstable();
+        let pairs: Vec<[i64; 2]> = pairs.into_iter().map(|(_, gears)| gears).collect();
+        let (about, what) = match members(source, structure, train, (stage, &pairs)) {
+            Some((members, ratio)) => couple(source, train, (stage, &mut acting), members, ratio),
             None => (
                 About::Lost,
                 "sun, ring, planets and carrier were not found as one of each kind".to_owned(),
@@ -43,16 +92,9 @@ fn members(
     source: &Source<'_>,
     structure: &Structure,
     train: &Train,
-    stage: &Component,
+    (stage, pairs): (&Component, &[[i64; 2]]),
 ) -> Option<([Member; 3], f64)> {
     let in_scene = |ids: Vec<i64>| ids.into_iter().find(|&id| train.shaft(id).is_some());
-    let parts = structure.partners(stage.id, &["cylindrical_stage"]);
-    let pairs: Vec<[i64; 2]> = structure
-        .stages()
-        .iter()
-        .filter(|s| parts.contains(&s.id))
-        .map(|s| s.gears)
-        .collect();
     let is_ring = |id: i64| {
         let component = source.model.component(id);
         component.is_some_and(|c| c.kind == "ring_gear")
@@ -64,10 +106,10 @@ fn members(
     let with_ring: Vec<(i64, i64)> = pairs.iter().copied().filter_map(mate).collect();
     let &(ring, planet_b) = with_ring.first()?;
     let shaft_of = |gear: i64| structure.partners(gear, &["shaft"]).first().copied();
-    let planets: Vec<Option<i64>> = with_ring.iter().map(|&(_, p)| shaft_of(p)).collect();
+    let planets: HashSet<i64> = with_ring.iter().map(|&(_, p)| p).collect();
+    let pins: HashSet<i64> = planets.iter().filter_map(|&p| shaft_of(p)).collect();
     let is_planet = |gear: i64| {
-        let own = shaft_of(gear);
-        with_ring.iter().any(|&(_, p)| p == gear) || (own.is_some() && planets.contains(&own))
+        planets.contains(&gear) || shaft_of(gear).is_some_and(|own| pins.contains(&own))
     };
     let with_sun = pairs.iter().filter(|p| !p.iter().any(|&g| is_ring(g)));
     let suns: Vec<(i64, i64)> = with_sun
@@ -114,13 +156,13 @@ fn members(
 fn couple(
     source: &Source<'_>,
     train: &mut Train,
-    stage: &Component,
+    (stage, acting): (&Component, &mut Acting),
     members: [Member; 3],
     ratio: f64,
 ) -> (About, String) {
     let turns = |m: &Member| {
         m.shaft
-            .is_some_and(|id| is_driven(source, train, &m.part, id))
+            .is_some_and(|id| is_driven(source, acting, m.part, id))
     };
     let turning: Vec<bool> = members.iter().map(turns).collect();
     // Speed of the second member over that of the first.
@@ -150,9 +192,7 @@ fn couple(
     });
     let middle = members[pair[0]].part;
     let point = train
-        .gears
-        .iter()
-        .find(|g| g.gear.id == middle)
+        .gear(middle)
         .and_then(|g| Some(train.shaft(g.shaft)?.frame?.point([g.mid_mm, 0.0, 0.0])));
     for (side, (&shaft, member)) in shafts.iter().zip(pair.map(|i| &members[i])).enumerate() {
         let Some(own) = train.shaft(shaft) else {
@@ -165,6 +205,7 @@ fn couple(
         } else {
             along
         };
+        acting.joined.insert(shaft);
         train.planetary.push(TorqueSeat {
             shaft,
             u_mm,
@@ -185,21 +226,14 @@ fn couple(
 }
 
 /// Whether something but the stage itself may turn a shaft: a load that transmits torque, another gear, a coupling to another shaft.
-fn is_driven(source: &Source<'_>, train: &Train, part: &i64, shaft: i64) -> bool {
+fn is_driven(source: &Source<'_>, acting: &Acting, part: i64, shaft: i64) -> bool {
     let component = source.model.component(shaft);
     let stands = component.is_some_and(|c| {
         let speed = source.number(c, "rotational_speed", RPM).ok().flatten();
         speed == Some(0.0) && matches!(source.flag(c, "defines_speed"), Ok(Some(true)))
     });
-    let mine = train.loads.iter().filter(|l| l.shaft == shaft);
-    let loads = mine.clone().any(|l| l.transmits && !l.is_brake);
-    let stands = stands || { mine }.any(|l| l.is_brake);
-    let is_mate = |mesh: &crate::train::Mesh| {
-        let mut gears = mesh.gears.iter().map(|&i| &train.gears[i]);
-        gears.any(|g| g.shaft == shaft && g.gear.id != *part)
-    };
-    let gears = train.meshes.iter().any(is_mate) || train.bevels.iter().any(|b| b.shaft == shaft);
-    let coupled = train.couplings.iter().any(|c| c.sides.contains(&shaft));
-    let planetary = train.planetary.iter().any(|p| p.shaft == shaft);
-    !stands && (loads || gears || coupled || planetary)
+    let stands = stands || acting.braked.contains(&shaft);
+    let mates = acting.gears.get(&shaft).into_iter().flatten();
+    let has_mate = { mates }.any(|gear| *gear != part);
+    !stands && (acting.loaded.contains(&shaft) || has_mate || acting.joined.contains(&shaft))
 }

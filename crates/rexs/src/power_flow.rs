@@ -207,24 +207,33 @@ fn train(
     }
 }
 
-/// Which links are part of a loop: those that close one, and the way from both of their shafts up to where they come together.
+/// Which links are part of a loop: those that close one, and the way from both of their shafts up to where they come together. Each
+/// link is walked once: what is part of a loop is passed over by the next one.
 fn loops(reached: &[Reached], links: &[Link], closing: &[usize]) -> Vec<bool> {
     let mut found = vec![false; links.len()];
-    let by: HashMap<i64, Option<(usize, i64)>> = reached.iter().map(|r| (r.shaft, r.by)).collect();
-    let up = |shaft: i64| by.get(&shaft).copied().flatten();
-    let way = |shaft: i64| {
-        let first = up(shaft);
-        std::iter::successors(first, |&(_, parent)| up(parent)).map(|(link, _)| link)
-    };
+    let place: HashMap<i64, usize> = (reached.iter().enumerate())
+        .map(|(i, r)| (r.shaft, i))
+        .collect();
+    // Shafts stand behind those by which they are reached. Of each shaft the next one on the way up whose link is not marked.
+    let mut above: Vec<usize> = (0..reached.len()).collect();
+    fn unmarked(above: &mut [usize], mut i: usize) -> usize {
+        while above[i] != i {
+            above[i] = above[above[i]];
+            i = above[i];
+        }
+        i
+    }
     for &i in closing {
         found[i] = true;
-        let [a, b] = links[i].shafts.map(|s| way(s).collect::<HashSet<_>>());
-        // What both ways have in common lies between the loop and the root.
-        for &link in a.iter().filter(|l| !b.contains(l)) {
+        let [mut a, mut b] = (links[i].shafts).map(|s| unmarked(&mut above, place[&s]));
+        while a != b {
+            let lower = if a > b { &mut a } else { &mut b };
+            let Some((link, parent)) = reached[*lower].by else {
+                break;
+            };
             found[link] = true;
-        }
-        for &link in b.iter().filter(|l| !a.contains(l)) {
-            found[link] = true;
+            above[*lower] = place[&parent];
+            *lower = unmarked(&mut above, *lower);
         }
     }
     found

@@ -3,7 +3,9 @@
 use crate::bearing::AxialSupport;
 use crate::bevel_loads::{BevelLoad, bevel_loads};
 use crate::drive_text::{Held, drive};
+use crate::error::RexsError;
 use crate::gear_bodies::gear_bodies;
+use crate::in_time::{DAMPING_S, Running, run_tables};
 use crate::ledger::About;
 use crate::placement::Frame;
 use crate::shaft::Shaft;
@@ -38,14 +40,16 @@ pub fn model_file(gear_file: &str) -> String {
 }
 
 /// Text of the scene, and what holds its trains.
+///
+/// # Errors
+/// [`RexsError::Missing`] for a scene in time of a gearbox whose gears do not turn.
 pub fn scene(
     source: &Source<'_>,
     train: &Train,
-    title: &str,
-    head: &[String],
+    (title, head): (&str, &[String]),
     gravity: Option<[f64; 3]>,
-    with: Meshes,
-) -> (String, Vec<Held>) {
+    (with, running): (Meshes, Running),
+) -> Result<(String, Vec<Held>), RexsError> {
     let mut text = String::new();
     for line in head {
         text.push_str(&format!("# {}\n", comment(line)));
@@ -54,7 +58,14 @@ pub fn scene(
     if let Some(g) = gravity {
         text.push_str(&format!("gravity_m_per_s2 = {}\n", numbers(&g)));
     }
-    text.push_str("\n[run]\nkind = \"static\"\n");
+    match running {
+        Running::AtRest => text.push_str("\n[run]\nkind = \"static\"\n"),
+        Running::InTime => text.push_str(&run_tables(train).ok_or_else(|| RexsError::Missing {
+            component: "the gearbox".to_owned(),
+            what: "no gear of it turns in a mesh, so that it has no motion in time: give a shaft its speed (speed of shaft or external_load), or import it at rest"
+                .to_owned(),
+        })?),
+    }
     text.push_str(&gear_bodies(source, train, |g| with.gear(&g.gear.file)));
     let groups = joined(train, |_| true);
     // Springs of couplings tell no speed.
@@ -73,18 +84,18 @@ pub fn scene(
         }
     }
     for shaft in train.shafts.iter().filter(|s| s.hub_on.is_none()) {
-        shaft_table(&mut text, train, shaft, &turning, &on_shafts);
+        shaft_table(&mut text, (train, running), shaft, &turning, &on_shafts);
     }
     let bevel_loads = bevel_loads(source, train);
     let supports = axial_supports(source, train, &bevel_loads);
-    bearings(&mut text, train, &supports);
+    bearings(&mut text, train, &supports, running);
     couplings(&mut text, train);
-    let held = drive(&mut text, source, train, &groups);
+    let held = drive(&mut text, source, (train, running), &groups);
     bevel_loads
         .iter()
         .for_each(|load| text.push_str(&load.text()));
-    meshes(&mut text, train, with);
-    (text, held)
+    meshes(&mut text, train, with, running);
+    Ok((text, held))
 }
 
 /// Trains that are joined by meshes of the scene and couplings, as far as these links are wanted: the number of each shaft's train.
@@ -128,7 +139,7 @@ struct OnShafts {
 
 fn shaft_table(
     text: &mut String,
-    train: &Train,
+    (train, running): (&Train, Running),
     shaft: &Shaft,
     groups: &BTreeMap<i64, usize>,
     on_shafts: &OnShafts,
@@ -194,8 +205,12 @@ fn shaft_table(
     if !parts.is_empty() {
         text.push_str(&format!("part = [{}]\n", parts.join(", ")));
     }
+    let damping = match running {
+        Running::AtRest => String::new(),
+        Running::InTime => format!(", damping_s = {}", number(DAMPING_S)),
+    };
     text.push_str(&format!(
-        "model = {{ kind = \"beam\", young_GPa = {}, poisson = {} }}\n",
+        "model = {{ kind = \"beam\", young_GPa = {}, poisson = {}{damping} }}\n",
         number(shaft.material.young_gpa),
         number(shaft.material.poisson)
     ));
@@ -292,7 +307,7 @@ fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLoad])
     holds
 }
 
-fn bearings(text: &mut String, train: &Train, supports: &[bool]) {
+fn bearings(text: &mut String, train: &Train, supports: &[bool], running: Running) {
     for (bearing, &holds) in train.bearings.iter().zip(supports) {
         let body = |side: usize| -> Option<String> {
             let shaft = train.shaft(bearing.sides[side])?;
@@ -311,10 +326,20 @@ fn bearings(text: &mut String, train: &Train, supports: &[bool]) {
             text.push_str(&format!("body_1 = {}\n", quoted(&first)));
         }
         text.push_str(&format!("body_2 = {}\n", quoted(&second)));
-        let mut model = format!(
-            "kind = \"linear\", radial_stiffness_N_per_mm = {}",
-            number(bearing.radial_n_per_mm)
-        );
+        let mut model = "kind = \"linear\"".to_owned();
+        let mut held = |way: &str, stiffness: f64, unit: [&str; 2]| {
+            model.push_str(&format!(
+                ", {way}_stiffness_{} = {}",
+                unit[0],
+                number(stiffness)
+            ));
+            if running == Running::InTime {
+                let damping = number(DAMPING_S * stiffness);
+                model.push_str(&format!(", {way}_damping_{} = {damping}", unit[1]));
+            }
+        };
+        let per_mm = ["N_per_mm", "N_s_per_mm"];
+        held("radial", bearing.radial_n_per_mm, per_mm);
         if holds {
             // One that was chosen for want of others may have none of its own.
             let axial = if bearing.axial_n_per_mm > 0.0 {
@@ -322,13 +347,14 @@ fn bearings(text: &mut String, train: &Train, supports: &[bool]) {
             } else {
                 0.4 * bearing.radial_n_per_mm.max(1.0)
             };
-            model.push_str(&format!(", axial_stiffness_N_per_mm = {}", number(axial)));
+            held("axial", axial, per_mm);
         }
         if bearing.tilt_nm_per_rad > 0.0 {
-            model.push_str(&format!(
-                ", tilt_stiffness_Nm_per_rad = {}",
-                number(bearing.tilt_nm_per_rad)
-            ));
+            held(
+                "tilt",
+                bearing.tilt_nm_per_rad,
+                ["Nm_per_rad", "Nm_s_per_rad"],
+            );
         }
         text.push_str(&format!("model = {{ {model} }}\n"));
         if let Some((file, _)) = &bearing.file {
@@ -359,7 +385,7 @@ fn couplings(text: &mut String, train: &Train) {
     }
 }
 
-fn meshes(text: &mut String, train: &Train, with: Meshes) {
+fn meshes(text: &mut String, train: &Train, with: Meshes, running: Running) {
     for mesh in &train.meshes {
         let [a, b] = mesh.gears.map(|i| &train.gears[i].gear);
         let torque = train.flow.link_nm.get(mesh.link).copied().flatten();
@@ -375,11 +401,18 @@ fn meshes(text: &mut String, train: &Train, with: Meshes) {
             ""
         };
         let model = match with {
-            Meshes::Iso6336 => "{ kind = \"iso6336\", slices = 9 }",
-            Meshes::Hybrid => "{ kind = \"hybrid\" }",
+            Meshes::Iso6336 => "kind = \"iso6336\", slices = 9",
+            Meshes::Hybrid => "kind = \"hybrid\"",
+        };
+        let damping = match running {
+            Running::AtRest => String::new(),
+            Running::InTime => format!(
+                ", damping = {{ kind = \"stiffness-proportional\", time_s = {}, full_depth_um = 1.0 }}",
+                number(DAMPING_S)
+            ),
         };
         text.push_str(&format!(
-            "\n[[gear_mesh]]\nname = {}\ngear_1 = {}\ngear_2 = {}\n{plain}model = {model}\nteeth = {{ flanks = \"{flanks}\" }}\n",
+            "\n[[gear_mesh]]\nname = {}\ngear_1 = {}\ngear_2 = {}\n{plain}model = {{ {model}{damping} }}\nteeth = {{ flanks = \"{flanks}\" }}\n",
             quoted(&mesh.name),
             quoted(&a.name),
             quoted(&b.name)

@@ -53,14 +53,37 @@ pub struct Shaft {
     first_seated: OnceCell<HashMap<usize, usize>>,
     /// Marked points in increasing order.
     sorted_mm: OnceCell<Vec<f64>>,
-    /// Faces along u of gears that are cut into the shaft, from the lower to the higher one \[mm\].
+    /// Faces along u of gears that are cut into the shaft \[mm\].
     faces_mm: Vec<[f64; 2]>,
+    /// The same from the lower to the higher one.
+    sorted_faces_mm: OnceCell<Vec<[f64; 2]>>,
 }
 
 /// Points nearer than this are one station \[mm\].
 const SAME_MM: f64 = 1e-3;
 
 impl Shaft {
+    /// The hub of a gear that turns loose on this shaft: its number is that of the gear, and it has no sections of its own.
+    pub fn hub(&self, gear: i64, name: &str) -> Self {
+        Self {
+            id: gear,
+            name: name.to_owned(),
+            frame: self.frame,
+            is_reversed: self.is_reversed,
+            sections: Vec::new(),
+            material: self.material,
+            hub_on: Some(self.id),
+            speed_rpm: None,
+            points_mm: Vec::new(),
+            seated: Vec::new(),
+            stations: OnceCell::new(),
+            first_seated: OnceCell::new(),
+            sorted_mm: OnceCell::new(),
+            faces_mm: Vec::new(),
+            sorted_faces_mm: OnceCell::new(),
+        }
+    }
+
     /// +1 where z runs along u, else −1.
     pub fn sign(&self) -> f64 {
         if self.is_reversed { -1.0 } else { 1.0 }
@@ -93,8 +116,8 @@ impl Shaft {
         let all = between(face[0] - SAME_MM, face[1] + SAME_MM);
         let is_free = all == between(mid_mm - SAME_MM, mid_mm + SAME_MM);
         if is_free {
-            let place = self.faces_mm.partition_point(|f| f[0] < face[0]);
-            self.faces_mm.insert(place, face);
+            self.faces_mm.push(face);
+            self.sorted_faces_mm.take();
             self.stations.take();
             self.first_seated.take();
         }
@@ -103,9 +126,10 @@ impl Shaft {
 
     /// Whether there is shaft at a place along u.
     pub fn reaches(&self, u_mm: f64) -> bool {
-        self.sections
-            .iter()
-            .any(|s| u_mm >= s.start_mm && u_mm <= s.end_mm)
+        // They join: the first one that ends here or later.
+        let next = self.sections.partition_point(|s| s.end_mm < u_mm);
+        let here = self.sections.get(next);
+        here.is_some_and(|s| s.start_mm <= u_mm)
     }
 
     /// Outer and inner diameter between two stations, outside the faces of gears that are cut into the shaft \[mm\].
@@ -125,8 +149,13 @@ impl Shaft {
 
     /// The face of a gear that is cut into the shaft, around a place along u.
     fn face_at(&self, u_mm: f64, beyond_mm: f64) -> Option<[f64; 2]> {
-        let next = self.faces_mm.partition_point(|f| f[0] <= u_mm + beyond_mm);
-        let face = self.faces_mm[next.saturating_sub(2)..next].iter().rev();
+        let faces = self.sorted_faces_mm.get_or_init(|| {
+            let mut sorted = self.faces_mm.clone();
+            sorted.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            sorted
+        });
+        let next = faces.partition_point(|f| f[0] <= u_mm + beyond_mm);
+        let face = faces[next.saturating_sub(2)..next].iter().rev();
         let mut around = face.filter(|f| u_mm <= f[1] + beyond_mm && u_mm >= f[0] - beyond_mm);
         around.next().copied()
     }
@@ -328,6 +357,7 @@ pub fn read(
         first_seated: OnceCell::new(),
         sorted_mm: OnceCell::new(),
         faces_mm: Vec::new(),
+        sorted_faces_mm: OnceCell::new(),
     })
 }
 

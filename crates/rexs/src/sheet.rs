@@ -3,6 +3,7 @@
 
 use crate::drive_text::Held;
 use crate::train::Train;
+use std::collections::HashMap;
 
 /// A place where power goes in or out.
 #[derive(Debug, Clone)]
@@ -44,10 +45,10 @@ impl Sheet {
         let speed = |id: i64| train.flow.speed_rpm.get(&id).copied().unwrap_or(0.0);
         let name = |id: i64| train.shaft(id).map_or("", |s| &s.name).to_owned();
         let shafts = || train.shafts.iter().filter(|s| s.hub_on.is_none());
-        let spring = |load: &str| {
-            let mut mine = held.iter().filter(|h| h.at == load);
-            mine.next().map(|h| h.spring.clone())
-        };
+        let mut spring_at: HashMap<&str, &str> = HashMap::new();
+        for h in &held {
+            spring_at.entry(&h.at).or_insert(&h.spring);
+        }
         let transmitting = train.loads.iter().filter(|l| l.transmits);
         let ports = transmitting
             .zip(&train.flow.torque_nm)
@@ -56,11 +57,12 @@ impl Sheet {
                 shaft: name(load.shaft),
                 torque_nm,
                 speed_rpm: speed(load.shaft),
-                spring: spring(&load.name),
+                spring: spring_at.get(&*load.name).map(|&spring| spring.to_owned()),
             });
+        let ports = ports.collect();
         Self {
             scene: scene.to_owned(),
-            ports: ports.collect(),
+            ports,
             shafts: shafts().map(|s| (s.name.clone(), speed(s.id))).collect(),
             bodies: train.gears.len() + shafts().map(|s| s.stations_mm().len()).sum::<usize>(),
             meshes: train.meshes.iter().map(|m| m.name.clone()).collect(),

@@ -3,6 +3,7 @@
 use crate::error::RexsError;
 use crate::ledger::{About, Ledger};
 use crate::model::{Model, Relation};
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// A stage and its two gears.
@@ -22,7 +23,15 @@ pub struct Structure {
     /// Relations in which a component takes part.
     of: HashMap<i64, Vec<usize>>,
     stages: Vec<Stage>,
+    /// Partners of components with many relations, by number and kinds: asked for again and again.
+    partners: RefCell<HashMap<(i64, String), Vec<i64>>>,
 }
+
+/// From so many relations on the partners of a component are kept.
+const MANY_RELATIONS: usize = 16;
+
+/// Relations of the format join two to five components; one that names more than this is a list of something else.
+const MOST_REFERENCES: usize = 64;
 
 /// Relations that join gears which are not parts of each other.
 const JOINING: [&str; 4] = ["stage", "stage_gear_data", "contact", "reference_position"];
@@ -57,7 +66,17 @@ impl Structure {
                 .filter(|r| !kinds.contains_key(&r.id))
                 .map(|r| r.id.to_string())
                 .collect();
-            if lost.is_empty() {
+            let count = relation.references.len();
+            if count > MOST_REFERENCES {
+                ledger.leave_out(
+                    &format!("relation {} ({})", relation.id, relation.kind),
+                    About::Lost,
+                    format!(
+                        "names {count} components; allowed are {MOST_REFERENCES}, for a relation joins a part to a whole, or gears to a stage. The relation is \
+                         left out: write one for each part"
+                    ),
+                );
+            } else if lost.is_empty() {
                 relations.push(relation.clone());
             } else {
                 ledger.leave_out(
@@ -91,6 +110,7 @@ impl Structure {
             kinds,
             of,
             stages,
+            partners: RefCell::default(),
         };
         structure.demand_no_cycle(model)?;
         Ok(structure)
@@ -158,6 +178,17 @@ impl Structure {
     /// Components of some types that share a relation with a component, whatever the relation is called: programs differ.
     /// Relations that only join gears to stages do not count.
     pub fn partners(&self, id: i64, kinds: &[&str]) -> Vec<i64> {
+        if self.of.get(&id).map_or(0, Vec::len) < MANY_RELATIONS {
+            return self.found_partners(id, kinds);
+        }
+        let mut kept = self.partners.borrow_mut();
+        let mine = kept.entry((id, kinds.join(" ")));
+        { mine }
+            .or_insert_with(|| self.found_partners(id, kinds))
+            .clone()
+    }
+
+    fn found_partners(&self, id: i64, kinds: &[&str]) -> Vec<i64> {
         let mut found = Vec::new();
         let mut seen = HashSet::new();
         for r in self

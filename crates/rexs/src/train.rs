@@ -240,7 +240,7 @@ fn seat_gears(
             Some(Seat::Fixed(id)) => id,
             Some(Seat::Loose(id)) => {
                 let carrier = train.shaft(id);
-                let hub = carrier.map(|s| loose_gears::hub(component, &gear.name, s));
+                let hub = carrier.map(|s| s.hub(component.id, &gear.name));
                 hub.into_iter().for_each(|hub| train.shafts.push(hub));
                 component.id
             }

@@ -11,6 +11,44 @@ use crate::train::{Mesh, SeatedGear, Train};
 use crate::units::MM;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+/// Directions that differ by an angle whose cosine is less than this from 1 are one line.
+const SAME_LINE: f64 = 1e-6;
+
+/// Size of the cells in which lines are looked for: more than the distance √(2·[`SAME_LINE`]) of the ends of such directions.
+const CELL: f64 = 2e-3;
+
+/// Directions in the order in which they came, by the cell of their end.
+#[derive(Default)]
+struct Lines {
+    directions: Vec<[f64; 3]>,
+    in_cell: HashMap<[i64; 3], Vec<usize>>,
+}
+
+impl Lines {
+    /// The first direction along the same line, either way; the given one, which is kept, where there is none before it.
+    fn first_along(&mut self, direction: [f64; 3]) -> [f64; 3] {
+        let cell = |d: [f64; 3]| d.map(|x| (x / CELL).floor() as i64);
+        let mut first: Option<usize> = None;
+        for way in [1.0, -1.0] {
+            let [x, y, z] = cell(direction.map(|d| way * d));
+            for near in 0..27 {
+                let at = [x + near % 3 - 1, y + near / 3 % 3 - 1, z + near / 9 - 1];
+                let known = self.in_cell.get(&at).into_iter().flatten().copied();
+                let along =
+                    known.filter(|&i| dot(self.directions[i], direction).abs() > 1.0 - SAME_LINE);
+                first = first.into_iter().chain(along).min();
+            }
+        }
+        if let Some(first) = first {
+            return self.directions[first];
+        }
+        let own = self.in_cell.entry(cell(direction)).or_default();
+        own.push(self.directions.len());
+        self.directions.push(direction);
+        direction
+    }
+}
+
 /// Stations where something stands; one direction for all shafts of parallel axes.
 pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
     let mut marks: Vec<(i64, f64)> = Vec::new();
@@ -52,11 +90,11 @@ pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
         .iter()
         .map(|s| s.frame.map_or([1.0, 0.0, 0.0], |f| f.axes[0]))
         .collect();
+    let mut lines = Lines::default();
     for (i, shaft) in train.shafts.iter_mut().enumerate() {
         // Against the first shaft along the same line, z runs against u.
-        let along = |other: &[f64; 3]| dot(*other, directions[i]);
-        let leading = directions.iter().find(|d| along(d).abs() > 1.0 - 1e-6);
-        shaft.is_reversed = leading.is_some_and(|d| along(d) < 0.0);
+        let leading = lines.first_along(directions[i]);
+        shaft.is_reversed = dot(leading, directions[i]) < 0.0;
         let id = shaft.id;
         for &u in marks_of.get(&id).into_iter().flatten() {
             shaft.mark(u);
@@ -340,6 +378,7 @@ pub fn power(source: &Source<'_>, train: &Train) -> Flow {
         { torques }.any(|t| t != 0.0)
     };
     let is_loaded = transmitting.iter().any(stated);
+    let turned: HashSet<usize> = found.turned.iter().copied().collect();
     for (i, load) in transmitting.iter().enumerate() {
         let Some(load_component) = component(load.id) else {
             continue;
@@ -372,7 +411,7 @@ pub fn power(source: &Source<'_>, train: &Train) -> Flow {
                 ),
             );
         }
-        if found.turned.contains(&i) {
+        if turned.contains(&i) {
             source.assume(
                 load_component,
                 About::Torque,
@@ -392,17 +431,16 @@ pub fn power(source: &Source<'_>, train: &Train) -> Flow {
             source.assume(shaft, about, format!("rotational_speed is {stated} 1/min, but {follows:.4} 1/min follow by the ratios from the shaft that comes first: the latter"));
         }
     }
+    let stage_of: HashMap<usize, i64> = train.meshes.iter().map(|m| (m.link, m.stage)).collect();
+    let couplings = train.couplings.iter().rev();
+    let coupling_of: HashMap<[i64; 2], i64> = couplings.map(|c| (c.sides, c.id)).collect();
     for &(link, rest) in &found.locked {
         let own = train.links[link].ratio;
         let names = train.links[link]
             .shafts
             .map(|id| train.shaft(id).map_or("", |s| s.name.as_str()));
-        let mesh = train.meshes.iter().find(|m| m.link == link);
-        let coupling = train
-            .couplings
-            .iter()
-            .find(|c| c.sides == train.links[link].shafts);
-        let id = mesh.map(|m| m.stage).or(coupling.map(|c| c.id));
+        let coupling = coupling_of.get(&train.links[link].shafts);
+        let id = stage_of.get(&link).or(coupling).copied();
         let what = format!(
             "THE GEARBOX IS LOCKED: {} turns {own:.6} times as fast as {} by it, and {rest:.6} times by the other way between them. Loads in the scene come of teeth that jam. Open a coupling (is_engaged) or mend the numbers of teeth",
             names[1], names[0]

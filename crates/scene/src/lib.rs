@@ -1,3 +1,7 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where things are
+//!
 //! From a scene file to a result: which models, which effects, which loads; nothing else is computed.
 //!
 //! | scene | how it is told | module |

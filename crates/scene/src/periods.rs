@@ -26,9 +26,10 @@ const NEIGHBOURS: f64 = 1.0;
 /// Share of a pitch by which rounding may miss the end of a passage.
 const ROUNDING: f64 = 1e-9;
 
-/// Least common multiple.
+/// Least common multiple; the largest number there is where it is larger still.
 pub fn least_common_multiple(a: usize, b: usize) -> usize {
-    a / greatest_common_divisor(a, b) * b
+    let divisor = greatest_common_divisor(a, b).max(1);
+    (a / divisor).saturating_mul(b)
 }
 
 /// Teeth and repetition of a pair: all its periods follow.

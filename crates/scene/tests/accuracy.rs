@@ -217,8 +217,8 @@ fn effects_of_a_system_are_put_off_one_by_one() {
     };
     assert_eq!(damping.effect.name, "spring.damping_N_s_per_mm");
     assert_eq!(damping.with.states, damping.without.states);
-    // v = v0 e^(-t) cos(ωt) against v0 cos(ωt) over a second: ∫e^(-2t) dt = 0.432 of the square.
-    let expected = 1.0 - (0.5 * (1.0 - (-2.0_f64).exp())).sqrt();
+    // v = v0 e^(-t) cos(ωt) against v0 cos(ωt) over the second half of a second: 2 ∫e^(-2t) dt = 0.233 of the square.
+    let expected = 1.0 - ((-1.0_f64).exp() - (-2.0_f64).exp()).sqrt();
     assert!(
         (damping.changes[0] - expected).abs() < 0.02,
         "{} {expected}",

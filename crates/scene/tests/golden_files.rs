@@ -130,6 +130,7 @@ fn pair_result(version: u32) -> SceneResult {
         iterations: vec![30, 31],
         residual: vec![1e-14, 2e-14],
         torque_balance: vec![1e-13, 2e-13],
+        between: Default::default(),
         strain: vec![StrainSeries {
             gear: 2,
             name: text("root"),
@@ -138,6 +139,7 @@ fn pair_result(version: u32) -> SceneResult {
             coverage: Coverage::of_contact(36, 2),
             method_1: numbers(curve, 1e-6),
             method_2: numbers(curve, 1.1e-6),
+            between: Default::default(),
         }],
         ratings: Vec::new(),
         warnings: vec![text("a warning")],

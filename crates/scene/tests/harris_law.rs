@@ -79,11 +79,7 @@ fn harris() -> (f64, f64) {
 fn peak_to_peak_um(folder: &Path, relief: &str) -> [f64; 2] {
     let scene = Scene::from_document(InputDocument::new("s", scene(relief)), folder).unwrap();
     let result = run(&load(scene).unwrap(), &|_, _| ()).unwrap();
-    [0, 1].map(|k| {
-        let te = result.curve(&result.te_m, k);
-        1e6 * (te.iter().copied().fold(f64::MIN, f64::max)
-            - te.iter().copied().fold(f64::MAX, f64::min))
-    })
+    [0, 1].map(|k| 1e6 * result.figures(k).te_peak_to_peak_m)
 }
 
 fn stated((relief, start): (f64, f64)) -> String {

@@ -111,9 +111,10 @@ fn figures_are_those_of_a_run_of_the_same_scene() {
         for (k, torque) in [60.0, 120.0].into_iter().enumerate() {
             let te = &result.te_m[12 * k..12 * (k + 1)];
             let strain = &result.strain[0].method_2[12 * k..12 * (k + 1)];
-            let range = |v: &[f64]| {
-                v.iter().copied().fold(f64::MIN, f64::max)
-                    - v.iter().copied().fold(f64::MAX, f64::min)
+            let between = result.between.of(k);
+            let range = |even: &[f64], added: &[f64]| {
+                let all = || even.iter().chain(&added[between.clone()]).copied();
+                all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min)
             };
             // Amplitude of the first harmonic of twelve samples, by its definition.
             let part = |shift: f64| {
@@ -127,8 +128,8 @@ fn figures_are_those_of_a_run_of_the_same_scene() {
             let harmonic = part(0.0).hypot(part(std::f64::consts::FRAC_PI_2));
             let expected = [
                 te.iter().sum::<f64>() / 12.0,
-                range(te),
-                range(strain),
+                range(te, &result.between.te_m),
+                range(strain, &result.strain[0].between[1]),
                 harmonic,
             ];
             for (one, expected) in figures[4 * k..4 * (k + 1)].iter().zip(expected) {

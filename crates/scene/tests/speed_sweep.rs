@@ -113,6 +113,7 @@ fn sweep(
         start: Start::AsGiven,
         end_s: plan.end_s(),
         interval_s: 1e-3,
+        statistics_from_s: 0.0,
         windows: plan.windows().to_vec(),
     });
     let desk = Desk::new();

@@ -80,6 +80,25 @@ fn a_bevel_pair_is_analysed_in_each_assembly() {
     assert!(told.contains("parameter.0.keys: `tca.ofset_um`"), "{told}");
 }
 
+/// Assemblies in which teeth jam fail, as `gearmesh tca` refuses them; the others say how much backlash is left.
+#[test]
+fn bevel_assemblies_that_jam_fail() {
+    let offset =
+        "[[parameter]]\nname = \"offset\"\nkeys = [\"tca.offset_um\"]\nvalues = [-5000.0, 100.0]\n";
+    for pair in ["bevel_20_20.toml", "bevel_20_20_loaded.toml"] {
+        let text = format!("scene = \"{pair}\"\ncolumns = [\"backlash_least_mm\"]\n{offset}");
+        let (outcome, _) = studied(&fe_models(), &text).unwrap();
+        let told = outcome.cases[1].figures.as_ref().unwrap_err();
+        assert!(told.contains("teeth jam"), "{told}");
+        let [designed, moved] = [0, 2].map(|case| numbers(&outcome, case)[0]);
+        // No backlash is asked for, and an offset to the first order changes none.
+        assert!(
+            designed.abs() < 1e-3 && moved.abs() < 0.02,
+            "{designed} {moved}"
+        );
+    }
+}
+
 /// Under the torques of its `[load]` a bevel pair has a line for each, with the figures that this assembly has by itself.
 #[test]
 fn a_bevel_pair_is_loaded_in_each_assembly() {
@@ -366,4 +385,54 @@ fn a_key_of_a_bevel_pair_in_motion_is_optimised() {
             "{problem}"
         );
     }
+}
+
+/// A life of a bearing over the load: L10 goes with its third power.
+#[test]
+fn lives_of_ratings_are_columns() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("balls.toml"),
+        "name = \"6205\"\nkind = \"deep-groove\"\nballs = 9\nball_diameter_mm = 7.94\npitch_diameter_mm = 39.04\n\
+         inner_conformity = 0.52\nouter_conformity = 0.53\n[ratings]\ndynamic_N = 14000.0\nstatic_N = 7850.0\n",
+    )
+    .unwrap();
+    std::fs::write(
+        folder.path().join("shaft.toml"),
+        "title = \"shaft\"\n[run]\nkind = \"static\"\n[[body]]\nname = \"shaft\"\nmass_kg = 1.0\ninertia_kg_m2 = [2e-3, 2e-3, 1e-3]\n\
+         speed_rpm = 3000.0\n[[bearing]]\nname = \"front\"\nbody_2 = \"shaft\"\naxis = [0, 0, 1]\n\
+         model = { kind = \"quasi-static\", file = \"balls.toml\" }\n[[load]]\nname = \"push\"\nbody = \"shaft\"\nforce_N = 1000.0\n\
+         along = [1.0, 0.0, 0.0]\n[[rating]]\nkind = \"bearing-life\"\nbearing = \"front\"\n",
+    )
+    .unwrap();
+    let study = |columns: &str| {
+        format!(
+            "scene = \"shaft.toml\"\ncolumns = [{columns}]\n[[parameter]]\nname = \"load\"\nkeys = [\"load.0.force_N\"]\nvalues = [1000.0, 2000.0]\n"
+        )
+    };
+    let column = "\"ratings/bearing front/bearing_l10_mrev\"";
+    let (outcome, table) = studied(folder.path(), &study(column)).unwrap();
+    // The first case is the scene as it is.
+    let last = outcome.cases.len() - 1;
+    let [one, two] = [numbers(&outcome, last - 1)[0], numbers(&outcome, last)[0]];
+    assert!(
+        (one - 2744.0).abs() < 1e-3 && (two - 343.0).abs() < 1e-3,
+        "{one} {two}"
+    );
+    assert!(
+        table.contains("ratings/bearing front/bearing_l10_mrev"),
+        "{table}"
+    );
+    let refused = studied(
+        folder.path(),
+        &study("\"ratings/bearing front/bearing_l10_mrev:mean\""),
+    )
+    .unwrap_err();
+    assert!(refused.contains("a rating is one number"), "{refused}");
+    let refused = studied(
+        folder.path(),
+        &study("\"ratings/bearing front/bearing_l20_mrev\""),
+    )
+    .unwrap_err();
+    assert!(refused.contains("bearing_l10_mrev"), "{refused}");
 }

@@ -4,6 +4,8 @@
 //! seconds resolves 1/T, and while the speed changes by Δω in it an order m smears over m Δω/2π. Over order, the signal
 //! is resampled to the shaft's angle first ([`crate::resampling`]): orders stand upright and do not smear, resonances
 //! do.
+//!
+//! Each block goes in without its mean and trend: of what takes longer than a block nothing can be said.
 
 use crate::error::{SeriesError, check_rate, check_samples, check_setting};
 use crate::resampling::Resampler;
@@ -78,7 +80,7 @@ pub fn frequency_map(
                 time_s: first as f64 / sampling_rate_hz + 0.5 * duration_s,
                 speed_rad_per_s: turned / duration_s,
                 spectrum: Spectrum {
-                    values: transform.amplitudes(&samples[first..first + n])?,
+                    values: transform.amplitudes(&without_trend(&samples[first..first + n]))?,
                     line_spacing: transform.line_spacing(),
                 },
             })
@@ -117,12 +119,28 @@ pub fn order_map(
                 speed_rad_per_s: TAU * blocks.block_revolutions as f64 * sampling_rate_hz
                     / (to - from),
                 spectrum: Spectrum {
-                    values: transform.amplitudes(&series.values[first..first + n])?,
+                    values: transform
+                        .amplitudes(&without_trend(&series.values[first..first + n]))?,
                     line_spacing: transform.line_spacing(),
                 },
             })
         })
         .collect()
+}
+
+/// A block less the straight line through it by least squares. Under a window its mean would stand in the first lines,
+/// stronger than what vibrates: the Hann window leaves half of it in line 1.
+fn without_trend(block: &[f64]) -> Vec<f64> {
+    let count = block.len() as f64;
+    let middle = 0.5 * (count - 1.0);
+    let mean = block.iter().sum::<f64>() / count;
+    let moment = block.iter().enumerate();
+    let moment: f64 = moment.map(|(i, x)| (i as f64 - middle) * x).sum();
+    // Σ (i − (n−1)/2)² = n (n² − 1)/12
+    let slope = 12.0 * moment / (count * (count * count - 1.0));
+    let line = |i: usize| mean + slope * (i as f64 - middle);
+    let values = block.iter().enumerate();
+    values.map(|(i, x)| x - line(i)).collect()
 }
 
 fn check_step(step: usize) -> Result<(), SeriesError> {

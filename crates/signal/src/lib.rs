@@ -1,3 +1,6 @@
+#![doc = include_str!("../README.md")]
+//! # Where things are
+//!
 //! Spectra, orders and figures of signals, and the test-rig pipeline.
 //!
 //! | you have | you want | use |

@@ -105,9 +105,27 @@ impl Resampler {
         (-self.beta).exp()
     }
 
+    /// Neighbours on each side that a value needs.
+    pub fn half_width(&self) -> usize {
+        self.half_width
+    }
+
     /// Fraction of the lower Nyquist frequency up to which the result is right.
     pub fn band(&self) -> f64 {
         self.band
+    }
+
+    /// Weights of a value's neighbours, 2·L·s + 1 of them, where one of every s = `factor` samples is kept: the kernel
+    /// at whole distances, with the sum 1.
+    #[must_use]
+    pub fn decimation(&self, factor: usize) -> Vec<f64> {
+        let factor = factor.max(1);
+        let half = self.half_width * factor;
+        let at = |j: usize| (j as f64 - half as f64) / factor as f64;
+        let kernel = (0..=2 * half).map(|j| sinc(at(j)) * self.window(at(j)));
+        let kernel: Vec<f64> = kernel.collect();
+        let sum: f64 = kernel.iter().sum();
+        kernel.into_iter().map(|weight| weight / sum).collect()
     }
 
     /// From uniform time samples to uniform shaft angles, `samples_per_revolution` a turn, on the grid through angle 0.

@@ -188,9 +188,10 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         }
         _ => {}
     }
+    let start = std::time::Instant::now();
     let venv = prepare::prepare(&workspace)?;
     match command {
-        Command::Test(extent) => steps::test(&workspace, &venv, extent),
+        Command::Test(extent) => steps::test(&workspace, &venv, extent, start),
         Command::RustTests(names) => {
             steps::rust_tests(&workspace, &venv, steps::Extent::Full, &names)?;
             Ok(ExitCode::SUCCESS)

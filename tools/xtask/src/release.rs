@@ -13,9 +13,12 @@ use crate::wheel::{self, Build};
 use crate::workspace::Workspace;
 
 /// What goes into the archive as it is, as far as git knows it: results that lie beside stay here.
-const FILES: [&str; 7] = [
+const FILES: [&str; 10] = [
     "README.md",
     "CHANGELOG.md",
+    "CITATION.cff",
+    "CONTRIBUTING.md",
+    "SECURITY.md",
     "LICENSE-APACHE",
     "LICENSE-MIT",
     "docs",

@@ -32,11 +32,17 @@ fn command<'a>(mut command: Command) -> Step<'a> {
 }
 
 /// Everything that CI runs, in order, up to the first failure. Each step names the whole workspace: another choice of
-/// packages would unite other features, and what several steps need would be compiled for each.
+/// packages would unite other features, and what several steps need would be compiled for each. The time that is printed
+/// at the end counts from `start`, before the preparation.
 ///
 /// # Errors
 /// [`XtaskError::Failed`] names the command that failed.
-pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCode, XtaskError> {
+pub fn test(
+    workspace: &Workspace,
+    venv: &Venv,
+    extent: Extent,
+    start: Instant,
+) -> Result<ExitCode, XtaskError> {
     let cargo = |arguments: &[&str]| {
         let mut command = cargo(workspace, venv);
         command.args(arguments);
@@ -83,7 +89,7 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
         ("Python tests", command(python_tests)),
     ];
     system_libs::offer_calculix();
-    let start = Instant::now();
+    say(&format!("prepared in {}", readable(start.elapsed())));
     for (name, step) in steps {
         say(&format!("\n== {name}"));
         let step_start = Instant::now();
@@ -95,7 +101,10 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
         ));
         outcome?;
     }
-    say(&format!("\nall passed in {}", readable(start.elapsed())));
+    say(&format!(
+        "\nall passed in {}, the preparation included",
+        readable(start.elapsed())
+    ));
     Ok(ExitCode::SUCCESS)
 }
 

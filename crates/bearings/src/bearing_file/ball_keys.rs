@@ -3,6 +3,7 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
+use super::element_keys::{Clearances, Elements, conformity, contact_angle_rad};
 use super::{BearingFile, Kind, MM, UM};
 use crate::definition::{BallBearingKind, BallGeometry};
 
@@ -13,44 +14,14 @@ pub(super) fn geometry(
     notes: &mut Vec<String>,
 ) -> Result<BallGeometry, InputError> {
     let needed_by = format!("kind = \"{}\"", file.kind.word());
-    let needed = |key: &str, value: Option<f64>| keys.needed(key, value, &needed_by);
-    let balls = keys.needed("balls", file.balls, &needed_by)?;
-    let ball = needed("ball_diameter_mm", file.ball_diameter_mm)?;
-    let pitch = needed("pitch_diameter_mm", file.pitch_diameter_mm)?;
-    keys.require("ball_diameter_mm", ball, ball > 0.0, "more than 0")?;
-    keys.require(
-        "pitch_diameter_mm",
-        pitch,
-        pitch > ball,
-        &format!("more than the ball's diameter, {ball}"),
-    )?;
-    let conformity = |key: &str, value: Option<f64>| {
-        let value = needed(key, value)?;
-        keys.require(
-            key,
-            value,
-            value > 0.5 && value <= 1.0,
-            "more than 0.5, the ball's own radius, and at most 1",
-        )?;
-        Ok::<_, InputError>(value)
-    };
-    let inner = conformity("inner_conformity", file.inner_conformity)?;
-    let outer = conformity("outer_conformity", file.outer_conformity)?;
-    // Neighbours must not touch.
-    let room = (std::f64::consts::PI / (ball / pitch).asin()).floor();
-    keys.require(
-        "balls",
-        balls as f64,
-        balls >= 3 && (balls as f64) <= room,
-        &format!("3 to {room}, as many balls of {ball} mm as go round on {pitch} mm"),
-    )?;
-    if matches!(file.kind, Kind::FourPoint | Kind::ThrustBall) && file.arrangement.is_some() {
-        let problem = format!(
-            "is not used by kind = \"{}\", which has one row; remove it",
-            file.kind.word()
-        );
-        return Err(keys.error("arrangement", problem));
-    }
+    let balls = Elements::balls(file, keys)?;
+    let (ball, pitch) = (balls.diameter_mm, balls.pitch_mm);
+    let [inner, outer] = [
+        ("inner_conformity", file.inner_conformity),
+        ("outer_conformity", file.outer_conformity),
+    ]
+    .map(|(key, value)| conformity(keys, key, keys.needed(key, value, &needed_by)?));
+    let (inner, outer) = (inner?, outer?);
     let (kind, (free_angle_rad, interference_mm)) = match file.kind {
         Kind::FourPoint => four_point_angle(file, keys, (inner + outer - 1.0) * ball, ball)?,
         Kind::ThrustBall => (BallBearingKind::Thrust, (std::f64::consts::FRAC_PI_2, 0.0)),
@@ -65,7 +36,7 @@ pub(super) fn geometry(
     };
     let geometry = BallGeometry {
         kind,
-        balls,
+        balls: balls.number,
         ball_diameter_m: MM * ball,
         pitch_diameter_m: MM * pitch,
         inner_conformity: inner,
@@ -114,51 +85,29 @@ fn four_point_angle(
     distance_mm: f64,
     ball_mm: f64,
 ) -> Result<(BallBearingKind, (f64, f64)), InputError> {
-    let degrees = keys.needed(
-        "contact_angle_deg",
-        file.contact_angle_deg,
-        "kind = \"four-point\"",
-    )?;
-    keys.require(
-        "contact_angle_deg",
-        degrees,
-        degrees > 0.0 && degrees <= 60.0,
-        "more than 0 and at most 60",
-    )?;
-    let angle = degrees.to_radians();
-    let clearance_um = file.radial_clearance_um.unwrap_or(0.0);
-    let kind = four_point_kind(keys, clearance_um, (MM * ball_mm, MM * distance_mm), angle)?;
+    let angle = contact_angle_rad(file, keys, [0.0, 60.0])?;
+    let kind = four_point_kind(file, keys, (MM * ball_mm, MM * distance_mm), angle)?;
     Ok((kind, (angle, 0.0)))
 }
 
-/// Play up to that at which balls touch two arcs only under thrust, or interference up to a hundredth of the ball's diameter.
+/// Play up to that at which balls touch two arcs only under thrust.
 pub(super) fn four_point_kind(
+    file: &BearingFile,
     keys: &TableKeys<'_>,
-    clearance_um: f64,
     (ball_m, distance_m): (f64, f64),
     angle_rad: f64,
 ) -> Result<BallBearingKind, InputError> {
-    let least_um = -MOST_INTERFERENCE * ball_m / UM;
-    let most_um = 2.0 * distance_m * angle_rad.cos() / UM;
-    keys.require(
-        "radial_clearance_um",
-        clearance_um,
-        (least_um..most_um).contains(&clearance_um),
-        &format!(
-            "{least_um:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most_um:.1}: with more no ball touches both rings"
-        ),
-    )?;
-    Ok(BallBearingKind::FourPoint {
-        clearance_m: UM * clearance_um,
-    })
+    let range = Clearances::of_balls(ball_m, 2.0 * distance_m * angle_rad.cos());
+    let clearance_m = range.stated_m(file, keys)?;
+    Ok(BallBearingKind::FourPoint { clearance_m })
 }
 
-/// Balls and rollers may be too large for their rings by this share of their diameter: for balls of 8 mm 80 um, several times what tight fits take
-/// away.
-pub(super) const MOST_INTERFERENCE: f64 = 0.01;
-
-/// Share of a limit of the clearance within which a number counts as the limit: 0.52 + 0.53 − 1 is not 0.05 to the last digit.
-pub(super) const ROUNDING: f64 = 1e-12;
+/// α₀ and the interference of deep-groove bearings from the clearance and the distance of the grooves' centres: cos α = 1 − P_d/(2A) as
+/// sin²(α/2) = P_d/(4A), which keeps the digits of small clearances.
+pub(super) fn angle_of_clearance(clearance: f64, distance: f64) -> (f64, f64) {
+    let half_sine = (0.25 * clearance.max(0.0) / distance).sqrt();
+    (2.0 * half_sine.asin(), (-clearance).max(0.0))
+}
 
 /// α₀ from the contact angle, the clearance or the raceways' diameters: cos α₀ = 1 − P_d/(2A); and how far P_d lies below zero \[mm\].
 fn free_angle(
@@ -168,17 +117,8 @@ fn free_angle(
     (inner, outer): (f64, f64),
 ) -> Result<(f64, f64), InputError> {
     let distance_mm = (inner + outer - 1.0) * ball;
-    // cos α = 1 − P_d/(2A) as sin²(α/2) = P_d/(4A), which keeps the digits of small clearances.
-    let angle = |clearance_mm: f64| {
-        let half_sine = (0.25 * clearance_mm.max(0.0) / distance_mm).sqrt();
-        (2.0 * half_sine.asin(), (-clearance_mm).max(0.0))
-    };
     let deep_groove = file.kind == Kind::DeepGroove;
-    let least_mm = if deep_groove {
-        -MOST_INTERFERENCE * ball
-    } else {
-        0.0
-    };
+    let range = Clearances::of_balls(MM * ball, 2.0 * MM * distance_mm);
     if let Some([bottom_inner, bottom_outer]) = file.raceway_diameters_mm {
         for (key, given) in [
             ("contact_angle_deg", file.contact_angle_deg.is_some()),
@@ -192,9 +132,9 @@ fn free_angle(
             }
         }
         let clearance = bottom_outer - bottom_inner - 2.0 * ball;
-        let most = 2.0 * distance_mm;
         let pair = format!("found {bottom_inner} and {bottom_outer}");
-        if clearance < least_mm {
+        let goes_in = clearance >= 0.0 || deep_groove;
+        if !(goes_in && range.holds_elements(MM * clearance)) {
             return Err(keys.error(
                 "raceway_diameters_mm",
                 format!(
@@ -202,18 +142,19 @@ fn free_angle(
                 ),
             ));
         }
-        if clearance >= most * (1.0 - ROUNDING) {
+        if !range.touches(MM * clearance) {
             return Err(keys.error(
                 "raceway_diameters_mm",
                 format!(
                     "{pair}; {bottom_outer} - {bottom_inner} - 2 x {ball} = {clearance:.4} mm of play, but grooves of {inner} and {outer} ball diameters \
-                     hold a ball with less than {most:.4} mm only: no ball touches both. Check the diameters (they are those of the grooves' \
+                     hold a ball with less than {:.4} mm only: no ball touches both. Check the diameters (they are those of the grooves' \
                      bottoms), or state the {} instead",
+                    2.0 * distance_mm,
                     if deep_groove { "radial_clearance_um" } else { "contact_angle_deg" }
                 ),
             ));
         }
-        let (free, interference) = angle(clearance);
+        let (free, interference) = angle_of_clearance(clearance, distance_mm);
         // Ball centres that just touch both grooves lie on a circle of their own.
         let cosine = free.cos() + 0.5 * interference / distance_mm;
         let at = |f: f64| 2.0 * f * ball - (2.0 * f - 1.0) * ball * cosine;
@@ -227,29 +168,8 @@ fn free_angle(
         return Ok((free, interference));
     }
     if file.kind == Kind::AngularContact {
-        let degrees = keys.needed(
-            "contact_angle_deg",
-            file.contact_angle_deg,
-            "an angular-contact bearing without raceway_diameters_mm",
-        )?;
-        keys.require(
-            "contact_angle_deg",
-            degrees,
-            degrees > 0.0 && degrees <= 60.0,
-            "more than 0 and at most 60",
-        )?;
-        return Ok((degrees.to_radians(), 0.0));
+        return Ok((contact_angle_rad(file, keys, [0.0, 60.0])?, 0.0));
     }
-    let clearance_um = file.radial_clearance_um.unwrap_or(0.0);
-    let most_um = 2e3 * distance_mm;
-    keys.require(
-        "radial_clearance_um",
-        clearance_um,
-        clearance_um >= 1e3 * least_mm && clearance_um < most_um * (1.0 - ROUNDING),
-        &format!(
-            "{:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most_um:.1}: with more no ball touches both grooves",
-            1e3 * least_mm
-        ),
-    )?;
-    Ok(angle(1e-3 * clearance_um))
+    let clearance_mm = range.stated_m(file, keys)? / MM;
+    Ok(angle_of_clearance(clearance_mm, distance_mm))
 }

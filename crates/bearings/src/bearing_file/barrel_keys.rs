@@ -3,8 +3,8 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
-use super::roller_keys::{LAMINAE, require_clearance};
-use super::{BearingFile, MM, UM};
+use super::element_keys::{Clearances, Elements, contact_angle_rad, laminae, roller_length_mm};
+use super::{BearingFile, MM};
 use crate::definition::{Arrangement, BarrelShape, RollerGeometry, RollerProfile};
 
 /// Radius of the rollers' profile over that of the sphere, and of the sphere over the inner groove's, where the file names none.
@@ -15,46 +15,10 @@ pub(super) fn geometry(
     file: &BearingFile,
     keys: &TableKeys<'_>,
 ) -> Result<(RollerGeometry, Arrangement), InputError> {
-    let needed_by = "kind = \"spherical-roller\"";
-    let needed = |key: &str, value: Option<f64>| {
-        let value = keys.needed(key, value, needed_by)?;
-        keys.require(key, value, value > 0.0, "more than 0")?;
-        Ok::<_, InputError>(value)
-    };
-    for (key, given) in [
-        ("arrangement", file.arrangement.is_some()),
-        ("row_distance_mm", file.row_distance_mm.is_some()),
-    ] {
-        if given {
-            let problem = "is not used by kind = \"spherical-roller\", whose two rows face one sphere at the contact angle; remove it";
-            return Err(keys.error(key, problem));
-        }
-    }
-    let rollers = keys.needed("rollers", file.rollers, needed_by)?;
-    let diameter = needed("roller_diameter_mm", file.roller_diameter_mm)?;
-    let length = needed("roller_length_mm", file.roller_length_mm)?;
-    let pitch = needed("pitch_diameter_mm", file.pitch_diameter_mm)?;
-    let degrees = needed("contact_angle_deg", file.contact_angle_deg)?;
-    keys.require(
-        "pitch_diameter_mm",
-        pitch,
-        pitch > diameter,
-        &format!("more than the roller's diameter, {diameter}"),
-    )?;
-    let room = (std::f64::consts::PI / (diameter / pitch).asin()).floor();
-    keys.require(
-        "rollers",
-        rollers as f64,
-        rollers >= 3 && (rollers as f64) <= room,
-        &format!("3 to {room}, as many rollers of {diameter} mm as go round on {pitch} mm"),
-    )?;
-    keys.require(
-        "contact_angle_deg",
-        degrees,
-        (3.0..=45.0).contains(&degrees),
-        "3 to 45",
-    )?;
-    let angle = degrees.to_radians();
+    let rollers = Elements::rollers(file, keys)?;
+    let (diameter, pitch) = (rollers.diameter_mm, rollers.pitch_mm);
+    let length = roller_length_mm(file, keys)?;
+    let angle = contact_angle_rad(file, keys, [3.0, 45.0])?;
     // Rows must not meet in the middle plane.
     let most_length = (pitch - diameter * angle.cos()) * angle.tan() / angle.cos();
     keys.require(
@@ -63,21 +27,13 @@ pub(super) fn geometry(
         length < most_length,
         &format!("less than {most_length:.3}, with which the rollers of both rows meet in the middle plane"),
     )?;
-    let laminae = file.laminae.unwrap_or(LAMINAE);
-    keys.require(
-        "laminae",
-        laminae as f64,
-        (2..=1000).contains(&laminae),
-        "2 to 1000; ISO/TS 16281 asks for 30 at least",
-    )?;
-    let clearance_um = file.radial_clearance_um.unwrap_or(0.0);
-    require_clearance(keys, clearance_um, 1e3 * diameter)?;
+    let clearance_m = Clearances::of_rollers(MM * diameter).stated_m(file, keys)?;
     let shape = shape(file, keys, angle, (diameter, length, pitch))?;
     Ok(barrels(
-        (rollers, laminae),
+        (rollers.number, laminae(file, keys)?),
         (MM * diameter, MM * length, MM * pitch),
         shape,
-        UM * clearance_um,
+        clearance_m,
     ))
 }
 

@@ -3,10 +3,11 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
-use super::ball_keys::{MOST_INTERFERENCE, ROUNDING, four_point_kind, shoulder_heights_m};
+use super::ball_keys::{angle_of_clearance, four_point_kind, shoulder_heights_m};
 use super::barrel_keys::usual_shape;
-use super::roller_keys::{require_clearance, usual_taper};
-use super::{BearingFile, MM, UM};
+use super::element_keys::{Clearances, LAMINAE, conformity};
+use super::roller_keys::usual_taper;
+use super::{BearingFile, MM, unused_keys};
 use crate::catalogue::{CatalogueLine, CatalogueType, KnownInside};
 use crate::definition::{
     Arrangement, BallBearingKind, BallGeometry, BearingGeometry, RollerGeometry, RollerProfile,
@@ -40,7 +41,8 @@ pub(super) fn geometry(
         None => (line(file, keys)?, None),
     };
     read_ratings(file, document, &mut line, name.is_some())?;
-    line.known = known(file, keys, line.kind)?;
+    unused_keys::by_type(file, keys, line.kind)?;
+    line.known = known(file, line.kind);
     if line.kind == CatalogueType::SphericalRoller && line.contact_angle_rad == 0.0 {
         // Rows whose middles stand half the width apart.
         line.contact_angle_rad = (0.5 * line.width_m / line.pitch_m()).atan();
@@ -61,11 +63,10 @@ pub(super) fn geometry(
             "no number of balls or rollers that reaches the ratings goes between bore and outside diameter and into the width; check the line",
         )
     })?;
-    let clearance_m = UM * file.radial_clearance_um.unwrap_or(0.0);
     let geometry = if line.kind.has_rollers() {
-        roller_geometry(file, keys, &line, &estimate, clearance_m)?
+        roller_geometry(file, keys, &line, &estimate)?
     } else {
-        ball_geometry(file, keys, &line, &estimate, clearance_m)?
+        ball_geometry(file, keys, &line, &estimate)?
     };
     notes.push(
         "number and size of the rolling elements that the file does not state are estimated from the catalogue line (ISO 281, ISO 76); pitch diameter, \
@@ -127,39 +128,18 @@ fn designated(
 }
 
 /// What is known of the inside.
-fn known(
-    file: &BearingFile,
-    keys: &TableKeys<'_>,
-    kind: CatalogueType,
-) -> Result<KnownInside, InputError> {
-    let rollers = kind.has_rollers();
-    for (key, given, of_rollers) in [
-        ("balls", file.balls.is_some(), false),
-        ("ball_diameter_mm", file.ball_diameter_mm.is_some(), false),
-        ("rollers", file.rollers.is_some(), true),
-        (
-            "roller_diameter_mm",
-            file.roller_diameter_mm.is_some(),
-            true,
-        ),
-        ("roller_length_mm", file.roller_length_mm.is_some(), true),
-    ] {
-        if given && of_rollers != rollers {
-            let word = kind.word();
-            return Err(keys.error(key, format!("is not used by type = \"{word}\"; remove it")));
-        }
-    }
-    let (number, diameter) = if rollers {
+fn known(file: &BearingFile, kind: CatalogueType) -> KnownInside {
+    let (number, diameter) = if kind.has_rollers() {
         (file.rollers, file.roller_diameter_mm)
     } else {
         (file.balls, file.ball_diameter_mm)
     };
-    Ok(KnownInside {
+    KnownInside {
         elements: number,
         diameter_m: diameter.map(|mm| MM * mm),
         length_m: file.roller_length_mm.map(|mm| MM * mm),
         pitch_m: file.pitch_diameter_mm.map(|mm| MM * mm),
-    })
+    }
 }
 
 /// Rows within one pair of rings.
@@ -174,10 +154,6 @@ fn rows(
         return Ok(None);
     }
     if line.kind == CatalogueType::SphericalRoller {
-        if file.arrangement.is_some() || file.row_distance_mm.is_some() {
-            let problem = "and row_distance_mm are not used by type = \"spherical-roller\", whose two rows face one sphere; remove them";
-            return Err(keys.error("arrangement", problem));
-        }
         let distance_m = estimate.pitch_m * line.contact_angle_rad.tan();
         return Ok(Some(Arrangement::X { distance_m }));
     }
@@ -215,49 +191,29 @@ fn roller_geometry(
     keys: &TableKeys<'_>,
     line: &CatalogueLine,
     estimate: &Estimate,
-    clearance_m: f64,
 ) -> Result<BearingGeometry, InputError> {
-    for (key, given) in [
-        ("inner_conformity", file.inner_conformity.is_some()),
-        ("outer_conformity", file.outer_conformity.is_some()),
-        ("shoulder_heights_mm", file.shoulder_heights_mm.is_some()),
-    ] {
-        if given {
-            return Err(keys.error(key, "is not used by a roller bearing; remove it"));
-        }
-    }
     let size = (estimate.diameter_m, estimate.length_m, estimate.pitch_m);
-    let (taper, barrel, share) = if line.kind == CatalogueType::TaperedRoller {
-        if file.radial_clearance_um.is_some() {
-            return Err(keys.error(
-                "radial_clearance_um",
-                "is not used by a tapered roller bearing, whose play is its preload_um; remove it",
-            ));
-        }
-        (
-            Some(usual_taper(line.contact_angle_rad, size)),
-            None,
-            0.45e-3,
-        )
-    } else {
-        require_clearance(keys, clearance_m / UM, estimate.diameter_m / UM)?;
-        let barrel = (line.kind == CatalogueType::SphericalRoller)
-            .then(|| usual_shape(line.contact_angle_rad, size.2, size.0));
-        let share = if barrel.is_some() { 0.0 } else { 0.35e-3 };
-        (None, barrel, share)
+    let is = |kind: CatalogueType| line.kind == kind;
+    let taper = is(CatalogueType::TaperedRoller).then(|| usual_taper(line.contact_angle_rad, size));
+    let barrel = is(CatalogueType::SphericalRoller)
+        .then(|| usual_shape(line.contact_angle_rad, size.2, size.0));
+    let share = match (&taper, &barrel) {
+        (Some(_), _) => 0.45e-3,
+        (None, Some(_)) => 0.0,
+        (None, None) => 0.35e-3,
     };
     Ok(BearingGeometry::Roller(RollerGeometry {
         rollers: estimate.elements,
         diameter_m: estimate.diameter_m,
         length_m: estimate.length_m,
         pitch_diameter_m: estimate.pitch_m,
-        radial_clearance_m: clearance_m,
+        radial_clearance_m: Clearances::of_rollers(size.0).stated_m(file, keys)?,
         taper,
         barrel,
         profile: RollerProfile::Logarithmic {
             scale_m: share * estimate.diameter_m,
         },
-        laminae: 40,
+        laminae: LAMINAE,
     }))
 }
 
@@ -266,73 +222,36 @@ fn ball_geometry(
     keys: &TableKeys<'_>,
     line: &CatalogueLine,
     estimate: &Estimate,
-    clearance_m: f64,
 ) -> Result<BearingGeometry, InputError> {
-    let conformity = |key: &str, value: Option<f64>, usual: f64| {
-        let value = value.unwrap_or(usual);
-        keys.require(
-            key,
-            value,
-            value > 0.5 && value <= 1.0,
-            "more than 0.5 and at most 1",
-        )?;
-        Ok::<_, InputError>(value)
-    };
     let usual = match line.kind {
         CatalogueType::ThrustBall => [0.54; 2],
         _ => [0.52, 0.53],
     };
-    let inner = conformity("inner_conformity", file.inner_conformity, usual[0])?;
-    let outer = conformity("outer_conformity", file.outer_conformity, usual[1])?;
-    let (kind, free_angle_rad) = if line.kind == CatalogueType::DeepGroove {
-        let distance_m = (inner + outer - 1.0) * estimate.diameter_m;
-        let (least, most) = (
-            -MOST_INTERFERENCE * estimate.diameter_m / UM,
-            2.0 * distance_m / UM,
-        );
-        keys.require(
-            "radial_clearance_um",
-            clearance_m / UM,
-            (least..most * (1.0 - ROUNDING)).contains(&(clearance_m / UM)),
-            &format!("{least:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most:.1}"),
-        )?;
-        let half_sine = (0.25 * clearance_m.max(0.0) / distance_m).sqrt();
-        (BallBearingKind::DeepGroove, 2.0 * half_sine.asin())
-    } else if line.kind == CatalogueType::FourPoint {
-        let distance_m = (inner + outer - 1.0) * estimate.diameter_m;
-        let sizes = (estimate.diameter_m, distance_m);
-        let kind = four_point_kind(keys, clearance_m / UM, sizes, line.contact_angle_rad)?;
-        (kind, line.contact_angle_rad)
-    } else {
-        if file.radial_clearance_um.is_some() {
-            return Err(keys.error(
-                "radial_clearance_um",
-                "is not used by an angular-contact or thrust bearing, whose contact angle says it; remove it",
-            ));
-        }
-        if line.kind == CatalogueType::ThrustBall {
-            (BallBearingKind::Thrust, std::f64::consts::FRAC_PI_2)
-        } else {
-            (BallBearingKind::AngularContact, line.contact_angle_rad)
-        }
-    };
-    if line.kind == CatalogueType::ThrustBall && file.shoulder_heights_mm.is_some() {
-        return Err(keys.error(
-            "shoulder_heights_mm",
-            "is not used by a thrust bearing; remove it",
-        ));
-    }
-    let one_row = matches!(
-        line.kind,
-        CatalogueType::FourPoint | CatalogueType::ThrustBall
+    let known =
+        |key: &str, value: Option<f64>, usual: f64| conformity(keys, key, value.unwrap_or(usual));
+    let inner = known("inner_conformity", file.inner_conformity, usual[0])?;
+    let outer = known("outer_conformity", file.outer_conformity, usual[1])?;
+    let (ball_m, distance_m) = (
+        estimate.diameter_m,
+        (inner + outer - 1.0) * estimate.diameter_m,
     );
-    if one_row && file.arrangement.is_some() {
-        let problem = format!(
-            "is not used by type = \"{}\", which has one row; remove it",
-            line.kind.word()
-        );
-        return Err(keys.error("arrangement", problem));
-    }
+    let (kind, (free_angle_rad, interference_m)) = match line.kind {
+        CatalogueType::DeepGroove => {
+            let range = Clearances::of_balls(ball_m, 2.0 * distance_m);
+            let angle = angle_of_clearance(range.stated_m(file, keys)?, distance_m);
+            (BallBearingKind::DeepGroove, angle)
+        }
+        CatalogueType::FourPoint => {
+            let (sizes, angle) = ((ball_m, distance_m), line.contact_angle_rad);
+            let kind = four_point_kind(file, keys, sizes, angle)?;
+            (kind, (angle, 0.0))
+        }
+        CatalogueType::ThrustBall => (BallBearingKind::Thrust, (std::f64::consts::FRAC_PI_2, 0.0)),
+        _ => (
+            BallBearingKind::AngularContact,
+            (line.contact_angle_rad, 0.0),
+        ),
+    };
     Ok(BearingGeometry::Ball(BallGeometry {
         kind,
         balls: estimate.elements,
@@ -341,10 +260,7 @@ fn ball_geometry(
         inner_conformity: inner,
         outer_conformity: outer,
         free_angle_rad,
-        interference_m: match kind {
-            BallBearingKind::DeepGroove => (-clearance_m).max(0.0),
-            _ => 0.0,
-        },
+        interference_m,
         stated_shoulder_heights_m: shoulder_heights_m(file, keys, estimate.diameter_m / MM)?,
     }))
 }

@@ -1,11 +1,11 @@
 //! Keys of `[fit]`: how the rings are seated and how warm everything is.
 
-use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::{InputError, given};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::ball_keys::MOST_INTERFERENCE;
+use super::element_keys::Clearances;
 use super::{MM, UM};
 use crate::definition::{BearingDefinition, BearingGeometry, BearingMaterial};
 use crate::fit::{Fit, Seat, raceways_m};
@@ -114,61 +114,37 @@ pub(super) fn fit(
         table.element_expansion_um_per_m_K,
         ring,
     )?;
-    let interference = |key: &str, value: f64, seated_m: f64| {
-        let most = 0.01 * seated_m / UM;
-        keys.require(
-            key,
-            value,
-            value.abs() <= most,
-            &format!("-{most:.0} to {most:.0}, a hundredth of the seat's diameter"),
-        )
+    let shaft = Seated {
+        names: ["shaft_interference_um", "fit.shaft_material"],
+        interference_um: table.shaft_interference_um,
+        material: &table.shaft_material,
+        diameter_m: bore_m,
+        rise_k: rises.shaft,
     };
-    let shaft = match table.shaft_interference_um {
-        None => None,
-        Some(value) => {
-            interference("shaft_interference_um", value, bore_m)?;
-            let bore = table.shaft_bore_mm.unwrap_or(0.0);
-            let most = bore_m / MM;
-            keys.require(
-                "shaft_bore_mm",
-                bore,
-                (0.0..most).contains(&bore),
-                &format!("0 (solid) up to, not including, {most}, the bore of the bearing"),
-            )?;
-            let (material, far_m) = (&table.shaft_material, MM * bore);
-            Some(seat(
-                document,
-                "fit.shaft_material",
-                material,
-                (value, far_m, rises.shaft),
-            )?)
-        }
+    let housing = Seated {
+        names: ["housing_interference_um", "fit.housing_material"],
+        interference_um: table.housing_interference_um,
+        material: &table.housing_material,
+        diameter_m: outside_m,
+        rise_k: rises.housing,
     };
-    let housing = match table.housing_interference_um {
-        None => None,
-        Some(value) => {
-            interference("housing_interference_um", value, outside_m)?;
-            let outside = keys.needed(
-                "housing_outside_diameter_mm",
-                table.housing_outside_diameter_mm,
-                "housing_interference_um",
-            )?;
-            let least = outside_m / MM;
-            keys.require(
-                "housing_outside_diameter_mm",
-                outside,
-                outside > least,
-                &format!("more than {least}, the outside diameter of the bearing"),
-            )?;
-            let (material, far_m) = (&table.housing_material, MM * outside);
-            Some(seat(
-                document,
-                "fit.housing_material",
-                material,
-                (value, far_m, rises.housing),
-            )?)
-        }
-    };
+    let shaft = shaft.seat(document, || {
+        let bore = table.shaft_bore_mm.unwrap_or(0.0);
+        let most = bore_m / MM;
+        let allowed = format!("0 (solid) up to, not including, {most}, the bore of the bearing");
+        let within = (0.0..most).contains(&bore);
+        keys.require("shaft_bore_mm", bore, within, &allowed)?;
+        Ok(bore)
+    })?;
+    let housing = housing.seat(document, || {
+        let key = "housing_outside_diameter_mm";
+        let outside = table.housing_outside_diameter_mm;
+        let outside = keys.needed(key, outside, "housing_interference_um")?;
+        let least = outside_m / MM;
+        let allowed = format!("more than {least}, the outside diameter of the bearing");
+        keys.require(key, outside, outside > least, &allowed)?;
+        Ok(outside)
+    })?;
     Ok(Fit {
         bore_m,
         outside_m,
@@ -184,50 +160,17 @@ pub(super) fn fit(
 
 /// Keys that describe a seat whose interference is not given.
 fn refuse_unused(table: &FitTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    let (shaft, housing) = ("shaft_interference_um", "housing_interference_um");
-    let (has_shaft, has_housing) = (
-        table.shaft_interference_um.is_some(),
-        table.housing_interference_um.is_some(),
-    );
-    for (key, given, needs, there) in [
+    for ([(needs, is_there)], given) in [
         (
-            "shaft_bore_mm",
-            table.shaft_bore_mm.is_some(),
-            shaft,
-            has_shaft,
+            given!(table; shaft_interference_um),
+            given!(table; shaft_bore_mm, shaft_material, shaft_temperature_C),
         ),
         (
-            "shaft_material",
-            table.shaft_material.is_some(),
-            shaft,
-            has_shaft,
-        ),
-        (
-            "shaft_temperature_C",
-            table.shaft_temperature_C.is_some(),
-            shaft,
-            has_shaft,
-        ),
-        (
-            "housing_outside_diameter_mm",
-            table.housing_outside_diameter_mm.is_some(),
-            housing,
-            has_housing,
-        ),
-        (
-            "housing_material",
-            table.housing_material.is_some(),
-            housing,
-            has_housing,
-        ),
-        (
-            "housing_temperature_C",
-            table.housing_temperature_C.is_some(),
-            housing,
-            has_housing,
+            given!(table; housing_interference_um),
+            given!(table; housing_outside_diameter_mm, housing_material, housing_temperature_C),
         ),
     ] {
-        if given && !there {
+        if let Some((key, _)) = given.iter().find(|(_, given)| *given && !is_there) {
             return Err(keys.error(
                 key,
                 format!("is not used without {needs}; remove it, or state the fit"),
@@ -292,44 +235,66 @@ impl Rises {
     }
 }
 
-/// A seat of the interference \[µm\], far diameter \[m\] and temperature above 20 °C \[K\].
-fn seat(
-    document: &InputDocument,
-    path: &str,
-    material: &Option<SeatMaterial>,
-    (interference_um, far_diameter_m, rise_k): (f64, f64, f64),
-) -> Result<Seat, InputError> {
-    let keys = TableKeys::new(document, path);
-    let (young_pa, poisson, expansion) = match material {
-        None => (
-            BearingMaterial::STEEL.young_pa,
-            BearingMaterial::STEEL.poisson,
-            STEEL_EXPANSION,
-        ),
-        Some(m) => {
-            let expansion = m.expansion_um_per_m_K.unwrap_or(STEEL_EXPANSION);
-            let is_metal = (1.0..=1000.0).contains(&m.young_GPa);
-            keys.require("young_GPa", m.young_GPa, is_metal, "1 to 1000")?;
-            let allowed = "0 up to, not including, 0.5";
-            keys.require(
-                "poisson",
-                m.poisson,
-                (0.0..0.5).contains(&m.poisson),
-                allowed,
-            )?;
-            let within = (-5.0..=100.0).contains(&expansion);
-            keys.require("expansion_um_per_m_K", expansion, within, "-5 to 100")?;
-            (1e9 * m.young_GPa, m.poisson, expansion)
-        }
-    };
-    Ok(Seat {
-        interference_m: UM * interference_um,
-        far_diameter_m,
-        young_pa,
-        poisson,
-        expansion_per_k: PER_K * expansion,
-        rise_k,
-    })
+/// A shaft or housing on its seat, as the file states it.
+struct Seated<'a> {
+    /// Key of the interference, and path of the material.
+    names: [&'static str; 2],
+    interference_um: Option<f64>,
+    material: &'a Option<SeatMaterial>,
+    /// Of the seat \[m\].
+    diameter_m: f64,
+    /// Temperature above 20 °C \[K\].
+    rise_k: f64,
+}
+
+impl Seated<'_> {
+    /// The seat, if there is an interference; `far_mm` checks the diameter on its far side.
+    fn seat(
+        &self,
+        document: &InputDocument,
+        far_mm: impl FnOnce() -> Result<f64, InputError>,
+    ) -> Result<Option<Seat>, InputError> {
+        let Some(interference_um) = self.interference_um else {
+            return Ok(None);
+        };
+        let [key, path] = self.names;
+        let most = 0.01 * self.diameter_m / UM;
+        let allowed = format!("-{most:.0} to {most:.0}, a hundredth of the seat's diameter");
+        let within = interference_um.abs() <= most;
+        TableKeys::new(document, "fit").require(key, interference_um, within, &allowed)?;
+        let far_diameter_m = MM * far_mm()?;
+        let keys = TableKeys::new(document, path);
+        let (young_pa, poisson, expansion) = match self.material {
+            None => (
+                BearingMaterial::STEEL.young_pa,
+                BearingMaterial::STEEL.poisson,
+                STEEL_EXPANSION,
+            ),
+            Some(m) => {
+                let expansion = m.expansion_um_per_m_K.unwrap_or(STEEL_EXPANSION);
+                let is_metal = (1.0..=1000.0).contains(&m.young_GPa);
+                keys.require("young_GPa", m.young_GPa, is_metal, "1 to 1000")?;
+                let allowed = "0 up to, not including, 0.5";
+                keys.require(
+                    "poisson",
+                    m.poisson,
+                    (0.0..0.5).contains(&m.poisson),
+                    allowed,
+                )?;
+                let within = (-5.0..=100.0).contains(&expansion);
+                keys.require("expansion_um_per_m_K", expansion, within, "-5 to 100")?;
+                (1e9 * m.young_GPa, m.poisson, expansion)
+            }
+        };
+        Ok(Some(Seat {
+            interference_m: UM * interference_um,
+            far_diameter_m,
+            young_pa,
+            poisson,
+            expansion_per_k: PER_K * expansion,
+            rise_k: self.rise_k,
+        }))
+    }
 }
 
 /// The clearance in operation must be one that a bearing can have.
@@ -340,28 +305,28 @@ pub(super) fn require_operating(
     let Some(clearance) = definition.operating_clearance() else {
         return Ok(());
     };
-    let (diameter_m, most_m) = match &definition.geometry {
-        BearingGeometry::Ball(g) => (g.ball_diameter_m, 2.0 * g.groove_distance_m()),
-        BearingGeometry::Roller(g) => (g.diameter_m, 1e-3),
+    let range = match &definition.geometry {
+        BearingGeometry::Ball(g) => {
+            Clearances::of_balls(g.ball_diameter_m, 2.0 * g.groove_distance_m())
+        }
+        BearingGeometry::Roller(g) => Clearances::of_rollers(g.diameter_m),
     };
-    let (found, least_m) = (clearance.operating_m(), -MOST_INTERFERENCE * diameter_m);
-    if (least_m..most_m).contains(&found) {
+    let found = clearance.operating_m();
+    if range.allows(found) {
         return Ok(());
     }
     Err(TableKeys::new(document, "fit").error(
         "",
         format!(
             "the radial clearance in operation is {:.1} um: stated {:.1}, shaft {:+.1}, housing {:+.1}, heat of the inner ring {:+.1}, of the outer one \
-             {:+.1}, of the elements {:+.1}; allowed is {:.1} (interference of a hundredth of an element's diameter) up to, not including, {:.1}",
+             {:+.1}, of the elements {:+.1}; allowed is {range}",
             found / UM,
             clearance.stated_m / UM,
             clearance.by_shaft_m / UM,
             clearance.by_housing_m / UM,
             clearance.by_inner_heat_m / UM,
             clearance.by_outer_heat_m / UM,
-            clearance.by_element_heat_m / UM,
-            least_m / UM,
-            most_m / UM
+            clearance.by_element_heat_m / UM
         ),
     ))
 }

@@ -3,13 +3,10 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
-use super::ball_keys::MOST_INTERFERENCE;
+use super::element_keys::{Clearances, Elements, contact_angle_rad, laminae, roller_length_mm};
 use super::{BearingFile, Kind, MM, ProfileKind, UM};
 use crate::build_rows::half_taper_of;
 use crate::definition::{RollerGeometry, RollerProfile, Taper};
-
-/// Laminae where the file names none.
-pub(super) const LAMINAE: usize = 40;
 
 /// Rollers and races.
 pub(super) fn geometry(
@@ -17,70 +14,23 @@ pub(super) fn geometry(
     document: &InputDocument,
     keys: &TableKeys<'_>,
 ) -> Result<RollerGeometry, InputError> {
-    let needed_by = format!("kind = \"{}\"", file.kind.word());
-    let needed = |key: &str, value: Option<f64>| keys.needed(key, value, &needed_by);
-    let rollers = keys.needed("rollers", file.rollers, &needed_by)?;
-    let diameter = needed("roller_diameter_mm", file.roller_diameter_mm)?;
-    let length = needed("roller_length_mm", file.roller_length_mm)?;
-    let pitch = needed("pitch_diameter_mm", file.pitch_diameter_mm)?;
-    keys.require(
-        "roller_diameter_mm",
-        diameter,
-        diameter > 0.0,
-        "more than 0",
-    )?;
-    keys.require("roller_length_mm", length, length > 0.0, "more than 0")?;
-    keys.require(
-        "pitch_diameter_mm",
-        pitch,
-        pitch > diameter,
-        &format!("more than the roller's diameter, {diameter}"),
-    )?;
-    let room = (std::f64::consts::PI / (diameter / pitch).asin()).floor();
-    keys.require(
-        "rollers",
-        rollers as f64,
-        rollers >= 3 && (rollers as f64) <= room,
-        &format!("3 to {room}, as many rollers of {diameter} mm as go round on {pitch} mm"),
-    )?;
-    let laminae = file.laminae.unwrap_or(LAMINAE);
-    keys.require(
-        "laminae",
-        laminae as f64,
-        (2..=1000).contains(&laminae),
-        "2 to 1000; ISO/TS 16281 asks for 30 at least",
-    )?;
-    let clearance_um = file.radial_clearance_um.unwrap_or(0.0);
-    require_clearance(keys, clearance_um, 1e3 * diameter)?;
+    let rollers = Elements::rollers(file, keys)?;
+    let (diameter, pitch) = (rollers.diameter_mm, rollers.pitch_mm);
+    let length = roller_length_mm(file, keys)?;
     let taper = (file.kind == Kind::TaperedRoller)
         .then(|| taper(file, keys, (diameter, length, pitch)))
         .transpose()?;
     Ok(RollerGeometry {
-        rollers,
+        rollers: rollers.number,
         diameter_m: MM * diameter,
         length_m: MM * length,
         pitch_diameter_m: MM * pitch,
-        radial_clearance_m: UM * clearance_um,
+        radial_clearance_m: Clearances::of_rollers(MM * diameter).stated_m(file, keys)?,
         taper,
         barrel: None,
         profile: profile(file, document, diameter)?,
-        laminae,
+        laminae: laminae(file, keys)?,
     })
-}
-
-/// Play, or interference up to a hundredth of the roller's diameter.
-pub(super) fn require_clearance(
-    keys: &TableKeys<'_>,
-    clearance_um: f64,
-    diameter_um: f64,
-) -> Result<(), InputError> {
-    let least = -MOST_INTERFERENCE * diameter_um;
-    keys.require(
-        "radial_clearance_um",
-        clearance_um,
-        (least..1000.0).contains(&clearance_um),
-        &format!("{least:.1} (interference of a hundredth of the roller's diameter) up to, not including, 1000"),
-    )
 }
 
 /// Where the file names none.
@@ -108,17 +58,7 @@ fn taper(
     keys: &TableKeys<'_>,
     (diameter, length, pitch): (f64, f64, f64),
 ) -> Result<Taper, InputError> {
-    let degrees = keys.needed(
-        "contact_angle_deg",
-        file.contact_angle_deg,
-        "kind = \"tapered-roller\"",
-    )?;
-    keys.require(
-        "contact_angle_deg",
-        degrees,
-        (5.0..=45.0).contains(&degrees),
-        "5 to 45",
-    )?;
+    let angle = contact_angle_rad(file, keys, [5.0, 45.0])?;
     let end = file.end_radius_ratio.unwrap_or(END_RADIUS_RATIO);
     keys.require(
         "end_radius_ratio",
@@ -127,7 +67,6 @@ fn taper(
         "more than 0.2 and less than 1, at which the end fits the rib all over",
     )?;
     let ratio = diameter / pitch;
-    let angle = degrees.to_radians();
     let half_taper = half_taper_of(ratio, angle);
     let apex = 0.5 * pitch / (angle - half_taper).sin();
     keys.require(

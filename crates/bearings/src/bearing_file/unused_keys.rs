@@ -1,140 +1,94 @@
-//! Keys that a kind of bearing does not use.
+//! Keys that a kind of bearing, or a type of a catalogue, does not use.
 
-use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::{InputError, given};
 
 use super::BearingFile;
+use crate::catalogue::CatalogueType;
+
+/// Keys of a file, each with whether it is given, and the kinds that use them, between blanks.
+type Group<'a> = (&'a [(&'a str, bool)], &'a str);
+
+fn refuse(
+    keys: &TableKeys<'_>,
+    chosen: (&str, &str),
+    groups: &[Group<'_>],
+) -> Result<(), InputError> {
+    for (given, users) in groups {
+        let users: Vec<&str> = users.split(' ').collect();
+        for (key, is_given) in *given {
+            keys.refuse_unused(chosen, &[(key, *is_given, &users)])?;
+        }
+    }
+    Ok(())
+}
 
 /// Keys that the chosen kind does not use are errors.
-pub(super) fn refuse(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    const BALLS: &[&str] = &["deep-groove", "angular-contact"];
-    const ALL_BALLS: &[&str] = &[
-        "deep-groove",
-        "angular-contact",
-        "four-point",
-        "thrust-ball",
-        "catalogue",
+pub(super) fn by_kind(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputError> {
+    const BALLS: &str = "deep-groove angular-contact four-point thrust-ball catalogue";
+    const ROLLERS: &str = "cylindrical-roller tapered-roller spherical-roller catalogue";
+    const WITH_ANGLE: &str = "angular-contact four-point tapered-roller spherical-roller catalogue";
+    const WITH_PLAY: &str = "deep-groove four-point cylindrical-roller spherical-roller catalogue";
+    const PRELOADED: &str = "angular-contact thrust-ball tapered-roller catalogue";
+    // Four-point and thrust bearings have one row, spherical roller bearings two that face one sphere.
+    const PAIRED: &str = "deep-groove angular-contact cylindrical-roller tapered-roller catalogue";
+    const BARRELS: &str = "spherical-roller";
+    let groups: &[Group<'_>] = &[
+        (&given!(file; balls, ball_diameter_mm), BALLS),
+        (&given!(file; inner_conformity, outer_conformity), BALLS),
+        (&given!(file; rollers, roller_diameter_mm), ROLLERS),
+        (&given!(file; roller_length_mm), ROLLERS),
+        (&given!(file; contact_angle_deg), WITH_ANGLE),
+        (&given!(file; radial_clearance_um), WITH_PLAY),
+        (
+            &given!(file; raceway_diameters_mm),
+            "deep-groove angular-contact",
+        ),
+        (
+            &given!(file; shoulder_heights_mm),
+            "deep-groove angular-contact four-point catalogue",
+        ),
+        (&given!(file; profile), "cylindrical-roller tapered-roller"),
+        (
+            &given!(file; laminae),
+            "cylindrical-roller tapered-roller spherical-roller",
+        ),
+        (
+            &given!(file; end_radius_ratio, rib_height_mm),
+            "tapered-roller",
+        ),
+        (&given!(file; roller_profile_radius_mm), BARRELS),
+        (&given!(file; inner_groove_radius_mm), BARRELS),
+        (&given!(file; designation, r#type), "catalogue"),
+        (&given!(file; preload_N, preload_um), PRELOADED),
+        (&given!(file; arrangement, row_distance_mm), PAIRED),
     ];
-    const ROLLERS: &[&str] = &["cylindrical-roller", "tapered-roller"];
-    const ROLLERS_OR_LISTED: &[&str] = &[
-        "cylindrical-roller",
-        "tapered-roller",
-        "spherical-roller",
-        "catalogue",
+    refuse(keys, ("kind", file.kind.word()), groups)
+}
+
+/// Keys that the type of a catalogue's line does not use.
+pub(super) fn by_type(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    kind: CatalogueType,
+) -> Result<(), InputError> {
+    const BALLS: &str =
+        "deep-groove angular-contact angular-contact-double-row four-point thrust-ball";
+    const WITH_SHOULDERS: &str =
+        "deep-groove angular-contact angular-contact-double-row four-point";
+    const ROLLERS: &str = "cylindrical-roller tapered-roller spherical-roller";
+    // The play of the others is said by their contact angle or preload_um.
+    const WITH_PLAY: &str = "deep-groove four-point cylindrical-roller spherical-roller";
+    const PAIRED: &str =
+        "deep-groove angular-contact angular-contact-double-row cylindrical-roller tapered-roller";
+    let groups: &[Group<'_>] = &[
+        (&given!(file; balls, ball_diameter_mm), BALLS),
+        (&given!(file; inner_conformity, outer_conformity), BALLS),
+        (&given!(file; shoulder_heights_mm), WITH_SHOULDERS),
+        (&given!(file; rollers, roller_diameter_mm), ROLLERS),
+        (&given!(file; roller_length_mm), ROLLERS),
+        (&given!(file; radial_clearance_um), WITH_PLAY),
+        (&given!(file; arrangement, row_distance_mm), PAIRED),
     ];
-    const LISTED: &[&str] = &["catalogue"];
-    const PRELOADED: &[&str] = &[
-        "angular-contact",
-        "thrust-ball",
-        "tapered-roller",
-        "catalogue",
-    ];
-    keys.refuse_unused(
-        ("kind", file.kind.word()),
-        &[
-            ("balls", file.balls.is_some(), ALL_BALLS),
-            (
-                "ball_diameter_mm",
-                file.ball_diameter_mm.is_some(),
-                ALL_BALLS,
-            ),
-            (
-                "pitch_diameter_mm",
-                file.pitch_diameter_mm.is_some(),
-                &[
-                    "deep-groove",
-                    "angular-contact",
-                    "four-point",
-                    "thrust-ball",
-                    "cylindrical-roller",
-                    "tapered-roller",
-                    "spherical-roller",
-                    "catalogue",
-                ],
-            ),
-            (
-                "inner_conformity",
-                file.inner_conformity.is_some(),
-                ALL_BALLS,
-            ),
-            (
-                "outer_conformity",
-                file.outer_conformity.is_some(),
-                ALL_BALLS,
-            ),
-            (
-                "contact_angle_deg",
-                file.contact_angle_deg.is_some(),
-                &[
-                    "angular-contact",
-                    "four-point",
-                    "tapered-roller",
-                    "spherical-roller",
-                    "catalogue",
-                ],
-            ),
-            (
-                "radial_clearance_um",
-                file.radial_clearance_um.is_some(),
-                &[
-                    "deep-groove",
-                    "four-point",
-                    "cylindrical-roller",
-                    "spherical-roller",
-                    "catalogue",
-                ],
-            ),
-            (
-                "raceway_diameters_mm",
-                file.raceway_diameters_mm.is_some(),
-                BALLS,
-            ),
-            (
-                "shoulder_heights_mm",
-                file.shoulder_heights_mm.is_some(),
-                &["deep-groove", "angular-contact", "four-point", "catalogue"],
-            ),
-            ("rollers", file.rollers.is_some(), ROLLERS_OR_LISTED),
-            (
-                "roller_diameter_mm",
-                file.roller_diameter_mm.is_some(),
-                ROLLERS_OR_LISTED,
-            ),
-            (
-                "roller_length_mm",
-                file.roller_length_mm.is_some(),
-                ROLLERS_OR_LISTED,
-            ),
-            ("profile", file.profile.is_some(), ROLLERS),
-            (
-                "laminae",
-                file.laminae.is_some(),
-                &["cylindrical-roller", "tapered-roller", "spherical-roller"],
-            ),
-            (
-                "end_radius_ratio",
-                file.end_radius_ratio.is_some(),
-                &["tapered-roller"],
-            ),
-            (
-                "rib_height_mm",
-                file.rib_height_mm.is_some(),
-                &["tapered-roller"],
-            ),
-            (
-                "roller_profile_radius_mm",
-                file.roller_profile_radius_mm.is_some(),
-                &["spherical-roller"],
-            ),
-            (
-                "inner_groove_radius_mm",
-                file.inner_groove_radius_mm.is_some(),
-                &["spherical-roller"],
-            ),
-            ("designation", file.designation.is_some(), LISTED),
-            ("type", file.r#type.is_some(), LISTED),
-            ("preload_N", file.preload_N.is_some(), PRELOADED),
-            ("preload_um", file.preload_um.is_some(), PRELOADED),
-        ],
-    )
+    refuse(keys, ("type", kind.word()), groups)
 }

@@ -1,4 +1,9 @@
 //! Bore, outside diameter and width of the dimension series, in mm.
+//!
+//! Every line was compared with two public tables of makers who state these standards: Koyo (JTEKT), *Standard
+//! bearings*, CAT. NO. B2001RUS (2008), and NSK, *Rolling Bearings*; thrust bearings with Schaeffler's in the open
+//! library BOLTS (`bearings.blt`, DIN 711). Lines that only one of them has are left out. Contact angles of tapered
+//! bearings agree with the printed e = 1.5 tan α to its two digits and with the angle in the symbol of ISO 355.
 
 /// Bore in mm, outside diameter and width.
 pub(super) type Size = (u16, f64, f64);
@@ -27,7 +32,6 @@ pub(super) const SERIES_18: &[Size] = &[
     (80, 100.0, 10.0),
     (85, 110.0, 13.0),
     (90, 115.0, 13.0),
-    (95, 120.0, 13.0),
     (100, 125.0, 13.0),
 ];
 
@@ -171,7 +175,7 @@ pub(super) const SERIES_04: &[Size] = &[
 
 /// Dimension series 32, widths of double-row bearings.
 pub(super) const SERIES_32: &[Size] = &[
-    (10, 30.0, 14.0),
+    (10, 30.0, 14.3),
     (12, 32.0, 15.9),
     (15, 35.0, 15.9),
     (17, 40.0, 17.5),

@@ -265,8 +265,38 @@ fn every_designation_can_be_built() {
             .name,
         "7205B"
     );
-    for unknown in ["6299", "62", "6205-2RS", "6205B", "é205", "NU204é", ""] {
+    for unknown in [
+        "6299", "62", "6205-2RS", "6205B", "é205", "NU204é", "61819", "",
+    ] {
         assert!(designations::find(unknown).is_none(), "{unknown}");
+    }
+}
+
+/// Corners of the tables as two makers print them (Koyo, CAT. NO. B2001RUS; NSK, Rolling Bearings). Once the width of
+/// 3200 was 14 mm, and 61819, which one of them has only, was listed.
+#[test]
+fn designations_have_the_dimensions_of_two_catalogues() {
+    for (name, sizes) in [
+        ("61818", [90.0, 115.0, 13.0]),
+        ("6015", [75.0, 115.0, 20.0]),
+        ("6220", [100.0, 180.0, 34.0]),
+        ("6320", [100.0, 215.0, 47.0]),
+        ("6412", [60.0, 150.0, 35.0]),
+        ("3200", [10.0, 30.0, 14.3]),
+        ("NU2320", [100.0, 215.0, 73.0]),
+        ("30215", [75.0, 130.0, 27.25]),
+        ("32315", [75.0, 160.0, 58.0]),
+        ("51210", [50.0, 78.0, 22.0]),
+    ] {
+        let line = designations::find(name)
+            .unwrap_or_else(|| panic!("{name}"))
+            .line;
+        for (found, mm) in [line.bore_m, line.outside_m, line.width_m]
+            .into_iter()
+            .zip(sizes)
+        {
+            close(found, 1e-3 * mm, 1e-12);
+        }
     }
 }
 

@@ -206,7 +206,7 @@ fn other_types_are_checked() {
         let pair = format!("{text}arrangement = \"O\"\nrow_distance_mm = 20.0\n");
         let found = complaint(&pair);
         assert!(
-            found.contains("arrangement") && found.contains(kind) && found.contains("one row"),
+            found.contains("arrangement") && found.contains(kind) && found.contains("is not used"),
             "{found}"
         );
         let faulty =
@@ -246,7 +246,7 @@ fn other_types_are_checked() {
     refused(
         BARRELS,
         ("rollers = 19", "rollers = 19\nrow_distance_mm = 22.0"),
-        &["row_distance_mm", "one sphere"],
+        &["row_distance_mm", "is not used"],
     );
     refused(
         BARRELS,

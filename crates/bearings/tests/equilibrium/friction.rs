@@ -56,9 +56,19 @@ fn the_viscous_part_follows_its_powers() {
 /// f1 P1 d_m by hand: radial rollers, balls under thrust and across, taper.
 #[test]
 fn the_part_by_the_load_by_hand() {
-    let across = friction(&oiled(ROLLERS, ""), [2000.0, 1500.0, 0.0], 600.0);
-    // Outer loads lie along other radii than inner ones by the ring's displacement over the radius.
-    close(across.load_nm, 1e-3 * 0.0003 * 2500.0 * 33.5, 1e-3);
+    let (force, rollers) = ([2000.0, 1500.0, 0.0], oiled(ROLLERS, ""));
+    let across = friction(&rollers, force, 600.0);
+    // The rollers press the outer race in their own axial planes, the inner ring in planes through its displaced axis,
+    // which are turned by up to u/r_i, r_i 13 mm the inner race's radius: F_r differs by no more than that.
+    let load = AppliedBearingLoad {
+        force_n: force,
+        tilt: TiltCondition::Held([0.0; 2]),
+    };
+    let own = bearing(&rollers);
+    let pose = own.equilibrium(&load, &Operation::default()).unwrap();
+    let turned = pose.centre_m.norm() / 13e-3;
+    assert!(turned < 2e-3, "{turned}");
+    close(across.load_nm, 1e-3 * 0.0003 * 2500.0 * 33.5, turned);
     let c0 = Ratings::of(&definition(B6205)).static_n;
     let along = friction(&oiled(B6205, ""), [0.0, 0.0, 400.0], 60.0);
     // P0 = 0.5 F_a, P1 = 3 F_a.

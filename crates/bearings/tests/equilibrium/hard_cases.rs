@@ -37,7 +37,8 @@ fn tiny_and_heavy_loads_are_borne() {
         for force in [1e-3, 1.0, 1e5] {
             let pose = rest(&bearing, [0.0, 0.0, force], FREE, 0.0);
             let ring = bearing.evaluate(&pose, &at_rpm(0.0)).unwrap();
-            close(-ring.load[2], force, 1e-5);
+            // Each of the 16 or 17 elements counts 1e-9 N as none: 2e-8 N of 1e-3 N, of which more loads have less.
+            close(-ring.load[2], force, if force < 1.0 { 2e-5 } else { 1e-8 });
         }
     }
 }

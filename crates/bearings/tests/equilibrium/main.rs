@@ -14,6 +14,7 @@ mod independent;
 mod lives;
 mod missing;
 mod published;
+mod random_bearings;
 mod rests;
 mod stress_risers;
 mod tangents;

@@ -45,19 +45,20 @@ fn found(clearance_um: f64, force_n: [f64; 3]) -> ([f64; 3], f64) {
     (pose.centre_m.map(|u| 1e6 * u).into(), life.reference_mrev)
 }
 
-/// With the ring free to tilt the first ball under the load does not feel it; with it held neither.
+/// Axially both programs find the same to a hundred-thousandth. Radially theirs yields 3e-4 less, whose way to turn with the
+/// ring is not published; loads go with its power 1.5, and lives with their cube.
 #[test]
 fn radial_and_axial_displacements_and_lives_are_those_of_masta() {
     let ([x, ..], life) = found(0.0, [1000.0, 0.0, 0.0]);
-    close(x, 15.1101, 1e-3);
-    close(life, 13163.019, 5e-3);
+    close(x, 15.1101, 5e-4);
+    close(life, 13163.019, 2e-3);
     let ([.., z], life) = found(0.0, [0.0, 0.0, 1000.0]);
-    close(z, 133.5381, 1e-2);
-    close(life, 2222.7318, 2e-2);
+    close(z, 133.5381, 2e-5);
+    close(life, 2222.7318, 1e-4);
     let ([x, ..], life) = found(10.0, [1000.0, 0.0, 0.0]);
-    close(x, 21.223, 1e-3);
-    close(life, 10795.7948, 5e-3);
+    close(x, 21.223, 5e-4);
+    close(life, 10795.7948, 2e-3);
     let ([.., z], life) = found(10.0, [0.0, 0.0, 1000.0]);
-    close(z, 149.1717, 1e-2);
-    close(life, 3115.8781, 2e-2);
+    close(z, 149.1717, 2e-5);
+    close(life, 3115.8781, 1e-4);
 }

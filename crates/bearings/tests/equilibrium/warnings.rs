@@ -8,6 +8,15 @@ use gearmesh_bearings::{
 };
 
 fn warnings(text: &str, force_n: [f64; 3], rpm: f64) -> Vec<BearingWarning> {
+    warnings_tilted(text, force_n, rpm, [0.0; 2])
+}
+
+fn warnings_tilted(
+    text: &str,
+    force_n: [f64; 3],
+    rpm: f64,
+    tilt_rad: [f64; 2],
+) -> Vec<BearingWarning> {
     let definition = definition(text);
     let bearing = QuasiStaticBearing::new(&definition).unwrap();
     let operation = Operation {
@@ -16,14 +25,16 @@ fn warnings(text: &str, force_n: [f64; 3], rpm: f64) -> Vec<BearingWarning> {
     };
     let load = AppliedBearingLoad {
         force_n,
-        tilt: TiltCondition::Held([0.0; 2]),
+        tilt: TiltCondition::Held(tilt_rad),
     };
     let pose = bearing.equilibrium(&load, &operation).unwrap();
-    let (_, loads) = bearing.loads(&pose, &operation).unwrap();
+    let (ring, loads) = bearing.loads(&pose, &operation).unwrap();
     let life = Life::of(&definition, &loads, force_n, &operation, None);
     let judged = Judged {
         definition: &definition,
         bearing: &bearing,
+        pose: &pose,
+        ring: &ring,
         loads: &loads,
         force_n,
         operation: &operation,
@@ -158,4 +169,34 @@ fn light_loads_and_speeds_are_warned_of() {
     let coarse = format!("{ROLLERS}laminae = 29\n");
     let found = warnings(&coarse, [3000.0, 0.0, 0.0], 0.0);
     assert_eq!(of(&found, Concern::Laminae).unwrap().value, 29.0);
+}
+
+/// Loads of another unit move a ring by millimetres, tilts of another unit make moments that no bearing carries.
+#[test]
+fn nonsense_is_warned_of() {
+    // Kilonewtons taken for newtons: the ring moves by more than a tenth of the balls' 7.938 mm.
+    let found = warnings(B6205, [0.0, 0.0, 14e6], 0.0);
+    let far = of(&found, Concern::Displacement).unwrap();
+    close(far.limit, 0.7938, 1e-12);
+    assert!(far.value > far.limit && far.text.contains("check the units"));
+    // Play is no displacement of the bearing: 0.3 mm across, and 2A sin α = 0.68 mm along the axis.
+    let loose = format!("{B6205}radial_clearance_um = 300.0\n");
+    assert_eq!(
+        of(
+            &warnings(&loose, [0.0, 0.0, 500.0], 0.0),
+            Concern::Displacement
+        ),
+        None
+    );
+    let ratings = Ratings::of(&definition(PAIR));
+    let found = warnings_tilted(PAIR, [0.0; 3], 0.0, [8e-3, 0.0]);
+    let moment = of(&found, Concern::Moment).unwrap();
+    close(moment.limit, 0.5 * ratings.static_n * 0.065, 1e-12);
+    assert_eq!(
+        of(
+            &warnings_tilted(PAIR, [0.0; 3], 0.0, [1e-3, 0.0]),
+            Concern::Moment
+        ),
+        None
+    );
 }

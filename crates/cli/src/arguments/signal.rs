@@ -99,7 +99,7 @@ pub enum SignalAnalysis {
         /// Turns from one block to the next
         #[arg(long, default_value_t = 1)]
         step_turns: usize,
-        /// Orders to print and draw, the strongest ones
+        /// Orders to print, the strongest ones
         #[arg(long, default_value_t = 5)]
         peaks: usize,
     },

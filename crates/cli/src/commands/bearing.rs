@@ -77,6 +77,8 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
     let judged = Judged {
         definition: &found.definition,
         bearing: &bearing,
+        pose: &pose,
+        ring: &ring,
         loads: &loads,
         force_n: load.force_n,
         operation: &operation,

@@ -9,7 +9,7 @@ use gearmesh_bearings::ElementLoad;
 use gearmesh_report::page::{
     Align, Axis, KeyFigures, LineChart, LineSeries, Page, PolarChart, Section, Table, Text,
 };
-use gearmesh_report::short;
+use gearmesh_report::{short, short_beside};
 use std::path::Path;
 
 /// Writes the page.
@@ -74,6 +74,13 @@ fn at_a_glance(answer: &Answer<'_>) -> Section {
             .enumerate()
             .flat_map(|(row, list)| list.iter().map(move |e| (row, e)))
     };
+    // What is only rounding of the other components is 0; a tilt moves the balls on their circle.
+    let moved = [0, 1, 2]
+        .map(|i| q[i].abs())
+        .into_iter()
+        .fold(0.0, f64::max);
+    let radius = answer.bearing.rows[0].pitch_radius_m();
+    let tilted = (moved / radius).max(q[3].abs()).max(q[4].abs());
     let load = all()
         .map(|(_, e)| e.inner_load_n.max(e.outer_load_n))
         .fold(0.0, f64::max);
@@ -91,12 +98,16 @@ fn at_a_glance(answer: &Answer<'_>) -> Section {
         .figure("largest pressure", short(1e-6 * pressure), "MPa")
         .figure(
             "ring moves by x, y, z",
-            [0, 1, 2].map(|i| short(1e6 * q[i])).join(", "),
+            [0, 1, 2]
+                .map(|i| short_beside(1e6 * q[i], 1e6 * moved))
+                .join(", "),
             "µm",
         )
         .figure(
             "and tilts about x, y",
-            [3, 4].map(|i| short(1e3 * q[i])).join(", "),
+            [3, 4]
+                .map(|i| short_beside(1e3 * q[i], 1e3 * tilted))
+                .join(", "),
             "mrad",
         )
         .figure(

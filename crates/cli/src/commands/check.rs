@@ -1,12 +1,12 @@
 //! `gearmesh check`: reads a file of any kind and says what it is, or what is wrong with it.
 
 use crate::arguments::CheckArguments;
-use crate::commands::{bevel, reduce, system_table};
+use crate::commands::{bevel, reduce, system_table, tca};
 use crate::failure::Failure;
 use crate::{console, offline};
 use gearmesh_bearings::QuasiStaticBearing;
 use gearmesh_bearings::bearing_file::BearingFromFile;
-use gearmesh_bevel::{BevelGear, PairFile};
+use gearmesh_bevel::{AssembledPair, BevelError, BevelGear, PairFile};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
@@ -149,7 +149,20 @@ fn found(path: &Path) -> Result<Finding, Failure> {
 fn bevel_pair(document: &InputDocument) -> Result<Finding, Failure> {
     let file = PairFile::from_document(document)?;
     let (design, _) = file.checked_design(document)?;
+    let pair = AssembledPair::new(&file, &design);
+    let pair = pair.map_err(|error| Failure::work(error.in_file(document)))?;
+    let coast = pair.coast.as_ref().ok().and_then(Option::as_ref);
+    let edges = [
+        tca::edge_words(file.pinion_flank, pair.driving.as_ref()),
+        tca::edge_words(file.pinion_flank.mate(), coast),
+    ];
+    let edges = edges.into_iter().flatten();
     let mut finding = Finding::new("bevel pair", Some(&file.title));
+    finding.notes = (pair.jam.iter())
+        .map(BevelError::to_string)
+        .chain(edges)
+        .map(|words| format!("warning: {words}"))
+        .collect();
     finding.lines = bevel::thickness_words(&design, &file);
     (finding.facts).insert(
         "backlash_mm".into(),

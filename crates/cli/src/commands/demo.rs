@@ -3,7 +3,6 @@
 use crate::arguments::DemoArguments;
 use crate::commands::report::write_page;
 use crate::commands::report_stress::CROSS_SECTION;
-use crate::commands::run::transmission_error;
 use crate::commands::stress_picture::picture;
 use crate::console;
 use crate::failure::Failure;
@@ -18,7 +17,6 @@ use gearmesh_report::{Quantity, ReferenceRecord};
 use gearmesh_scene::{Scene, SceneResult, load, run as run_scene};
 use gearmesh_signal::AngleSeries;
 use gearmesh_signal::rig::{OrderFilter, RigSettings, process};
-use gearmesh_signal::statistics::peak_to_peak;
 use std::path::Path;
 use std::time::Instant;
 
@@ -150,7 +148,7 @@ fn print_table(result: &SceneResult, record: &ReferenceRecord) -> Result<(), Fai
         "mesh order um"
     ));
     for (k, &torque) in result.torque_nm.iter().enumerate() {
-        let (mean, range) = transmission_error(result, k)?;
+        let figures = result.figures(k);
         let of = |quantity: &Quantity| {
             comparisons
                 .iter()
@@ -162,8 +160,10 @@ fn print_table(result: &SceneResult, record: &ReferenceRecord) -> Result<(), Fai
         let gauges: Vec<String> = result
             .strain
             .iter()
-            .map(|s| {
-                let ours = peak_to_peak(result.curve(&s.method_2, k)).unwrap_or(0.0);
+            .enumerate()
+            .map(|(number, s)| {
+                let [least, most] = result.strain_ends(number, 2, k);
+                let ours = most - least;
                 let compared = of(&Quantity::Strain {
                     gauge: s.name.clone(),
                 });
@@ -177,9 +177,9 @@ fn print_table(result: &SceneResult, record: &ReferenceRecord) -> Result<(), Fai
             .collect();
         console::data(format!(
             "{torque:>10.1} {:>10.3} {:>7} {:>11.3} {:>7} {:>12.4} {:>13.4}   {}",
-            mean * 1e6,
+            figures.te_mean_m * 1e6,
             percent(te.and_then(|c| c.mean.relative_difference())),
-            range * 1e6,
+            figures.te_peak_to_peak_m * 1e6,
             percent(te.and_then(|c| c.peak_to_peak.relative_difference())),
             order_amplitude(result, k, 3.0)? * 1e6,
             order_amplitude(result, k, TEETH as f64)? * 1e6,

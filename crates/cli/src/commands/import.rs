@@ -6,10 +6,10 @@ use crate::console;
 use crate::failure::Failure;
 use crate::overwriting::apart;
 use gearmesh_geometry::input::read_bytes;
-use gearmesh_model::write_text;
-use gearmesh_report::short;
+use gearmesh_model::write_folder;
+use gearmesh_report::{column_width, short};
 use gearmesh_rexs::container::MOST_MB;
-use gearmesh_rexs::{Entry, Import, Meshes, Weight, import, model_file};
+use gearmesh_rexs::{Entry, Import, Meshes, Running, Weight, import_to_run, model_file};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -22,16 +22,22 @@ pub fn run(a: &ImportArguments) -> Result<(), Failure> {
     let bytes = read_bytes(&a.model, MOST_MB << 20)
         .map_err(|cause| Failure::input(format!("{shown}: {cause}")))?;
     let stem = a.model.file_stem().unwrap_or_default().to_string_lossy();
-    let made = |bytes, with| {
-        import(bytes, &stem, with).map_err(|cause| Failure::input(format!("{shown}: {cause}")))
+    let made = |bytes, with, running| {
+        import_to_run(bytes, &stem, with, running)
+            .map_err(|cause| Failure::input(format!("{shown}: {cause}")))
     };
-    let springs = a.reduced.then(|| bytes.clone());
+    let other = (a.reduced || a.transient).then(|| bytes.clone());
     let with = if a.reduced {
         Meshes::Hybrid
     } else {
         Meshes::Iso6336
     };
-    let found = made(bytes, with)?;
+    let running = if a.transient {
+        Running::InTime
+    } else {
+        Running::AtRest
+    };
+    let found = made(bytes, with, running)?;
     let list = (
         "import.md".to_owned(),
         found.ledger.page(
@@ -46,12 +52,13 @@ pub fn run(a: &ImportArguments) -> Result<(), Failure> {
     let mut trial = Trial::default();
     if !a.no_run {
         trial.check(&found, &a.output, !a.reduced);
-        match springs {
+        match other {
             None => trial.run(&found, &a.output)?,
-            // The models of the gears are not there yet: the loads are those of the same scene with springs.
+            // The models of the gears are not there yet, motion takes its time: the loads are those of the same scene with
+            // springs, at rest.
             Some(bytes) => {
                 let scratch = tempfile::tempdir().map_err(Failure::work)?;
-                let springs = made(bytes, Meshes::Iso6336)?;
+                let springs = made(bytes, Meshes::Iso6336, Running::AtRest)?;
                 write(&springs, scratch.path(), None, &a.model)?;
                 trial.run(&springs, scratch.path())?;
             }
@@ -91,15 +98,12 @@ fn write(
     list: Option<(String, String)>,
     model: &Path,
 ) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder)
-        .map_err(|cause| Failure::work(format!("{}: {cause}", folder.display())))?;
     let files = made.files.iter().map(|f| (f.name.clone(), f.text.clone()));
-    for (name, text) in files.chain(list) {
-        let path = folder.join(name);
-        apart(&path, &[model.to_owned()])?;
-        write_text(&path, &text)?;
+    let files: Vec<(String, String)> = files.chain(list).collect();
+    for (name, _) in &files {
+        apart(&folder.join(name), &[model.to_owned()])?;
     }
-    Ok(())
+    Ok(write_folder(folder, &files)?)
 }
 
 fn line(entry: &Entry) -> String {
@@ -205,7 +209,7 @@ fn scene(row: &SceneRow, reduced: bool) {
         .chain(row.shafts.iter().map(|s| &s.0))
         .chain(row.bearings.iter().map(|b| &b.0))
         .chain(row.meshes.iter().map(|m| &m.0));
-    let width = names.map(|n| n.chars().count()).max().unwrap_or(0).max(8);
+    let width = column_width(names, 8);
     let print = |name: &str, cells: &[String]| {
         let cells = cells.iter().map(|c| format!(" {c:>14}"));
         console::data(format!("{name:width$}{}", cells.collect::<String>()));

@@ -5,7 +5,9 @@ use crate::commands::check;
 use crate::failure::Failure;
 use gearmesh_rexs::{Import, Sheet};
 use gearmesh_scene::SceneFile;
-use gearmesh_scene::system_run::{Outcome, RunJob, RunOptions, SystemResult, run as run_job};
+use gearmesh_scene::system_run::{
+    Outcome, RunJob, RunOptions, StageRow, SystemResult, run as run_job,
+};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -235,18 +237,19 @@ fn figures(sheet: &Sheet, result: &SystemResult) -> Result<SceneRow, Failure> {
             read(&format!("elements/{name}/{axial}"))?,
         ));
     }
+    let stages = result.stages().map_err(Failure::work)?;
     for name in &sheet.meshes {
         let mut force = 0.0;
         for flank in ["left", "right"] {
             force += read(&format!("elements/{name}/normal_force_{flank}_N"))?;
         }
-        let start = format!("elements/{name}/line_load_slice_");
-        let slices = columns.iter().filter(|c| c.name.starts_with(&start));
-        let loads: Result<Vec<f64>, Failure> = slices.map(|c| read(&c.name)).collect();
-        let loads = loads?;
-        let sum: f64 = loads.iter().sum();
-        let most = loads.iter().copied().fold(0.0, f64::max);
-        let k_h_beta = (sum > 0.0).then(|| most * loads.len() as f64 / sum);
+        let of_mesh = |stage: &&StageRow| stage.mesh.name == *name;
+        let load = stages
+            .iter()
+            .flat_map(|s| &s.rows)
+            .find(of_mesh)
+            .and_then(|s| s.load);
+        let k_h_beta = load.and_then(|load| load.k_h_beta);
         row.meshes.push((name.clone(), force, k_h_beta));
     }
     Ok(row)

@@ -3,7 +3,7 @@
 use crate::arguments::{InitArguments, InitKind};
 use crate::console;
 use crate::failure::Failure;
-use gearmesh_model::write_text;
+use gearmesh_model::write_folder;
 use serde_json::json;
 
 const PINION: (&str, &str) = ("pinion.toml", include_str!("../../templates/pinion.toml"));
@@ -62,13 +62,14 @@ pub fn run(a: &InitArguments) -> Result<(), Failure> {
             }
         )));
     }
-    std::fs::create_dir_all(&a.output)
-        .map_err(|cause| Failure::work(format!("{}: {cause}", a.output.display())))?;
-    for (name, text) in files {
-        let path = a.output.join(name);
-        write_text(&path, text)?;
-        if !a.json {
-            console::data(path.display());
+    let named: Vec<(String, String)> = files
+        .iter()
+        .map(|(name, text)| ((*name).to_owned(), (*text).to_owned()))
+        .collect();
+    write_folder(&a.output, &named)?;
+    if !a.json {
+        for (name, _) in files {
+            console::data(a.output.join(name).display());
         }
     }
     if a.json {

@@ -25,7 +25,7 @@ pub struct Loaded {
     /// Flanks that press.
     pub side: Flank,
     slices: usize,
-    /// What gives way, in words.
+    /// What deflects, in words.
     body: &'static str,
     /// The reduced members, where the file names any, and their files.
     pub models: Option<[(ReducedGear, PathBuf); 2]>,
@@ -94,7 +94,7 @@ pub fn analyse(
         slices,
         body: match models {
             Some(_) => "reduced gears",
-            None => "rigid gears, their surfaces give way",
+            None => "rigid gears, their surfaces deflect",
         },
         found,
         flanks,
@@ -127,7 +127,7 @@ fn warn_of_short_slices(found: &[LoadedContact]) {
         .max_by(|a, b| a.half_width_m.total_cmp(&b.half_width_m));
     if let Some(patch) = widest {
         console::warning(format!(
-            "slices, {:.3} mm long, are shorter than the contact's half width, {:.3} mm: what short slices give way is cut off there; state fewer `slices`",
+            "slices, {:.3} mm long, are shorter than the contact's half width, {:.3} mm: deflections of short slices are cut off there; state fewer `slices`",
             1e3 * patch.length_m,
             1e3 * patch.half_width_m
         ));
@@ -342,4 +342,5 @@ fn pressure(loaded: &Loaded, of: &LoadedContact) -> FieldPicture {
     )
     .mesh(nodes, quads)
     .values(FieldValues::PerElement(cells))
+    .colours_of_most()
 }

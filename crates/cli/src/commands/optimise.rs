@@ -7,7 +7,7 @@ use crate::interrupt::{self, Scratch};
 use crate::page_file;
 use gearmesh_model::{csv_cell, write_text};
 use gearmesh_report::optimise_page::optimise_page;
-use gearmesh_report::short;
+use gearmesh_report::{column_width, short};
 use gearmesh_scene::optimise::{Optimisation, Optimum, Trial, optimise};
 use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
@@ -66,10 +66,7 @@ fn names(problem: &Optimisation) -> Vec<String> {
 /// The front for people.
 fn table(problem: &Optimisation, found: &Optimum) -> Vec<String> {
     let names = names(problem);
-    let widths: Vec<usize> = names
-        .iter()
-        .map(|name| name.chars().count().max(10))
-        .collect();
+    let widths: Vec<usize> = names.iter().map(|name| column_width([name], 10)).collect();
     let row = |cells: Vec<String>| {
         let cells = cells
             .iter()

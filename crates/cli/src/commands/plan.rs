@@ -4,7 +4,7 @@ use crate::arguments::PlanArguments;
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_scene::system::SystemPlan;
-use gearmesh_scene::system_run::{RunCost, RunJob};
+use gearmesh_scene::system_run::{ResultSize, RunCost, RunJob};
 use gearmesh_scene::{SceneFile, load};
 use serde_json::json;
 
@@ -17,7 +17,8 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
             console::unit_slips(loaded.unit_slips());
             loaded.contact().map_err(Failure::input)?;
             let plan = loaded.plan();
-            let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns, "proposal": plan.proposal});
+            let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns, "proposal": plan.proposal,
+                "result_bytes": loaded.result_bytes()});
             (plan.lines, figures)
         }
         SceneFile::System(scene) => {
@@ -25,8 +26,9 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
             loaded.scene.notes.iter().for_each(console::note);
             console::unit_slips(loaded.unit_slips());
             // What the run would refuse is refused here.
-            RunJob::from_scene(loaded.clone())?;
+            let size = ResultSize::of(&RunJob::from_scene(loaded.clone())?);
             let plan = SystemPlan::new(&loaded.scene, loaded.build()?)?
+                .with_result(size)
                 .with_cost(&loaded.scene, RunCost::timed(&loaded)?);
             let stages: serde_json::Map<String, serde_json::Value> = (plan.stages.iter())
                 .map(|(mesh, stage)| (mesh.clone(), json!(stage)))
@@ -34,7 +36,7 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
             let figures = json!({
                 "lines": plan.lines, "stages": stages, "degrees_of_freedom": plan.degrees_of_freedom, "equations": plan.equations,
                 "mobility": plan.mobility, "highest_frequency_Hz": plan.highest_frequency_hz, "steps": plan.steps,
-                "step_cost_s": plan.step_cost_s,
+                "step_cost_s": plan.step_cost_s, "result_bytes": size.map(|size| size.bytes()),
             });
             (plan.lines, figures)
         }

@@ -6,13 +6,10 @@ use gearmesh_scene::rating::RatingResult;
 use gearmesh_scene::system_run::stem;
 use serde_json::{Value, json};
 
-/// Tells what could not be judged.
+/// Warns of what could not be judged, and of loads beyond a limit.
 pub fn warn(ratings: &[RatingResult]) {
-    for rated in ratings {
-        if let Some(problem) = &rated.problem {
-            console::warning(format!("{} is not rated: {problem}", rated.name));
-        }
-    }
+    let all = ratings.iter().flat_map(RatingResult::reported);
+    all.for_each(console::warning);
 }
 
 /// The figures for people.
@@ -44,7 +41,7 @@ pub fn json(ratings: &[RatingResult]) -> Value {
         let figures = rated.figures.iter();
         json!({
             "name": rated.name, "method": rated.method, "problem": rated.problem,
-            "incomplete": rated.incomplete,
+            "incomplete": rated.incomplete, "warnings": rated.warnings,
             "figures": figures.map(|f| (f.name.to_owned(), json!(f.value))).collect::<serde_json::Map<_, _>>(),
         })
     });

@@ -4,7 +4,7 @@ use crate::arguments::RecordArguments;
 use crate::failure::Failure;
 use crate::{console, output_name, uff};
 use gearmesh_geometry::input::{MOST_TEXT_BYTES, read_bytes};
-use gearmesh_model::write_text;
+use gearmesh_model::{write_folder, write_text};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_report::measured::{
     Channel, MeasuredError, RecordFiles, RecordRequest, csv_channels, decoded, record_files,
@@ -36,10 +36,11 @@ pub fn run(a: &RecordArguments) -> Result<(), Failure> {
     };
     let files = record_files(channels, &request).map_err(|error| blame(&a.measured, &error))?;
     let record = checked(&files)?;
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::work(format!("{}: {error}", folder.display())))?;
-    write_text(&folder.join("data.csv"), &files.data)?;
-    write_text(&folder.join("record.toml"), &files.description)?;
+    let named = [
+        ("data.csv".to_owned(), files.data.clone()),
+        ("record.toml".to_owned(), files.description.clone()),
+    ];
+    write_folder(folder, &named)?;
     files.notes.iter().for_each(console::note);
     let heads: Vec<&str> = record.columns.iter().map(|c| &*c.name).collect();
     if a.json {

@@ -9,7 +9,6 @@ use crate::{console, console::StageBar, output_name, overwriting};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_reduction::GearBody;
 use gearmesh_scene::{LoadedScene, Scene, SceneResult, load, run as scene_run};
-use gearmesh_signal::statistics::peak_to_peak;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -81,16 +80,13 @@ pub fn scene_of(result: &SceneResult, path: &Path) -> Result<LoadedScene, Failur
 
 fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
     let mut rows = Vec::new();
-    for series in &result.strain {
+    for (number, series) in result.strain.iter().enumerate() {
         for (k, torque) in result.torque_nm.iter().enumerate() {
-            let range =
-                |values: &[f64]| peak_to_peak(result.curve(values, k)).map_err(Failure::work);
-            rows.push((
-                series,
-                *torque,
-                range(&series.method_1)?,
-                range(&series.method_2)?,
-            ));
+            let range = |method: usize| {
+                let [least, most] = result.strain_ends(number, method, k);
+                most - least
+            };
+            rows.push((series, *torque, range(1), range(2)));
         }
     }
     if as_json {

@@ -6,11 +6,15 @@ use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
 use gearmesh_contact::ContactZone;
-use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
+use gearmesh_contact::mesh_stiffness::mesh_harmonics;
+use gearmesh_scene::pair::PairFigures;
+use gearmesh_scene::system_run::megabytes;
 use gearmesh_scene::{Scene, SceneFile, SceneResult, load, run as run_scene};
-use gearmesh_signal::statistics::{mean, peak_to_peak};
 use serde_json::json;
 use std::path::Path;
+
+/// Results from this size on are announced \[bytes\].
+const WORTH_A_WORD: f64 = 50e6;
 
 /// Runs the command.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -19,7 +23,6 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         SceneFile::Pair(scene) => scene,
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
-            console::unit_slips(loaded.unit_slips());
             return run_system::run(loaded, arguments);
         }
     };
@@ -30,27 +33,40 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     }
     let loaded = load(*scene)?;
     loaded.scene.notes.iter().for_each(console::note);
-    console::unit_slips(loaded.unit_slips());
-    let result = run_scene(&loaded, &|done, total| {
-        console::note(format!("torque {done} of {total} solved"))
-    })?;
+    let told = |done, total| console::note(format!("torque {done} of {total} solved"));
+    demand_size(loaded.result_bytes(), "run.pitches", arguments)?;
+    // Slips of units are among the warnings of the result; what is refused may follow from them.
+    let result =
+        run_scene(&loaded, &told).inspect_err(|_| console::unit_slips(loaded.unit_slips()))?;
     result.write(&arguments.output).map_err(Failure::work)?;
     result.warnings.iter().for_each(console::warning);
     ratings::warn(&result.ratings);
     if arguments.json {
-        console::json(&figures(&result)?);
+        console::json(&figures(&result));
     } else {
         table(&result)?.into_iter().for_each(console::data);
     }
     Ok(())
 }
 
-/// Mean over whole periods and peak-to-peak of the transmission error of one torque \[m\].
-pub fn transmission_error(result: &SceneResult, torque: usize) -> Result<(f64, f64), Failure> {
-    Ok((
-        mean(result.averaged(&result.te_m, torque)).map_err(Failure::work)?,
-        peak_to_peak(result.curve(&result.te_m, torque)).map_err(Failure::work)?,
-    ))
+/// Refuses a result that is larger than it may be, before anything of it is written; a large one is announced.
+///
+/// # Errors
+/// [`Failure`] naming the option that allows more.
+pub fn demand_size(bytes: f64, key: &str, a: &RunArguments) -> Result<(), Failure> {
+    if bytes > 1e9 * a.most_result_gb {
+        return Err(Failure::input(format!(
+            "{}: {key}: the result will have {}, allowed are {} GB; give --most-result-GB {:.0} to allow it",
+            a.scene.display(),
+            megabytes(bytes),
+            a.most_result_gb,
+            (1e-9 * bytes).ceil()
+        )));
+    }
+    if bytes >= WORTH_A_WORD {
+        console::note(format!("the result will have {}", megabytes(bytes)));
+    }
+    Ok(())
 }
 
 /// The curves' figures for people.
@@ -71,40 +87,38 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
         ),
     ];
     let mark = periods::mark(&result.contact_coverage);
-    for (k, torque) in result.torque_nm.iter().enumerate() {
-        let (te_mean, te_range) = transmission_error(result, k)?;
-        let width_mm = 1e3 * zone_width_m(result)?;
-        let per_width = |values: &[f64]| fourier(result.averaged(values, k), 0).0 / width_mm * 1e-6;
-        let block = result.pressure_pa.len() / result.torque_nm.len();
-        let pressure = result.pressure_pa[k * block..(k + 1) * block]
-            .iter()
-            .copied()
-            .fold(0.0, f64::max);
+    let width_mm = 1e3 * zone_width_m(result)?;
+    let figures: Vec<PairFigures> = (0..result.torque_nm.len())
+        .map(|k| result.figures(k))
+        .collect();
+    for (k, f) in figures.iter().enumerate() {
+        let per_width = |stiffness: f64| stiffness / width_mm * 1e-6;
         lines.push(format!(
-            "{torque:>10.1} {:>12.4} {:>12.4} {:>14.4} {:>15.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}{mark}",
-            te_mean * 1e6,
-            te_range * 1e6,
-            per_width(&result.secant_n_per_m),
-            per_width(&result.tangent_n_per_m),
-            result.k_h_beta[k],
-            pressure * 1e-6,
+            "{:>10.1} {:>12.4} {:>12.4} {:>14.4} {:>15.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}{mark}",
+            f.torque_nm,
+            f.te_mean_m * 1e6,
+            f.te_peak_to_peak_m * 1e6,
+            per_width(f.secant_mean_n_per_m),
+            per_width(f.tangent_mean_n_per_m),
+            f.k_h_beta,
+            f.pressure_largest_pa * 1e-6,
             result.torque_balance[k],
             f64::from(result.iterations[k]) / result.angles() as f64
         ));
     }
+    lines.push(result.means_over());
+    lines.push(format!("errors: {}", result.errors_in_words()));
     if result.has_axial_force() {
         lines.push(format!(
             "{:>10} {:>22} {:>24}",
             "torque N m", "axial force gear 1 N", "axial over normal force"
         ));
-        for (k, torque) in result.torque_nm.iter().enumerate() {
-            let axial = fourier(result.averaged(&result.axial_force_1_n, k), 0).0;
-            let normal = result.normal_force_n(k);
-            let averaged = result.averaged(&result.axial_force_1_n, k).len();
-            let normal = fourier(&normal[..averaged], 0).0;
+        for f in &figures {
             lines.push(format!(
-                "{torque:>10.1} {axial:>22.3} {:>24.6}{mark}",
-                axial / normal
+                "{:>10.1} {:>22.3} {:>24.6}{mark}",
+                f.torque_nm,
+                f.axial_force_1_mean_n,
+                f.axial_force_1_mean_n / f.normal_force_mean_n
             ));
         }
     }
@@ -131,27 +145,29 @@ fn zone_width_m(result: &SceneResult) -> Result<f64, Failure> {
     Ok(ContactZone::new([width_m(0)?, width_m(1)?], offset_m).width_m)
 }
 
-fn figures(result: &SceneResult) -> Result<serde_json::Value, Failure> {
+fn figures(result: &SceneResult) -> serde_json::Value {
     let rows = (0..result.torque_nm.len())
         .map(|k| {
-            let (te_mean, te_range) = transmission_error(result, k)?;
+            let f = result.figures(k);
             let curve = result.averaged(&result.tangent_n_per_m, k);
             let pitches = result.contact_coverage.averaged_pitches();
-            let (mean, harmonics) = mesh_harmonics(curve, pitches, 5);
-            let (axial, _) = fourier(result.averaged(&result.axial_force_1_n, k), 0);
-            Ok(json!({
-                "torque_Nm": result.torque_nm[k], "te_mean_m": te_mean, "te_peak_to_peak_m": te_range,
-                "tangent_stiffness_mean_N_per_m": mean,
-                "secant_stiffness_mean_N_per_m": fourier(result.averaged(&result.secant_n_per_m, k), 0).0,
+            let (_, harmonics) = mesh_harmonics(curve, pitches, 5);
+            json!({
+                "torque_Nm": f.torque_nm, "te_mean_m": f.te_mean_m, "te_peak_to_peak_m": f.te_peak_to_peak_m,
+                "tangent_stiffness_mean_N_per_m": f.tangent_mean_n_per_m,
+                "secant_stiffness_mean_N_per_m": f.secant_mean_n_per_m,
                 "tangent_stiffness_fourier": harmonics.iter().map(|(a, p)| json!({"amplitude_N_per_m": a, "phase_rad": p})).collect::<Vec<_>>(),
-                "axial_force_1_mean_N": axial,
-                "k_h_beta": result.k_h_beta[k], "torque_balance": result.torque_balance[k],
+                "axial_force_1_mean_N": f.axial_force_1_mean_n, "pressure_largest_Pa": f.pressure_largest_pa,
+                "k_h_beta": f.k_h_beta, "torque_balance": result.torque_balance[k],
                 "residual": result.residual[k], "iterations": result.iterations[k],
-                "complete": result.contact_coverage.is_whole(),
-            }))
+                "complete": result.contact_coverage.is_whole(), "mean_over_pitches": pitches,
+                "errors": {
+                    "positions_te_peak_to_peak": f.errors.te_positions, "positions_pressure": f.errors.pressure_positions,
+                    "positions_k_h_beta": f.errors.k_h_beta_positions,
+                    "slices_k_h_beta": f.errors.slices, "mesh_strain": f.errors.mesh_strain,
+                },
+            })
         })
-        .collect::<Result<Vec<_>, Failure>>()?;
-    Ok(
-        json!({"title": result.title, "rows": rows, "coverage": periods::json(result), "ratings": ratings::json(&result.ratings), "warnings": result.warnings, "seconds": result.seconds}),
-    )
+        .collect::<Vec<_>>();
+    json!({"title": result.title, "rows": rows, "means": result.means_over(), "errors": result.errors_in_words(), "coverage": periods::json(result), "ratings": ratings::json(&result.ratings), "warnings": result.warnings, "seconds": result.seconds})
 }

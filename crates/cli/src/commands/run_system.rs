@@ -3,14 +3,16 @@
 //! The table for people is in `system_table.rs`.
 
 use crate::arguments::RunArguments;
-use crate::commands::{losses, pressures, ratings, system_table};
+use crate::commands::run::demand_size;
+use crate::commands::{losses, ratings, stages, system_table};
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
 use gearmesh_model::Named;
 use gearmesh_scene::system::LoadedSystem;
 use gearmesh_scene::system_run::{
-    Advance, Outcome, ResultKind, RunJob, RunOptions, SystemResult, is_overdamped, run as run_job,
+    Advance, Outcome, ResultKind, ResultSize, RunJob, RunOptions, SystemResult, is_overdamped,
+    run as run_job,
 };
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -19,8 +21,14 @@ use std::time::Duration;
 /// Runs a scene.
 pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure> {
     loaded.scene.notes.iter().for_each(console::note);
-    let job = RunJob::from_scene(loaded)?;
+    let slips = loaded.unit_slips();
+    // Slips are among the notes of the job; what is refused may follow from them.
+    let job = RunJob::from_scene(loaded).inspect_err(|_| console::unit_slips(slips))?;
+    let before = job.head.notes.len();
     job.head.notes.iter().for_each(console::note);
+    if let Some(size) = ResultSize::of(&job) {
+        demand_size(size.bytes(), "output.interval_s", arguments)?;
+    }
     let resumes = job.kind.resumes();
     let bar = RunBar::new(job.kind.of_result().name_in_files());
     let progress = |advance: Advance| {
@@ -54,8 +62,9 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     }
     drop(stop);
     let result = SystemResult::open(&arguments.output).map_err(Failure::work)?;
-    ratings::warn(&result.ratings);
-    warn_of_pressures(&result)?;
+    (result.head.notes.iter().skip(before)).for_each(console::note);
+    let warnings = result.warnings().map_err(Failure::work)?;
+    warnings.iter().for_each(console::warning);
     if arguments.json {
         console::json(&figures(&result)?);
     } else {
@@ -68,16 +77,6 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
         Some(problem) => Err(Failure::work(problem)),
         None => Ok(()),
     }
-}
-
-/// Contacts of gears and bearings are elastic, whatever presses them.
-fn warn_of_pressures(result: &SystemResult) -> Result<(), Failure> {
-    let columns = result
-        .summaries(|name| name.contains("pressure"))
-        .map_err(Failure::work)?;
-    let pressures = columns.into_iter().filter(|c| c.unit == "Pa");
-    pressures::warn(pressures.map(|c| (c.name, c.figures.largest)));
-    Ok(())
 }
 
 /// The figures for machines.
@@ -94,6 +93,10 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
         value["run"] = run;
     }
     value["ratings"] = ratings::json(&result.ratings);
+    value["warnings"] = json!(result.warnings().map_err(Failure::work)?);
+    if let stages @ Value::Object(_) = stages::json(result)? {
+        value["stages"] = stages;
+    }
     if let losses @ Value::Object(_) = losses::json(result)? {
         value["losses"] = losses;
     }
@@ -109,6 +112,8 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
                 })
             });
             value["rows"] = json!(result.rows.rows());
+            value["statistics_from_s"] = json!(result.statistics_from_s);
+            value["samples_per_row"] = json!(result.samples_per_row);
             value["columns"] = columns.collect();
             let meshes = passings.iter().map(|mesh| {
                 json!({

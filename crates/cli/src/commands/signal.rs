@@ -9,6 +9,8 @@ use crate::console;
 use crate::failure::Failure;
 use bearing_lines::BearingLines;
 use gearmesh_model::Column;
+use gearmesh_report::column_width;
+use gearmesh_report::page::{Axis, MapChart};
 use gearmesh_signal::statistics::{crest_factor, kurtosis, mean, peak_to_peak, rms};
 use gearmesh_signal::{
     Band, OrderBlocks, Resampler, SidebandSettings, Spectrum, Window, amplitude_spectrum, envelope,
@@ -16,7 +18,7 @@ use gearmesh_signal::{
 };
 use outcome::{Curve, LineSpectrum, Outcome};
 use serde_json::json;
-use series::{Series, open};
+use series::{Form, Series, open};
 use std::f64::consts::TAU;
 
 /// Runs the command.
@@ -30,11 +32,7 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
                 console::json(&json!({ "columns": columns.map(each).collect::<Vec<_>>() }));
                 return Ok(());
             }
-            let width = columns
-                .clone()
-                .map(|column| column.name.chars().count())
-                .max();
-            let width = width.unwrap_or(0);
+            let width = column_width(columns.clone().map(|column| &column.name), 0);
             for Column {
                 name,
                 unit,
@@ -46,7 +44,7 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
             Ok(())
         }
         SignalAnalysis::Statistics { series } => {
-            statistics(&Series::read(series, None)?).finish(series)
+            statistics(&Series::read(series, None, Form::Instants)?).finish(series)
         }
         SignalAnalysis::Spectrum {
             series,
@@ -99,7 +97,7 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
             shaft,
             periods_per_turn,
         } => {
-            let read = Series::read(series, Some(&shaft.shaft))?;
+            let read = Series::read(series, Some((&shaft.shaft, 1)), Form::LowPass)?;
             average(&read, shaft.samples_per_turn, *periods_per_turn)?.finish(series)
         }
         SignalAnalysis::Map {
@@ -109,7 +107,7 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
             step_turns,
             peaks,
         } => {
-            let read = Series::read(series, Some(&shaft.shaft))?;
+            let read = Series::read(series, Some((&shaft.shaft, *block_turns)), Form::LowPass)?;
             let blocks = OrderBlocks {
                 samples_per_revolution: read.samples_per_turn(shaft.samples_per_turn)?,
                 block_revolutions: *block_turns,
@@ -134,6 +132,9 @@ fn spectrum(
     let mut found = amplitude_spectrum(&centred, series.rate, window).map_err(Failure::input)?;
     if abscissa.shaft.is_some() {
         found.values.truncate(right_lines(&found, series.rate));
+    } else {
+        let right = series.band * 0.5 * series.rate / found.line_spacing;
+        found.values.truncate(right as usize + 1);
     }
     Ok(found)
 }
@@ -265,9 +266,20 @@ fn average(
     Ok(outcome)
 }
 
-/// Amplitudes of all orders, block by block, and the strongest orders over the speed.
+/// The last speed over the first one of a run-up at least.
+const RUN_UP: f64 = 1.01;
+
+/// Amplitudes of all orders, block by block.
 fn map(series: &Series, blocks: OrderBlocks, peaks: usize) -> Result<Outcome, Failure> {
     let angles = series.angles()?;
+    let turns = (angles[angles.len() - 1] - angles[0]) / TAU;
+    if turns <= blocks.block_revolutions as f64 {
+        return Err(Failure::input(format!(
+            "--block-turns: found {}, but the series has {turns:.2} turns, the ends that resampling needs included; give fewer, or a longer \
+             run.end_s in the scene",
+            blocks.block_revolutions
+        )));
+    }
     let rows = gearmesh_signal::campbell::order_map(
         &series.values,
         angles,
@@ -292,7 +304,6 @@ fn map(series: &Series, blocks: OrderBlocks, peaks: usize) -> Result<Outcome, Fa
     let mut outcome = Outcome::new(series, "order map");
     outcome.figure("blocks", rows.len() as f64, "");
     let rpm = |speed: f64| speed * 60.0 / TAU;
-    let mut tracks = Vec::new();
     outcome.heads = ["order", "largest amplitude", "at rpm"]
         .map(str::to_owned)
         .to_vec();
@@ -302,7 +313,6 @@ fn map(series: &Series, blocks: OrderBlocks, peaks: usize) -> Result<Outcome, Fa
             .find(|row| row.spectrum.values[line] == amplitude);
         let speed = at.map_or(f64::NAN, |row| rpm(row.speed_rad_per_s));
         outcome.rows.push(vec![envelope.at(line), amplitude, speed]);
-        tracks.push(line);
     }
     outcome.curves = vec![
         Curve::new(
@@ -319,14 +329,28 @@ fn map(series: &Series, blocks: OrderBlocks, peaks: usize) -> Result<Outcome, Fa
     for line in 0..lines {
         let values = rows.iter().map(|row| row.spectrum.values[line]);
         let name = format!("order {}", envelope.at(line));
-        let mut curve = Curve::new(&name, &series.unit, values.collect());
-        curve.is_drawn = tracks.contains(&line);
+        let curve = Curve::new(&name, &series.unit, values.collect());
         outcome.curves.push(curve);
     }
-    // Drawn over the speed where that rises, over time otherwise.
+    // Over the speed in a run-up, over time otherwise: a constant speed rises by rounding, too.
     let rises = rows
         .windows(2)
         .all(|pair| pair[1].speed_rad_per_s > pair[0].speed_rad_per_s);
-    outcome.curves[usize::from(rises)].is_drawn = false;
+    let ends = [first, &rows[rows.len() - 1]].map(|row| row.speed_rad_per_s);
+    let (over, along, axis) = if rises && ends[1] > RUN_UP * ends[0] {
+        let speeds = rows.iter().map(|row| rpm(row.speed_rad_per_s));
+        ("speed", speeds.collect(), Axis::new("speed", "rpm"))
+    } else {
+        let times = rows.iter().map(|row| series.start_s + row.time_s);
+        ("time", times.collect(), Axis::new("time", "s"))
+    };
+    let columns = rows.iter().map(|row| row.spectrum.values[..lines].to_vec());
+    let chart = MapChart::new(
+        format!("{}: orders over the {over}", series.column),
+        axis,
+        Axis::new("order", ""),
+        Axis::new("amplitude", series.unit.clone()),
+    );
+    outcome.map = Some(chart.values(along, envelope.line_spacing, columns.collect()));
     Ok(outcome)
 }

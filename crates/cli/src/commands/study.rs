@@ -1,6 +1,5 @@
 //! `gearmesh study`: a scene again and again with some of its keys changed.
 
-use super::pressures;
 use super::study_elsewhere as elsewhere;
 use crate::arguments::StudyArguments;
 use crate::console::{self, RunBar};
@@ -9,7 +8,8 @@ use crate::interrupt;
 use crate::offline;
 use crate::page_file;
 use gearmesh_report::study_page::study_page;
-use gearmesh_report::{short, study_figures, usual_unit};
+use gearmesh_report::{column_width, short, study_figures, usual_unit};
+use gearmesh_scene::pair::warnings::excessive_pressure;
 use gearmesh_scene::study::{
     CaseResult, Selected, SelectedValue, SeriesOver, Study, StudyOptions, StudyOutcome,
     gather_study, run_study,
@@ -73,7 +73,7 @@ fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Res
         let columns = case.figures.iter().flatten();
         columns.map(move |one| (format!("{}, {}", case.case.name(), one.column), one))
     });
-    pressures::warn(figures.filter_map(|(name, one)| {
+    let pressures = figures.filter_map(|(name, one)| {
         let to_pa = match one.unit.as_str() {
             "Pa" => 1.0,
             "MPa" => 1e6,
@@ -86,7 +86,10 @@ fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Res
         one.column
             .contains("pressure")
             .then_some((name, to_pa * largest))
-    }));
+    });
+    excessive_pressure(pressures)
+        .into_iter()
+        .for_each(console::warning);
     let failed = outcome
         .cases
         .iter()
@@ -110,8 +113,7 @@ fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Res
 fn table(study: &Study, outcome: &StudyOutcome) -> Vec<String> {
     let cases = &outcome.cases[..];
     let names: Vec<String> = cases.iter().map(|result| result.case.name()).collect();
-    let widest = names.iter().map(|name| name.chars().count()).max();
-    let width = widest.unwrap_or(0).max(4);
+    let width = column_width(&names, 4);
     let found = cases.iter().find_map(|case| case.figures.as_ref().ok());
     // Of runs in time it is told whether it is stated or not.
     let has_series = found.is_some_and(|all| {

@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 
 use gearmesh_model::Column;
-use gearmesh_report::{short, usual_unit};
+use gearmesh_report::{column_width, short, usual_unit};
 use gearmesh_scene::system_run::{
     ColumnSummary, EigenResult, MeshPassing, ResultKind, RunRecord, SystemResult, foremost,
     is_overdamped, is_prominent, rank, shares_in_words, stem,
 };
 
 use crate::commands::periods::MARK;
-use crate::commands::{losses, mesh_axes, ratings};
+use crate::commands::{losses, mesh_axes, ratings, stages};
 use crate::failure::Failure;
 
 /// Lines of the table of columns; all are in the JSON and in the file.
@@ -25,6 +25,7 @@ const MOST_SHARES: usize = 3;
 /// The figures for people.
 pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let mut lines = vec![format!("{}: {}", result.head.title, result.kind)];
+    lines.extend(stages::lines(result)?);
     lines.extend(match result.kind {
         ResultKind::Transient => columns(result)?,
         ResultKind::SpeedSweep => sweep(result),
@@ -101,6 +102,7 @@ fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
             all - shown
         ));
     }
+    lines.push(result.statistics_in_words());
     lines.extend(passings.iter().map(MeshPassing::in_words));
     Ok(lines)
 }
@@ -114,8 +116,7 @@ fn table_of(
 ) -> Vec<String> {
     let shown = &found[..found.len().min(MOST_LINES)];
     let stems = shown.iter().map(|column| stem(&column.name, &column.unit));
-    let width = stems.map(|stem| stem.chars().count()).max();
-    let width = width.unwrap_or(0).max(6);
+    let width = column_width(stems, 6);
     let row = |name: &str, unit: &str, cells: Vec<String>| {
         let cells = cells.iter().map(|cell| format!(" {cell:>11}"));
         format!("{name:width$} {unit:<7}{}", cells.collect::<String>())
@@ -160,7 +161,7 @@ fn sweep(result: &SystemResult) -> Vec<String> {
         let (factor, unit) = usual_unit(unit, largest);
         factors.push(factor);
         let cell = format!("pk-pk {} {unit}", last_parts(stem));
-        widths.push(cell.chars().count().max(12));
+        widths.push(column_width([&cell], 12));
         head += &format!("  {cell:>12}");
     }
     let mut lines = vec![head];

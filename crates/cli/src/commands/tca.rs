@@ -6,10 +6,10 @@ use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
 use gearmesh_bevel::ease_off::EaseOffMap;
-use gearmesh_bevel::tca::{PathPoint, are_conjugate, ease_off_map};
+use gearmesh_bevel::tca::{PathPoint, ease_off_map};
 use gearmesh_bevel::{
-    AssemblyError, BevelError, Flank, FlankSide, PairDesign, PairFile, Sensitivity, ToothContact,
-    VhCheck, VhSetting, sensitivity, tooth_contact,
+    AssembledPair, BevelError, Flank, FlankSide, PairDesign, PairFile, Sensitivity, ToothContact,
+    VhCheck, VhSetting, VhStop, sensitivity,
 };
 use gearmesh_geometry::input::InputDocument;
 use serde_json::{Value, json};
@@ -22,7 +22,7 @@ pub struct Side<'a> {
     pub contact: Option<ToothContact>,
     /// How further errors of assembly move it; none where only edges touch.
     pub moved: Option<Sensitivity>,
-    /// What brings the mean contact to toe and heel; none where nothing does.
+    /// What brings the mean contact to toe and heel; none where there is no mean contact.
     pub vh: Option<VhCheck>,
     /// Ease-off over the pinion's flank.
     pub ease_off: EaseOffMap,
@@ -31,40 +31,29 @@ pub struct Side<'a> {
 impl Side<'_> {
     /// In words.
     pub fn name(&self) -> String {
-        let [pinion, gear] = self.flanks.map(|flank| flank.side.word());
-        format!("pinion {pinion} on gear {gear}")
+        side_name(self.flanks[0].side)
     }
 }
 
-/// Analyses one side of a pair.
+/// What is to be shown of one side of a pair.
 fn side<'a>(
     file: &PairFile,
     design: &'a PairDesign,
-    pinion: FlankSide,
+    (pinion, contact): (FlankSide, Option<ToothContact>),
 ) -> Result<Side<'a>, BevelError> {
     let flanks = design.flanks(pinion);
-    if file.tca.error == AssemblyError::default() && are_conjugate(flanks, &file.blank) {
-        return Ok(Side {
-            flanks,
-            contact: None,
-            moved: None,
-            vh: None,
-            ease_off: ease_off_map(flanks, &file.blank, &file.tca.error, file.tca.map)?,
-        });
-    }
-    let contact = tooth_contact(flanks, &file.blank, &file.tca)?;
-    let moved = contact
-        .mean
-        .and_then(|_| sensitivity(flanks, &file.blank, &file.tca.error).ok());
-    let vh = contact
-        .mean
-        .and_then(|_| design.vh_check(&file.blank, pinion, &file.tca.error).ok());
+    let (blank, error) = (&file.blank, &file.tca.error);
+    let mean = contact.as_ref().and_then(|contact| contact.mean);
+    let ease_off = match &contact {
+        Some(contact) => contact.ease_off.clone(),
+        None => ease_off_map(flanks, blank, error, file.tca.map)?,
+    };
     Ok(Side {
         flanks,
-        moved,
-        vh,
-        ease_off: contact.ease_off.clone(),
-        contact: Some(contact),
+        moved: mean.and_then(|mean| sensitivity(flanks, blank, (error, &mean)).ok()),
+        vh: mean.map(|mean| design.vh_check(blank, pinion, (error, &mean))),
+        ease_off,
+        contact,
     })
 }
 
@@ -80,19 +69,20 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     let file = PairFile::from_document(&document)?;
     let (design, _) = file.checked_design(&document)?;
     let fault = |error: BevelError| Failure::work(error.in_file(&document));
-    let driving = side(&file, &design, file.pinion_flank).map_err(fault)?;
-    // The other side may be out of reach in assemblies in which this one touches.
-    let coast = side(&file, &design, file.pinion_flank.mate());
-    let backlash_m = assembled_backlash_m(&file, &design, &driving, &coast);
-    if let Some(backlash_m) = backlash_m {
-        let jam = design.check_jam(&file.blank, (file.pinion_flank, backlash_m));
-        if let Some(jam) = jam.map_err(fault)? {
-            console::warning(jam);
-        }
-    }
-    let sides: Vec<Side<'_>> = std::iter::once(driving).chain(coast.ok()).collect();
+    let pair = AssembledPair::new(&file, &design).map_err(fault)?;
+    pair.jam.iter().for_each(console::warning);
+    let backlash_m = pair.backlash_m;
+    let shown = |pinion: FlankSide, contact| side(&file, &design, (pinion, contact));
+    let mut sides = vec![shown(file.pinion_flank, pair.driving).map_err(fault)?];
+    let coast = pair.coast;
+    sides.extend(
+        coast
+            .and_then(|contact| shown(file.pinion_flank.mate(), contact))
+            .ok(),
+    );
     for side in &sides {
-        warn_of_edges(side);
+        let words = edge_words(side.flanks[0].side, side.contact.as_ref());
+        words.iter().for_each(console::warning);
     }
     let loaded = match &file.load {
         Some(load) => Some(loaded_tca::analyse((&file, &design), load, &a.pair)?),
@@ -138,40 +128,19 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Least normal backlash of the pair in its assembly; none where one side has no contact that is known.
-fn assembled_backlash_m(
-    file: &PairFile,
-    design: &PairDesign,
-    driving: &Side<'_>,
-    coast: &Result<Side<'_>, BevelError>,
-) -> Option<f64> {
-    let [a, b] = [Some(driving), coast.as_ref().ok()].map(|side| side?.contact.as_ref());
-    match (a, b) {
-        (Some(a), Some(b)) => {
-            let sides = match file.pinion_flank {
-                FlankSide::Concave => [a, b],
-                FlankSide::Convex => [b, a],
-            };
-            Some(design.assembled_backlash_m(&file.blank, sides))
-        }
-        // Conjugate flanks have no transmission error.
-        (None, None) if coast.is_ok() => Some(design.backlash_m(&file.blank)),
-        _ => None,
-    }
+/// Flanks that nowhere touch inside their limits are no mates, or stand far off their places.
+pub(super) fn edge_words(pinion: FlankSide, contact: Option<&ToothContact>) -> Option<String> {
+    contact.filter(|c| c.contact_ratio == 0.0).map(|_| {
+        format!(
+            "{}: only edges touch, the flanks do not meet inside their limits: settings of one pair, and the errors of assembly?",
+            side_name(pinion)
+        )
+    })
 }
 
-/// Flanks that nowhere touch inside their limits are no mates, or stand far off their places.
-fn warn_of_edges(side: &Side<'_>) {
-    if side
-        .contact
-        .as_ref()
-        .is_some_and(|c| c.contact_ratio == 0.0)
-    {
-        console::warning(format!(
-            "{}: only edges touch, the flanks do not meet inside their limits: settings of one pair, and the errors of assembly?",
-            side.name()
-        ));
-    }
+/// A side in words.
+fn side_name(pinion: FlankSide) -> String {
+    format!("pinion {} on gear {}", pinion.word(), pinion.mate().word())
 }
 
 /// Said instead of sensitivities.
@@ -223,9 +192,13 @@ pub(super) fn headline(side: &Side<'_>) -> String {
     }
 }
 
+/// A place of the V/H check, and its figures or why it is not reached.
+pub(super) type VhRow = (&'static str, Result<[f64; 6], String>);
+
 /// Rows of the V/H check: where the contact is brought and by what; E, P, G in mm, the shaft angle in mrad.
-pub(super) fn vh_rows(vh: &VhCheck) -> Vec<(&'static str, [f64; 6])> {
-    let row = |s: &VhSetting| {
+pub(super) fn vh_rows(vh: &VhCheck) -> [VhRow; 4] {
+    let row = |s: &Result<VhSetting, VhStop>| {
+        let s = s.map_err(|stop| stop.words())?;
         let e = &s.error;
         let mm = [
             s.place_m[0],
@@ -235,17 +208,16 @@ pub(super) fn vh_rows(vh: &VhCheck) -> Vec<(&'static str, [f64; 6])> {
             e.gear_axial_m,
         ];
         let [l, h, v, p, g] = mm.map(|x| 1e3 * x);
-        [l, h, v, p, g, 1e3 * e.shaft_angle_rad]
+        Ok([l, h, v, p, g, 1e3 * e.shaft_angle_rad])
     };
-    let [toe, heel] = &vh.by_offset;
-    let mut rows = vec![("toe by offset", row(toe)), ("heel by offset", row(heel))];
-    if let Some([toe, heel]) = &vh.by_shaft_angle {
-        rows.extend([
-            ("toe by shaft angle", row(toe)),
-            ("heel by shaft angle", row(heel)),
-        ]);
-    }
-    rows
+    let [toe, heel] = vh.by_offset.each_ref().map(row);
+    let [toe_by_angle, heel_by_angle] = vh.by_shaft_angle.each_ref().map(row);
+    [
+        ("toe by offset", toe),
+        ("heel by offset", heel),
+        ("toe by shaft angle", toe_by_angle),
+        ("heel by shaft angle", heel_by_angle),
+    ]
 }
 
 /// What the assembly leaves between the flanks that do not drive.
@@ -286,10 +258,13 @@ fn table(file: &PairFile, sides: &[Side<'_>], thicknesses: &[String], backlash_m
             console::data(
                 "contact at            gear: L mm     h mm   offset E mm   pinion P mm   gear G mm   shaft angle mrad",
             );
-            for (name, [l, h, v, p, g, angle]) in vh_rows(vh) {
-                console::data(format!(
-                    "{name:<20} {l:>11.4} {h:>8.4} {v:>13.4} {p:>13.4} {g:>11.4} {angle:>18.4}"
-                ));
+            for (name, found) in vh_rows(vh) {
+                console::data(match found {
+                    Ok([l, h, v, p, g, angle]) => format!(
+                        "{name:<20} {l:>11.4} {h:>8.4} {v:>13.4} {p:>13.4} {g:>11.4} {angle:>18.4}"
+                    ),
+                    Err(why) => format!("{name:<20} {why}"),
+                });
             }
         }
     }
@@ -364,11 +339,12 @@ fn figures(file: &PairFile, side: &Side<'_>) -> Value {
         .map(|([l, h], e)| json!([1e3 * l, 1e3 * h, e.map(|e| 1e6 * e.gap_m)]))
         .collect();
     let vh = |vh: &VhCheck| {
-        let row = |(name, [l, h, v, p, g, angle]): (&str, [f64; 6])| {
-            json!({
+        let row = |(name, found): VhRow| match found {
+            Ok([l, h, v, p, g, angle]) => json!({
                 "contact": name, "gear_place_mm": [l, h], "offset_mm": v, "pinion_axial_mm": p, "gear_axial_mm": g,
                 "shaft_angle_mrad": angle,
-            })
+            }),
+            Err(why) => json!({ "contact": name, "problem": why }),
         };
         Value::from(vh_rows(vh).into_iter().map(row).collect::<Vec<_>>())
     };

@@ -136,7 +136,7 @@ fn at_a_glance(of: &Analysed<'_>) -> Section {
                 )
         });
     let figures = of.backlash_m.into_iter().fold(figures, |figures, m| {
-        figures.figure("least normal backlash", short(1e3 * m), "mm")
+        figures.figure("least normal backlash", short(1e6 * m), "µm")
     });
     let figures = figures
         .figure(
@@ -312,20 +312,22 @@ fn ease_off(of: &Analysed<'_>, side: &Side<'_>) -> Result<FieldPicture, BevelErr
 }
 
 fn assembly_errors(section: Section, side: &Side<'_>) -> Section {
-    let Some(moved) = &side.moved else {
-        return section.push(Text::paragraph(format!("{}: {NO_MEAN}", side.name())));
+    let section = match &side.moved {
+        None => section.push(Text::paragraph(format!("{}: {NO_MEAN}", side.name()))),
+        Some(moved) => {
+            let mut table = Table::new(format!(
+                "How the mean contact moves on the gear: {}",
+                side.name()
+            ))
+            .column("by", Align::Left)
+            .column("along the tooth", Align::Right)
+            .column("up the flank", Align::Right);
+            for (name, [along, up]) in moves(moved) {
+                table.push_row([name.to_owned(), short(along), short(up)]);
+            }
+            section.push(table)
+        }
     };
-    let mut table = Table::new(format!(
-        "How the mean contact moves on the gear: {}",
-        side.name()
-    ))
-    .column("by", Align::Left)
-    .column("along the tooth", Align::Right)
-    .column("up the flank", Align::Right);
-    for (name, [along, up]) in moves(moved) {
-        table.push_row([name.to_owned(), short(along), short(up)]);
-    }
-    let section = section.push(table);
     let Some(vh) = &side.vh else {
         return section;
     };
@@ -344,9 +346,17 @@ fn assembly_errors(section: Section, side: &Side<'_>) -> Section {
     ] {
         table = table.column(name, Align::Right);
     }
-    for (name, values) in vh_rows(vh) {
-        let [l, h, v, p, g, angle] = values.map(|x| format!("{x:.4}"));
-        table.push_row([name.to_owned(), l, h, v, p, g, angle]);
+    let mut unreached = Vec::new();
+    for (name, found) in vh_rows(vh) {
+        match found {
+            Ok(values) => {
+                let [l, h, v, p, g, angle] = values.map(|x| format!("{x:.4}"));
+                table.push_row([name.to_owned(), l, h, v, p, g, angle]);
+            }
+            Err(why) => unreached.push(Text::paragraph(format!("{name}: {why}"))),
+        }
     }
-    section.push(table)
+    unreached
+        .into_iter()
+        .fold(section.push(table), |section, words| section.push(words))
 }

@@ -257,6 +257,35 @@ fn a_run_of_too_many_positions_is_refused_by_plan_and_run() {
     refused(&answer, 2, &found);
 }
 
+/// Plan and run say how large the result will be; one that is larger than allowed is refused before it is begun.
+#[test]
+fn a_large_result_is_refused_until_it_is_allowed() {
+    let desk = Desk::new();
+    let text = changed(WHEEL, "interval_s = 1e-2", "interval_s = 1e-5");
+    let scene = desk.file("scene.toml", text);
+    let output = desk.path("out.h5");
+    let plan = succeeds(&["plan", argument(&scene)]).stdout;
+    // 100 001 rows of eight bytes a column.
+    assert!(
+        plan.contains("result     100001 rows of 38 columns, 30.4 MB"),
+        "{plan}"
+    );
+    let run = ["run", argument(&scene), "-o", argument(&output)];
+    let least = [&run[..], &["--most-result-GB", "0.03"]].concat();
+    refused(
+        &ends(&least),
+        2,
+        &[
+            "output.interval_s: the result will have 30.4 MB, allowed are 0.03 GB",
+            "--most-result-GB 1 ",
+        ],
+    );
+    assert_eq!(desk.names(), ["scene.toml"]);
+    let enough = [&run[..], &["--most-result-GB", "0.04"]].concat();
+    assert_eq!(ends(&enough).code, Some(0));
+    assert!(output.exists());
+}
+
 #[test]
 fn check_knows_studies_tables_and_records() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

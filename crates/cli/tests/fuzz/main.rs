@@ -7,11 +7,17 @@
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::print_stdout,
+    clippy::print_stderr,
     missing_docs
 )]
 
+#[path = "../../../scene/tests/made_up_gears/drilled_pair.rs"]
+mod drilled_pair;
 mod files;
 mod mutation;
+mod numbers;
+#[path = "../../../contact/tests/pair_common/mod.rs"]
+mod pair_common;
 mod trees;
 
 use fastrand::Rng;

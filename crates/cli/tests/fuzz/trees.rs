@@ -28,7 +28,7 @@ const VALUES: [f64; 10] = [
 ];
 
 /// A tree with one to three arrays, shapes, texts or names changed.
-fn changed(sound: &DataTree, random: &mut Rng) -> DataTree {
+pub fn changed(sound: &DataTree, random: &mut Rng) -> DataTree {
     let mut tree = sound.clone();
     for _ in 0..random.usize(1..=3) {
         let names: Vec<String> = tree.arrays.keys().cloned().collect();
@@ -78,7 +78,7 @@ fn changed(sound: &DataTree, random: &mut Rng) -> DataTree {
 }
 
 /// A case of a tree is the file itself, so that a finding can be looked at.
-fn file_of(tree: &DataTree, path: &Path, format: &gearmesh_model::FileFormat) -> Vec<u8> {
+pub fn file_of(tree: &DataTree, path: &Path, format: &gearmesh_model::FileFormat) -> Vec<u8> {
     match tree.write(path, format) {
         Ok(()) => std::fs::read(path).unwrap(),
         // What the writer refuses is no file.
@@ -97,27 +97,32 @@ fn models() {
     let make = |random: &mut Rng| file_of(&changed(&sound, random), &made, &REDUCED_GEAR_FORMAT);
     fuzz("model", 60, make, |bytes| {
         std::fs::write(&case, bytes).unwrap();
-        let Ok(gear) = read_reduced_gear(&case) else {
-            return;
-        };
-        // What is read can be used.
-        for tooth in [0, gear.teeth - 1] {
-            for &flank in &gear.flanks {
-                let block = gear.c_g_block(tooth, flank, 0, gear.flanks[0]);
-                assert_eq!(block.len(), gear.grid.len() * gear.grid.len());
-            }
-        }
-        if let Some(field) = &gear.near_field {
-            let _ = field.contact_at(0.3, gear.base_radius_m);
-        }
-        if let Some(modes) = &gear.modes {
-            let _ = modes.frequencies_hz();
-        }
-        let _ = gearmesh_contact::SliceLayout::of_models([&gear, &gear], 0.0).check();
+        answered_model(&case);
     });
 }
 
-fn small_mesh() -> MeshData {
+/// Reads a model; one that is taken can be used.
+pub fn answered_model(path: &Path) -> bool {
+    let Ok(gear) = read_reduced_gear(path) else {
+        return false;
+    };
+    for tooth in [0, gear.teeth - 1] {
+        for &flank in &gear.flanks {
+            let block = gear.c_g_block(tooth, flank, 0, gear.flanks[0]);
+            assert_eq!(block.len(), gear.grid.len() * gear.grid.len());
+        }
+    }
+    if let Some(field) = &gear.near_field {
+        let _ = field.contact_at(0.3, gear.base_radius_m);
+    }
+    if let Some(modes) = &gear.modes {
+        let _ = modes.frequencies_hz();
+    }
+    let _ = gearmesh_contact::SliceLayout::of_models([&gear, &gear], 0.0).check();
+    true
+}
+
+pub fn small_mesh() -> MeshData {
     let corner = |k: usize| [k & 1, (k >> 1) & 1, k >> 2].map(|x| x as f64 * 1e-3);
     let mut mesh = MeshData {
         points: [0, 1, 3, 2, 4, 5, 7, 6].map(corner).to_vec(),
@@ -144,19 +149,26 @@ fn meshes() {
     let make = |random: &mut Rng| file_of(&changed(&sound, random), &made, &MESH_FORMAT);
     fuzz("mesh", 60, make, |bytes| {
         std::fs::write(&case, bytes).unwrap();
-        if let Ok(mesh) = read_mesh(&case) {
-            let nodes = mesh.points.len() as u32;
-            assert!(mesh.cells.values().flatten().all(|node| *node < nodes));
-            assert!(mesh.point_sets.values().flatten().all(|node| *node < nodes));
-        }
+        answered_mesh(&case);
     });
+}
+
+/// Reads a mesh; one that is taken names nodes that it has.
+pub fn answered_mesh(path: &Path) -> bool {
+    let Ok(mesh) = read_mesh(path) else {
+        return false;
+    };
+    let nodes = mesh.points.len() as u32;
+    assert!(mesh.cells.values().flatten().all(|node| *node < nodes));
+    assert!(mesh.point_sets.values().flatten().all(|node| *node < nodes));
+    true
 }
 
 /// Length of the seal.
 const SEAL: usize = 512;
 
 /// The bytes under a seal that fits them.
-fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
+pub fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
     let digest = bytes_digest(&bytes[SEAL..]);
     let mut seal =
         format!("gearmesh seal 1\nbytes {}\nblake3 {digest}\n", bytes.len()).into_bytes();

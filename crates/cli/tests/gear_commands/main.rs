@@ -4,6 +4,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod compliance;
+mod threads;
 
 use common::{Desk, SOLID, THIN, argument, gearmesh, number, run_scene, succeeds, workshop};
 use serde_json::Value;

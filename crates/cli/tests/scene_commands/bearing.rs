@@ -252,12 +252,10 @@ fn a_fit_is_printed_term_by_term() {
     assert!(um("operating_um") < 12.0 && um("by_shaft_um") < -7.0);
     let print = succeeds(&load).stdout;
     let page = std::fs::read_to_string(&page).unwrap();
-    for words in [&print, &page] {
+    for (words, unit) in [(&print, "um"), (&page, "µm")] {
         assert!(words.contains("heat of the inner ring"), "{words}");
-        assert!(
-            words.contains("shaft: interference in operation 9.00 um, pressure "),
-            "{words}"
-        );
+        let interference = format!("shaft: interference in operation 9.00 {unit}, pressure ");
+        assert!(words.contains(&interference), "{words}");
     }
     let plain = text
         .split("[fit]")

@@ -84,7 +84,7 @@ fn a_pair_file_with_loads_is_analysed_under_them() {
     assert_eq!((light[0], heavy[0]), (50.0, 200.0));
     assert!(heavy[1] < light[1] && light[1] < -300.0, "{first:?}");
     let html = std::fs::read_to_string(&page).unwrap();
-    assert!(html.contains("Under load") && html.contains("Largest pressure at 200 N m"));
+    assert!(html.contains("Under load") && html.contains("Largest pressure at 200 N·m"));
     let json = succeeds(&["tca", argument(&file), "--json"]).json();
     let torques = json["load"]["torques"].as_array().unwrap();
     assert_eq!(torques.len(), 3);
@@ -173,11 +173,10 @@ fn contact_of_points_says_what_they_are_worth() {
         thickness.starts_with("warning: gear: ") && thickness.contains("points_origin_mm"),
         "{thickness}"
     );
-    assert!(
-        std::fs::read_to_string(&page)
-            .unwrap()
-            .contains(line.split(':').nth(1).unwrap())
-    );
+    // The page has units as in print.
+    let words = line.split(':').nth(1).unwrap();
+    let words = words.replace(" um", " µm").replace("urad", "µrad");
+    assert!(std::fs::read_to_string(&page).unwrap().contains(&words));
     let json = succeeds(&["tca", argument(&file), "--json"]).json();
     let [pinion, gear] = [0, 1].map(|i: usize| &json["fit_of_points"][i]);
     assert!(
@@ -443,12 +442,26 @@ fn contact_analysis_says_what_is_wrong() {
             "teeth jam: while the pinion's concave flanks touch",
         ],
     );
+    refused(
+        &gearmesh(&["check", argument(&far)]),
+        1,
+        &["far.toml:", "teeth jam"],
+    );
     let near = desk.file(
         "near.toml",
         format!("{text}\n[tca]\ngear_axial_um = -100.0\n"),
     );
-    let run = succeeds(&["tca", argument(&near)]);
-    assert!(run.stderr.contains("warning: teeth jam"), "{}", run.stderr);
+    for command in ["tca", "check"] {
+        let run = succeeds(&[command, argument(&near)]);
+        assert!(run.stderr.contains("warning: teeth jam"), "{}", run.stderr);
+    }
+    // Both ways of the V/H check, found or not, have their rows.
+    let run = succeeds(&["tca", &shipped("bevel_20_20.toml")]).stdout;
+    for way in ["offset", "shaft angle"] {
+        for end in ["toe", "heel"] {
+            assert!(run.contains(&format!("{end} by {way}")), "{run}");
+        }
+    }
     let loaded = std::fs::read_to_string(shipped("bevel_20_20_loaded.toml")).unwrap();
     let heavy = changed(&loaded, "[50.0, 100.0, 200.0]", "[5000.0]")
         .replace("positions_per_pitch = 16", "positions_per_pitch = 4");

@@ -114,7 +114,9 @@ fn demand_pictures(page: &Path, stress: &Value) {
             ("von Mises stress", "root_von_Mises_MPa"),
             ("first principal stress", "root_first_principal_MPa"),
         ] {
+            // Titles are set as in print.
             let when = when.as_str().unwrap();
+            let when = when.replace("N m", "N·m").replace(" -", " −");
             let picture =
                 &drawn[&format!("{name}, tooth {tooth}, {side} side: {quantity}, {when}")];
             let root = gear[key].as_f64().unwrap();
@@ -164,7 +166,7 @@ fn at_rest(desk: &Desk) {
         told.stderr
     );
     let html = std::fs::read_to_string(&page).unwrap();
-    for title in ["Stress in the bodies", "pinion along its axis, 100 N m"] {
+    for title in ["Stress in the bodies", "pinion along its axis, 100 N·m"] {
         assert!(html.contains(title), "{title}");
     }
     demand_pictures(&page, &told.json()["stress"]);

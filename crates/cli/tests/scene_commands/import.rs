@@ -52,6 +52,41 @@ fn a_gearbox_of_three_stages_is_imported_and_runs() {
     assert!((input / 28.2068 - 1.0).abs() < 1e-4, "{input}");
 }
 
+/// Imported to run in time it begins where it stands at rest and stays there, for no mesh excites it: bearings carry what
+/// statics say, the drive puts in what the load takes, and energy balances.
+#[test]
+fn a_gearbox_is_imported_to_run_in_time() {
+    let desk = Desk::new();
+    let model =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models/gearbox_three_stage.rexs");
+    let folder = desk.path("imported");
+    let words = [
+        "import",
+        argument(&model),
+        "-o",
+        argument(&folder),
+        "--transient",
+    ];
+    succeeds(&words);
+    let scene = folder.join("gearbox_three_stage.toml");
+    let text = std::fs::read_to_string(&scene).unwrap();
+    // 42.9 and 425 Hz are the slowest and the fastest mesh.
+    for words in ["kind = \"transient\"", "damping_s", "[[motion]]"] {
+        assert!(text.contains(words), "{words} is not in {text}");
+    }
+    let output = desk.path("result.h5");
+    succeeds(&["run", argument(&scene), "-o", argument(&output)]);
+    let result = SystemResult::open(&output).unwrap();
+    bearings_carry_what_statics_say(&result, 0.02);
+    let torque = (result.rows)
+        .read("elements/driven at motor/moment_z_Nm")
+        .unwrap();
+    for torque in torque {
+        assert!((torque.abs() / 28.2068 - 1.0).abs() < 1e-3, "{torque}");
+    }
+    assert!(result.relative_energy_error().unwrap() < 1e-6);
+}
+
 /// The same gearbox imported, its six gears reduced (on coarse meshes), and run: with its first pinion on a bore, and
 /// cut into its shaft, which goes on at both faces, with three pairs of diameters: half to eight tenths of the root.
 #[test]

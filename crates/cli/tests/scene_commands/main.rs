@@ -22,6 +22,7 @@ mod loaded_bevel;
 mod measured;
 mod modal_bevel;
 mod moving;
+mod pages;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;
 mod plan;

@@ -1,5 +1,6 @@
 //! `gearmesh export` into series of moving gears, read back by meshio and PyVista, and into STEP, read back by gmsh.
 
+use crate::bevel::shipped;
 use crate::common::{Desk, SOLID, argument, changed, gearmesh, refused, run_scene, succeeds};
 use crate::hybrid_scene;
 use gearmesh_mesh::python::PythonEnvironment;
@@ -316,4 +317,60 @@ fn the_flanks_of_a_step_file_are_the_exact_ones() {
     let answer = gearmesh(&["export", argument(&scene), "-o", argument(&none)]);
     refused(&answer, 2, &["scene.toml"]);
     assert!(!Path::new(&none).exists());
+}
+
+/// A bevel gear's file as the OCC kernel reads it: largest distance of the points of a measuring machine's tables to the
+/// nearest face, number of solids, volume; and the volume of a mesh of hexahedra.
+const BEVEL_SOLID: &str = r"
+import csv, json, math, os, sys
+answer = os.fdopen(os.dup(1), 'w')
+os.dup2(2, 1)
+import gmsh, meshio, numpy
+gmsh.initialize(interruptible=False)
+gmsh.option.setNumber('General.Terminal', 0)
+gmsh.option.setString('Geometry.OCCTargetUnit', 'MM')
+gmsh.model.occ.importShapes(sys.argv[1]); gmsh.model.occ.synchronize()
+faces = [(tag, gmsh.model.getBoundingBox(2, tag)) for _, tag in gmsh.model.getEntities(2)]
+worst = 0.0
+for table in sys.argv[3:]:
+    for row in csv.DictReader(open(table)):
+        p = [float(row[k]) for k in ('x_mm', 'y_mm', 'z_mm')]
+        near = [tag for tag, box in faces if all(box[i] - 1e-3 <= p[i] <= box[3 + i] + 1e-3 for i in range(3))]
+        near = near or [tag for tag, _ in faces]
+        worst = max(worst, min(math.dist(gmsh.model.getClosestPoint(2, tag, p)[0], p) for tag in near))
+volume = sum(gmsh.model.occ.getMass(*e) for e in gmsh.model.getEntities(3))
+mesh = meshio.read(sys.argv[2])
+corners = [[x, y, z] for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+at = mesh.points[numpy.vstack([block.data for block in mesh.cells if block.data.shape[1] == 8])]
+whole = 0.0
+for k in range(8):
+    xi = numpy.array(corners[k]) / 3.0 ** 0.5
+    slopes = numpy.array([[c[q] * math.prod(1.0 + c[r] * xi[r] for r in range(3) if r != q) / 8.0 for q in range(3)] for c in corners])
+    whole += numpy.abs(numpy.linalg.det(numpy.einsum('nax,aq->nxq', at, slopes))).sum()
+json.dump([worst, len(gmsh.model.getEntities(3)), volume, 1e9 * whole], answer)
+";
+
+/// The flanks of a bevel gear's solid go through the points of its measuring machine's tables, and its volume is that of
+/// its mesh, whose circles are polygons.
+#[test]
+fn a_bevel_gear_goes_out_as_step() {
+    let desk = Desk::new();
+    let (gear, pair) = (
+        shipped("bevel_pinion_13_35.toml"),
+        shipped("bevel_13_35.toml"),
+    );
+    let [solid, mesh, tables] = ["p.step", "p.vtu", "points"].map(|name| desk.path(name));
+    let told = succeeds(&["export", &gear, "-o", argument(&solid), "--json"]).json();
+    // A tenth of a micrometre, as of cylindrical gears.
+    let stated = told["solid"]["largest_error_mm"].as_f64().unwrap();
+    assert!(stated < 1e-4, "{stated}");
+    succeeds(&["mesh", &gear, "-o", argument(&mesh)]);
+    succeeds(&["bevel", &pair, "--grid", argument(&tables)]);
+    let points = ["concave", "convex"].map(|side| tables.join(format!("pinion-{side}.csv")));
+    let files = [&solid, &mesh, &points[0], &points[1]].map(|file| argument(file));
+    let found = numbers(&python(BEVEL_SOLID, &files));
+    let [off, solids, volume, of_mesh] = [found[0], found[1], found[2], found[3]];
+    assert!(off < 1e-4 && solids == 1.0, "{off} {solids}");
+    // Of 104 sides and more: (2 pi/104)^2/6 = 6e-4 of a disc's area; teeth have chords of their own.
+    assert!((of_mesh / volume - 1.0).abs() < 1e-3, "{of_mesh} {volume}");
 }

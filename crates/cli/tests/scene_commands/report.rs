@@ -64,11 +64,11 @@ fn results_stand_side_by_side() {
     let html = std::fs::read_to_string(&page).unwrap();
     for part in [
         "Gear pairs side by side",
-        "\"name\":\"result.h5, 60 N m\"",
-        "\"name\":\"other.h5, 60 N m\"",
+        "\"name\":\"result.h5, 60 N·m\"",
+        "\"name\":\"other.h5, 60 N·m\"",
         "contact pattern</h2>",
-        "Largest Hertz pressure at 60 N m",
-        "Largest line load at 60 N m",
+        "Largest Hertz pressure at 60 N·m",
+        "Largest line load at 60 N·m",
         "largest von Mises stress over the width",
     ] {
         assert!(html.contains(part), "{part}");
@@ -86,7 +86,7 @@ fn results_stand_side_by_side() {
         4
     );
     assert_eq!(
-        seen("right side: von Mises stress, 60 N m, driver angle"),
+        seen("right side: von Mises stress, 60 N·m, driver angle"),
         4
     );
     // Where the root stress is largest, not where it is at another angle.

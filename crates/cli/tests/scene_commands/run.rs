@@ -254,5 +254,45 @@ fn a_pair_is_rated() {
     let page = desk.path("report.html");
     succeeds(&["report", argument(&output), "-o", argument(&page)]);
     let page = std::fs::read_to_string(page).unwrap();
-    assert!(page.contains("small pair: rating") && page.contains("the same in revolutions"));
+    assert!(page.contains("<h2>Rating</h2>") && page.contains("the same in revolutions"));
+}
+
+/// One table of the stages: on the console first, in the JSON and on the page; figures by hand. Of the pair that `init`
+/// writes the pinion drives clockwise at 600 rpm against 100 N m on the wheel.
+#[test]
+fn stages_are_on_console_page_and_in_json() {
+    let desk = Desk::new();
+    let folder = desk.path("pair");
+    succeeds(&["init", "pair", "-o", argument(&folder)]);
+    let (scene, output) = (folder.join("drive.toml"), desk.path("drive.h5"));
+    let run = ["run", argument(&scene), "-o", argument(&output)];
+    let console = succeeds(&run).stdout;
+    let lines: Vec<&str> = console.lines().take(20).collect();
+    assert!(
+        lines[1].starts_with("stages, loads mean over the second half of the run"),
+        "{lines:?}"
+    );
+    let shown = |label: &str| {
+        let line = lines.iter().find(|line| line.starts_with(label));
+        let line = line.unwrap_or_else(|| panic!("{label} is not in {lines:#?}"));
+        line.split_whitespace().last().unwrap().to_owned()
+    };
+    assert_eq!(shown("speed of gear 1"), "-600.0");
+    assert_eq!(shown("torque on gear 2"), "100.0");
+    assert_eq!(shown("axial force"), "0");
+    assert!(shown("c' of ISO 6336-1").parse::<f64>().unwrap() > 5.0);
+    let figures = succeeds(&[&run[..], &["--json"]].concat()).json();
+    let stage = &figures["stages"]["meshes"]["mesh"];
+    // What is held by the motion is the torque by the numbers of teeth; F_t at the working pitch circle of 94.6 mm.
+    let torque = 100.0 * 23.0 / 40.0;
+    assert!((number(&stage["moment_1_Nm"]) / torque - 1.0).abs() < 1e-3);
+    let force = torque / (94.6e-3 * 23.0 / 63.0);
+    assert!((number(&stage["tangential_force_N"]) / force - 1.0).abs() < 1e-3);
+    assert!((number(&stage["k_h_beta"]) - 1.0).abs() < 1e-9);
+    assert!((number(&stage["speed_2_rpm"]) - 345.0).abs() < 1e-2);
+    assert_eq!(figures["warnings"], serde_json::json!([]));
+    let page = desk.path("drive.html");
+    succeeds(&["report", argument(&output), "-o", argument(&page)]);
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(page.contains("Stages, loads mean over the second half") && page.contains("K_Hβ"));
 }

@@ -31,7 +31,7 @@ pub enum LocalLawError {
     },
     /// The floor is not below the cap, so that no load follows the logarithm.
     #[error(
-        "the floor {floor_n} N is not below the cap {cap_n} N: lower the floor, or the depth is too small"
+        "the load is too large for teeth of this size: a share of {floor_n:.3e} N already presses the contact as wide as the tooth is thick, which {cap_n:.3e} N do; check the units of the load, of Young's modulus and of the sizes"
     )]
     FloorAboveCap {
         /// Force below which the logarithm is continued by its tangent \[N\].

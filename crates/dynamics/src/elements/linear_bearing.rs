@@ -4,9 +4,10 @@
 //!
 //! ```text
 //! f = −(k_r u_x + c_r u̇_x, k_r u_y + c_r u̇_y, k_a u_z + c_a u̇_z)
-//! μ = −k_t c_z (−c_y, c_x, 0) − c_t (ω_x, ω_y, 0)
+//! μ = −k_t c_z (−c_y, c_x, 0) − c_t (ω − (ω·c) c)
 //! ```
 //!
+//! (ω − (ω·c) c = c × ċ is the rate of the tilt: a shaft that turns about its own tilted axis is not braked)
 //! (an axial support that bears one way has k_a = 0 on the other side of u_z = 0; its damping acts both ways), which is the gradient of ½ k_r(u_x² + u_y²) + ½ k_a u_z² + ½ k_t(c_x² + c_y²) and the same for every angle of B.
 
 use nalgebra::{SMatrix, Vector3};
@@ -102,8 +103,7 @@ impl Law for LinearBearing {
     fn load(&self, motion: &RelativeMotion) -> (PairLoad, Power) {
         let (u, v) = (motion.displacement_m, motion.velocity_m_per_s);
         let c = motion.rotation.column(2);
-        let mut w = motion.angular_velocity_rad_per_s;
-        w[2] = 0.0;
+        let w = motion.tilt_rate_rad_per_s();
         let tilt = Vector3::new(-c[1], c[0], 0.0);
         let elastic = self.stiffness(u[2]).component_mul(&u);
         let viscous = self.damping().component_mul(&v);
@@ -146,9 +146,12 @@ impl Law for LinearBearing {
             tangent.by_position[(4, 3 + axis)] =
                 -k * (turned[(2, axis)] * c[0] + c[2] * turned[(0, axis)]);
         }
-        for axis in 3..5 {
-            tangent.by_velocity[(axis, axis)] = -self.tilt_damping_nm_s_per_rad;
-        }
+        let viscous = self.tilt_damping_nm_s_per_rad * motion.tilt_rate_by_velocity();
+        let turned = self.tilt_damping_nm_s_per_rad * motion.tilt_rate_by_rotation();
+        let mut corner = tangent.by_velocity.fixed_view_mut::<3, 3>(3, 3);
+        corner -= viscous;
+        let mut corner = tangent.by_position.fixed_view_mut::<3, 3>(3, 3);
+        corner -= turned;
         tangent
     }
 }

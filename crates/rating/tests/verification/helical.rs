@@ -147,7 +147,7 @@ fn the_pressure_is_that_of_iso_6336_2() {
             [&gears[0], &gears[1]],
             [STEEL; 2],
             [None; 2],
-            LoadPoint::Tip,
+            (LoadPoint::Tip, None),
         )
         .unwrap();
         let tangential_n = 3000.0;
@@ -187,7 +187,8 @@ fn a_wider_mate_changes_nothing() {
             ..gear
         });
         let of = |teeth: [&ToothDefinition; 2]| {
-            let rating = NominalRating::new(&pair, teeth, [STEEL; 2], [None; 2], load).unwrap();
+            let rating =
+                NominalRating::new(&pair, teeth, [STEEL; 2], [None; 2], (load, None)).unwrap();
             rating.under(2000.0).unwrap()
         };
         let alike = of([&gears[0], &gears[1]]);
@@ -203,8 +204,14 @@ fn a_vanishing_helix_is_a_spur_pair() {
     let load = LoadPoint::HighestSingleContact;
     let stresses = |helix_deg: f64| {
         let (gears, pair) = pair([17, 40], helix_deg, 12e-3);
-        let rating =
-            NominalRating::new(&pair, [&gears[0], &gears[1]], [STEEL; 2], [None; 2], load).unwrap();
+        let rating = NominalRating::new(
+            &pair,
+            [&gears[0], &gears[1]],
+            [STEEL; 2],
+            [None; 2],
+            (load, None),
+        )
+        .unwrap();
         let found = rating.under(2000.0).unwrap();
         [
             found.lewis_pa[0],
@@ -231,8 +238,15 @@ fn a_vanishing_helix_is_a_spur_pair() {
 #[test]
 fn what_cannot_be_rated_is_refused() {
     let (gears, helix) = pair([17, 40], 20.0, 12e-3);
-    let rate =
-        |load| NominalRating::new(&helix, [&gears[0], &gears[1]], [STEEL; 2], [None; 2], load);
+    let rate = |load| {
+        NominalRating::new(
+            &helix,
+            [&gears[0], &gears[1]],
+            [STEEL; 2],
+            [None; 2],
+            (load, None),
+        )
+    };
     let rating = rate(LoadPoint::Tip).unwrap();
     for force in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0] {
         assert!(matches!(

@@ -10,6 +10,8 @@ mod hub_patterns;
 mod imported_mesh;
 mod natural_modes;
 mod near_field;
+#[path = "../../../../tests/support/pinion_with_stubs.rs"]
+mod pinion_with_stubs;
 mod random_blanks;
 mod reduction;
 mod root_crack;

@@ -1,52 +1,63 @@
 //! A table as CSV: one line of names, commas, points; texts in quotes where they need them.
 
+use std::fmt::Write as _;
+use std::io::Write;
+
 use gearmesh_model::{no_formula, without_apostrophe};
 
 use super::{Cells, ExportError, Table};
 
-/// The table as text. A number has as many digits as tell it from its neighbours.
+/// Writes the table as text. A number has as many digits as tell it from its neighbours.
 ///
 /// # Errors
-/// [`ExportError::Csv`].
-pub fn csv_text(table: &Table) -> Result<String, ExportError> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+/// [`ExportError::Csv`]; [`ExportError::File`] if a column cannot be read.
+pub fn write_csv(table: &Table<'_>, out: &mut dyn Write) -> Result<(), ExportError> {
+    let mut writer = csv::Writer::from_writer(out);
     writer.write_record(
         table
             .columns
             .iter()
             .map(|(name, _)| no_formula(name).into_owned()),
     )?;
-    for row in 0..table.rows() {
-        for (_, cells) in &table.columns {
-            match cells {
-                Cells::Numbers(values) => writer.write_field(number(values[row]))?,
-                Cells::Texts(values) => writer.write_field(no_formula(&values[row]).as_ref())?,
+    let mut cell = String::new();
+    for rows in table.blocks() {
+        let numbers = table.columns.iter();
+        let numbers = numbers.map(|(_, cells)| cells.numbers(rows.clone()));
+        let numbers = numbers.collect::<Result<Vec<_>, _>>()?;
+        for row in rows.clone() {
+            for ((_, cells), numbers) in table.columns.iter().zip(&numbers) {
+                if let Some(numbers) = numbers {
+                    write_number(&mut cell, numbers[row - rows.start]);
+                    writer.write_field(&cell)?;
+                } else if let Cells::Texts(texts) = cells {
+                    writer.write_field(no_formula(&texts[row]).as_ref())?;
+                }
             }
+            writer.write_record(None::<&[u8]>)?;
         }
-        writer.write_record(None::<&[u8]>)?;
     }
-    let bytes = writer
-        .into_inner()
-        .map_err(|error| csv::Error::from(error.into_error()))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    writer.flush()?;
+    Ok(())
 }
 
 /// Nothing for what is not there.
-fn number(value: f64) -> String {
-    if value.is_nan() {
-        String::new()
+fn write_number(cell: &mut String, value: f64) {
+    cell.clear();
+    // Memory is all that can be wanting.
+    let _ = if value.is_nan() {
+        Ok(())
     } else if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
-        value.to_string()
+        write!(cell, "{value}")
     } else {
-        format!("{value:e}")
-    }
+        write!(cell, "{value:e}")
+    };
 }
 
 /// The table of a study from its `study.csv`: columns in which every cell is a number are numbers.
 ///
 /// # Errors
 /// [`ExportError::Csv`] if lines are of different lengths.
-pub fn study_table(text: &str) -> Result<Table, ExportError> {
+pub fn study_table(text: &str) -> Result<Table<'static>, ExportError> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let names: Vec<String> = reader
         .headers()?

@@ -1,6 +1,7 @@
 //! A table as functions over one axis, as measuring programs hold them (universal files, data set 58).
 
-use super::{Cells, Table};
+use super::Table;
+use gearmesh_model::FileError;
 use gearmesh_scene::system_run::unit_in_name;
 use serde::{Deserialize, Serialize};
 
@@ -32,40 +33,43 @@ const FUNCTIONS: [(&str, &str, Option<&str>); 3] = [
 
 /// The functions of a table: its columns of numbers over the axis, each torque or way of a sweep by itself. Values that are not there, and functions
 /// of less than two values, are left out; empty for a table without an axis (contact, modes, ratings).
-#[must_use]
-pub fn functions(table: &Table) -> Vec<Function> {
+///
+/// # Errors
+/// [`FileError`] if a column cannot be read.
+pub fn functions(table: &Table<'_>) -> Result<Vec<Function>, FileError> {
     let numbers = |wanted: &str| {
         let column = table.columns.iter().find(|(name, _)| name == wanted);
-        match column {
-            Some((_, Cells::Numbers(values))) => Some(values),
-            _ => None,
-        }
+        let numbers = column.map(|(_, cells)| cells.numbers(0..cells.rows()));
+        numbers.transpose().map(Option::flatten)
     };
     let kind = FUNCTIONS.iter().find(|(name, ..)| *name == table.name);
     let Some((_, axis, group)) = kind else {
-        return Vec::new();
+        return Ok(Vec::new());
     };
-    let Some(x) = numbers(axis) else {
-        return Vec::new();
+    let Some(x) = numbers(axis)? else {
+        return Ok(Vec::new());
     };
-    let groups = group.and_then(numbers);
+    let groups = match group {
+        Some(group) => numbers(group)?,
+        None => None,
+    };
     let mut found = Vec::new();
     // Rows of one group follow each other.
     let mut first = 0;
     while first < x.len() {
-        let same = |row: &usize| groups.is_none_or(|g| g[*row] == g[first]);
+        let same = |row: &usize| groups.as_ref().is_none_or(|g| g[*row] == g[first]);
         let end = first + (first..x.len()).take_while(same).count();
-        let condition = match (group, groups) {
+        let condition = match (group, &groups) {
             (Some(name), Some(values)) => format!("{name} = {}", values[first]),
             _ => String::new(),
         };
         for (name, cells) in &table.columns {
-            let Cells::Numbers(values) = cells else {
-                continue;
-            };
             if name == axis || Some(&**name) == *group {
                 continue;
             }
+            let Some(values) = cells.numbers(0..x.len())? else {
+                continue;
+            };
             let there = |row: &usize| values[*row].is_finite();
             let rows: Vec<usize> = (first..end).filter(there).collect();
             if rows.len() < 2 {
@@ -83,7 +87,7 @@ pub fn functions(table: &Table) -> Vec<Function> {
         }
         first = end;
     }
-    found
+    Ok(found)
 }
 
 /// The unit of a column; of a sweep's figure (`… mean`) that of its column.
@@ -98,7 +102,7 @@ fn unit_of(name: &str) -> &'static str {
 mod tests {
     use super::*;
 
-    fn table(name: &str, columns: &[(&str, &[f64])]) -> Table {
+    fn table(name: &str, columns: &[(&str, &[f64])]) -> Table<'static> {
         let mut table = Table::new(name);
         for (head, values) in columns {
             table.numbers(*head, values.to_vec());
@@ -116,7 +120,7 @@ mod tests {
                 ("te_m", &[1.0, f64::NAN, 3.0, 4.0, 5.0]),
             ],
         );
-        let found = functions(&curves);
+        let found = functions(&curves).unwrap();
         let shown: Vec<_> = (found.iter())
             .map(|f| {
                 (
@@ -147,11 +151,11 @@ mod tests {
                 ("elements/mesh/force_N largest", &[1.0, 2.0, 3.0, 4.0]),
             ],
         );
-        let found = functions(&windows);
+        let found = functions(&windows).unwrap();
         assert_eq!(found.len(), 2);
         assert_eq!((&*found[1].unit, &*found[1].condition), ("N", "up = 0"));
         assert_eq!(found[1].x, [2.0, 1.0]);
         let none = table("contact", &[("angle_rad", &[0.0, 1.0])]);
-        assert!(functions(&none).is_empty());
+        assert!(functions(&none).unwrap().is_empty());
     }
 }

@@ -5,6 +5,8 @@
 //! filled up to a multiple of eight; an array (miMATRIX) holds its flags with the class, dimensions, name and content
 //! as elements of their own.
 
+use std::io::Write;
+
 use super::{Cells, ExportError, Table};
 
 /// Types of elements.
@@ -24,78 +26,85 @@ const DOUBLE_CLASS: u32 = 6;
 /// Place of a field's name in the list of names, 31 letters and a zero.
 const NAME_LENGTH: usize = 32;
 
+/// Length of type and number of bytes.
+const TAG: usize = 8;
+
 /// Length of the text that a file begins with.
 const HEADER_TEXT: usize = 116;
 
-/// The file's bytes.
+/// Writes the file.
 ///
 /// # Errors
-/// [`ExportError::TooLarge`] for a table of 2 GB and more.
-pub fn mat_bytes(tables: &[Table]) -> Result<Vec<u8>, ExportError> {
-    let text = b"MATLAB 5.0 MAT-file, written by gearmesh";
-    let mut file = text.to_vec();
-    file.resize(HEADER_TEXT, b' ');
-    file.extend([0; 8]);
-    file.extend(0x0100_u16.to_le_bytes());
-    file.extend(*b"IM");
+/// [`ExportError::TooLarge`] for a table of 2 GB and more, [`ExportError::Write`]; [`ExportError::File`] if a column
+/// cannot be read.
+pub fn write_mat(tables: &[Table<'_>], out: &mut dyn Write) -> Result<(), ExportError> {
     for table in tables {
         let bytes = 8 * table.rows() * table.columns.len();
         if bytes >= i32::MAX as usize {
             let table = table.name.clone();
             return Err(ExportError::TooLarge { table, bytes });
         }
-        file.extend(table_struct(table));
     }
-    Ok(file)
+    let text = b"MATLAB 5.0 MAT-file, written by gearmesh";
+    let mut head = text.to_vec();
+    head.resize(HEADER_TEXT, b' ');
+    head.extend([0; 8]);
+    head.extend(0x0100_u16.to_le_bytes());
+    head.extend(*b"IM");
+    out.write_all(&head)?;
+    for table in tables {
+        write_struct(table, out)?;
+    }
+    Ok(())
 }
 
-fn table_struct(table: &Table) -> Vec<u8> {
-    let (mut data, mut names) = (Vec::new(), Vec::new());
+/// A table as an array; its numbers go from where they are into the file, all else is small.
+fn write_struct(table: &Table<'_>, out: &mut dyn Write) -> Result<(), ExportError> {
+    let (mut numbers, mut names) = (Vec::new(), Vec::new());
     let (mut texts, mut text_names) = (Vec::new(), Vec::new());
     for (name, cells) in &table.columns {
-        match cells {
-            Cells::Numbers(values) => {
-                data.extend_from_slice(values);
-                names.push(text_array(name));
-            }
-            Cells::Texts(values) => {
-                texts.extend(values.iter().map(|value| text_array(value)));
-                text_names.push(text_array(name));
-            }
+        if let Cells::Texts(values) = cells {
+            texts.extend(values.iter().map(|value| text_array(value)));
+            text_names.push(text_array(name));
+        } else {
+            numbers.push(cells);
+            names.push(text_array(name));
         }
     }
-    let rows = table.rows();
-    let columns = names.len();
-    let mut fields = vec![
-        ("data", number_array([rows, columns], &data)),
-        ("columns", cell_array([1, columns], &names)),
-    ];
+    let (rows, columns) = (table.rows(), names.len());
+    let mut fields = vec![("columns", cell_array([1, columns], &names))];
     if !text_names.is_empty() {
         let count = text_names.len();
         fields.push(("texts", cell_array([rows, count], &texts)));
         fields.push(("text_columns", cell_array([1, count], &text_names)));
     }
-    let mut content = small_element(INT32, &(NAME_LENGTH as i32).to_le_bytes());
     let mut list = Vec::new();
-    for (name, _) in &fields {
+    for name in std::iter::once("data").chain(fields.iter().map(|field| field.0)) {
         let start = list.len();
         list.extend(name.bytes());
         list.resize(start + NAME_LENGTH, 0);
     }
-    content.extend(element(INT8, &list));
-    fields
-        .into_iter()
-        .for_each(|(_, field)| content.extend(field));
-    array(STRUCT_CLASS, [1, 1], &table.name, &content)
-}
-
-/// Columns one after the other.
-fn number_array(shape: [usize; 2], values: &[f64]) -> Vec<u8> {
-    let bytes: Vec<u8> = values
-        .iter()
-        .flat_map(|value| value.to_le_bytes())
-        .collect();
-    array(DOUBLE_CLASS, shape, "", &element(DOUBLE, &bytes))
+    let mut head = array_head(STRUCT_CLASS, [1, 1], &table.name);
+    head.extend(small_element(INT32, &(NAME_LENGTH as i32).to_le_bytes()));
+    head.extend(element(INT8, &list));
+    // The field of the numbers, columns one after the other.
+    let own = array_head(DOUBLE_CLASS, [rows, columns], "");
+    let number_bytes = 8 * rows * columns;
+    let data_bytes = own.len() + TAG + number_bytes;
+    let rest: Vec<u8> = fields.into_iter().flat_map(|(_, field)| field).collect();
+    let all = head.len() + TAG + data_bytes + rest.len();
+    out.write_all(&tag(MATRIX, all))?;
+    out.write_all(&head)?;
+    out.write_all(&tag(MATRIX, data_bytes))?;
+    out.write_all(&own)?;
+    out.write_all(&tag(DOUBLE, number_bytes))?;
+    for cells in numbers {
+        for value in cells.numbers(0..rows)?.iter().flat_map(|c| c.iter()) {
+            out.write_all(&value.to_le_bytes())?;
+        }
+    }
+    out.write_all(&rest)?;
+    Ok(())
 }
 
 fn cell_array(shape: [usize; 2], cells: &[Vec<u8>]) -> Vec<u8> {
@@ -115,6 +124,11 @@ fn text_array(text: &str) -> Vec<u8> {
 }
 
 fn array(class: u32, shape: [usize; 2], name: &str, content: &[u8]) -> Vec<u8> {
+    element(MATRIX, &[&array_head(class, shape, name), content].concat())
+}
+
+/// What an array begins with: flags, dimensions, name.
+fn array_head(class: u32, shape: [usize; 2], name: &str) -> Vec<u8> {
     let flags = [class.to_le_bytes(), 0_u32.to_le_bytes()].concat();
     let shape: Vec<u8> = shape
         .iter()
@@ -124,13 +138,17 @@ fn array(class: u32, shape: [usize; 2], name: &str, content: &[u8]) -> Vec<u8> {
         element(UINT32, &flags),
         element(INT32, &shape),
         element(INT8, name.as_bytes()),
-        content.to_vec(),
     ];
-    element(MATRIX, &parts.concat())
+    parts.concat()
+}
+
+/// Type and number of bytes.
+fn tag(kind: u32, bytes: usize) -> Vec<u8> {
+    [kind.to_le_bytes(), (bytes as u32).to_le_bytes()].concat()
 }
 
 fn element(kind: u32, bytes: &[u8]) -> Vec<u8> {
-    let mut all = [kind.to_le_bytes(), (bytes.len() as u32).to_le_bytes()].concat();
+    let mut all = tag(kind, bytes.len());
     all.extend_from_slice(bytes);
     all.resize(all.len().next_multiple_of(8), 0);
     all

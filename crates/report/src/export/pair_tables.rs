@@ -1,19 +1,20 @@
 //! Tables of a static pair: curves over the driver angle, forces over the flank, figures of each torque.
 
 use gearmesh_scene::SceneResult;
+use gearmesh_scene::pair::PairFigures;
 
 use super::{Table, ratings_table};
 
 /// `curves` (torque and angle), `contact` (and pair of teeth and slice), `torques`, `ratings`.
 #[must_use]
-pub fn pair_tables(result: &SceneResult) -> Vec<Table> {
-    let mut tables = vec![curves(result), contact(result), torques(result)];
+pub fn pair_tables(result: &SceneResult) -> Vec<Table<'static>> {
+    let mut tables = vec![curves(result), contact(result), torque_table(result)];
     tables.extend(ratings_table(&result.ratings));
     tables
 }
 
 /// A row for each torque and angle.
-fn curves(result: &SceneResult) -> Table {
+fn curves(result: &SceneResult) -> Table<'static> {
     let (torques, angles) = (result.torque_nm.len(), result.angles());
     let mut table = Table::new("curves");
     let each_torque = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
@@ -40,7 +41,7 @@ fn curves(result: &SceneResult) -> Table {
 }
 
 /// A row for each torque, angle, pair of teeth and slice that are looked at.
-fn contact(result: &SceneResult) -> Table {
+fn contact(result: &SceneResult) -> Table<'static> {
     let (angles, slots, slices) = (result.angles(), result.slots, result.slices);
     let mut columns: [Vec<f64>; 11] = Default::default();
     for (k, &torque_nm) in result.torque_nm.iter().enumerate() {
@@ -97,32 +98,34 @@ fn contact(result: &SceneResult) -> Table {
     table
 }
 
-/// A row for each torque.
-fn torques(result: &SceneResult) -> Table {
+/// `torques`: the figures of each torque, a row each.
+#[must_use]
+pub fn torque_table(result: &SceneResult) -> Table<'static> {
     let mut table = Table::new("torques");
     table.numbers("torque_Nm", result.torque_nm.clone());
-    let figures = |value: &dyn Fn(&[f64]) -> f64, values: &[f64]| -> Vec<f64> {
-        let each = 0..result.torque_nm.len();
-        each.map(|k| value(result.curve(values, k))).collect()
+    let figures: Vec<PairFigures> = (0..result.torque_nm.len())
+        .map(|k| result.figures(k))
+        .collect();
+    let mut column = |name: &str, of: fn(&PairFigures) -> f64| {
+        table.numbers(name, figures.iter().map(of).collect());
     };
-    let mean = |curve: &[f64]| curve.iter().sum::<f64>() / curve.len() as f64;
-    let range = |curve: &[f64]| {
-        let ends = curve
-            .iter()
-            .fold((f64::MAX, f64::MIN), |(a, b), &x| (a.min(x), b.max(x)));
-        ends.1 - ends.0
-    };
-    table.numbers("te_mean_m", figures(&mean, &result.te_m));
-    table.numbers("te_peak_to_peak_m", figures(&range, &result.te_m));
-    table.numbers(
-        "stiffness_secant_mean_N_per_m",
-        figures(&mean, &result.secant_n_per_m),
-    );
-    table.numbers(
-        "stiffness_tangent_mean_N_per_m",
-        figures(&mean, &result.tangent_n_per_m),
-    );
-    table.numbers("k_h_beta", result.k_h_beta.clone());
+    column("te_mean_m", |f| f.te_mean_m);
+    column("te_peak_to_peak_m", |f| f.te_peak_to_peak_m);
+    column("stiffness_secant_mean_N_per_m", |f| f.secant_mean_n_per_m);
+    column("stiffness_tangent_mean_N_per_m", |f| f.tangent_mean_n_per_m);
+    column("pressure_largest_Pa", |f| f.pressure_largest_pa);
+    column("k_h_beta", |f| f.k_h_beta);
+    let or_nan = |error: Option<f64>| error.unwrap_or(f64::NAN);
+    let errors = figures.iter().map(|f| or_nan(f.errors.te_positions));
+    table.numbers("error_positions_te_peak_to_peak", errors.collect());
+    let errors = figures.iter().map(|f| or_nan(f.errors.pressure_positions));
+    table.numbers("error_positions_pressure", errors.collect());
+    let errors = (figures.iter()).map(|f| or_nan(f.errors.k_h_beta_positions));
+    table.numbers("error_positions_k_h_beta", errors.collect());
+    let errors = figures.iter().map(|f| or_nan(f.errors.slices));
+    table.numbers("error_slices_k_h_beta", errors.collect());
+    let pitches = result.contact_coverage.averaged_pitches() as f64;
+    table.numbers("mean_over_pitches", vec![pitches; figures.len()]);
     table.numbers("torque_balance", result.torque_balance.clone());
     table.numbers("residual", result.residual.clone());
     table

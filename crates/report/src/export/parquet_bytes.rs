@@ -1,5 +1,6 @@
-//! A table as Parquet: one row group, doubles and UTF-8 texts, not compressed.
+//! A table as Parquet: row groups of some millions of numbers, doubles and UTF-8 texts, not compressed.
 
+use std::io::Write;
 use std::sync::Arc;
 
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
@@ -11,11 +12,11 @@ use parquet::schema::types::Type;
 
 use super::{Cells, ExportError, Table};
 
-/// The file's bytes.
+/// Writes the file.
 ///
 /// # Errors
-/// [`ExportError::Parquet`].
-pub fn parquet_bytes(table: &Table) -> Result<Vec<u8>, ExportError> {
+/// [`ExportError::Parquet`]; [`ExportError::File`] if a column cannot be read.
+pub fn write_parquet(table: &Table<'_>, out: &mut (dyn Write + Send)) -> Result<(), ExportError> {
     let columns = table.columns.iter();
     let fields = columns.map(|(name, cells)| column_type(name, cells).map(Arc::new));
     let fields = fields.collect::<Result<Vec<_>, _>>()?;
@@ -26,34 +27,33 @@ pub fn parquet_bytes(table: &Table) -> Result<Vec<u8>, ExportError> {
     let properties = WriterProperties::builder()
         .set_dictionary_enabled(false)
         .build();
-    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
-    let mut group = writer.next_row_group()?;
-    for (_, cells) in &table.columns {
-        let Some(mut column) = group.next_column()? else {
-            break;
-        };
-        match cells {
-            Cells::Numbers(values) => {
-                column
-                    .typed::<DoubleType>()
-                    .write_batch(values, None, None)?;
+    let mut writer = SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties))?;
+    for rows in table.blocks() {
+        let mut group = writer.next_row_group()?;
+        for (_, cells) in &table.columns {
+            let Some(mut column) = group.next_column()? else {
+                break;
+            };
+            if let Some(values) = cells.numbers(rows.clone())? {
+                let numbers = column.typed::<DoubleType>();
+                numbers.write_batch(&values, None, None)?;
+            } else if let Cells::Texts(values) = cells {
+                let values = values[rows.clone()].iter();
+                let values: Vec<ByteArray> = values.map(|v| v.as_str().into()).collect();
+                let texts = column.typed::<ByteArrayType>();
+                texts.write_batch(&values, None, None)?;
             }
-            Cells::Texts(values) => {
-                let values: Vec<ByteArray> = values.iter().map(|v| v.as_str().into()).collect();
-                column
-                    .typed::<ByteArrayType>()
-                    .write_batch(&values, None, None)?;
-            }
+            column.close()?;
         }
-        column.close()?;
+        group.close()?;
     }
-    group.close()?;
-    Ok(writer.into_inner()?)
+    writer.close()?;
+    Ok(())
 }
 
-fn column_type(name: &str, cells: &Cells) -> Result<Type, ParquetError> {
+fn column_type(name: &str, cells: &Cells<'_>) -> Result<Type, ParquetError> {
     let (physical, logical) = match cells {
-        Cells::Numbers(_) => (Physical::DOUBLE, None),
+        Cells::Numbers(_) | Cells::Column(..) => (Physical::DOUBLE, None),
         Cells::Texts(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
     };
     Type::primitive_type_builder(name, physical)

@@ -3,34 +3,35 @@
 use gearmesh_model::Column;
 use gearmesh_scene::system_run::{ResultKind, SystemResult};
 
-use super::{ExportError, Table, ratings_table};
+use super::{Cells, Table, ratings_table};
 
 /// `rows` of transient and static results, `windows` of a sweep, `modes` and `shapes` of natural frequencies;
 /// `ratings`.
-///
-/// # Errors
-/// [`ExportError::File`] if a column cannot be read.
-pub fn system_tables(result: &SystemResult) -> Result<Vec<Table>, ExportError> {
+#[must_use]
+pub fn system_tables(result: &SystemResult) -> Vec<Table<'_>> {
     let mut tables = match result.kind {
-        ResultKind::Transient | ResultKind::Static => vec![rows(result)?],
+        ResultKind::Transient | ResultKind::Static => vec![rows(result)],
         ResultKind::SpeedSweep => vec![windows(result)],
         ResultKind::Eigen => vec![modes(result), shapes(result)],
     };
     tables.extend(ratings_table(&result.ratings));
-    Ok(tables)
+    tables
 }
 
-/// The columns of the file, as they are.
-fn rows(result: &SystemResult) -> Result<Table, ExportError> {
-    let mut table = Table::new("rows");
-    for column in result.rows.columns() {
-        table.numbers(&column.name, result.rows.read(&column.name)?);
+/// The columns of the file, as they are, read when they are needed.
+fn rows(result: &SystemResult) -> Table<'_> {
+    let file = &result.rows;
+    let columns = file.columns().iter().map(|column| &column.name);
+    Table {
+        name: "rows".to_owned(),
+        columns: columns
+            .map(|name| (name.clone(), Cells::Column(file, name.clone())))
+            .collect(),
     }
-    Ok(table)
 }
 
 /// A row a window; of each column of the run the mean, deviation, least and largest.
-fn windows(result: &SystemResult) -> Table {
+fn windows(result: &SystemResult) -> Table<'static> {
     let mut table = Table::new("windows");
     let Some(sweep) = &result.sweep else {
         return table;
@@ -61,7 +62,7 @@ fn windows(result: &SystemResult) -> Table {
 
 /// A row for each operating point and mode; shares of the kinetic energy by body and of the strain energy by force
 /// element.
-fn modes(result: &SystemResult) -> Table {
+fn modes(result: &SystemResult) -> Table<'static> {
     let mut table = Table::new("modes");
     let all = || {
         let points = result.eigen.iter();
@@ -92,7 +93,7 @@ fn modes(result: &SystemResult) -> Table {
 }
 
 /// A row for each operating point, mode and degree of freedom.
-fn shapes(result: &SystemResult) -> Table {
+fn shapes(result: &SystemResult) -> Table<'static> {
     let mut columns: [Vec<f64>; 5] = Default::default();
     for (number, point) in result.eigen.iter().enumerate() {
         for (k, mode) in point.modes.iter().enumerate() {

@@ -3,10 +3,16 @@
 use super::PageError;
 use super::line_chart::check_range;
 use super::packed::{floats, shorts, words};
+use super::typography::plain;
 use serde_json::{Value, json};
 
 /// Coordinates are stored as 16-bit steps of the mesh's larger extent: 2.4 µm for a gear of 155 mm.
 const COORDINATE_STEPS: f64 = 65_535.0;
+
+/// Share of the area that [`FieldPicture::colours_of_most`] shows in full, and how far above it a value must be to be cut off:
+/// two thirds of the colours are left for all else otherwise.
+const MOST_OF_AREA: f64 = 0.9;
+const FAR_ABOVE: f64 = 1.5;
 
 /// Values of the field.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +75,7 @@ pub struct FieldPicture {
     quads: Vec<[u32; 4]>,
     values: FieldValues,
     colour_range: Option<[f64; 2]>,
+    colours_of_most: bool,
     window: Option<ViewWindow>,
     shades: Vec<f64>,
     marks: Vec<Mark>,
@@ -89,6 +96,7 @@ impl FieldPicture {
             quads: Vec::new(),
             values: FieldValues::PerElement(Vec::new()),
             colour_range: None,
+            colours_of_most: false,
             window: None,
             shades: Vec::new(),
             marks: Vec::new(),
@@ -116,6 +124,44 @@ impl FieldPicture {
     pub fn colour_range(mut self, low: f64, high: f64) -> Self {
         self.colour_range = Some([low, high]);
         self
+    }
+
+    /// The colour scale from 0 to the largest value, or, where a small part of the picture stands far above all else (an edge that
+    /// carries alone), to what nine tenths of the area that has a value stay below: the bar then ends in ≥.
+    #[must_use]
+    pub fn colours_of_most(mut self) -> Self {
+        self.colours_of_most = true;
+        self
+    }
+
+    fn most_of_area(&self) -> f64 {
+        let area = |quad: &[u32; 4]| {
+            let [a, b, c, d] = quad.map(|node| self.nodes_mm[node as usize]);
+            0.5 * ((c[0] - a[0]) * (d[1] - b[1]) - (d[0] - b[0]) * (c[1] - a[1])).abs()
+        };
+        let value = |k: usize, quad: &[u32; 4]| match &self.values {
+            FieldValues::PerElement(values) => values[k],
+            FieldValues::PerNode(values) => {
+                quad.iter().map(|node| values[*node as usize]).sum::<f64>() / 4.0
+            }
+        };
+        let cells = self.quads.iter().enumerate();
+        let cells = cells.map(|(k, quad)| (value(k, quad), area(quad)));
+        let mut cells: Vec<(f64, f64)> = cells.filter(|(value, _)| *value > 0.0).collect();
+        cells.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let Some(largest) = cells.last().map(|cell| cell.0) else {
+            return 0.0;
+        };
+        let whole: f64 = cells.iter().map(|cell| cell.1).sum();
+        let mut below = 0.0;
+        let most = cells.iter().find(|(_, area)| {
+            below += area;
+            below >= MOST_OF_AREA * whole
+        });
+        match most {
+            Some((most, _)) if largest > FAR_ABOVE * most => *most,
+            _ => largest,
+        }
     }
 
     /// What is seen first; without it, the whole mesh.
@@ -175,12 +221,15 @@ impl FieldPicture {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
                 (a.min(*v), b.max(*v))
             });
-        let [low, high] = self.colour_range.unwrap_or([least.min(0.0), largest]);
+        let [low, high] = match self.colours_of_most {
+            true => [0.0, self.most_of_area()],
+            false => self.colour_range.unwrap_or([least.min(0.0), largest]),
+        };
         // A field of one value still gets a scale.
         let high = if high > low { high } else { low + 1.0 };
         Ok(json!({
-            "quantity": self.quantity,
-            "unit": self.unit,
+            "quantity": plain(&self.quantity),
+            "unit": plain(&self.unit),
             "origin": origin,
             "step": step,
             "coordinates": coordinates,
@@ -191,7 +240,7 @@ impl FieldPicture {
             "high": high,
             "window": self.window.map(|w| json!({ "x": w.centre_mm[0], "y": w.centre_mm[1], "width": w.width_mm })),
             "shades": (!self.shades.is_empty()).then(|| floats(self.shades.iter().copied())),
-            "marks": self.marks.iter().map(|m| json!({ "x": m.at_mm[0], "y": m.at_mm[1], "words": m.words, "sign": m.sign.name() })).collect::<Vec<_>>(),
+            "marks": self.marks.iter().map(|m| json!({ "x": m.at_mm[0], "y": m.at_mm[1], "words": plain(&m.words), "sign": m.sign.name() })).collect::<Vec<_>>(),
         }))
     }
 
@@ -300,5 +349,38 @@ impl FieldPicture {
             )?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Ten cells of one size in a row.
+    fn row(values: [f64; 10]) -> Value {
+        let nodes = (0..22).map(|k| [f64::from(k / 2), f64::from(k % 2)]);
+        let quads = (0..10).map(|k| [2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1]);
+        FieldPicture::new("t", "pressure", "MPa")
+            .mesh(nodes.collect(), quads.collect())
+            .values(FieldValues::PerElement(values.to_vec()))
+            .colours_of_most()
+            .payload()
+            .unwrap()
+    }
+
+    /// One edge that carries alone leaves the colours to the rest; where values run up smoothly all are shown.
+    #[test]
+    fn an_edge_does_not_take_all_colours() {
+        let mut values = [
+            0.0, 500.0, 600.0, 700.0, 800.0, 900.0, 800.0, 700.0, 600.0, 3500.0,
+        ];
+        // Nine cells have a value: 8.1 of them are nine tenths.
+        assert_eq!(row(values)["high"], 3500.0);
+        values[0] = 400.0;
+        assert_eq!(row(values)["high"], 900.0);
+        values[9] = 1300.0;
+        assert_eq!(row(values)["high"], 1300.0);
+        assert_eq!(row([0.0; 10])["high"], 1.0);
     }
 }

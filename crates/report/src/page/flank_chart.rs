@@ -4,12 +4,13 @@
 
 use super::PageError;
 use super::markup::{escape, legend};
-use super::polar_chart::round_step;
+use super::polar_chart::{round_step, tick};
+use super::typography::{html, plain};
 use std::fmt::Write as _;
 
 /// Width of the flank in the drawing, in its own units, and the space round it.
-const WIDE: f64 = 560.0;
-const MARGIN: f64 = 48.0;
+const WIDE: f64 = 380.0;
+const MARGIN: f64 = 44.0;
 
 /// A line on the flank.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,7 +80,7 @@ impl FlankChart {
         Ok(())
     }
 
-    pub(super) fn render(&self, html: &mut String) -> Result<(), PageError> {
+    pub(super) fn render(&self, page: &mut String) -> Result<(), PageError> {
         self.check()?;
         let end = |k: usize, pick: fn(f64, f64) -> f64| {
             let values = self.outline_mm.iter().map(|p| p[k]);
@@ -99,30 +100,31 @@ impl FlankChart {
                 text
             })
         };
-        let title = escape(&self.title);
         // Names of clips are those of the page: the outline's own text makes them differ.
         let outline = joined(&self.outline_mm);
-        let clip = format!("flank{}", outline.len() * 1000 + html.len());
+        let clip = format!("flank{}", outline.len() * 1000 + page.len());
         // Writing to a String does not fail.
         let _ = write!(
-            html,
-            "<figure class=\"polar flank\">\n<figcaption>{title}</figcaption>\n\
-             <svg viewBox=\"{} {} {:.1} {:.1}\" role=\"img\" aria-label=\"{title}\">\n\
+            page,
+            "<figure class=\"polar flank\">\n<figcaption>{}</figcaption>\n\
+             <svg viewBox=\"{} {} {:.1} {:.1}\" role=\"img\" aria-label=\"{}\">\n\
              <clipPath id=\"{clip}\"><polygon points=\"{outline}\"/></clipPath>\n",
+            html(&self.title),
             -MARGIN,
             -MARGIN,
             WIDE + 2.0 * MARGIN,
-            tall + 2.0 * MARGIN
+            tall + 2.0 * MARGIN,
+            escape(&plain(&self.title))
         );
         for patch in &self.patches_mm {
             let _ = writeln!(
-                html,
+                page,
                 "<polygon clip-path=\"url(#{clip})\" fill=\"var(--c0)\" fill-opacity=\"0.13\" points=\"{}\"/>",
                 joined(patch)
             );
         }
         let _ = writeln!(
-            html,
+            page,
             "<polygon points=\"{outline}\" fill=\"none\" stroke=\"var(--faint)\"/>"
         );
         for (number, line) in self.lines.iter().enumerate() {
@@ -130,18 +132,18 @@ impl FlankChart {
             if line.points_mm.len() > 1 {
                 let points = joined(&line.points_mm);
                 let _ = writeln!(
-                    html,
+                    page,
                     "<polyline fill=\"none\" stroke=\"var(--c{colour})\" points=\"{points}\"/>"
                 );
             }
             for point in &line.points_mm {
                 let [x, y] = place(*point);
                 let _ = write!(
-                    html,
+                    page,
                     "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"2\" fill=\"var(--c{colour})\"/>"
                 );
             }
-            html.push('\n');
+            page.push('\n');
         }
         for (x, y, anchor, word) in [
             (-8.0, 0.5 * tall, "end", "toe"),
@@ -150,23 +152,24 @@ impl FlankChart {
             (0.5 * WIDE, tall + 16.0, "middle", "root"),
         ] {
             let _ = write!(
-                html,
+                page,
                 "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{word}</text>"
             );
         }
         let bar = round_step(high[0] - low[0]);
         let at = tall + 30.0;
         let _ = write!(
-            html,
+            page,
             "<line x1=\"0\" y1=\"{at:.1}\" x2=\"{0:.1}\" y2=\"{at:.1}\" stroke=\"var(--faint)\" stroke-width=\"2\"/>\
-             <text x=\"{1:.1}\" y=\"{2:.1}\">{bar} mm</text>\n</svg>\n",
+             <text x=\"{1:.1}\" y=\"{2:.1}\">{3} mm</text>\n</svg>\n",
             bar * scale,
             bar * scale + 6.0,
-            at + 4.0
+            at + 4.0,
+            tick(bar)
         );
         let lines = self.lines.iter().enumerate();
-        html.push_str(&legend(lines.map(|(k, line)| (k + 1, &line.name[..])), ""));
-        html.push_str("</figure>\n");
+        page.push_str(&legend(lines.map(|(k, line)| (k + 1, &line.name[..])), ""));
+        page.push_str("</figure>\n");
         Ok(())
     }
 }
@@ -188,10 +191,10 @@ mod tests {
             .line("path", vec![[10.0, 5.0], [20.0, 0.0]]);
         chart.render(&mut html).unwrap();
         assert!(
-            html.contains("points=\"0.00,0.00 560.00,280.00 \""),
+            html.contains("points=\"0.00,0.00 380.00,190.00 \""),
             "{html}"
         );
-        assert!(html.contains("points=\"112.00,224.00 "), "{html}");
+        assert!(html.contains("points=\"76.00,152.00 "), "{html}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::PageError;
 use super::packed::floats;
+use super::typography::plain;
 use serde_json::{Value, json};
 
 /// What an axis shows, and its unit (empty for a pure number).
@@ -21,7 +22,7 @@ impl Axis {
     }
 
     pub(super) fn payload(&self) -> Value {
-        json!({ "label": self.label, "unit": self.unit })
+        json!({ "label": plain(&self.label), "unit": plain(&self.unit) })
     }
 }
 
@@ -198,7 +199,7 @@ impl LineChart {
                 });
             }
             series.push(json!({
-                "name": s.name,
+                "name": plain(&s.name),
                 "values": floats(s.values.iter().copied()),
                 "dash": match s.style { LineStyle::Solid => "solid", LineStyle::Dashed => "dashed", LineStyle::Dotted => "dotted" },
                 "colour": match s.colour {
@@ -216,7 +217,7 @@ impl LineChart {
             });
         }
         let marks = self.marks.iter();
-        let marks = marks.map(|(x, label)| json!({ "order": x, "label": label }));
+        let marks = marks.map(|(x, label)| json!({ "order": x, "label": plain(label) }));
         Ok(json!({
             "marks": marks.collect::<Vec<_>>(),
             "x": self.x.payload(),

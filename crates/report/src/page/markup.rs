@@ -1,5 +1,7 @@
 //! Escaping of texts for HTML and of JSON for a script element.
 
+use super::typography::html;
+
 /// Text that is safe in an element and in a quoted attribute.
 pub(super) fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
@@ -24,11 +26,17 @@ pub(super) fn legend<'a>(entries: impl Iterator<Item = (usize, &'a str)>, told: 
         format!(
             "<span class=\"entry\"><span class=\"key\" style=\"background: var(--c{})\"></span> {}</span> ",
             colour % COLOURS,
-            escape(name)
+            html(name)
         )
     };
     let entries: String = entries.map(entry).collect();
-    format!("<p class=\"legend\">{entries}{}</p>\n", escape(told))
+    format!("<p class=\"legend\">{entries}{}</p>\n", html(told))
+}
+
+/// About how wide a text of a drawing is in the drawing's own units, at the size that it has on a small screen (14 units, page.css);
+/// 0.62 of it is the mean width of digits and small letters in the widest of the style's fonts.
+pub(super) fn text_width(text: &str) -> f64 {
+    14.0 * 0.62 * text.chars().count() as f64
 }
 
 /// Colours of the page's style, from `--c0` on.

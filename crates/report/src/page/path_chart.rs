@@ -4,11 +4,12 @@
 
 use super::PageError;
 use super::markup::escape;
-use super::polar_chart::round_step;
+use super::polar_chart::{round_step, tick};
+use super::typography::{html, plain};
 use std::fmt::Write as _;
 
 /// Half the width of the drawing, in its own units.
-const HALF: f64 = 210.0;
+const HALF: f64 = 226.0;
 
 /// Half the width of the field in it; the numbers stand beside it.
 const FIELD: f64 = 170.0;
@@ -31,7 +32,7 @@ impl PathChart {
         }
     }
 
-    pub(super) fn render(&self, html: &mut String) -> Result<(), PageError> {
+    pub(super) fn render(&self, page: &mut String) -> Result<(), PageError> {
         if self.points.is_empty() {
             return Err(PageError::Empty {
                 block: self.title.clone(),
@@ -51,27 +52,30 @@ impl PathChart {
         let step = round_step(largest);
         let top = step * (largest / step).ceil().max(1.0);
         let scale = FIELD / top;
-        let (title, unit, wide) = (escape(&self.title), escape(&self.unit), 2.0 * HALF);
+        let wide = 2.0 * HALF;
         // Writing to a String does not fail.
         let _ = write!(
-            html,
-            "<figure class=\"polar\">\n<figcaption>{title}</figcaption>\n\
-             <svg viewBox=\"{} {} {wide} {wide}\" role=\"img\" aria-label=\"{title}\">\n",
-            -HALF, -HALF
+            page,
+            "<figure class=\"polar\">\n<figcaption>{}</figcaption>\n\
+             <svg viewBox=\"{} {} {wide} {wide}\" role=\"img\" aria-label=\"{}\">\n",
+            html(&self.title),
+            -HALF,
+            -HALF,
+            escape(&plain(&self.title))
         );
         let lines = (top / step).round() as i32;
         for line in -lines..=lines {
-            let value = step * f64::from(line);
-            let at = value * scale;
+            let value = tick(step * f64::from(line));
+            let at = step * f64::from(line) * scale;
             let _ = write!(
-                html,
+                page,
                 "<line x1=\"{at:.1}\" y1=\"{}\" x2=\"{at:.1}\" y2=\"{FIELD}\" class=\"grid\"/>\
                  <line x1=\"{}\" y1=\"{at:.1}\" x2=\"{FIELD}\" y2=\"{at:.1}\" class=\"grid\"/>",
                 -FIELD, -FIELD
             );
             if line % 2 == 0 || lines < 4 {
                 let _ = write!(
-                    html,
+                    page,
                     "<text x=\"{at:.1}\" y=\"{}\" text-anchor=\"middle\">{value}</text>\
                      <text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{value}</text>",
                     FIELD + 16.0,
@@ -80,17 +84,18 @@ impl PathChart {
                 );
             }
         }
-        html.push_str("\n<polyline fill=\"none\" stroke=\"var(--c0)\" points=\"");
+        page.push_str("\n<polyline fill=\"none\" stroke=\"var(--c0)\" points=\"");
         for [x, y] in &self.points {
-            let _ = write!(html, "{:.2},{:.2} ", x * scale, -y * scale);
+            let _ = write!(page, "{:.2},{:.2} ", x * scale, -y * scale);
         }
         let [x, y] = self.points[self.points.len() - 1];
         let _ = writeln!(
-            html,
+            page,
             "\"/><circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"3\" fill=\"var(--c1)\"/>\n</svg>\n\
-             <p class=\"readout\">x to the right, y upwards, in {unit}; the dot is the end</p>\n</figure>",
+             <p class=\"readout\">x to the right, y upwards, in {}; the dot is the end</p>\n</figure>",
             x * scale,
-            -y * scale
+            -y * scale,
+            html(&self.unit)
         );
         Ok(())
     }

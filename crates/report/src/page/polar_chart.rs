@@ -1,9 +1,10 @@
-//! Values at angles round a circle, as bars from its middle: which balls of a bearing bear how much.
+//! Values at angles round a circle, as bars from its middle: which balls of a bearing carry how much.
 //!
 //! Drawn as SVG in the page itself: it needs no script.
 
 use super::PageError;
 use super::markup::{escape, legend};
+use super::typography::{html, plain};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
@@ -90,7 +91,7 @@ impl PolarChart {
         Ok(values.fold(0.0, |a: f64, b| a.max(*b)))
     }
 
-    pub(super) fn render(&self, html: &mut String) -> Result<(), PageError> {
+    pub(super) fn render(&self, page: &mut String) -> Result<(), PageError> {
         let largest = self.check()?;
         let step = round_step(largest);
         let top = if largest > 0.0 {
@@ -99,16 +100,18 @@ impl PolarChart {
             1.0
         };
         let scale = RADIUS / top;
-        let title = escape(&self.title);
         let wide = 2.0 * HALF;
         // Writing to a String does not fail.
         let _ = write!(
-            html,
-            "<figure class=\"polar\">\n<figcaption>{title}</figcaption>\n\
-             <svg viewBox=\"{} {} {wide} {wide}\" role=\"img\" aria-label=\"{title}\">\n",
-            -HALF, -HALF
+            page,
+            "<figure class=\"polar\">\n<figcaption>{}</figcaption>\n\
+             <svg viewBox=\"{} {} {wide} {wide}\" role=\"img\" aria-label=\"{}\">\n",
+            html(&self.title),
+            -HALF,
+            -HALF,
+            escape(&plain(&self.title))
         );
-        self.grid(html, (step, top, scale));
+        self.grid(page, (step, top, scale));
         let width = (0.45 * TAU * 60.0 / self.angles_rad.len() as f64).clamp(2.0, 14.0);
         for (number, series) in self.series.iter().enumerate() {
             let share = width / (number + 1) as f64;
@@ -116,48 +119,65 @@ impl PolarChart {
                 let (s, c) = angle.sin_cos();
                 let length = value.max(0.0) * scale;
                 let _ = write!(
-                    html,
+                    page,
                     "<line x1=\"0\" y1=\"0\" x2=\"{:.2}\" y2=\"{:.2}\" stroke=\"var(--c{number})\" stroke-width=\"{share:.1}\"/>",
                     length * c,
                     -length * s
                 );
             }
         }
-        html.push_str("\n</svg>\n");
+        // On top of the bars, or they would hide it.
+        for circle in 1..=circles(step, top) {
+            let value = step * circle as f64;
+            let _ = write!(
+                page,
+                "<text x=\"3\" y=\"{:.1}\">{}</text>",
+                -value * scale - 2.0,
+                tick(value)
+            );
+        }
+        page.push_str("\n</svg>\n");
         let entries = self.series.iter().enumerate();
         let entries = entries.map(|(number, series)| (number, &series.name[..]));
-        let told = format!("in {0}; circles every {step} {0}", self.unit);
-        html.push_str(&legend(entries, &told));
-        html.push_str("</figure>\n");
+        let told = format!("in {0}; circles every {1} {0}", self.unit, tick(step));
+        page.push_str(&legend(entries, &told));
+        page.push_str("</figure>\n");
         Ok(())
     }
 
     /// Circles, and rays at every 45°.
-    fn grid(&self, html: &mut String, (step, top, scale): (f64, f64, f64)) {
-        let circles = (top / step).round().max(1.0) as usize;
-        for circle in 1..=circles {
-            let value = step * circle as f64;
-            let radius = value * scale;
-            let _ = write!(
-                html,
-                "<circle r=\"{radius:.1}\" class=\"grid\"/><text x=\"3\" y=\"{:.1}\">{value}</text>",
-                -radius - 2.0
-            );
+    fn grid(&self, page: &mut String, (step, top, scale): (f64, f64, f64)) {
+        for circle in 1..=circles(step, top) {
+            let radius = step * circle as f64 * scale;
+            let _ = write!(page, "<circle r=\"{radius:.1}\" class=\"grid\"/>");
         }
         for eighth in 0..8_u8 {
             let degrees = 45.0 * f64::from(eighth);
             let (s, c) = degrees.to_radians().sin_cos();
             let (x, y) = (c * (RADIUS + 24.0), -s * (RADIUS + 24.0) + 4.0);
             let _ = write!(
-                html,
+                page,
                 "<line x1=\"0\" y1=\"0\" x2=\"{:.1}\" y2=\"{:.1}\" class=\"grid\"/>\
                  <text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"middle\">{degrees}°</text>",
                 RADIUS * c,
                 -RADIUS * s
             );
         }
-        html.push('\n');
+        page.push('\n');
     }
+}
+
+fn circles(step: f64, top: f64) -> usize {
+    (top / step).round().max(1.0) as usize
+}
+
+/// A number beside an axis: without the rounding of a sum, small and large ones with a power of ten.
+pub(super) fn tick(value: f64) -> String {
+    let exact = format!("{value:.4e}").parse::<f64>().unwrap_or(value);
+    plain(&match exact != 0.0 && !(1e-4..1e7).contains(&exact.abs()) {
+        true => format!("{exact:e}"),
+        false => exact.to_string(),
+    })
 }
 
 /// 1, 2 or 5 times a power of ten, so that three to six fit in.

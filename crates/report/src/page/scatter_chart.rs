@@ -2,14 +2,18 @@
 //!
 //! Drawn as SVG in the page itself: it needs no script.
 
-use super::markup::{COLOURS, escape, legend};
-use super::polar_chart::round_step;
+use super::markup::{COLOURS, escape, legend, text_width};
+use super::polar_chart::{round_step, tick};
+use super::typography::{html, plain, svg};
 use super::{Axis, PageError};
 use std::fmt::Write as _;
 
-/// Width and height of the field, and room for numbers at its left, top, right and bottom, in the drawing's own units.
-const FIELD: [f64; 2] = [520.0, 320.0];
-const ROOM: [f64; 4] = [64.0, 10.0, 14.0, 42.0];
+/// Width and height of the drawing, in its own units.
+const SIZE: [f64; 2] = [460.0, 300.0];
+
+/// Room above the field and below it: a line of numbers, a line with the title of the axis.
+const ABOVE: f64 = 10.0;
+const BELOW: f64 = 46.0;
 
 /// Points of one kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +21,7 @@ pub struct PointSeries {
     name: String,
     points: Vec<[f64; 2]>,
     joined: bool,
+    is_mark: bool,
     through: Vec<[f64; 2]>,
     labels: Vec<String>,
 }
@@ -28,6 +33,7 @@ impl PointSeries {
             name: name.into(),
             points,
             joined: false,
+            is_mark: false,
             through: Vec::new(),
             labels: Vec::new(),
         }
@@ -37,6 +43,13 @@ impl PointSeries {
     #[must_use]
     pub fn joined(mut self) -> Self {
         self.joined = true;
+        self
+    }
+
+    /// A ring each: a few points that a reader looks for.
+    #[must_use]
+    pub fn marked(mut self) -> Self {
+        self.is_mark = true;
         self
     }
 
@@ -132,9 +145,7 @@ impl Scale {
         let first = (low / step).round();
         let at = |k: i32| {
             let value = step * (first + f64::from(k));
-            // Without the rounding of the sum.
-            let text = format!("{value:.4e}").parse::<f64>();
-            (value, text.unwrap_or(value).to_string())
+            (value, tick(value))
         };
         (0..=count).map(at).collect()
     }
@@ -149,8 +160,18 @@ fn power_of_ten(power: i32) -> String {
             power.unsigned_abs() as usize
         ),
         0..=4 => format!("{:.0}", 10.0_f64.powi(power)),
-        _ => format!("1e{power}"),
+        _ => plain(&format!("1e{power}")),
     }
+}
+
+/// Every so many numbers of an abscissa are written, so that they do not touch.
+fn every(ticks: &[(f64, String)], room: f64) -> usize {
+    let widest = ticks
+        .iter()
+        .map(|(_, text)| text_width(text))
+        .fold(0.0, f64::max);
+    let fit = (room / (widest + 10.0)).floor().max(1.0) as usize;
+    ticks.len().div_ceil(fit)
 }
 
 impl ScatterChart {
@@ -186,7 +207,7 @@ impl ScatterChart {
         self
     }
 
-    pub(super) fn render(&self, html: &mut String) -> Result<(), PageError> {
+    pub(super) fn render(&self, page: &mut String) -> Result<(), PageError> {
         let all = || {
             let series = self.series.iter();
             series.flat_map(|series| series.points.iter().chain(&series.through))
@@ -216,47 +237,76 @@ impl ScatterChart {
             });
         }
         let scales = [0, 1].map(|k| Scale::of(all().map(move |p| p[k]), self.logarithmic[k]));
-        let x = |value: f64| ROOM[0] + FIELD[0] * scales[0].share(value);
-        let y = |value: f64| ROOM[1] + FIELD[1] * (1.0 - scales[1].share(value));
-        let title = escape(&self.title);
-        let (wide, high) = (ROOM[0] + FIELD[0] + ROOM[2], ROOM[1] + FIELD[1] + ROOM[3]);
-        let (right, bottom) = (ROOM[0] + FIELD[0], ROOM[1] + FIELD[1]);
+        let ticks = [0, 1].map(|k: usize| scales[k].ticks());
+        let widest = |ticks: &[(f64, String)]| {
+            let widths = ticks.iter().map(|(_, text)| text_width(text));
+            widths.fold(0.0, f64::max)
+        };
+        // The title of the ordinate, its numbers; half of the last number of the abscissa.
+        let left = 26.0 + widest(&ticks[1]);
+        let right = SIZE[0] - (0.5 * widest(&ticks[0]) + 4.0).max(10.0);
+        let bottom = SIZE[1] - BELOW;
+        let x = |value: f64| left + (right - left) * scales[0].share(value);
+        let y = |value: f64| ABOVE + (bottom - ABOVE) * (1.0 - scales[1].share(value));
         // Writing to a String does not fail.
         let _ = write!(
-            html,
-            "<figure class=\"polar points\">\n<figcaption>{title}</figcaption>\n<svg viewBox=\"0 0 {wide} {high}\" role=\"img\" aria-label=\"{title}\">\n"
+            page,
+            "<figure class=\"polar points\">\n<figcaption>{}</figcaption>\n<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n",
+            html(&self.title),
+            SIZE[0],
+            SIZE[1],
+            escape(&plain(&self.title))
         );
-        for (value, text) in scales[0].ticks() {
-            let at = x(value);
+        let every = every(&ticks[0], right - left);
+        for (number, (value, text)) in ticks[0].iter().enumerate() {
+            let at = x(*value);
             let _ = write!(
-                html,
-                "<line x1=\"{at:.1}\" y1=\"{}\" x2=\"{at:.1}\" y2=\"{bottom}\" class=\"grid\"/><text x=\"{at:.1}\" y=\"{}\" text-anchor=\"middle\">{text}</text>",
-                ROOM[1],
-                bottom + 15.0
+                page,
+                "<line x1=\"{at:.1}\" y1=\"{ABOVE}\" x2=\"{at:.1}\" y2=\"{bottom}\" class=\"grid\"/>"
             );
+            if number % every == 0 {
+                let _ = write!(
+                    page,
+                    "<text x=\"{at:.1}\" y=\"{}\" text-anchor=\"middle\">{text}</text>",
+                    bottom + 18.0
+                );
+            }
         }
-        for (value, text) in scales[1].ticks() {
-            let at = y(value);
+        for (value, text) in &ticks[1] {
+            let at = y(*value);
             let _ = write!(
-                html,
-                "<line x1=\"{}\" y1=\"{at:.1}\" x2=\"{right}\" y2=\"{at:.1}\" class=\"grid\"/><text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{text}</text>",
-                ROOM[0],
-                ROOM[0] - 6.0,
+                page,
+                "<line x1=\"{left:.1}\" y1=\"{at:.1}\" x2=\"{right:.1}\" y2=\"{at:.1}\" class=\"grid\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{text}</text>",
+                left - 6.0,
                 at + 4.0
             );
         }
-        let named = |axis: &Axis| match &axis.unit[..] {
-            "" => escape(&axis.label),
-            unit => format!("{} / {}", escape(&axis.label), escape(unit)),
+        let named = |axis: &Axis, room: f64| {
+            let label = match &axis.unit[..] {
+                "" => axis.label.clone(),
+                unit => format!("{} [{unit}]", axis.label),
+            };
+            // A long title is set closer instead of being cut.
+            let close = match text_width(&plain(&label)) > room {
+                true => format!(" textLength=\"{room:.0}\" lengthAdjust=\"spacingAndGlyphs\""),
+                false => String::new(),
+            };
+            (close, svg(&label))
         };
+        let (close, label) = named(&self.axes[0], SIZE[0] - 8.0);
+        let middle = 0.5 * (left + right);
+        let half = 0.5 * text_width(&label).min(SIZE[0] - 8.0);
         let _ = write!(
-            html,
-            "\n<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text><text transform=\"translate(13 {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-            0.5 * (ROOM[0] + right),
-            high - 6.0,
-            named(&self.axes[0]),
-            0.5 * (ROOM[1] + bottom),
-            named(&self.axes[1])
+            page,
+            "\n<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\"{close}>{label}</text>",
+            middle.clamp(half, (SIZE[0] - half).max(half)),
+            SIZE[1] - 6.0
+        );
+        let (close, label) = named(&self.axes[1], bottom + BELOW - 12.0);
+        let _ = writeln!(
+            page,
+            "<text transform=\"translate(13 {:.1}) rotate(-90)\" text-anchor=\"middle\"{close}>{label}</text>",
+            0.5 * SIZE[1]
         );
         for (number, series) in self.series.iter().enumerate() {
             let colour = number % COLOURS;
@@ -266,31 +316,40 @@ impl ScatterChart {
             };
             if !line.is_empty() {
                 let _ = write!(
-                    html,
+                    page,
                     "<polyline fill=\"none\" stroke=\"var(--c{colour})\" points=\""
                 );
                 for [a, b] in line {
-                    let _ = write!(html, "{:.1},{:.1} ", x(*a), y(*b));
+                    let _ = write!(page, "{:.1},{:.1} ", x(*a), y(*b));
                 }
-                html.push_str("\"/>");
+                page.push_str("\"/>");
             }
             let radius = if series.joined { 3.5 } else { 2.0 };
+            let drawn = match series.is_mark {
+                true => format!(
+                    "r=\"5.5\" fill=\"none\" stroke=\"var(--c{colour})\" stroke-width=\"2\""
+                ),
+                false => format!("r=\"{radius}\" fill=\"var(--c{colour})\""),
+            };
             for (k, [a, b]) in series.points.iter().enumerate() {
-                let label = series.labels.get(k).map_or(String::new(), |l| escape(l));
+                let label = series
+                    .labels
+                    .get(k)
+                    .map_or(String::new(), |l| escape(&plain(l)));
                 let _ = write!(
-                    html,
-                    "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"{radius}\" fill=\"var(--c{colour})\"><title>{label}</title></circle>",
+                    page,
+                    "<circle cx=\"{:.1}\" cy=\"{:.1}\" {drawn}><title>{label}</title></circle>",
                     x(*a),
                     y(*b)
                 );
             }
-            html.push('\n');
+            page.push('\n');
         }
-        html.push_str("</svg>\n");
+        page.push_str("</svg>\n");
         let entries = self.series.iter().enumerate();
         let entries = entries.map(|(number, series)| (number, &series.name[..]));
-        html.push_str(&legend(entries, &self.told));
-        html.push_str("</figure>\n");
+        page.push_str(&legend(entries, &self.told));
+        page.push_str("</figure>\n");
         Ok(())
     }
 }
@@ -311,15 +370,53 @@ mod tests {
         chart(vec![[0.0, 10.0], [10.0, 20.0]])
             .render(&mut html)
             .unwrap();
-        let corner = format!("cx=\"{:.1}\" cy=\"{:.1}\"", ROOM[0] + FIELD[0], ROOM[1]);
-        assert!(
-            html.contains(&corner) && html.contains("&lt;all&gt;"),
-            "{html}"
-        );
+        assert!(html.contains("&lt;all&gt;"), "{html}");
+        // The last point is the corner of the grid.
+        let number = |text: &str, name: &str| -> f64 {
+            let from = text.split(name).nth(1).unwrap();
+            from.split('"').nth(1).unwrap().parse().unwrap()
+        };
+        let corner = |html: &str| {
+            let last = html.split("<circle").last().unwrap();
+            let grid = html.split("text-anchor=\"end\"").next().unwrap();
+            let line = grid.rsplit("<line").next().unwrap();
+            assert_eq!(number(last, "cx="), number(line, "x2="));
+            assert_eq!(number(last, "cy="), ABOVE);
+        };
+        corner(&html);
         let mut html = String::new();
         let log = chart(vec![[0.1, 1.0], [10.0, 100.0]]).logarithmic(true, true);
         log.render(&mut html).unwrap();
-        assert!(html.contains(&corner) && html.contains(">0.1<"), "{html}");
+        corner(&html);
+        assert!(html.contains(">0.1<"), "{html}");
+    }
+
+    /// However long numbers and titles are, they are inside, and numbers of the abscissa do not touch.
+    #[test]
+    fn numbers_have_room() {
+        for points in [[1e5, 1.2e5], [0.001, 0.0012], [-2e-6, 3e-6], [1e9, 3e9]] {
+            let mut html = String::new();
+            chart(vec![[points[0]; 2], [points[1]; 2]])
+                .render(&mut html)
+                .unwrap();
+            let mut before = f64::NEG_INFINITY;
+            for text in html.split("<text x=\"").skip(1) {
+                let (at, rest) = text.split_once('"').unwrap();
+                let at: f64 = at.parse().unwrap();
+                let words = rest.split_once('>').unwrap().1.split('<').next().unwrap();
+                let wide = text_width(words);
+                let left = match rest.contains("\"end\"") {
+                    true => at - wide,
+                    false => at - 0.5 * wide,
+                };
+                assert!(left >= 13.0 && left + wide <= SIZE[0], "{words} at {at}");
+                if rest.contains("\"end\"") || words.starts_with('a') {
+                    continue;
+                }
+                assert!(left > before, "{words} touches the number before");
+                before = left + wide;
+            }
+        }
     }
 
     /// Points that hardly differ are not drawn so far apart that all numbers beside the axes read the same.

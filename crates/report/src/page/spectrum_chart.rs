@@ -3,6 +3,7 @@
 use super::PageError;
 use super::line_chart::{Axis, check_abscissas};
 use super::packed::floats;
+use super::typography::plain;
 use serde_json::{Value, json};
 
 /// Decades below the strongest line that are shown.
@@ -137,7 +138,7 @@ impl SpectrumChart {
                 });
             }
             series.push(
-                json!({ "name": s.name, "values": floats(s.amplitudes[..kept].iter().copied()) }),
+                json!({ "name": plain(&s.name), "values": floats(s.amplitudes[..kept].iter().copied()) }),
             );
         }
         if series.is_empty() {
@@ -149,7 +150,7 @@ impl SpectrumChart {
         let highlighted: Vec<Value> = self
             .highlighted
             .iter()
-            .map(|h| json!({ "order": h.order, "label": h.label }))
+            .map(|h| json!({ "order": h.order, "label": plain(&h.label) }))
             .collect();
         Ok(json!({
             "y": self.y.payload(),

@@ -2,6 +2,7 @@
 
 use super::PageError;
 use super::markup::escape;
+use super::typography::{html, plain};
 use std::fmt::Write as _;
 
 /// How the cells of a column stand.
@@ -67,34 +68,36 @@ impl Table {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
 
-    pub(super) fn render(&self, html: &mut String) -> Result<(), PageError> {
+    pub(super) fn render(&self, page: &mut String) -> Result<(), PageError> {
         let class = |align| match align {
             Align::Left => "",
             Align::Phrase => " class=\"phrase\"",
             Align::Right => " class=\"number\"",
         };
-        if self.folded {
-            let _ = writeln!(
-                html,
-                "<details><summary>{} ({} rows)</summary>",
-                escape(&self.caption),
+        // The caption stands outside the part that scrolls: it is never cut.
+        let caption = html(&self.caption);
+        let _ = match self.folded {
+            true => writeln!(
+                page,
+                "<details><summary>{caption} ({} rows)</summary>",
                 self.rows.len()
-            );
-        }
+            ),
+            false => writeln!(page, "<p class=\"caption\">{caption}</p>"),
+        };
         let _ = write!(
-            html,
-            "<div class=\"table\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\"><table>\n<caption>{0}</caption>\n<thead><tr>",
-            escape(&self.caption)
+            page,
+            "<div class=\"table\" tabindex=\"0\" role=\"group\" aria-label=\"{}\"><table>\n<thead><tr>",
+            escape(&plain(&self.caption))
         );
         for (head, align) in &self.columns {
             let _ = write!(
-                html,
+                page,
                 "<th scope=\"col\"{}>{}</th>",
                 class(*align),
-                escape(head)
+                html(head)
             );
         }
-        html.push_str("</tr></thead>\n<tbody>\n");
+        page.push_str("</tr></thead>\n<tbody>\n");
         for (i, row) in self.rows.iter().enumerate() {
             if row.len() != self.columns.len() {
                 return Err(PageError::Count {
@@ -104,15 +107,15 @@ impl Table {
                     expected: self.columns.len(),
                 });
             }
-            html.push_str("<tr>");
+            page.push_str("<tr>");
             for (cell, (_, align)) in row.iter().zip(&self.columns) {
-                let _ = write!(html, "<td{}>{}</td>", class(*align), escape(cell));
+                let _ = write!(page, "<td{}>{}</td>", class(*align), html(cell));
             }
-            html.push_str("</tr>\n");
+            page.push_str("</tr>\n");
         }
-        html.push_str("</tbody></table></div>\n");
+        page.push_str("</tbody></table></div>\n");
         if self.folded {
-            html.push_str("</details>\n");
+            page.push_str("</details>\n");
         }
         Ok(())
     }
@@ -147,17 +150,17 @@ impl KeyFigures {
         self
     }
 
-    pub(super) fn render(&self, html: &mut String) {
-        html.push_str("<dl class=\"figures\">\n");
+    pub(super) fn render(&self, page: &mut String) {
+        page.push_str("<dl class=\"figures\">\n");
         for [label, value, unit] in &self.figures {
             let _ = writeln!(
-                html,
+                page,
                 "<div><dt>{}</dt><dd>{} <span>{}</span></dd></div>",
-                escape(label),
-                escape(value),
-                escape(unit)
+                html(label),
+                html(value),
+                html(unit)
             );
         }
-        html.push_str("</dl>\n");
+        page.push_str("</dl>\n");
     }
 }

@@ -1,6 +1,7 @@
-//! Paragraphs, notes and preformatted text.
+//! Paragraphs, notes, lists and preformatted text.
 
 use super::markup::escape;
+use super::typography::html;
 use std::fmt::Write as _;
 
 /// A piece of running text.
@@ -14,6 +15,7 @@ pub struct Text {
 enum Kind {
     Paragraph,
     Note,
+    List,
     Preformatted,
 }
 
@@ -34,7 +36,18 @@ impl Text {
         }
     }
 
-    /// Text with its own line breaks and fixed-width letters.
+    /// Sentences one below the other; none may have line breaks of its own.
+    pub fn list<S: AsRef<str>>(items: impl IntoIterator<Item = S>) -> Self {
+        let items = items
+            .into_iter()
+            .map(|item| item.as_ref().replace('\n', " "));
+        Self {
+            kind: Kind::List,
+            text: items.collect::<Vec<_>>().join("\n"),
+        }
+    }
+
+    /// Text with its own line breaks and fixed-width letters, as it is: a file.
     pub fn preformatted(text: impl Into<String>) -> Self {
         Self {
             kind: Kind::Preformatted,
@@ -42,12 +55,16 @@ impl Text {
         }
     }
 
-    pub(super) fn render(&self, html: &mut String) {
-        let text = escape(&self.text);
+    pub(super) fn render(&self, page: &mut String) {
+        let text = &self.text;
         let _ = match self.kind {
-            Kind::Paragraph => writeln!(html, "<p>{text}</p>"),
-            Kind::Note => writeln!(html, "<p class=\"note\" role=\"note\">{text}</p>"),
-            Kind::Preformatted => writeln!(html, "<pre tabindex=\"0\">{text}</pre>"),
+            Kind::Paragraph => writeln!(page, "<p>{}</p>", html(text)),
+            Kind::Note => writeln!(page, "<p class=\"note\" role=\"note\">{}</p>", html(text)),
+            Kind::List => {
+                let items = text.lines().map(|line| format!("<li>{}</li>", html(line)));
+                writeln!(page, "<ul>{}</ul>", items.collect::<String>())
+            }
+            Kind::Preformatted => writeln!(page, "<pre tabindex=\"0\">{}</pre>", escape(text)),
         };
     }
 }

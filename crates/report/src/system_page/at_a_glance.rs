@@ -1,10 +1,12 @@
 //! What a reader asks first of a run in time or of equilibria: key figures, and a line for each channel.
 
+use std::collections::BTreeMap;
+
 use gearmesh_scene::system_run::{
-    ColumnSummary, Figures, MeshPassing, ResultKind, SystemResult, foremost, rank, stem,
+    ColumnSummary, Figures, MeshPassing, ResultKind, SystemResult, foremost, rank, rounding, stem,
 };
 
-use super::columns::readable;
+use crate::column_words::readable;
 use crate::page::{Align, KeyFigures, Table};
 use crate::short_number::{short, usual_unit};
 
@@ -13,6 +15,9 @@ pub(super) const MOST_MESHES: usize = 4;
 
 /// The last rank that the first table of a page has: meshes, bearings, strain, line loads, speeds.
 const LAST_RANK: u8 = 5;
+
+/// That of line loads, of which there are many: they have a folded table of their own.
+const LINE_LOADS: u8 = 4;
 
 /// What the figures of a column are of.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -78,18 +83,27 @@ pub(super) fn key_figures(r: &SystemResult, found: &[ColumnSummary]) -> KeyFigur
     figures
 }
 
-/// Meshes, bearings and speeds, and folded all other force elements; those without a column are left out.
+/// Meshes, bearings and speeds, and folded line loads and all other force elements; those without a column are left out.
 pub(super) fn tables(
     r: &SystemResult,
     found: Vec<ColumnSummary>,
     passings: &[MeshPassing],
 ) -> Vec<Table> {
     let extent = Extent::of(r);
+    let still = || {
+        [
+            "Meshes and bearings",
+            "Line loads of the slices",
+            "Springs, couplings and beams",
+        ]
+        .map(str::to_owned)
+    };
     let (titles, heads): (_, &[&str]) = match extent {
         Extent::Time => (
             [
-                "Meshes, bearings and speeds over the whole run",
-                "Springs, couplings and beams over the whole run",
+                format!("Meshes, bearings and speeds: {}", r.statistics_in_words()),
+                "Line loads of the slices over the same time".to_owned(),
+                "Springs, couplings and beams over the same time".to_owned(),
             ],
             &[
                 "mean",
@@ -100,28 +114,29 @@ pub(super) fn tables(
                 "dominant Hz",
             ],
         ),
-        Extent::Equilibrium => (
-            ["Meshes and bearings", "Springs, couplings and beams"],
-            &["value"],
-        ),
-        Extent::Equilibria => (
-            ["Meshes and bearings", "Springs, couplings and beams"],
-            &["mean", "least", "largest", "peak to peak"],
-        ),
+        Extent::Equilibrium => (still(), &["value"]),
+        Extent::Equilibria => (still(), &["mean", "least", "largest", "peak to peak"]),
     };
-    let [first, rest] = titles.map(|title| {
+    let [first, slices, rest] = titles.map(|title| {
         let table = Table::new(title)
             .column("column", Align::Left)
             .column("unit", Align::Left);
         let heads = heads.iter();
         heads.fold(table, |table, head| table.column(*head, Align::Right))
     });
-    let mut tables = [first, rest.folded()];
+    let mut tables = [first, slices.folded(), rest.folded()];
+    // The largest amount of each unit, beside which rounding is nothing.
+    let mut amounts: BTreeMap<String, f64> = BTreeMap::new();
+    for column in &found {
+        let amount = amounts.entry(column.unit.clone()).or_default();
+        *amount = amount.max(column.figures.magnitude());
+    }
     for column in foremost(found) {
         let name = stem(&column.name, &column.unit);
         let f = column.figures;
         let (factor, unit) = usual_unit(&column.unit, f.magnitude());
-        let shown = |x: f64| short(factor * x);
+        let least = rounding(&column.unit) * amounts.get(&column.unit).copied().unwrap_or(0.0);
+        let shown = |x: f64| short(if x.abs() > least { factor * x } else { 0.0 });
         let incomplete = passings
             .iter()
             .any(|mesh| mesh.leaves_incomplete(&column.name));
@@ -135,10 +150,15 @@ pub(super) fn tables(
             Extent::Equilibria => row.extend([f.least, f.largest, f.peak_to_peak()].map(shown)),
             Extent::Time => {
                 row.extend([f.deviation, f.least, f.largest, f.peak_to_peak()].map(shown));
-                row.push(column.dominant_hz.map_or("-".to_owned(), short));
+                row.push(column.dominant_hz.map_or("none".to_owned(), short));
             }
         }
-        tables[usize::from(rank(&column.name) > LAST_RANK)].push_row(row);
+        let place = match rank(&column.name) {
+            LINE_LOADS => 1,
+            rank if rank > LAST_RANK => 2,
+            _ => 0,
+        };
+        tables[place].push_row(row);
     }
     tables
         .into_iter()

@@ -33,16 +33,6 @@ pub(super) fn quantity(unit: &str) -> &'static str {
     }
 }
 
-/// `elements/mesh/normal_force_right` as `mesh: normal force right`.
-pub(super) fn readable(name: &str) -> String {
-    let parts: Vec<&str> = name.split('/').skip(1).collect();
-    match parts.split_last() {
-        None => name.to_owned(),
-        Some((last, [])) => last.replace('_', " "),
-        Some((last, before)) => format!("{}: {}", before.join(" "), last.replace('_', " ")),
-    }
-}
-
 /// The meshes that turned.
 pub(super) fn turning(passings: &[MeshPassing]) -> impl Iterator<Item = &MeshPassing> {
     passings.iter().filter(|mesh| mesh.frequency_hz > 0.0)

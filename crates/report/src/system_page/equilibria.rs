@@ -3,7 +3,8 @@
 use gearmesh_model::{Column, FileError};
 use gearmesh_scene::system_run::{SystemResult, rank, stem};
 
-use super::columns::{MOST_CHARTS, groups, left_out, readable, scaled};
+use super::columns::{MOST_CHARTS, groups, left_out, scaled};
+use crate::column_words::readable;
 use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table};
 use crate::short_number::short;
 

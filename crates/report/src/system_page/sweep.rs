@@ -1,15 +1,14 @@
 //! Curves of a speed sweep, up and down.
 
-use std::f64::consts::TAU;
-
 use gearmesh_model::Column;
 use gearmesh_scene::system_run::{
     Figures, SweepResult, SystemResult, Window, is_prominent, rank, stem,
 };
 
 use super::at_a_glance::MOST_MESHES;
-use super::columns::{MOST_CHARTS, quantity, readable, scaled, speed_axis};
+use super::columns::{MOST_CHARTS, scaled, speed_axis};
 use super::transient::run_table;
+use crate::column_words::readable;
 use crate::page::{
     Axis, KeyFigures, LineChart, LineSeries, LineStyle, Section, SeriesColour, Text,
 };
@@ -36,12 +35,11 @@ pub(super) fn key_figures(sweep: &SweepResult) -> KeyFigures {
         let values = windows.map(|(window, figures)| (window, value(&figures[column])));
         values.max_by(|a, b| a.1.total_cmp(&b.1))
     };
+    // As the axes of the charts have it: of a motion in the negative sense the amount.
+    let (_, per_unit) = speed_axis(sweep.windows.iter().map(|w| w.speed_rad_per_s));
     let at = |window: &Window| {
         let way = if window.up { "up" } else { "down" };
-        format!(
-            "at {} rpm, {way}",
-            short(window.speed_rad_per_s * 60.0 / TAU)
-        )
+        format!("at {} rpm, {way}", short(window.speed_rad_per_s * per_unit))
     };
     let mut push = |label: String, column: &Column, found: Option<(&Window, f64)>| {
         if let Some((window, value)) = found {
@@ -147,10 +145,12 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
                 });
             }
         }
-        let label = quantity(unit);
+        let title = readable(name);
+        let label = title.rsplit_once(": ").map_or(&title[..], |(_, what)| what);
+        let label = label.to_owned();
         let unit = scaled(unit, curves.iter_mut().map(|curve| &mut curve.values));
-        let mut chart = LineChart::new(readable(name), axis.clone(), Axis::new(label, unit))
-            .x_values(speeds.clone());
+        let mut chart =
+            LineChart::new(title, axis.clone(), Axis::new(label, unit)).x_values(speeds.clone());
         for curve in curves {
             let series = LineSeries::new(curve.name, curve.values)
                 .style(curve.style)

@@ -265,11 +265,10 @@ impl Flank {
             let above = first + across as u32 + 1;
             [first, first + 1, above + 1, above]
         });
-        let largest = cells.iter().copied().fold(0.0, f64::max);
         FieldPicture::new(title, "pressure", "MPa")
             .mesh(nodes.collect(), quads.collect())
             .values(FieldValues::PerElement(cells))
-            .colour_range(0.0, largest.max(f64::MIN_POSITIVE))
+            .colours_of_most()
     }
 
     /// The way of one contact over the flank, with ellipses.

@@ -63,6 +63,15 @@ pub(super) fn spectra(
     let mut section = Section::new(format!("{}: spectra", r.head.title)).push(Text::paragraph(
         "Amplitudes over the second half of the run, mean removed, Hann window. Mesh frequencies are means over that half.",
     ));
+    if r.samples_per_row > 1 {
+        section = section.push(Text::paragraph(format!(
+            "Rows are {interval_s} s apart, {} samples each: the spectra are those of the samples, without what vibrates faster than rows \
+             can tell, and end at {} of half the rate of the rows, {:.1} Hz.",
+            r.samples_per_row,
+            r.spectrum_band(),
+            r.spectrum_band() * 0.5 / interval_s
+        )));
+    }
     let mut charts = 0;
     for group in groups(r, varies(r)) {
         let of_elements = group.columns.iter().all(|(c, _)| is_prominent(c));
@@ -72,7 +81,7 @@ pub(super) fn spectra(
         let mut curves = Vec::new();
         let mut lines = Vec::new();
         for (column, curve) in &group.columns {
-            let all = r.rows.read(column)?;
+            let all = r.read_for_spectrum(column)?;
             let half = all.len().div_ceil(2).min(LONGEST);
             let values = &all[all.len() - half..];
             let mean = values.iter().sum::<f64>() / values.len() as f64;
@@ -80,8 +89,9 @@ pub(super) fn spectra(
             let Ok(spectrum) = amplitude_spectrum(&centred, 1.0 / interval_s, Window::Hann) else {
                 continue;
             };
-            lines = (0..spectrum.values.len()).map(|i| spectrum.at(i)).collect();
-            curves.push((curve, spectrum.values));
+            let right = (r.spectrum_band() * spectrum.values.len() as f64) as usize;
+            lines = (0..right).map(|i| spectrum.at(i)).collect();
+            curves.push((curve, spectrum.values[..right].to_vec()));
         }
         let end = meshes
             .iter()
@@ -154,7 +164,7 @@ pub(super) fn accuracy(r: &SystemResult) -> Result<Section, FileError> {
     if let Some(record) = &r.record {
         section = section.push(run_table(record));
     }
-    Ok(section
+    section = section
         .push(chart(
             "Energies",
             Axis::new("energy", "J"),
@@ -177,13 +187,18 @@ pub(super) fn accuracy(r: &SystemResult) -> Result<Section, FileError> {
             Axis::new("violation", "m or rad"),
             &[("run/largest_violation", "violation")],
             AxisScale::Logarithmic,
-        )?)
-        .push(chart(
+        )?);
+    // A fixed step is a number of the table.
+    let steps = r.rows.read("run/step_s")?;
+    if steps.iter().any(|step| *step != steps[0]) {
+        section = section.push(chart(
             "Step",
             Axis::new("step", "s"),
             &[("run/step_s", "step")],
             AxisScale::Logarithmic,
-        )?))
+        )?);
+    }
+    Ok(section)
 }
 
 pub(super) fn run_table(record: &RunRecord) -> Table {

@@ -1,6 +1,7 @@
 //! 23 teeth drive 47, the wheel with six holes: results and records of made-up orders, on either shaft.
 
 use gearmesh_model::StoredGear;
+use gearmesh_report::export::{Cells, torque_table};
 use gearmesh_report::scene_comparison::{SceneComparisonError, compare_scene};
 use gearmesh_report::scene_page::{SceneChapter, scene_page};
 use gearmesh_report::{ReferenceRecord, SeriesComparison, comparison_table};
@@ -43,6 +44,7 @@ fn result(pitches: usize) -> SceneResult {
         coverage: Coverage::of_contact(period, pitches),
         method_1: over(&|a| strain(a, teeth)),
         method_2: over(&|a| strain(a, teeth)),
+        between: Default::default(),
     };
     let holes = "kind = \"thin-rim\"\nhub_diameter_mm = 50.0\nrim_inner_diameter_mm = 124.0\nweb_thickness_mm = 6.0\n\
                  [blank.holes]\ncount = 6\npitch_circle_diameter_mm = 88.0\ndiameter_mm = 20.0\nphase_deg = 0.0\n";
@@ -180,6 +182,53 @@ fn an_offset_is_reported_and_not_applied() {
     assert!(c.correlation.unwrap() < 0.9 && c.largest_deviation.abs() > 1e-7);
     let table = comparison_table(std::slice::from_ref(c));
     assert!(table.contains("2.86") && table.contains("best"), "{table}");
+}
+
+/// Of a pair whose teeth are all alike every pitch is as good an offset as the next one.
+#[test]
+fn an_offset_is_counted_within_the_period_of_ours() {
+    // One pitch of the wheel is 7.66°; the once per revolution of the reference makes pitches differ by a little.
+    let (by, noise) = (0.4 * TAU / 47.0, 1e-3);
+    let mesh = |a: f64| -20.0 + 0.8 * (23.0 * a).cos();
+    let all_alike = SceneResult {
+        contact_coverage: Coverage::of_contact(1, 94),
+        te_m: (result(94).angle_rad.iter().enumerate())
+            .map(|(k, a)| 1e-6 * (mesh(*a) + noise * ((17 * k % 101) as f64 / 101.0 - 0.5)))
+            .collect(),
+        ..result(94)
+    };
+    let shifted = record("shaft = \"gear_2\"\n", (47, 1), "te_um_100Nm", |a| {
+        mesh(a - by * 47.0 / 23.0)
+    });
+    let [c] = &compare_scene(&all_alike, &shifted).unwrap()[..] else {
+        panic!()
+    };
+    let found = c.best_offset_rad.unwrap();
+    assert!((found - by).abs() < 1e-3, "{found} against {by}");
+}
+
+/// A run over one and a third periods: means of the console, of tables and of Python are those of the whole period.
+#[test]
+fn means_are_of_whole_periods_in_every_table() {
+    let result = result(62);
+    let of = |points: usize| result.te_m[..points].iter().sum::<f64>() / points as f64;
+    let (whole, all) = (of(47 * POINTS), of(62 * POINTS));
+    assert!((whole / all - 1.0).abs() > 1e-4, "{whole:e} {all:e}");
+    assert!((result.figures(0).te_mean_m / whole - 1.0).abs() < 1e-12);
+    let table = torque_table(&result);
+    let column = |name: &str| {
+        let (_, cells) = table.columns.iter().find(|(head, _)| head == name).unwrap();
+        match cells {
+            Cells::Numbers(numbers) => numbers[0],
+            Cells::Texts(_) | Cells::Column(..) => f64::NAN,
+        }
+    };
+    assert_eq!(column("te_mean_m"), result.figures(0).te_mean_m);
+    assert_eq!(column("mean_over_pitches"), 47.0);
+    assert_eq!(
+        result.means_over(),
+        "means over 47 of 62 pitches: 1 times the period of 47"
+    );
 }
 
 /// A tacho on the pinion cuts every revolution: the holes of the wheel are not locked to it. Its orders are compared,

@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::study::{NormalTable, OperationTable, UniformTable};
+use crate::system::label_problem;
 
 /// The keys of the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -157,6 +158,20 @@ impl Optimisation {
         ] {
             if is_empty {
                 return Err(document.error(key, "is empty; give at least one"));
+            }
+        }
+        let variables = tables.variable.iter().map(|v| ("variable", &v.name));
+        let scatter = tables.scatter.iter().map(|s| ("scatter", &s.name));
+        let objectives = tables.objective.iter().map(|o| ("objective", &o.name));
+        for names in [
+            variables.collect::<Vec<_>>(),
+            scatter.collect(),
+            objectives.collect(),
+        ] {
+            for (i, (table, name)) in names.into_iter().enumerate() {
+                if let Some(problem) = label_problem(name) {
+                    return Err(document.error(&format!("{table}.{i}.name"), problem));
+                }
             }
         }
         for (i, variable) in tables.variable.iter().enumerate() {

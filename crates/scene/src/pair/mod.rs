@@ -1,15 +1,20 @@
 //! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks,
 //! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it,
-//! `model_shelf.rs` keeps models that many scenes share, `taken_misalignment.rs` takes the axes from a gearbox's result, `run.rs` computes, `contacts.rs` says where the
-//! teeth touch, `coverage.rs` says how much of each period that sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs` judges,
-//! `warnings.rs` tells where the model's assumptions are strained.
+//! `model_shelf.rs` keeps models that many scenes share, `taken_misalignment.rs` takes the axes from a gearbox's
+//! result, `run.rs` computes, position by position (`position.rs`, `between_positions.rs`), `figures.rs` makes the
+//! figures of a torque of it, `contacts.rs` says where the teeth touch, `coverage.rs` says how much of each period that
+//! sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs` judges, `warnings.rs` tells where the model's
+//! assumptions are strained.
 
+mod between_positions;
 mod contact_places;
 mod contacts;
 mod coverage;
+mod figures;
 mod flank_effects;
 mod model_shelf;
 pub mod plan;
+mod position;
 pub mod rating;
 pub mod result;
 mod result_record;
@@ -18,7 +23,9 @@ pub mod scene_file;
 pub mod taken_misalignment;
 pub mod warnings;
 
+pub use between_positions::{BetweenPositions, PEAK_SHARE};
 pub use contact_places::ContactPlaces;
+pub use figures::{FigureErrors, PairFigures};
 pub use model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 pub use plan::Plan;
 pub use result::{SceneResult, StrainSeries};

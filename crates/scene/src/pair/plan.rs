@@ -2,6 +2,7 @@
 
 use super::rating::PairRating;
 use super::run::LoadedScene;
+use crate::system_run::megabytes;
 use gearmesh_geometry::Misalignment;
 
 /// Size and effects of a scene.
@@ -122,6 +123,10 @@ impl Plan {
                 2 * gauges * positions
             )
         });
+        text.push(format!(
+            "result     {positions} positions, {}",
+            megabytes(loaded.result_bytes())
+        ));
         text.extend(loaded.period_lines());
         let rated = |r: &PairRating| format!("rating     {}, at each torque: {}", r.name, r.method);
         text.extend(ratings.iter().map(rated));

@@ -10,7 +10,7 @@ use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
 use crate::rating::{
     FatigueJob, FatigueTable, PassageLength, RatingFigure, RatingResult, RatingTable,
-    nominal_error, nominal_figures, nominal_method, rim_m,
+    nominal_error, nominal_figures, nominal_method, nominal_remark, rim_m,
 };
 
 /// A rating, made of the curves of a result.
@@ -67,8 +67,14 @@ impl RatedPair<'_> {
                     let teeth = self.gears.map(|gear| &gear.tooth);
                     let materials = self.gears.map(|gear| gear.material);
                     let rims = self.gears.map(rim_m);
-                    let rating = NominalRating::new(self.pair, teeth, materials, rims, load)
-                        .map_err(|error| nominal_error(&error, "kind", &keys))?;
+                    let rating = NominalRating::new(
+                        self.pair,
+                        teeth,
+                        materials,
+                        rims,
+                        (load, table.class(&keys)?),
+                    )
+                    .map_err(|error| nominal_error(&error, "kind", &keys))?;
                     PairRating {
                         name: "the pair".into(),
                         method: nominal_method(load),
@@ -147,8 +153,10 @@ impl RatedPair<'_> {
 impl PairRating {
     /// Judges one torque of a result whose strain is that of the scene's gauges.
     fn judged(&self, result: &SceneResult, torque: usize) -> RatingResult {
+        let mut warnings = Vec::new();
         let (coverage, figures) = match &self.rule {
             PairRule::Nominal(rating) => {
+                warnings.extend(nominal_remark(rating));
                 let forces = result.normal_force_n(torque);
                 let largest = forces.into_iter().fold(0.0, f64::max);
                 let figures = nominal_figures(rating, largest).map_err(|e| e.to_string());
@@ -171,7 +179,9 @@ impl PairRating {
             }
         };
         let name = format!("{} at {} N m", self.name, result.torque_nm[torque]);
-        RatingResult::new(name, self.method.clone(), figures).incomplete_by(coverage.missing())
+        RatingResult::new(name, self.method.clone(), figures)
+            .incomplete_by(coverage.missing())
+            .warning(warnings)
     }
 }
 

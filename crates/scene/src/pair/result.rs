@@ -1,5 +1,6 @@
 //! The result of a scene. Its file: `result_record.rs`.
 
+use super::between_positions::BetweenPositions;
 use super::contact_places::ContactPlaces;
 use super::coverage::named;
 use crate::periods::Coverage;
@@ -21,6 +22,8 @@ pub struct StrainSeries {
     pub method_1: Vec<f64>,
     /// Method 2.
     pub method_2: Vec<f64>,
+    /// Both methods at the positions between the even ones, `[E]`; empty in files of older programs.
+    pub between: [Vec<f64>; 2],
 }
 
 impl StrainSeries {
@@ -83,7 +86,7 @@ pub struct SceneResult {
     pub pressure_pa: Vec<f64>,
     /// Where the slices touch; none in files of older programs.
     pub places: Option<ContactPlaces>,
-    /// Largest over mean line load of the most loaded line, worst position, per torque: K_Hβ.
+    /// Largest over mean line load of the most loaded line, worst of all positions, per torque: K_Hβ.
     pub k_h_beta: Vec<f64>,
     /// Newton iterations, sum over all positions, per torque.
     pub iterations: Vec<u32>,
@@ -91,6 +94,8 @@ pub struct SceneResult {
     pub residual: Vec<f64>,
     /// Largest relative error of Σ F b = T₂, per torque.
     pub torque_balance: Vec<f64>,
+    /// Positions beside the even ones: at events and peaks.
+    pub between: BetweenPositions,
     /// Strain.
     pub strain: Vec<StrainSeries>,
     /// Ratings, torque by torque.

@@ -38,7 +38,58 @@ impl SceneResult {
     /// [`FileError`] when the file is missing, cut, altered, of another kind, or an array does not fit the others.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let (mut tree, version) = DataTree::read_with_version(path, &RESULT_FORMAT)?;
-        read_record(&mut tree, path, version)
+        let result: Self = read_record(&mut tree, path, version)?;
+        match result.contradiction() {
+            None => Ok(result),
+            Some((item, problem)) => Err(FileError::Contradiction {
+                path: path.to_owned(),
+                item,
+                problem,
+            }),
+        }
+    }
+
+    /// A number that does not go with the arrays that are there: its name, and what is wrong with it.
+    fn contradiction(&self) -> Option<(String, String)> {
+        let found = |item: &str, problem: String| Some((item.to_owned(), problem));
+        for (item, length) in [
+            ("torque_Nm", self.torque_nm.len()),
+            ("angle_rad", self.angle_rad.len()),
+        ] {
+            if length == 0 {
+                return found(item, "it is empty".to_owned());
+            }
+        }
+        let angles = self.angles();
+        if self.pitches > angles {
+            let problem = format!("it is {}, there are {angles} angles", self.pitches);
+            return found("pitches", problem);
+        }
+        let slots = self.slots;
+        if let Some(count) = (self.pair_count.iter()).find(|count| **count as usize > slots) {
+            let problem = format!("it says {count}, there are {slots} contact lines");
+            return found("pair_count", problem);
+        }
+        let gauges = self.strain.iter().enumerate();
+        let of_gauge = |(i, series): (usize, &StrainSeries)| {
+            let period = series.coverage.period_pitches;
+            (format!("gauges/{i}/period_pitches"), period)
+        };
+        let of_mesh = (
+            "contact/period_pitches".to_owned(),
+            self.contact_coverage.period_pitches,
+        );
+        let mut periods = std::iter::once(of_mesh).chain(gauges.clone().map(of_gauge));
+        if let Some((item, _)) = periods.find(|(_, period)| *period == 0) {
+            return Some((item, "it is 0, at least 1 is needed".to_owned()));
+        }
+        for (i, series) in gauges {
+            if !(1..=2).contains(&series.gear) {
+                let problem = format!("it is {}, there are gears 1 and 2", series.gear);
+                return found(&format!("gauges/{i}/gear"), problem);
+            }
+        }
+        None
     }
 }
 
@@ -58,6 +109,7 @@ impl Record for SceneResult {
         f.group("contact", |f| {
             coverage_fields(coverage, f, (pitches, of_mesh))
         })?;
+        let e = self.between_fields(f)?;
         let mut gauges = self.strain.len();
         f.count("gauge_count", &mut gauges, "gauges")?;
         f.list("gauges", &mut self.strain, |series, f| {
@@ -65,7 +117,7 @@ impl Record for SceneResult {
             let of_gear = periods.filter(|_| (1..=2).contains(&series.gear));
             let of_tooth = of_gear.map(|periods| periods.of_tooth(series.gear));
             coverage_fields(&mut series.coverage, f, (pitches, of_tooth))?;
-            strain_fields(series, f, [t, a])
+            strain_fields(series, f, [t, a], e)
         })?;
         if gauges != self.strain.len() {
             let problem = format!("it says {gauges}, there are {}", self.strain.len());
@@ -213,6 +265,79 @@ impl SceneResult {
     }
 }
 
+impl SceneResult {
+    /// Positions between the even ones, and their axis; none in files of older programs.
+    fn between_fields(
+        &mut self,
+        f: &mut Fields<'_>,
+    ) -> Result<Option<(&'static str, usize)>, FileError> {
+        let it = &mut self.between;
+        let is_there = if f.is_reading() {
+            f.has("between/angle_rad")
+        } else {
+            f.is_listing() || !it.angle_rad.is_empty()
+        };
+        if !is_there {
+            return Ok(None);
+        }
+        let t = ("torque", self.torque_nm.len());
+        let what = "positions between the even ones of each torque, one torque after the other";
+        f.counts("between/count", &mut it.count, &[t], what)?;
+        let count: u64 = it.count.iter().map(|count| u64::from(*count)).sum();
+        let e = ("position between", count as usize);
+        let what = "driver angle";
+        f.numbers("between/angle_rad", &mut it.angle_rad, &[e], "rad", what)?;
+        let what = "transmission error";
+        f.numbers("between/te_m", &mut it.te_m, &[e], "m", what)?;
+        let what = "transmission error at first touch";
+        f.numbers("between/te_unloaded_m", &mut it.unloaded_m, &[e], "m", what)?;
+        let (name, what) = (
+            "between/stiffness_tangent_N_per_m",
+            "tangent mesh stiffness",
+        );
+        f.numbers(name, &mut it.tangent_n_per_m, &[e], "N/m", what)?;
+        let axes = [e, ("contact line between", OPEN), ("slice", self.slices)];
+        let what = "normal force of each slice";
+        f.bulk("between/force_N", &mut it.force_n, &axes, "N", what)?;
+        if f.is_reading() {
+            it.slots = it.force_n.len() / (e.1 * self.slices).max(1);
+        }
+        let axes = [
+            e,
+            ("contact line between", it.slots),
+            ("slice", self.slices),
+        ];
+        let what = "peak Hertz pressure of each slice";
+        f.bulk(
+            "between/pressure_Pa",
+            &mut it.pressure_pa,
+            &axes,
+            "Pa",
+            what,
+        )?;
+        let what =
+            "what of the transmission error's peak-to-peak value the positions leave open, over it";
+        f.numbers("between/te_error", &mut it.te_error, &[t], "1", what)?;
+        let what = "what of K_Hβ the positions leave open, over it";
+        f.numbers(
+            "between/k_h_beta_error",
+            &mut it.k_h_beta_error,
+            &[t],
+            "1",
+            what,
+        )?;
+        let what = "what of the largest pressure the positions leave open, over it";
+        f.numbers(
+            "between/pressure_error",
+            &mut it.pressure_error,
+            &[t],
+            "1",
+            what,
+        )?;
+        Ok(Some(e))
+    }
+}
+
 fn place_fields(
     it: &mut ContactPlaces,
     f: &mut Fields<'_>,
@@ -230,6 +355,7 @@ fn strain_fields(
     it: &mut StrainSeries,
     f: &mut Fields<'_>,
     axes: [(&str, usize); 2],
+    e: Option<(&str, usize)>,
 ) -> Result<(), FileError> {
     f.text("name", &mut it.name, "name of the gauge")?;
     let (error, what) = (
@@ -240,7 +366,15 @@ fn strain_fields(
     let what = "strain along the profile by method 1, positive in tension";
     f.bulk("method_1", &mut it.method_1, &axes, "1", what)?;
     let what = "the same by method 2";
-    f.bulk("method_2", &mut it.method_2, &axes, "1", what)
+    f.bulk("method_2", &mut it.method_2, &axes, "1", what)?;
+    if let Some(e) = e {
+        let names = ["between_method_1", "between_method_2"];
+        for (name, values) in names.into_iter().zip(&mut it.between) {
+            let what = "the same at the positions between the even ones";
+            f.bulk(name, values, &[e], "1", what)?;
+        }
+    }
+    Ok(())
 }
 
 /// What is known of a quantity's period. Files before version 3 do not have it: it follows from the gears.

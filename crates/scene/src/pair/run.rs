@@ -1,19 +1,20 @@
 //! Loads the models of a scene, solves all positions, reads the gauges.
 
+use super::between_positions::{BetweenPositions, Found, find};
 use super::contact_places::ContactPlaces;
 use super::contacts;
 use super::flank_effects;
 use super::model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 use super::plan::Plan;
+use super::position::{Position, PositionSolver};
 use super::rating::{PairRating, RatedPair, judged};
 use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
-use super::warnings::{Assumption, Warnings};
+use super::warnings::{ASSUMPTIONS, Warnings};
 use crate::periods::PairPeriods;
-use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::{
-    AxialSpread, ContactError, ContactLines, ContactPatch, Drive, FlankDeviations, PathExtension,
-    Runout, SliceLayout, StaticContact,
+    AxialSpread, ContactError, ContactLines, ContactPatch, FlankDeviations, PathExtension, Runout,
+    SliceLayout, StaticContact,
 };
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
@@ -112,12 +113,15 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         scene.modify_flanks(1, &mut gear_1)?,
         scene.modify_flanks(2, &mut gear_2)?,
     ];
+    let mut taken = None;
     if let Some(from) = &scene.misalignment_from {
         let keys = TableKeys::new(&scene.document, "pair");
         let pair = ([gear_1.profile.teeth, gear_2.profile.teeth], scene.flank);
-        let (misalignment, note) = from.take(&keys, &scene.folder, pair)?;
-        scene.misalignment = misalignment;
-        scene.notes.push(note);
+        from.refuse_further_torques(&scene.document, &scene.torques_nm)?;
+        let axes = from.take(&keys, &scene.folder, pair)?;
+        scene.misalignment = axes.misalignment;
+        scene.notes.push(axes.note.clone());
+        taken = Some(axes);
     }
     let pair = GearPair::new(
         gear_1.profile.clone(),
@@ -127,6 +131,8 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
     )
     .map_err(|e| scene.document.error("pair", e))?
     .on_flanks(scene.flank);
+    let other_load = taken.and_then(|axes| axes.other_load(&pair, scene.torques_nm[0]));
+    scene.notes.extend(other_load);
     if pair.is_helical() && scene.path_by_default {
         scene.edge_radius_m = None;
     }
@@ -221,6 +227,15 @@ impl LoadedScene {
         Plan::new(self)
     }
 
+    /// Bytes of the forces, pressures and places of contact of a result, nearly all of it.
+    #[must_use]
+    pub fn result_bytes(&self) -> f64 {
+        let slots = self.line_slots(&self.angles_rad());
+        let slices = (slots * self.layout.slices * self.scene.positions()) as f64;
+        let (of_each_torque, of_all) = (2 * self.scene.torques_nm.len(), 3);
+        8.0 * slices * (of_each_torque + of_all) as f64
+    }
+
     /// Driver angles of the scene \[rad\].
     pub fn angles_rad(&self) -> Vec<f64> {
         let step = TAU / self.models[0].teeth as f64 / self.scene.points_per_pitch as f64;
@@ -250,21 +265,10 @@ fn refuse_too_many_forces(scene: &Scene, slices_in_contact: usize) -> Result<(),
     Err(scene.document.error("run.pitches", problem))
 }
 
-/// Curves of one torque.
-struct TorqueCurves {
-    te: Vec<f64>,
-    unloaded: Vec<f64>,
-    torque_1: Vec<f64>,
-    axial_1: Vec<f64>,
-    secant: Vec<f64>,
-    tangent: Vec<f64>,
-    force: Vec<f64>,
-    pressure: Vec<f64>,
-    k_h_beta: f64,
-    iterations: u32,
-    residual: f64,
-    torque_balance: f64,
-    warnings: Vec<(Assumption, f64)>,
+/// All positions of one torque: those of the even grid, and those between.
+struct TorquePositions {
+    even: Vec<Position>,
+    between: Found,
 }
 
 /// Solves all positions of a scene; torques run in parallel, each warm from angle to angle.
@@ -283,14 +287,14 @@ pub fn run(
     let slots = loaded.line_slots(&angles);
     let done = std::sync::atomic::AtomicUsize::new(0);
     let contact = loaded.contact()?;
-    let curves: Vec<TorqueCurves> = scene
+    let found: Vec<TorquePositions> = scene
         .torques_nm
         .par_iter()
         .map(|&torque| {
-            let curves = solve_torque(loaded, contact.clone(), &angles, slots, torque)?;
+            let found = solve_torque(loaded, contact.clone(), &angles, torque)?;
             let finished = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
             progress(finished, scene.torques_nm.len());
-            Ok(curves)
+            Ok(found)
         })
         .collect::<Result<_, RunError>>()?;
     let contact_seconds = clock.elapsed().as_secs_f64();
@@ -302,17 +306,36 @@ pub fn run(
         pair.extend((0..slots).map(|k| lines.get(k).map_or(0.0, |l| l.pair as f64)));
     }
     let mut warnings = Warnings::default();
-    for (torque, curve) in scene.torques_nm.iter().zip(&curves) {
-        for (assumption, value) in &curve.warnings {
-            warnings.note(*assumption, *value, *torque);
+    for (torque, found) in scene.torques_nm.iter().zip(&found) {
+        for position in found.all() {
+            for (assumption, value) in ASSUMPTIONS.into_iter().zip(position.strained) {
+                warnings.note(assumption, value, *torque);
+            }
         }
     }
-    let flatten = |part: fn(&TorqueCurves) -> &Vec<f64>| {
-        curves
-            .iter()
-            .flat_map(|c| part(c).iter().copied())
-            .collect()
+    let flatten = |part: fn(&Position) -> f64| -> Vec<f64> {
+        let even = found.iter().flat_map(|found| &found.even);
+        even.map(part).collect()
     };
+    let slices = loaded.layout.slices;
+    let on_lines = |part: fn(&Position) -> &Vec<f64>| {
+        let even = found.iter().flat_map(|found| &found.even).map(part);
+        let mut all = Vec::with_capacity(found.len() * angles.len() * slots * slices);
+        for own in even {
+            all.extend(own);
+            all.extend(std::iter::repeat_n(0.0, slots * slices - own.len()));
+        }
+        all
+    };
+    let of_torques = |part: fn(&Position) -> f64| -> Vec<f64> {
+        let largest = |found: &TorquePositions| found.all().map(part).fold(0.0, f64::max);
+        found.iter().map(largest).collect()
+    };
+    let iterations = |found: &TorquePositions| {
+        let even = found.even.iter();
+        even.map(|position| position.iterations as u32).sum()
+    };
+    let slips = loaded.unit_slips().into_iter().map(|slip| slip.to_string());
     let mut result = SceneResult {
         title: scene.title.clone(),
         scene_toml: scene.document.text.clone(),
@@ -330,29 +353,32 @@ pub fn run(
         contact_coverage: loaded.contact_coverage(),
         proposal: loaded.proposal(&loaded.gauges),
         torque_nm: scene.torques_nm.clone(),
-        te_m: flatten(|c| &c.te),
-        unloaded_m: curves
-            .first()
-            .map(|c| c.unloaded.clone())
-            .unwrap_or_default(),
-        torque_1_nm: flatten(|c| &c.torque_1),
-        axial_force_1_n: flatten(|c| &c.axial_1),
-        secant_n_per_m: flatten(|c| &c.secant),
-        tangent_n_per_m: flatten(|c| &c.tangent),
+        te_m: flatten(|p| p.te_m),
+        unloaded_m: found.first().map_or(Vec::new(), |found| {
+            found.even.iter().map(|p| p.unloaded_m).collect()
+        }),
+        torque_1_nm: flatten(|p| p.torque_1_nm),
+        axial_force_1_n: flatten(|p| p.axial_1_n),
+        secant_n_per_m: flatten(|p| p.secant_n_per_m),
+        tangent_n_per_m: flatten(|p| p.tangent_n_per_m),
         slots,
-        slices: loaded.layout.slices,
+        slices,
         pair,
         pair_count,
-        force_n: flatten(|c| &c.force),
-        pressure_pa: flatten(|c| &c.pressure),
+        force_n: on_lines(|p| &p.force_n),
+        pressure_pa: on_lines(|p| &p.pressure_pa),
         places: Some(ContactPlaces::new(loaded, &angles, slots)),
-        k_h_beta: curves.iter().map(|c| c.k_h_beta).collect(),
-        iterations: curves.iter().map(|c| c.iterations).collect(),
-        residual: curves.iter().map(|c| c.residual).collect(),
-        torque_balance: curves.iter().map(|c| c.torque_balance).collect(),
+        k_h_beta: of_torques(|p| p.k_h_beta),
+        iterations: found.iter().map(iterations).collect(),
+        residual: of_torques(|p| p.residual),
+        torque_balance: of_torques(|p| p.torque_balance),
+        between: BetweenPositions::new(
+            found.into_iter().map(|found| found.between).collect(),
+            slices,
+        ),
         strain: Vec::new(),
         ratings: Vec::new(),
-        warnings: warnings.sentences(),
+        warnings: (slips.chain(warnings.sentences())).collect(),
         seconds: [contact_seconds, 0.0],
         angle_rad: angles,
     };
@@ -363,87 +389,26 @@ pub fn run(
     Ok(result)
 }
 
+impl TorquePositions {
+    fn all(&self) -> impl Iterator<Item = &Position> {
+        self.even.iter().chain(&self.between.positions)
+    }
+}
+
 fn solve_torque(
     loaded: &LoadedScene,
-    mut contact: StaticContact,
+    contact: StaticContact,
     angles: &[f64],
-    slots: usize,
     torque: f64,
-) -> Result<TorqueCurves, RunError> {
-    let slices = contact.slices();
-    let base_2 = loaded.lines.pair.gear_2.base_radius_m;
-    let base_pitch = loaded.lines.pair.pitch_1_rad() * loaded.lines.pair.gear_1.base_radius_m;
-    let distances = loaded.models.each_ref().map(|m| {
-        m.opposite_distance_m
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min)
-    });
-    let least_distance = distances[0].min(distances[1]);
-    let young = loaded.models[0].young_pa.min(loaded.models[1].young_pa);
-    let n = angles.len();
-    let mut c = TorqueCurves {
-        te: Vec::with_capacity(n),
-        unloaded: Vec::with_capacity(n),
-        torque_1: Vec::with_capacity(n),
-        axial_1: Vec::with_capacity(n),
-        secant: Vec::with_capacity(n),
-        tangent: Vec::with_capacity(n),
-        force: vec![0.0; n * slots * slices],
-        pressure: vec![0.0; n * slots * slices],
-        k_h_beta: 1.0,
-        iterations: 0,
-        residual: 0.0,
-        torque_balance: 0.0,
-        warnings: Vec::new(),
-    };
-    let mut worst = [0.0f64; 4];
-    for (k, &angle) in angles.iter().enumerate() {
-        let state = contact.solve(angle, Drive::Torque(torque))?;
-        let stiffness = MeshStiffness::of(&state, base_2);
-        c.te.push(state.transmission_error_m);
-        c.unloaded.push(state.unloaded_m);
-        c.torque_1.push(state.torque_1_nm);
-        c.axial_1.push(state.axial_force_1_n);
-        c.secant.push(stiffness.secant_n_per_m);
-        c.tangent.push(stiffness.tangent_n_per_m);
-        c.iterations += state.info.iterations as u32;
-        c.residual = c.residual.max(state.info.residual);
-        c.torque_balance = c
-            .torque_balance
-            .max((state.torque_2_nm / torque - 1.0).abs());
-        let forces = contact.forces_n();
-        let first = k * slots * slices;
-        c.force[first..first + forces.len()].copy_from_slice(forces);
-        let mut heaviest = (0.0, 1.0);
-        for on_line in contact.patches().chunk_by(|a, b| a.line == b.line) {
-            let force = |s: &ContactPatch| contact.force_n(s);
-            let sum: f64 = on_line.iter().map(force).sum();
-            if sum > heaviest.0 {
-                // Largest over mean line load; a slice partly on the path counts with its share.
-                let length: f64 = on_line.iter().map(|s| s.share).sum();
-                let largest = on_line.iter().map(force).fold(0.0, f64::max);
-                heaviest = (sum, largest * length / sum);
-            }
-        }
-        for (number, slice) in contact.patches().iter().enumerate() {
-            let (half_width, pressure) = contact.hertz(number, contact.force_n(slice));
-            c.pressure[first + slice.line * slices + slice.slice] = pressure;
-            worst[0] = worst[0].max(half_width / least_distance);
-            worst[1] = worst[1].max(pressure / young);
-        }
-        c.k_h_beta = c.k_h_beta.max(heaviest.1);
-        worst[2] = worst[2].max((state.unloaded_m - state.transmission_error_m) / base_pitch);
-        worst[3] = worst[3].max(state.info.cap_hits as f64);
-    }
-    let assumptions = [
-        Assumption::NarrowContact,
-        Assumption::ElasticMaterial,
-        Assumption::SmallDeflection,
-        Assumption::LocalTermCapped,
-    ];
-    c.warnings = assumptions.into_iter().zip(worst).collect();
-    Ok(c)
+) -> Result<TorquePositions, RunError> {
+    let mut solver = PositionSolver::new(loaded, contact, torque);
+    let even = angles.iter().map(|angle| solver.at(*angle));
+    let even = even.collect::<Result<Vec<Position>, RunError>>()?;
+    let coverage = loaded.contact_coverage();
+    let pitches = coverage.period_pitches.min(loaded.scene.pitches);
+    let looked_at = &even[..pitches * loaded.scene.points_per_pitch];
+    let between = find(&mut solver, looked_at, coverage.is_whole())?;
+    Ok(TorquePositions { even, between })
 }
 
 /// Strain of gauges (gear, index in its model) for all positions of a result.
@@ -459,23 +424,28 @@ pub fn strain(
         return Ok(Vec::new());
     }
     let flank = loaded.scene.flank;
-    let patches_at: Vec<Vec<ContactPatch>> = result
-        .angle_rad
-        .iter()
-        .map(|&angle| loaded.patches_at(angle))
-        .collect();
+    let patches = |angles: &[f64]| -> Vec<Vec<ContactPatch>> {
+        angles.iter().map(|&a| loaded.patches_at(a)).collect()
+    };
+    let even = patches(&result.angle_rad);
+    let between = patches(&result.between.angle_rad);
     gauges
         .par_iter()
         .map(|&(gear, index)| {
             let model = &loaded.models[gear - 1];
             let rows = &model.gauges[index];
             let reader = GaugeReader::new(model, rows, flank, &loaded.spreads[gear - 1])?;
+            let read = |patches: &[ContactPatch], forces: &[f64]| {
+                reader.read(loaded.loaded_slices(gear, patches, forces))
+            };
             let readings: Vec<_> = (0..result.torque_nm.len() * result.angles())
                 .map(|k| {
                     let (torque, angle) = (k / result.angles(), k % result.angles());
-                    let forces = result.position_forces(torque, angle);
-                    reader.read(loaded.loaded_slices(gear, &patches_at[angle], forces))
+                    read(&even[angle], result.position_forces(torque, angle))
                 })
+                .collect();
+            let readings_between: Vec<_> = (between.iter().enumerate())
+                .map(|(k, patches)| read(patches, result.between.position_forces(k)))
                 .collect();
             Ok(StrainSeries {
                 gear,
@@ -484,6 +454,10 @@ pub fn strain(
                 coverage: loaded.gauge_coverage(gear, index),
                 method_1: readings.iter().map(|s| s.method_1).collect(),
                 method_2: readings.iter().map(|s| s.method_2).collect(),
+                between: [
+                    readings_between.iter().map(|s| s.method_1).collect(),
+                    readings_between.iter().map(|s| s.method_2).collect(),
+                ],
             })
         })
         .collect()

@@ -3,13 +3,16 @@
 
 use std::path::{Path, PathBuf};
 
-use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{Flank, InputError, Misalignment};
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::{Flank, GearPair, InputError, Misalignment};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::system::names;
 use crate::system_run::{ResultKind, SystemResult};
+
+/// Loads that differ by less are one: tooth friction and rounding of what a user writes.
+const SAME_LOAD: f64 = 0.02;
 
 /// `misalignment_from`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -24,7 +27,28 @@ pub struct MisalignmentFrom {
 }
 
 impl MisalignmentFrom {
-    /// The misalignment of a pair with so many teeth in contact on these flanks, and a note of what was taken.
+    /// Refuses several torques: an equilibrium is that of one.
+    ///
+    /// # Errors
+    /// [`InputError`] at the torques.
+    pub(super) fn refuse_further_torques(
+        &self,
+        document: &InputDocument,
+        torques_nm: &[f64],
+    ) -> Result<(), InputError> {
+        let [first, others @ ..] = torques_nm else {
+            return Ok(());
+        };
+        if others.iter().all(|torque| torque == first) {
+            return Ok(());
+        }
+        let problem = format!(
+            "found {torques_nm:?} with pair.misalignment_from, whose axes are those of one equilibrium; allowed is the torque of that              equilibrium alone: write a scene for each torque, each with the `point` of its own equilibrium"
+        );
+        Err(document.error("run.torques_Nm", problem))
+    }
+
+    /// The axes of a pair with so many teeth in contact on these flanks.
     ///
     /// # Errors
     /// [`InputError`] at the key, when the result has no such mesh or point, other teeth, or its mesh carries on the
@@ -34,7 +58,7 @@ impl MisalignmentFrom {
         keys: &TableKeys<'_>,
         folder: &Path,
         (teeth, flank): ([usize; 2], Flank),
-    ) -> Result<(Misalignment, String), InputError> {
+    ) -> Result<TakenAxes, InputError> {
         let at =
             |key: &str, problem: String| keys.error(&format!("misalignment_from.{key}"), problem);
         let path = folder.join(&self.result);
@@ -116,6 +140,34 @@ impl MisalignmentFrom {
             self.mesh,
             1e3 * axes.centre_distance_m
         );
-        Ok((misalignment, note))
+        let normal_force_n = (result.loaded_force_n(&self.mesh, point)).map_err(unreadable)?;
+        Ok(TakenAxes {
+            misalignment,
+            note,
+            normal_force_n,
+        })
+    }
+}
+
+/// What was taken from a result.
+pub(super) struct TakenAxes {
+    pub misalignment: Misalignment,
+    /// What was taken, in words.
+    pub note: String,
+    /// Normal force of the mesh \[N\] there; none where the result does not have it.
+    normal_force_n: Option<f64>,
+}
+
+impl TakenAxes {
+    /// What to say where the pair carries another load than its axes were found under.
+    pub fn other_load(&self, pair: &GearPair, torque_nm: f64) -> Option<String> {
+        let lever_m = pair.gear_2.base_radius_m * pair.base_helix_angle_rad().cos();
+        let there_nm = self.normal_force_n? * lever_m;
+        ((torque_nm / there_nm - 1.0).abs() > SAME_LOAD).then(|| {
+            format!(
+                "run.torques_Nm is {torque_nm} N m, but the axes of pair.misalignment_from are those under {there_nm:.4} N m on gear 2: K_Hbeta \
+                 is that of the pair on axes of another load"
+            )
+        })
     }
 }

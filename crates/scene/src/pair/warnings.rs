@@ -5,6 +5,24 @@ use std::collections::BTreeMap;
 /// Pressure over Young's modulus above which steel yields under the contact.
 pub const ELASTIC_SHARE: f64 = 0.02;
 
+/// Young's modulus of steel \[Pa\]: columns of pressure do not say whose it is.
+const STEEL_PA: f64 = 206e9;
+
+/// A sentence about the column with the largest pressure, where steel yields under it. `columns`: names and largest
+/// pressures \[Pa\].
+pub fn excessive_pressure(columns: impl Iterator<Item = (String, f64)>) -> Option<String> {
+    let limit_pa = ELASTIC_SHARE * STEEL_PA;
+    let too_large = columns.filter(|(_, pa)| *pa > limit_pa);
+    let (name, pa) = too_large.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(format!(
+        "{name}: the pressure reaches {:.2} GPa; above {} % of Young's modulus, {:.2} GPa for steel, the material yields, and the elastic contact \
+         computed here no longer holds",
+        1e-9 * pa,
+        100.0 * ELASTIC_SHARE,
+        1e-9 * limit_pa
+    ))
+}
+
 /// Assumptions that a load can break.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Assumption {
@@ -17,6 +35,14 @@ pub enum Assumption {
     /// The logarithm of the local term was frozen to stay monotone.
     LocalTermCapped,
 }
+
+/// All of them, in the order in which a position states its figures.
+pub(super) const ASSUMPTIONS: [Assumption; 4] = [
+    Assumption::NarrowContact,
+    Assumption::ElasticMaterial,
+    Assumption::SmallDeflection,
+    Assumption::LocalTermCapped,
+];
 
 impl Assumption {
     fn text(self, value: f64) -> String {

@@ -44,11 +44,14 @@ impl BearingLifeJob {
         }
     }
 
-    /// Lives over a history.
+    /// Lives over a history, and what of its loads is beyond a limit.
     ///
     /// # Errors
     /// [`BearingError`] where a load has no equilibrium.
-    pub fn figures(&self, history: &LoadHistory) -> Result<Vec<RatingFigure>, BearingError> {
+    pub fn figures(
+        &self,
+        history: &LoadHistory,
+    ) -> Result<(Vec<RatingFigure>, Vec<String>), BearingError> {
         let life = history.life(&self.definition, &self.bearing, self.lubrication.as_ref())?;
         let turns = life.mean_speed_rad_per_s > 0.0;
         let mut values = vec![("bearing_l10r_mrev", life.reference_mrev)];
@@ -64,7 +67,8 @@ impl BearingLifeJob {
                     .map(|l| ("bearing_l10mr_h", life.hours(l))),
             );
         }
-        Ok(figures(&values))
+        let warnings = life.warnings.iter().map(ToString::to_string);
+        Ok((figures(&values), warnings.collect()))
     }
 
     /// How it is judged, in words.

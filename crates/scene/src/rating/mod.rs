@@ -22,7 +22,8 @@ pub mod table;
 
 pub use bearing_life::BearingLifeJob;
 pub use fatigue_job::{FatigueJob, PassageLength};
-pub use nominal_figures::{nominal_error, nominal_figures, nominal_method, rim_m};
+pub use nominal_figures::{nominal_error, nominal_figures, nominal_method, nominal_remark, rim_m};
+pub(crate) use result::figure_names;
 pub use result::{RatingFigure, RatingResult};
 pub use sn_table_file::sn_curve;
 pub use table::{BearingLifeTable, FatigueRule, FatigueTable, NominalTable, RatingTable};

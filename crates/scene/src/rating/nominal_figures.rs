@@ -34,6 +34,7 @@ pub fn nominal_figures(
             "iso_Y_S_gear1",
             "iso_Y_beta_gear1",
             "iso_Y_B_gear1",
+            "iso_Y_DT_gear1",
         ],
         [
             "iso_root_stress_gear2_Pa",
@@ -41,6 +42,7 @@ pub fn nominal_figures(
             "iso_Y_S_gear2",
             "iso_Y_beta_gear2",
             "iso_Y_B_gear2",
+            "iso_Y_DT_gear2",
         ],
     ];
     for (names, (factors, stress_pa)) in names
@@ -54,11 +56,26 @@ pub fn nominal_figures(
                 factors.stress_correction_factor,
                 factors.helix_factor,
                 factors.rim_factor,
+                factors.deep_tooth_factor,
             ];
             values.extend(names.iter().copied().zip(of_gear));
         }
     }
     Ok(figures(&values))
+}
+
+/// What the figures leave open: σ_F0 of deep teeth whose tolerance class is not stated.
+#[must_use]
+pub fn nominal_remark(rating: &NominalRating) -> Option<String> {
+    let root = rating.iso_roots.iter().flatten();
+    let open = { root }.find_map(|root| Some((root, root.share_of_fine_classes()?)));
+    open.map(|(root, share)| {
+        format!(
+            "contact ratio {:.3} of the virtual spur gears is above 2.05: Y_DT = 1 is taken, as for tolerance classes above 4 or unknown ones; with class 4 or \
+             better (rating.tolerance_class) Y_DT = {share:.3}",
+            root.virtual_contact_ratio
+        )
+    })
 }
 
 /// Thickness of a gear's rim below its root circle \[m\]; none of a solid gear.

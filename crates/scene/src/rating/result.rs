@@ -2,6 +2,8 @@
 
 use gearmesh_model::{Fields, FileError, Record};
 
+use crate::system::RatingRule;
+
 /// A figure of a rating.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RatingFigure {
@@ -28,6 +30,8 @@ pub struct RatingResult {
     pub incomplete: Option<String>,
     /// Figures.
     pub figures: Vec<RatingFigure>,
+    /// What of the loads is beyond a limit, in sentences.
+    pub warnings: Vec<String>,
 }
 
 impl RatingResult {
@@ -44,6 +48,7 @@ impl RatingResult {
             problem,
             incomplete: None,
             figures,
+            warnings: Vec::new(),
         }
     }
 
@@ -56,6 +61,20 @@ impl RatingResult {
         }
     }
 
+    /// The same with warnings.
+    #[must_use]
+    pub fn warning(self, warnings: Vec<String>) -> Self {
+        Self { warnings, ..self }
+    }
+
+    /// All that is to be reported of it, in sentences that name it: why it has no figures, what is beyond a limit.
+    pub fn reported(&self) -> impl Iterator<Item = String> + '_ {
+        let problem = self.problem.iter();
+        let problem = problem.map(|problem| format!("{} is not rated: {problem}", self.name));
+        let warnings = self.warnings.iter();
+        problem.chain(warnings.map(|warning| format!("{}: {warning}", self.name)))
+    }
+
     /// The value of a figure.
     #[must_use]
     pub fn figure(&self, name: &str) -> Option<f64> {
@@ -65,7 +84,7 @@ impl RatingResult {
 }
 
 /// All figures there are: name, unit, description.
-const KINDS: [(&str, &str, &str); 37] = [
+const KINDS: [(&str, &str, &str); 39] = [
     ("least_stress_Pa", "Pa", "smallest stress at the gauge"),
     ("largest_stress_Pa", "Pa", "largest stress at the gauge"),
     ("cycles", "1", "cycles counted, halves as one half"),
@@ -124,7 +143,7 @@ const KINDS: [(&str, &str, &str); 37] = [
     (
         "iso_root_stress_gear1_Pa",
         "Pa",
-        "nominal root stress sigma_F0 of ISO 6336-3, method B, of gear 1: Y_F Y_S Y_beta Y_B, Y_DT and all K one",
+        "nominal root stress sigma_F0 of ISO 6336-3, method B, of gear 1: Y_F Y_S Y_beta Y_B Y_DT, all K one",
     ),
     (
         "iso_Y_F_gear1",
@@ -139,9 +158,14 @@ const KINDS: [(&str, &str, &str); 37] = [
     ("iso_Y_beta_gear1", "1", "helix angle factor of ISO 6336-3"),
     ("iso_Y_B_gear1", "1", "rim factor Y_B of gear 1"),
     (
+        "iso_Y_DT_gear1",
+        "1",
+        "deep tooth factor Y_DT of ISO 6336-3 of gear 1",
+    ),
+    (
         "iso_root_stress_gear2_Pa",
         "Pa",
-        "nominal root stress sigma_F0 of ISO 6336-3, method B, of gear 2: Y_F Y_S Y_beta Y_B, Y_DT and all K one",
+        "nominal root stress sigma_F0 of ISO 6336-3, method B, of gear 2: Y_F Y_S Y_beta Y_B Y_DT, all K one",
     ),
     (
         "iso_Y_F_gear2",
@@ -155,6 +179,11 @@ const KINDS: [(&str, &str, &str); 37] = [
     ),
     ("iso_Y_beta_gear2", "1", "helix angle factor of ISO 6336-3"),
     ("iso_Y_B_gear2", "1", "rim factor Y_B of gear 2"),
+    (
+        "iso_Y_DT_gear2",
+        "1",
+        "deep tooth factor Y_DT of ISO 6336-3 of gear 2",
+    ),
     (
         "bearing_equivalent_load_N",
         "N",
@@ -203,6 +232,21 @@ pub(super) fn figures(values: &[(&str, f64)]) -> Vec<RatingFigure> {
     kinds.collect()
 }
 
+/// Names of the figures that a rule may give.
+pub(crate) fn figure_names(rule: &RatingRule) -> Vec<&'static str> {
+    let is_nominal = |name: &str| {
+        let starts = ["lewis_", "hertz_", "iso_", "largest_force_"];
+        starts.iter().any(|start| name.starts_with(start))
+    };
+    let names = KINDS.iter().map(|(name, ..)| *name);
+    let of_rule = |name: &&str| match rule {
+        RatingRule::BearingLife(_) => name.starts_with("bearing_"),
+        RatingRule::Nominal(_) => is_nominal(name),
+        RatingRule::Fatigue(_) => !name.starts_with("bearing_") && !is_nominal(name),
+    };
+    names.filter(of_rule).collect()
+}
+
 impl Record for RatingResult {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         f.text("name", &mut self.name, "what is rated")?;
@@ -213,6 +257,10 @@ impl Record for RatingResult {
         if f.has("incomplete") {
             let what = "what the run has not seen of the quantity's period; empty where nothing is missing";
             text_or_empty(f, "incomplete", &mut self.incomplete, what)?;
+        }
+        if !f.is_reading() || f.has("warnings") {
+            let what = "what of the loads is beyond a limit";
+            f.lines("warnings", &mut self.warnings, what)?;
         }
         let mut values = Vec::new();
         for (name, unit, description) in KINDS {

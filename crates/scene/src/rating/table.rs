@@ -77,6 +77,9 @@ pub struct NominalTable {
     /// contact ratio; the former where not given.
     #[serde(default)]
     pub load_point: LoadPointWord,
+    /// Tolerance class of ISO 1328-1, 0 to 12, the worse one of both gears: with 4 or better teeth of a virtual contact ratio above 2.05 have a deep tooth
+    /// factor Y_DT below 1 (ISO 6336-3). 1 where not given.
+    pub tolerance_class: Option<usize>,
 }
 
 /// Keys of `kind = "bearing-life"`, multibody scenes only.
@@ -200,6 +203,17 @@ impl FatigueTable {
 }
 
 impl NominalTable {
+    /// The tolerance class, where it is stated.
+    ///
+    /// # Errors
+    /// [`InputError`] for one that the standard does not have.
+    pub fn class(&self, keys: &TableKeys<'_>) -> Result<Option<usize>, InputError> {
+        if let Some(class) = self.tolerance_class {
+            keys.require("tolerance_class", class as f64, class <= 12, "0 to 12")?;
+        }
+        Ok(self.tolerance_class)
+    }
+
     /// Where the force acts for Lewis's stress.
     #[must_use]
     pub fn load_point(&self) -> LoadPoint {

@@ -86,6 +86,9 @@ impl Figure {
     }
 }
 
+/// Begin of the columns that are figures of ratings: `ratings/NAME/FIGURE`.
+pub(super) const RATINGS: &str = "ratings/";
+
 /// A column, and what of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wanted {
@@ -115,6 +118,12 @@ impl Wanted {
         format!("{}:{}", self.column, self.word)
     }
 
+    /// Whether it is a figure of a `[[rating]]` of the scene.
+    #[must_use]
+    pub fn is_of_rating(&self) -> bool {
+        self.column.starts_with(RATINGS)
+    }
+
     /// The figure; none where the whole series is meant.
     #[must_use]
     pub fn figure(&self) -> Option<Figure> {
@@ -131,6 +140,14 @@ impl Wanted {
         }
         if self.word.is_empty() {
             return Ok(());
+        }
+        if self.is_of_rating() {
+            let problem = format!(
+                "`{}`: a rating is one number; remove `:{}`",
+                self.name(),
+                self.word
+            );
+            return Err(problem);
         }
         let fits = match self.figure() {
             None => false,

@@ -1,8 +1,8 @@
 //! The columns of a study of a gear pair: one number for each torque. Units of all columns at rest.
 
-use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
+use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 
-use crate::pair::{LoadedScene, SceneResult};
+use crate::pair::{LoadedScene, PairFigures, SceneResult};
 use crate::system::unknown;
 
 /// Harmonics of the mesh frequency that are listed.
@@ -93,15 +93,14 @@ pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<RestColumn> {
     let width_mm = 1e3 * loaded.layout.reference.width_m;
     let per_width = 1e-6 / width_mm;
     let of_each = |of: &dyn Fn(usize) -> f64| torques.clone().map(of).collect::<Vec<f64>>();
-    let mean = |values: &[f64], k: usize| fourier(result.averaged(values, k), 0).0;
-    let range = |values: &[f64]| {
-        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        largest - values.iter().copied().fold(f64::INFINITY, f64::min)
+    let figures: Vec<PairFigures> = torques.clone().map(|k| result.figures(k)).collect();
+    let figure = |of: fn(&PairFigures) -> f64, scale: f64| -> Vec<f64> {
+        figures.iter().map(|figures| scale * of(figures)).collect()
     };
     let mut values = vec![
-        of_each(&|k| 1e6 * mean(&result.te_m, k)),
-        of_each(&|k| 1e6 * range(result.curve(&result.te_m, k))),
-        of_each(&|_| 1e6 * range(&result.unloaded_m)),
+        figure(|f| f.te_mean_m, 1e6),
+        figure(|f| f.te_peak_to_peak_m, 1e6),
+        figure(|f| f.unloaded_peak_to_peak_m, 1e6),
     ];
     let harmonics = harmonics_of(loaded);
     let pitches = result.contact_coverage.averaged_pitches();
@@ -113,27 +112,19 @@ pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<RestColumn> {
             1e6 * spectra[k].get(harmonic).map_or(0.0, |line| line.0)
         }));
     }
-    let block = result.pressure_pa.len() / result.torque_nm.len().max(1);
-    let pressure = |k: usize| {
-        let own = &result.pressure_pa[k * block..(k + 1) * block];
-        1e-6 * own.iter().copied().fold(0.0, f64::max)
-    };
     values.extend([
-        result.k_h_beta.clone(),
-        of_each(&pressure),
-        of_each(&|k| per_width * mean(&result.secant_n_per_m, k)),
-        of_each(&|k| per_width * mean(&result.tangent_n_per_m, k)),
-        of_each(&|k| per_width * range(result.curve(&result.tangent_n_per_m, k))),
-        of_each(&|k| mean(&result.axial_force_1_n, k)),
+        figure(|f| f.k_h_beta, 1.0),
+        figure(|f| f.pressure_largest_pa, 1e-6),
+        figure(|f| f.secant_mean_n_per_m, per_width),
+        figure(|f| f.tangent_mean_n_per_m, per_width),
+        figure(|f| f.tangent_peak_to_peak_n_per_m, per_width),
+        figure(|f| f.axial_force_1_mean_n, 1.0),
     ]);
-    for series in &result.strain {
-        for strain in [&series.method_1, &series.method_2] {
-            values.push(of_each(&|k| 1e6 * range(result.curve(strain, k))));
-            let largest = |k: usize| {
-                let curve = result.curve(strain, k).iter().copied();
-                1e6 * curve.fold(f64::NEG_INFINITY, f64::max)
-            };
-            values.push(of_each(&largest));
+    for series in 0..result.strain.len() {
+        for method in [1, 2] {
+            let ends = |k: usize| result.strain_ends(series, method, k);
+            values.push(of_each(&|k| 1e6 * (ends(k)[1] - ends(k)[0])));
+            values.push(of_each(&|k| 1e6 * ends(k)[1]));
         }
     }
     let column = |(name, values)| RestColumn { name, values };

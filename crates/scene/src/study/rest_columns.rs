@@ -1,7 +1,7 @@
 //! The columns of bevel pairs and of bearings that are studied by themselves: a number each.
 
 use gearmesh_bearings::{BearingError, Life, QuasiStaticBearing, Ratings, StaticSafety};
-use gearmesh_bevel::{PairDesign, sensitivity, tooth_contact};
+use gearmesh_bevel::{AssembledPair, BevelError, PairDesign, sensitivity};
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 use gearmesh_geometry::InputError;
 
@@ -19,6 +19,7 @@ pub(super) fn bevel_names() -> Vec<String> {
         [
             "contact_ratio",
             "edge_share",
+            "backlash_least_mm",
             "ellipse_half_length_largest_mm",
             "ease_off_largest_um",
         ]
@@ -55,15 +56,17 @@ fn without_line(error: InputError) -> InputError {
 /// All columns of a bevel pair.
 ///
 /// # Errors
-/// [`InputError`] where the flanks cannot be made or do not touch.
+/// [`InputError`] where the flanks cannot be made or do not touch, or teeth jam in the assembly.
 pub(super) fn of_bevel(subject: &BevelSubject) -> Result<Vec<f64>, InputError> {
     let BevelSubject { file, document } = subject;
     let design = design(subject)?;
     let flanks = design.flanks(file.pinion_flank);
-    let found = tooth_contact(flanks, &file.blank, &file.tca)
-        .map_err(|error| without_line(error.in_file(document)))?;
+    let fault = |error: BevelError| without_line(error.in_file(document));
+    let pair = AssembledPair::new(file, &design).map_err(fault)?;
+    let found = pair.path().map_err(fault)?;
     // Where only edges touch, no contact moves with the errors.
-    let moved = (found.mean).and_then(|_| sensitivity(flanks, &file.blank, &file.tca.error).ok());
+    let moved = (found.mean.as_ref())
+        .and_then(|mean| sensitivity(flanks, &file.blank, (&file.tca.error, mean)).ok());
     let lines = mesh_harmonics(&found.error_rad, 1, HARMONICS).1;
     let ellipses = found.path.iter().filter(|p| p.leading);
     let lengths = ellipses.filter_map(|p| Some(p.ellipse?.half_lengths_m(file.tca.marking_m)[0]));
@@ -73,6 +76,7 @@ pub(super) fn of_bevel(subject: &BevelSubject) -> Result<Vec<f64>, InputError> {
     values.extend([
         found.contact_ratio,
         found.edge_share,
+        1e3 * pair.backlash_m.unwrap_or(f64::NAN),
         1e3 * lengths.fold(0.0, f64::max),
         1e6 * ease_off.fold(0.0, f64::max),
     ]);

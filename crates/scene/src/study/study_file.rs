@@ -11,6 +11,7 @@ use super::bearing_operation::OperationTable;
 use super::design::{self, Case, Design};
 use super::figure::Wanted;
 use super::scatter::{NormalTable, SpacedTable, UniformTable};
+use crate::system::label_problem;
 
 /// The keys of the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -188,6 +189,9 @@ impl Study {
                 return Err(document.error(&at("name"), problem));
             }
             names.push(&parameter.name);
+            if let Some(problem) = label_problem(&parameter.name) {
+                return Err(document.error(&at("name"), problem));
+            }
             if let Some((key, problem)) = parameter.problem(tables.design) {
                 let key = if key.is_empty() {
                     format!("parameter.{i}")
@@ -299,5 +303,12 @@ mod tests {
         let twice = "[[parameter]]\nname = 'b'\nkeys = ['k']\nvalues = [1]\n";
         let complaint = study(twice).unwrap_err().to_string();
         assert!(complaint.contains("`b` is there twice"), "{complaint}");
+        let long = "x".repeat(65_536);
+        let long = format!("[[parameter]]\nname = '{long}'\nkeys = ['k']\nvalues = [1]\n");
+        let complaint = study(&long).unwrap_err().to_string();
+        assert!(
+            complaint.contains("parameter.0.name: found a name of 65536 characters"),
+            "{complaint}"
+        );
     }
 }

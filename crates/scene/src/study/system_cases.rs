@@ -9,8 +9,9 @@ use gearmesh_model::FileError;
 
 use super::cases::{Selected, SelectedValue, StudyError};
 use super::elsewhere::SentCase;
-use super::figure::{Figure, FigureKinds, Wanted, line_amplitude, resonance};
+use super::figure::{Figure, FigureKinds, RATINGS, Wanted, line_amplitude, resonance};
 use super::study_file::Study;
+use crate::rating::figure_names;
 use crate::system::{SystemScene, unknown};
 use crate::system_run::{
     Figures, Outcome, ResultKind, RunHead, RunJob, RunKind, RunOptions, SystemResult,
@@ -46,7 +47,13 @@ pub(super) fn column_names(scene: &SystemScene) -> Result<(Vec<String>, FigureKi
         }
     };
     let columns = recorded_columns(&job).into_iter();
-    Ok((columns.map(|column| column.name).collect(), kinds))
+    let ratings = job.ratings.iter();
+    let of_ratings = ratings.flat_map(|rating| {
+        let names = figure_names(&rating.rule).into_iter();
+        names.map(|figure| rating_column(&rating.name, figure))
+    });
+    let all = columns.map(|column| column.name).chain(of_ratings);
+    Ok((all.collect(), kinds))
 }
 
 /// Runs a case, or waits for the other study in the same folder that is at it; none if it was stopped.
@@ -172,6 +179,7 @@ fn selected_of(
         return Err(problem);
     }
     let of = |one: &Wanted| match result.kind {
+        _ if one.is_of_rating() => of_rating(result, one),
         ResultKind::SpeedSweep => of_sweep(result, one),
         ResultKind::Eigen => of_modes(result, one),
         ResultKind::Transient | ResultKind::Static => of_rows(result, one, from_s),
@@ -194,12 +202,55 @@ fn told(one: &Wanted, unit: &str, figures: Figures) -> Selected {
     }
 }
 
+/// Name of the column of a rating's figure.
+fn rating_column(rating: &str, figure: &str) -> String {
+    format!("{RATINGS}{rating}/{figure}")
+}
+
+/// A figure of a rating of the run.
+fn of_rating(result: &SystemResult, one: &Wanted) -> Result<Selected, String> {
+    for rated in &result.ratings {
+        let mut figures = rated.figures.iter();
+        if let Some(f) = figures.find(|f| rating_column(&rated.name, f.name) == one.column) {
+            return Ok(Selected {
+                column: one.name(),
+                unit: f.unit.to_owned(),
+                torque_nm: None,
+                value: SelectedValue::Single(f.value),
+            });
+        }
+        if let Some(problem) = &rated.problem
+            && one.column.starts_with(&rating_column(&rated.name, ""))
+        {
+            return Err(format!("{} is not rated: {problem}", rated.name));
+        }
+    }
+    let all = result.ratings.iter();
+    let names: Vec<String> = all
+        .flat_map(|r| r.figures.iter().map(|f| rating_column(&r.name, f.name)))
+        .collect();
+    Err(unknown("column", &one.column, &names))
+}
+
 /// Of a run in time or of equilibria.
 fn of_rows(result: &SystemResult, one: &Wanted, from_s: f64) -> Result<Selected, String> {
     let mut columns = result.rows.columns().iter();
     let Some(column) = columns.find(|column| column.name == one.column) else {
         let names = result.rows.columns().iter().map(|c| &c.name[..]);
         return Err(unknown("column", &one.column, &names.collect::<Vec<_>>()));
+    };
+    let in_time = result.kind == ResultKind::Transient;
+    let is_line = matches!(one.figure(), Some(Figure::Line(_)));
+    // Those of the run itself, which has seen more than its rows hold.
+    let place = (result.rows.columns().iter()).position(|column| column.name == one.column);
+    let own = place.and_then(|place| result.statistics.get(place));
+    if let (true, false, true, Some(figures)) = (in_time, is_line, from_s == 0.0, own) {
+        return Ok(told(one, &column.unit, *figures));
+    }
+    let from_s = if in_time && from_s == 0.0 {
+        result.statistics_from_s
+    } else {
+        from_s
     };
     let mut first = 0;
     // Equilibria have no time.
@@ -214,7 +265,12 @@ fn of_rows(result: &SystemResult, one: &Wanted, from_s: f64) -> Result<Selected,
             ));
         }
     }
-    let values = &result.rows.read(&one.column).map_err(say)?[first..];
+    let values = if is_line {
+        result.read_for_spectrum(&one.column)
+    } else {
+        result.rows.read(&one.column)
+    };
+    let values = &values.map_err(say)?[first..];
     if let Some(Figure::Line(hz)) = one.figure() {
         let interval_s = result.interval_s().map_err(say)?;
         if values.len() < 8 || 2.0 * hz * interval_s > 1.0 {

@@ -76,6 +76,8 @@ pub struct BuiltMesh {
     /// Frequency of the mesh at the start \[Hz\]: teeth of gear 1 times its speed about its axis against the line of
     /// centres.
     pub frequency_hz: f64,
+    /// Speeds of gear 1 and gear 2 about their z at the start \[rad/s\].
+    pub speeds_rad_per_s: [f64; 2],
     /// The stage at a glance; none of bevel pairs.
     pub stage: Option<StageSummary>,
     /// Of bevel pairs the corners of a flank of gear 1, then gear 2 \[m\]: cone distance and height above the pitch cone of lower line and tip at the toe, tip

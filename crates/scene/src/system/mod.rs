@@ -26,7 +26,7 @@ pub use built::{
     BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, RatingJob, RatingRule,
 };
 pub use host_functions::HostFunctions;
-pub(crate) use names::unknown;
+pub(crate) use names::{label_problem, unknown};
 pub use plan::SystemPlan;
 pub(crate) use plan::step_in_words;
 pub use scene::{SystemScene, SystemTables};

@@ -35,6 +35,16 @@ pub(crate) fn check_names(document: &InputDocument) -> Result<(), InputError> {
     Ok(())
 }
 
+/// What is wrong with a name that stands in tables only, if anything is.
+pub(crate) fn label_problem(name: &str) -> Option<String> {
+    let length = name.chars().count();
+    (length > LONGEST).then(|| {
+        format!(
+            "found a name of {length} characters, allowed are {LONGEST}; it is the head of a column"
+        )
+    })
+}
+
 fn name_problem(name: &str) -> Option<String> {
     let length = name.chars().count();
     let found = match name {

@@ -2,13 +2,14 @@
 //! start.
 
 use gearmesh_geometry::GearPair;
+use gearmesh_model::{Fields, FileError, Record};
 use serde::Serialize;
 
 /// N/(mm·µm) in SI, N/m².
 const N_PER_MM_UM: f64 = 1e9;
 
 /// Figures of a stage, whatever the model of its mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct StageSummary {
     /// Teeth of gear 2 over those of gear 1.
     pub ratio: f64,
@@ -32,6 +33,41 @@ pub struct StageSummary {
     pub forces_of_1_nm_n: [f64; 3],
     /// Speed of the pitch line at the start \[m/s\], seen from the line of centres.
     pub pitch_line_speed_m_per_s: f64,
+}
+
+impl Record for StageSummary {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let mut number =
+            |name: &str, value: &mut f64, unit: &str, what: &str| f.number(name, value, unit, what);
+        let what = "teeth of gear 2 over those of gear 1";
+        number("ratio", &mut self.ratio, "1", what)?;
+        let what = "transverse contact ratio";
+        number("contact_ratio", &mut self.contact_ratio, "1", what)?;
+        let what = "overlap ratio over the common width";
+        number("overlap_ratio", &mut self.overlap_ratio, "1", what)?;
+        let what = "single stiffness after ISO 6336-1 method B";
+        let value = &mut self.single_stiffness_n_per_m2;
+        number("single_stiffness_N_per_m2", value, "N/m²", what)?;
+        let what = "mesh stiffness after ISO 6336-1 method B";
+        let value = &mut self.mesh_stiffness_n_per_m2;
+        number("mesh_stiffness_N_per_m2", value, "N/m²", what)?;
+        let what = "radius of gear 1's working pitch circle";
+        number("pitch_radius_1_m", &mut self.pitch_radius_1_m, "m", what)?;
+        let what = "largest sliding as a share of the speed of the pitch line";
+        number("largest_sliding", &mut self.largest_sliding, "1", what)?;
+        let what = "speed of the pitch line at the start";
+        let value = &mut self.pitch_line_speed_m_per_s;
+        number("pitch_line_speed_m_per_s", value, "m/s", what)?;
+        let axes = [("tangential, radial, axial", 3)];
+        let what = "force between the working pitch circles under 1 N m on gear 1";
+        f.fixed(
+            "forces_of_1_Nm_N",
+            &mut self.forces_of_1_nm_n,
+            &axes,
+            "N",
+            what,
+        )
+    }
 }
 
 impl StageSummary {

@@ -2,8 +2,12 @@
 
 use std::collections::BTreeMap;
 
-/// What varies by less, over the largest value of its unit, is rounding.
-const ROUNDING: f64 = 1e-9;
+/// What is smaller, over the largest value of its unit, is rounding and what solvers leave: they end at shares of 1e-8 and below. Lengths
+/// have a finer limit: a place of a metre stands beside a transmission error of nanometres.
+#[must_use]
+pub fn rounding(unit: &str) -> f64 {
+    if unit == "m" { 1e-9 } else { 1e-7 }
+}
 
 /// How units are written behind a name, longer ones before those that end them.
 const UNITS: [(&str, &str); 15] = [
@@ -50,6 +54,7 @@ pub fn rank(name: &str) -> u8 {
             "transmission_error_m" => 0,
             "loaded_pairs" | "apart" => 1,
             mesh if mesh.starts_with("normal_force_") || mesh.ends_with("_force_1_N") => 1,
+            "moment_1_Nm" | "moment_2_Nm" => 1,
             "force_radial_N" | "force_shaft_z_N" => 2,
             pair if is_of_pair(pair) => 9,
             strain if strain.starts_with("strain_") => 3,
@@ -94,7 +99,7 @@ pub fn is_prominent(name: &str) -> bool {
 pub fn noticeable<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)> + Clone) -> Vec<bool> {
     let scales = scales(columns.clone());
     columns
-        .map(|(unit, least, most)| least.abs().max(most.abs()) > ROUNDING * scales[unit])
+        .map(|(unit, least, most)| least.abs().max(most.abs()) > rounding(unit) * scales[unit])
         .collect()
 }
 
@@ -103,7 +108,7 @@ pub fn noticeable<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)> + Clone
 pub fn varying<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)> + Clone) -> Vec<bool> {
     let scales = scales(columns.clone());
     columns
-        .map(|(unit, least, most)| most - least > ROUNDING * scales[unit])
+        .map(|(unit, least, most)| most - least > rounding(unit) * scales[unit])
         .collect()
 }
 
@@ -170,6 +175,11 @@ mod tests {
             ("N", -1e-17, 1e-17),
         ];
         assert_eq!(varying(columns.into_iter()), [true, false, true, true]);
+        // An axial force of spur gears is what their solver leaves; a transmission error of nanometres is none of that.
+        let forces = [("N", 900.0, 2566.0), ("N", -4.9e-6, 1.5e-5)];
+        assert_eq!(varying(forces.into_iter()), [true, false]);
+        let lengths = [("m", 0.0, 0.1), ("m", -6e-9, -5e-9)];
+        assert_eq!(varying(lengths.into_iter()), [true, true]);
         let still = [("m", 0.3, 0.3), ("m", -1e-17, 1e-17), ("1", 0.0, 0.0)];
         assert_eq!(noticeable(still.into_iter()), [true, false, false]);
     }

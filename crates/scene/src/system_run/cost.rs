@@ -21,6 +21,7 @@ use super::error::SystemRunError;
 use super::from_scene::varied;
 use super::in_time::begin;
 use super::job::{RunJob, RunKind};
+use super::recorded_columns::ResultSize;
 use super::recorder::{Course, Moment, Recorder, Selection};
 use crate::system::{LoadedSystem, Run, Start, SystemPlan, SystemScene, step_in_words};
 
@@ -50,7 +51,7 @@ pub struct RunCost {
 struct Trial<'a> {
     params: &'a Params,
     start: Start,
-    /// Rows every so often \[s\]; none where nothing is recorded.
+    /// Samples every so often \[s\]; none where nothing is recorded.
     interval_s: Option<f64>,
     /// Share of the time in which rows are recorded.
     recorded: f64,
@@ -91,7 +92,7 @@ impl RunCost {
                 let trial = Trial {
                     params: &run.params,
                     start: run.start,
-                    interval_s: Some(run.interval_s),
+                    interval_s: Some(run.interval_s / run.samples_per_row() as f64),
                     recorded: 1.0,
                     end_s: run.end_s,
                     budget: TRIALS,
@@ -112,7 +113,7 @@ impl RunCost {
                     let trial = Trial {
                         params: &run.params,
                         start: run.start,
-                        interval_s: Some(run.interval_s),
+                        interval_s: Some(run.interval_s / run.samples_per_row() as f64),
                         recorded: measured / run.end_s,
                         end_s: run.end_s,
                         budget: TRIALS / MOST_TRIALS as u32,
@@ -256,6 +257,15 @@ impl Trial<'_> {
 }
 
 impl SystemPlan {
+    /// Adds the size of the result, where it has rows.
+    #[must_use]
+    pub fn with_result(mut self, size: Option<ResultSize>) -> Self {
+        if let Some(size) = size {
+            self.lines.push(format!("result     {size}"));
+        }
+        self
+    }
+
     /// Adds what the run will cost.
     #[must_use]
     pub fn with_cost(mut self, scene: &SystemScene, cost: Option<RunCost>) -> Self {

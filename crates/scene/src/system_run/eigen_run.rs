@@ -4,16 +4,20 @@ use gearmesh_dynamics::{
     DynamicsError, NaturalMode, State, StaticParams, System, equilibrium, natural_modes,
     natural_modes_up_to, strain_shares,
 };
+use gearmesh_model::FileError;
 use nalgebra::{DVector, Vector3};
+use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
 
 use super::error::SystemRunError;
 use super::in_time::begin;
-use super::job::{Advance, EigenJob, EigenPoint, Outcome, RunHead, RunOptions};
+use super::job::{Advance, EigenJob, EigenPoint, MeshRecord, Outcome, RunHead, RunOptions};
+use super::recorder::element_column;
 use super::result::EigenResult;
 use super::result_kind::ResultKind;
 use super::result_record::Contents;
+use super::stages::StageLoad;
 
 /// Runs all operating points. It is not resumed: an unfinished one begins anew.
 pub(super) fn run_eigen(
@@ -32,7 +36,7 @@ pub(super) fn run_eigen(
             .collect();
         elements = system.elements().map(str::to_owned).collect();
         let mut notes = Vec::new();
-        let Some(found) = about(system, point, job, &mut notes, options)? else {
+        let Some(found) = about(system, point, (job, &head.meshes), &mut notes, options)? else {
             return Ok(Outcome::Stopped);
         };
         results.push(found);
@@ -48,6 +52,9 @@ pub(super) fn run_eigen(
             return Ok(Outcome::Stopped);
         }
     }
+    head.notes.extend(open_meshes(&results, &head.meshes));
+    head.notes
+        .extend(torques_that_follow(&results, &job.torques));
     let mut contents = Contents::of_run(ResultKind::Eigen, head);
     (contents.bodies, contents.elements) = (bodies, elements);
     contents.eigen = results;
@@ -59,7 +66,7 @@ pub(super) fn run_eigen(
 fn about(
     mut system: System,
     point: &EigenPoint,
-    job: &EigenJob,
+    (job, meshes): (&EigenJob, &[MeshRecord]),
     notes: &mut Vec<String>,
     options: &RunOptions<'_>,
 ) -> Result<Option<EigenResult>, SystemRunError> {
@@ -92,6 +99,7 @@ fn about(
         }
     };
     let strain = strain_shares(&mut system, &state, &modes)?;
+    let loads = loads_of(&mut system, &state, meshes)?;
     let participation = modes
         .iter()
         .map(|mode| participation(&system, &state, mode))
@@ -101,7 +109,83 @@ fn about(
         modes,
         participation,
         strain,
+        loads,
     }))
+}
+
+/// Meshes without a pair of teeth that carries: their stiffness is in none of the modes.
+fn open_meshes(results: &[EigenResult], meshes: &[MeshRecord]) -> Vec<String> {
+    let mut notes = Vec::new();
+    for (i, mesh) in meshes.iter().enumerate() {
+        let is_open = |point: &&EigenResult| {
+            let mut loads = point.loads.iter();
+            loads.any(|(of, load)| *of == i && load.loaded_pairs == Some(0.0))
+        };
+        let open: Vec<&EigenResult> = results.iter().filter(is_open).collect();
+        if let Some(first) = open.first() {
+            notes.push(format!(
+                "warning: mesh `{}` is open at {} of {} operating points (the first one at load factor {}): no pair of teeth carries, so its stiffness is in \
+                 none of the modes there and its gears turn free of each other. A load that presses the flanks together closes it",
+                mesh.name,
+                open.len(),
+                results.len(),
+                first.point.load_factor
+            ));
+        }
+    }
+    notes
+}
+
+/// Damping ratios below this are rounding.
+const LEAST_RATIO: f64 = 1e-7;
+
+/// Says why modes of a scene without damping die out and grow: without damping the eigenvalues lie as ±s, and off the
+/// imaginary axis only where stiffness is not symmetric, as that of a torque on a body which tilts
+/// (docs/theory/multibody.md, "Loads that follow").
+fn torques_that_follow(results: &[EigenResult], torques: &[String]) -> Option<String> {
+    let modes = results.iter().flat_map(|point| &point.modes);
+    let vibrating = modes.filter(|mode| mode.angular_frequency_rad_per_s != 0.0);
+    let [least, most] = vibrating
+        .map(NaturalMode::damping_ratio)
+        .fold([0.0_f64; 2], |[a, b], ratio| [a.min(ratio), b.max(ratio)]);
+    let is_undamped = (most + least).abs() < 1e-2 * most;
+    if torques.is_empty() || most < LEAST_RATIO || !is_undamped {
+        return None;
+    }
+    Some(format!(
+        "damping ratios of up to ±{:.3} % in modes of a scene without damping come from {}: a torque on a body that tilts follows the body or keeps its axis, \
+         and does work over a closed way of tilts, so that stiffness is not symmetric. Modes with the minus sign grow where no damping holds them",
+        100.0 * most,
+        torques
+            .iter()
+            .map(|name| format!("`{name}`"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    ))
+}
+
+/// What the meshes carry at an operating point; nothing of `kinematic` ones, which are joints.
+fn loads_of(
+    system: &mut System,
+    state: &State,
+    meshes: &[MeshRecord],
+) -> Result<Vec<(usize, StageLoad)>, FileError> {
+    let channels = system.channels();
+    let names: Vec<&str> = system.elements().collect();
+    let of = |name: &&str| channels.iter().filter(|(owner, _)| owner == name).count();
+    let counts: Vec<usize> = names.iter().map(of).collect();
+    let mut values = vec![0.0; channels.len()];
+    system.sample(state, &counts, &mut values);
+    let columns = channels
+        .iter()
+        .map(|(owner, channel)| element_column(owner, &channel.name));
+    let by_column: HashMap<String, f64> = columns.zip(values).collect();
+    let mut loads = Vec::new();
+    for (i, mesh) in meshes.iter().enumerate() {
+        let load = StageLoad::of(mesh, |column| Ok(by_column.get(column).copied()))?;
+        loads.extend(load.map(|load| (i, load)));
+    }
+    Ok(loads)
 }
 
 /// All modes about a state, or those up to the highest frequency that is asked for.

@@ -41,6 +41,7 @@ impl RunJob {
                 start,
                 end_s,
                 interval_s: scene.output.interval_s.unwrap_or(end_s),
+                statistics_from_s: scene.output.statistics_from_s.unwrap_or(0.5 * end_s),
                 windows,
             })
         };
@@ -162,8 +163,12 @@ fn eigen_job(
     });
     let points = points.collect();
     let motion = speeds.map(|speeds| speeds.motion);
+    let loads = loaded.scene.tables.load.iter();
+    let torques = loads.filter(|load| load.torque_Nm.is_some());
+    let torques = torques.map(LoadTable::name).collect();
     let loaded = loaded.clone();
     EigenJob {
+        torques,
         points,
         settle: None,
         most_frequency_hz: None,
@@ -236,12 +241,16 @@ fn head(loaded: &LoadedSystem, built: &BuiltSystem) -> RunHead {
         bodies: mesh.gears.clone(),
         teeth: mesh.teeth,
         flank_corners_m: mesh.flank_corners_m.clone(),
+        stage: mesh.stage,
+        speeds_rad_per_s: Some(mesh.speeds_rad_per_s),
     });
+    let slips = loaded.unit_slips().into_iter();
+    let slips = slips.map(|slip| format!("warning: {slip}")).collect();
     RunHead {
         title: scene.title.clone(),
         scene_toml: scene.document.text.clone(),
         inputs: inputs(scene),
-        notes: built.notes.clone(),
+        notes: [built.notes.clone(), slips].concat(),
         meshes: meshes.collect(),
     }
 }

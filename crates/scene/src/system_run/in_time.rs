@@ -16,6 +16,7 @@ use gearmesh_model::{Column, DataTree, FileError, RowLog};
 use super::column_statistics::ColumnStatistics;
 use super::error::SystemRunError;
 use super::job::{Advance, InTime, Outcome, RunHead, RunOptions};
+use super::low_pass::RowFilter;
 use super::mesh_pace::MeshPace;
 use super::part_folder::PartFolder;
 use super::rating;
@@ -54,14 +55,20 @@ pub(super) fn begin(
     Ok(Simulation::from_state(system, found.state, *params)?)
 }
 
+/// Rows of a run, its start included.
+pub(super) fn rows(run: &InTime) -> f64 {
+    (run.end_s / run.interval_s + 1e-9).floor() + 1.0
+}
+
 /// What is made of the accepted steps.
 struct Tape<'a> {
     run: &'a InTime,
     samples: u64,
     recorder: Recorder,
+    rows: RowFilter,
     grid: OutputGrid,
     pace: MeshPace,
-    /// Of all rows.
+    /// Of all samples from the begin of the statistics on.
     statistics: ColumnStatistics,
     /// Of the window that is open.
     window: ColumnStatistics,
@@ -83,21 +90,25 @@ impl<'a> Tape<'a> {
             end_s: run.end_s,
             problem,
         };
-        let samples = (run.end_s / run.interval_s + 1e-9).floor() + 1.0;
-        if samples.is_nan() || samples < 2.0 {
+        let intervals = rows(run) - 1.0;
+        if intervals.is_nan() || intervals < 1.0 {
             return Err(refused("there is no row but the first"));
         }
-        if samples > MOST_ROWS {
+        if intervals >= MOST_ROWS {
             return Err(refused("there are too many rows"));
         }
+        let per_row = run.samples_per_row();
         let start = system.start();
         let recorder = Recorder::new(system, start, selection, vec![time()], Course::InTime);
         let columns = recorder.columns().len();
+        let filter = RowFilter::new(recorder.columns(), per_row);
+        let rows = filter.map_err(|_| refused("no filter fits its steps"))?;
         Ok(Self {
             run,
-            samples: samples as u64,
+            samples: intervals as u64 * per_row as u64 + 1,
             recorder,
-            grid: OutputGrid::new(run.interval_s, start),
+            rows,
+            grid: OutputGrid::new(run.interval_s, start).in_parts(per_row as u64),
             pace: MeshPace::new(system, &head.meshes),
             statistics: ColumnStatistics::new(columns),
             window: ColumnStatistics::new(columns),
@@ -115,10 +126,56 @@ impl<'a> Tape<'a> {
         self.before = simulation.info().energy;
     }
 
+    /// What does not go with this run: its name, and what is wrong with it.
+    fn contradiction(&self, time_s: f64, recorded: &Recorded) -> Option<(&'static str, String)> {
+        let windows = self.run.windows.len();
+        let columns = self.recorder.columns().len();
+        for (item, found, needed) in [
+            (
+                "recorded/angles",
+                recorded.angles.len(),
+                self.recorder.save().len(),
+            ),
+            (
+                "recorded/statistics",
+                recorded.statistics[0].len(),
+                self.statistics.save().len(),
+            ),
+            (
+                "recorded/window",
+                recorded.statistics[1].len(),
+                self.window.save().len(),
+            ),
+            (
+                "recorded/windows",
+                recorded.windows.len(),
+                4 * columns * recorded.closed.min(windows),
+            ),
+        ] {
+            if found != needed {
+                return Some((item, format!("it has {found} entries, {needed} are needed")));
+            }
+        }
+        if recorded.next_sample > self.samples || recorded.closed > windows {
+            let problem = format!("there are {} rows and {windows} windows", self.samples);
+            return Some(("recorded/progress", problem));
+        }
+        // A run that has come to its end has no checkpoint.
+        let last_s = self.run.end_s + self.run.interval_s;
+        let problem = format!(
+            "its time is {time_s} s, the run ends at {} s",
+            self.run.end_s
+        );
+        (time_s > last_s).then_some(("simulation/scalars", problem))
+    }
+
     fn resume_at(&mut self, simulation: &Simulation, recorded: Recorded) {
         self.recorder.restore(&recorded.angles);
         let start = simulation.state();
-        self.grid = OutputGrid::new(self.run.interval_s, start).from_index(recorded.next_sample);
+        let grid = OutputGrid::new(self.run.interval_s, start);
+        let parts = self.run.samples_per_row() as u64;
+        self.grid = grid.in_parts(parts).from_index(recorded.next_sample);
+        self.rows.restore(&recorded.rows);
         self.statistics.restore(&recorded.statistics[0]);
         self.window.restore(&recorded.statistics[1]);
         (self.closed, self.figures) = (recorded.closed, recorded.windows);
@@ -130,6 +187,7 @@ impl<'a> Tape<'a> {
             next_sample: self.grid.next_index(),
             wall_s,
             angles: self.recorder.save(),
+            rows: self.rows.save(),
             statistics: [self.statistics.save(), self.window.save()],
             windows: self.figures.clone(),
             closed: self.closed,
@@ -151,6 +209,7 @@ impl<'a> Tape<'a> {
             run,
             samples,
             recorder,
+            rows,
             grid,
             statistics,
             window,
@@ -195,9 +254,11 @@ impl<'a> Tape<'a> {
                     return;
                 }
             };
-            statistics.add(row);
             if run.windows.is_empty() {
-                outcome = log.append(row).map_err(SystemRunError::from);
+                if now >= run.statistics_from_s {
+                    statistics.add(row);
+                }
+                outcome = (rows.add(row, |row| log.append(row))).map_err(SystemRunError::from);
             } else {
                 window.add(row);
             }
@@ -207,12 +268,16 @@ impl<'a> Tape<'a> {
         outcome
     }
 
-    /// Closes the windows that reach the end of the run.
-    fn finish(&mut self) {
+    /// Closes the windows that reach the end of the run, and writes the rows that have waited.
+    fn finish(&mut self, log: &mut RowLog) -> Result<(), SystemRunError> {
+        if self.run.windows.is_empty() {
+            self.rows.finish(|row| log.append(row))?;
+        }
         while self.closed < self.run.windows.len() {
             close(&mut self.window, &mut self.figures);
             self.closed += 1;
         }
+        Ok(())
     }
 }
 
@@ -233,10 +298,11 @@ pub(super) fn run_in_time(
 ) -> Result<Outcome, SystemRunError> {
     let mut tape = Tape::new(run, (&head, &system), selection)?;
     let columns = tape.recorder.columns().to_vec();
+    let written = tape.rows.columns(&columns);
     let (mut part, saved) = PartFolder::open(
         options.output,
         &head.identity(),
-        columns.len(),
+        written.len(),
         options.restart,
     )?;
     let tell = |time_s: f64, resumed| {
@@ -258,6 +324,14 @@ pub(super) fn run_in_time(
             let path = PartFolder::beside(options.output);
             let (checkpoint, recorded) = from_tree(&mut tree, &path).map_err(damaged)?;
             let simulation = Simulation::resume(system, run.params, &checkpoint)?;
+            let time_s = simulation.state().time_s;
+            if let Some((item, problem)) = tape.contradiction(time_s, &recorded) {
+                return Err(damaged(FileError::Contradiction {
+                    path,
+                    item: item.to_owned(),
+                    problem,
+                }));
+            }
             wall_s = recorded.wall_s;
             head.notes = notes_of(&mut tree, &path).map_err(damaged)?;
             tape.resume_at(&simulation, recorded);
@@ -268,9 +342,9 @@ pub(super) fn run_in_time(
     let mut begun = Instant::now();
     while !tape.is_complete() {
         let (leg, mut told) = (Instant::now(), Instant::now());
-        let (mut written, mut stopped) = (Ok(()), false);
+        let (mut taken, mut stopped) = (Ok(()), false);
         simulation.run(f64::INFINITY, |step| {
-            written = tape.take(step, part.log());
+            taken = tape.take(step, part.log());
             let now = Instant::now();
             if now - told > TOLD_EVERY {
                 told = now;
@@ -278,13 +352,13 @@ pub(super) fn run_in_time(
             }
             stopped = options.stop.load(Ordering::Relaxed);
             let due = now - leg >= options.checkpoint_interval;
-            if written.is_err() || tape.is_complete() || stopped || due {
+            if taken.is_err() || tape.is_complete() || stopped || due {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
         })?;
-        written?;
+        taken?;
         wall_s += begun.elapsed().as_secs_f64();
         begun = Instant::now();
         if !tape.is_complete() {
@@ -296,7 +370,7 @@ pub(super) fn run_in_time(
             }
         }
     }
-    tape.finish();
+    tape.finish(part.log())?;
     // The last step may go past the end: rows are interpolated, and nothing behind it is used.
     let simulated_s = simulation.state().time_s.min(run.end_s);
     let record = RunRecord::new(simulation.info(), simulated_s, wall_s);
@@ -304,8 +378,11 @@ pub(super) fn run_in_time(
     contents.record = Some(record);
     if run.windows.is_empty() {
         contents.statistics = tape.statistics.figures();
-        contents.ratings = rating::of_rows(ratings, &columns, part.log())?;
-        let rows = ("time", &columns[..], part.log());
+        contents.statistics_from_s = Some(run.statistics_from_s);
+        contents.folded = tape.rows.folded();
+        contents.samples_per_row = Some(run.samples_per_row() as f64);
+        contents.ratings = rating::of_rows(ratings, &written, part.log())?;
+        let rows = ("time", &written[..], part.log());
         contents.write_with_rows(options.output, rows)?;
     } else {
         contents.ratings = rating::of_windows(ratings, &columns, &tape.figures);

@@ -4,10 +4,10 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use gearmesh_dynamics::{Params, System};
+use gearmesh_dynamics::{Params, StepControl, System};
 use gearmesh_model::bytes_digest;
 
-use crate::system::{RatingJob, Start};
+use crate::system::{RatingJob, StageSummary, Start};
 
 use super::error::SystemRunError;
 use super::recorder::Selection;
@@ -64,6 +64,8 @@ pub struct EigenJob {
     pub settle: Option<Settling>,
     /// Highest frequency that is kept \[Hz\].
     pub most_frequency_hz: Option<f64>,
+    /// Loads that are torques, whose stiffness is not symmetric.
+    pub torques: Vec<String>,
     /// Makes the system for a point.
     pub system_at: SystemAt<EigenPoint>,
 }
@@ -79,8 +81,26 @@ pub struct InTime {
     pub end_s: f64,
     /// Output interval \[s\].
     pub interval_s: f64,
+    /// Statistics of a recorded motion begin here \[s\]: what the start has shaken has died out.
+    pub statistics_from_s: f64,
     /// What a sweep measures, in the order of time. Without windows all rows are kept.
     pub windows: Vec<Window>,
+}
+
+/// Looks between two rows at most, which bounds the memory of the filter.
+const MOST_SAMPLES_PER_ROW: f64 = 64.0;
+
+impl InTime {
+    /// How often the motion is looked at for each row: about once a step, of adaptive ones the longest.
+    #[must_use]
+    pub fn samples_per_row(&self) -> usize {
+        let step_s = match self.params.step {
+            StepControl::Fixed { step_s } => step_s,
+            StepControl::Adaptive(limits) => limits.largest_step_s,
+        };
+        let samples = (self.interval_s / step_s - 1e-9).ceil();
+        samples.clamp(1.0, MOST_SAMPLES_PER_ROW) as usize
+    }
 }
 
 /// What a run computes.
@@ -123,6 +143,10 @@ pub struct MeshRecord {
     pub teeth: [usize; 2],
     /// As in [`crate::system::BuiltMesh`]; empty in files of older programs.
     pub flank_corners_m: Vec<f64>,
+    /// The stage without load; none of bevel pairs and in files of older programs.
+    pub stage: Option<StageSummary>,
+    /// Speeds of gear 1 and 2 about their z at the start \[rad/s\]; none in files of older programs.
+    pub speeds_rad_per_s: Option<[f64; 2]>,
 }
 
 /// Where a result comes from; kept in it.

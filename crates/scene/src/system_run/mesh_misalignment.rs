@@ -94,6 +94,27 @@ impl SystemResult {
     /// # Errors
     /// [`FileError`] when the file cannot be read.
     pub fn loaded_flank(&self, mesh: &str, row: usize) -> Result<Option<Flank>, FileError> {
+        let [right, left] = self.normal_forces_n(mesh, row)?;
+        Ok(match right.total_cmp(&left) {
+            std::cmp::Ordering::Greater => Some(Flank::Right),
+            std::cmp::Ordering::Less => Some(Flank::Left),
+            std::cmp::Ordering::Equal => None,
+        })
+    }
+
+    /// Normal force \[N\] on the flanks that carry more of a mesh at a row; none where nothing is known or nothing is
+    /// carried.
+    ///
+    /// # Errors
+    /// [`FileError`] when the file cannot be read.
+    pub fn loaded_force_n(&self, mesh: &str, row: usize) -> Result<Option<f64>, FileError> {
+        let [right, left] = self.normal_forces_n(mesh, row)?;
+        let force = right.max(left);
+        Ok((force > 0.0).then_some(force))
+    }
+
+    /// On right and left flanks \[N\]; zero where the result does not have them.
+    fn normal_forces_n(&self, mesh: &str, row: usize) -> Result<[f64; 2], FileError> {
         let force = |side: &str| -> Result<f64, FileError> {
             let column = format!("elements/{mesh}/normal_force_{side}_N");
             if !self.rows.columns().iter().any(|c| c.name == column) {
@@ -101,12 +122,7 @@ impl SystemResult {
             }
             Ok(self.rows.read(&column)?.get(row).copied().unwrap_or(0.0))
         };
-        let (right, left) = (force("right")?, force("left")?);
-        Ok(match right.total_cmp(&left) {
-            std::cmp::Ordering::Greater => Some(Flank::Right),
-            std::cmp::Ordering::Less => Some(Flank::Left),
-            std::cmp::Ordering::Equal => None,
-        })
+        Ok([force("right")?, force("left")?])
     }
 }
 

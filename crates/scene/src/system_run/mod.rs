@@ -3,13 +3,14 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | what is to be run | [`RunJob`], made from a scene by [`RunJob::from_scene`] | `job.rs`, `from_scene.rs` |
-//! | motion in time, in rows or measured speed by speed | [`run`] | `in_time.rs`, `speed_plan.rs`, `column_statistics.rs`, `mesh_pace.rs` |
+//! | motion in time, in rows or measured speed by speed | [`run`] | `in_time.rs`, `low_pass.rs`, `speed_plan.rs`, `column_statistics.rs`, `mesh_pace.rs` |
 //! | equilibria, natural frequencies | [`run`] | `static_series.rs`, `eigen_run.rs` |
 //! | what it will cost | [`RunCost`] | `cost.rs` |
 //! | what a row holds | [`Recorder`] | `recorder.rs`, `counted_angles.rs` |
 //! | how an unfinished run is kept and resumed | [`PartFolder`] | `part_folder.rs`, `stored_checkpoint.rs` |
 //! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
 //! | what is judged after the run | [`RatingResult`](crate::rating::RatingResult) | `rating.rs` |
+//! | the stages, their loads beside what follows from their teeth | [`StageTable`] | `stages.rs` |
 //! | what friction takes, part by part | [`PowerLosses`] | `losses.rs` |
 //! | its figures at a glance, what of each period it saw | [`ColumnSummary`], [`MeshPassing`] | `summary.rs`, `column_names.rs`, `mesh_passing.rs` |
 
@@ -23,6 +24,7 @@ mod from_scene;
 mod in_time;
 mod job;
 mod losses;
+mod low_pass;
 mod mesh_misalignment;
 mod mesh_pace;
 mod mesh_passing;
@@ -36,11 +38,12 @@ mod result_kind;
 mod result_record;
 mod run_record;
 mod speed_plan;
+mod stages;
 mod static_series;
 mod stored_checkpoint;
 mod summary;
 
-pub use column_names::{is_of_pair, is_prominent, rank, stem, unit_in_name, varying};
+pub use column_names::{is_of_pair, is_prominent, rank, rounding, stem, unit_in_name, varying};
 pub use column_statistics::{ColumnStatistics, Figures};
 pub use cost::RunCost;
 pub use eigen_run::participation;
@@ -52,17 +55,19 @@ pub use job::{
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
 pub use losses::{PowerLoss, PowerLosses};
+pub use low_pass::LOW_PASS_BAND;
 pub use mesh_misalignment::MeshAxes;
 pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;
-pub use recorded_columns::recorded_columns;
+pub use recorded_columns::{ResultSize, megabytes, recorded_columns};
 pub use recorder::{Course, Moment, Recorder, Selection};
 pub(crate) use recorder::{body_column, element_column};
-pub use result::{EigenResult, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
+pub use result::{EigenResult, FOLDED_SHARE, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
 pub use result_kind::ResultKind;
 pub use run_record::RunRecord;
 pub use speed_plan::{SpeedPlan, Window};
+pub use stages::{StageLine, StageLoad, StageRow, StageTable};
 pub use summary::{ColumnSummary, foremost};
 
 /// Runs a job and writes its result.

@@ -6,7 +6,7 @@ use gearmesh_bearings::LoadHistory;
 use gearmesh_model::{Column, FileError, RowLog};
 use gearmesh_rating::TurningPoints;
 
-use crate::rating::{PassageLength, RatingResult, nominal_figures};
+use crate::rating::{PassageLength, RatingResult, nominal_figures, nominal_remark};
 use crate::system::{RatingJob, RatingRule};
 
 /// Rows read at once.
@@ -86,13 +86,20 @@ impl<'a> Collected<'a> {
     }
 
     fn result(self) -> RatingResult {
+        let mut warnings = Vec::new();
         let figures = match (&self.job.rule, self.problem) {
             (_, Some(problem)) => Err(problem),
             (RatingRule::BearingLife(life), None) => match &self.history {
-                Some(history) => life.figures(history).map_err(|e| e.to_string()),
+                Some(history) => (life.figures(history))
+                    .map(|(figures, found)| {
+                        warnings = found;
+                        figures
+                    })
+                    .map_err(|e| e.to_string()),
                 None => Err("there is no row".to_owned()),
             },
             (RatingRule::Nominal(job), None) => {
+                warnings.extend(nominal_remark(job));
                 nominal_figures(job, self.largest).map_err(|e| e.to_string())
             }
             (RatingRule::Fatigue(job), None) => {
@@ -104,6 +111,7 @@ impl<'a> Collected<'a> {
         let missing = self.span_rad.and_then(less_than_a_turn);
         RatingResult::new(self.job.name.clone(), self.job.method.clone(), figures)
             .incomplete_by(missing)
+            .warning(warnings)
     }
 }
 

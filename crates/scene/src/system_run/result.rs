@@ -11,10 +11,12 @@ use gearmesh_model::{
 use super::column_names::{unit_in_name, varying};
 use super::column_statistics::Figures;
 use super::job::{EigenPoint, RunHead};
+use super::low_pass::{GROUP, LOW_PASS_BAND};
 use super::result_kind::ResultKind;
 use super::result_record::{Contents, STATED_UNITS};
 use super::run_record::RunRecord;
 use super::speed_plan::Window;
+use super::stages::StageLoad;
 use crate::rating::RatingResult;
 
 /// Name and version of the result file.
@@ -23,6 +25,9 @@ pub const SYSTEM_RESULT_FORMAT: FileFormat = FileFormat {
     // 2: units and descriptions of all channels
     version: 2,
 };
+
+/// Share of a column's deviation above which what is folded is reported.
+pub const FOLDED_SHARE: f64 = 1e-3;
 
 /// Natural modes at one operating point.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -36,6 +41,9 @@ pub struct EigenResult {
     /// Share of each force element in the strain energy of each mode, `[mode][element]`; empty in files of older
     /// programs.
     pub strain: Vec<Vec<f64>>,
+    /// Loads of gear meshes at the point, by the mesh's place in the head; of `kinematic` ones and in files of older
+    /// programs none.
+    pub loads: Vec<(usize, StageLoad)>,
 }
 
 /// A measured speed sweep.
@@ -64,8 +72,15 @@ pub struct SystemResult {
     pub record: Option<RunRecord>,
     /// Rows, column by column; none for a sweep and for natural frequencies.
     pub rows: ColumnFile,
-    /// Figures of all columns of a transient run, in their order.
+    /// Figures of the columns of a transient run, in their order, those that are filtered left out.
     pub statistics: Vec<Figures>,
+    /// Begin of these figures \[s\].
+    pub statistics_from_s: f64,
+    /// How often a transient run was looked at for each row: figures are those of all samples.
+    pub samples_per_row: usize,
+    /// RMS value of what vibrates faster than rows can tell, of each column that has statistics; empty where it is not
+    /// known.
+    pub folded: Vec<f64>,
     /// Sweep.
     pub sweep: Option<SweepResult>,
     /// What was judged after the run.
@@ -165,6 +180,53 @@ impl SystemResult {
         list
     }
 
+    /// A column of a transient run as a spectrum needs it, without what vibrates faster than rows can tell; the column
+    /// itself where it is not filtered.
+    ///
+    /// # Errors
+    /// [`FileError`] when there is no such column, or it cannot be read.
+    pub fn read_for_spectrum(&self, name: &str) -> Result<Vec<f64>, FileError> {
+        match self.low_pass(name) {
+            Some(filtered) => self.rows.read(&filtered.name),
+            None => self.rows.read(name),
+        }
+    }
+
+    /// Whether a column has a filtered one.
+    #[must_use]
+    pub fn has_low_pass(&self, name: &str) -> bool {
+        self.low_pass(name).is_some()
+    }
+
+    /// The filtered column of another one.
+    fn low_pass(&self, name: &str) -> Option<&Column> {
+        let of = |column: &&Column| column.name.strip_prefix(GROUP) == Some(name);
+        self.rows.beside().iter().find(of)
+    }
+
+    /// Share of half the rate of the rows up to which spectra of columns are right.
+    #[must_use]
+    pub fn spectrum_band(&self) -> f64 {
+        if self.samples_per_row > 1 {
+            LOW_PASS_BAND
+        } else {
+            1.0
+        }
+    }
+
+    /// What of a column vibrates faster than its rows can tell, over its deviation, and stands at false places in a
+    /// spectrum over them; none below [`FOLDED_SHARE`], and of columns that are filtered.
+    #[must_use]
+    pub fn folded_share(&self, name: &str) -> Option<f64> {
+        if self.has_low_pass(name) {
+            return None;
+        }
+        let mut columns = self.rows.columns().iter();
+        let place = columns.position(|column| column.name == name)?;
+        let share = self.folded.get(place)? / self.statistics.get(place)?.deviation;
+        (share > FOLDED_SHARE && share.is_finite()).then_some(share)
+    }
+
     /// Opens a result.
     ///
     /// # Errors
@@ -175,6 +237,7 @@ impl SystemResult {
             rows = rows.with_units_of(unit_in_name);
         }
         let it: Contents = read_record(&mut tree, path, rows.version())?;
+        let rows = rows.with_beside(GROUP);
         let columns = rows.columns().len();
         if it.kind == ResultKind::Transient && it.statistics.len() != columns {
             return Err(FileError::WrongShape {
@@ -192,6 +255,11 @@ impl SystemResult {
             record: it.record,
             rows,
             statistics: it.statistics,
+            statistics_from_s: it.statistics_from_s.unwrap_or(0.0),
+            folded: it.folded,
+            samples_per_row: it
+                .samples_per_row
+                .map_or(1, |samples| samples.max(1.0) as usize),
             sweep: it.sweep,
             ratings: it.ratings,
             eigen: it.eigen,

@@ -12,7 +12,9 @@ use super::result::{EigenResult, SweepResult};
 use super::result_kind::ResultKind;
 use super::run_record::RunRecord;
 use super::speed_plan::Window;
+use super::stages::StageLoad;
 use crate::rating::RatingResult;
+use crate::system::StageSummary;
 
 /// The first version in which channels and columns state their units.
 pub(super) const STATED_UNITS: u32 = 2;
@@ -26,6 +28,9 @@ pub(super) struct Contents {
     pub created_utc: String,
     pub record: Option<RunRecord>,
     pub statistics: Vec<Figures>,
+    pub statistics_from_s: Option<f64>,
+    pub samples_per_row: Option<f64>,
+    pub folded: Vec<f64>,
     pub sweep: Option<SweepResult>,
     pub ratings: Vec<RatingResult>,
     pub bodies: Vec<String>,
@@ -51,7 +56,24 @@ impl Record for Contents {
         }
         if transient {
             f.group("statistics", |f| {
-                figure_fields(&mut self.statistics, f, &[("column", OPEN)])
+                figure_fields(&mut self.statistics, f, &[("column", OPEN)])?;
+                let what =
+                    "begin of the statistics; files of older programs have those of all rows";
+                f.number_if_there("from_s", &mut self.statistics_from_s, "s", what)?;
+                let what =
+                    "samples for each row, from which statistics and filtered columns are made";
+                f.number_if_there("samples_per_row", &mut self.samples_per_row, "1", what)?;
+                let is_there = if f.is_reading() {
+                    f.has("folded")
+                } else {
+                    f.is_listing() || !self.folded.is_empty()
+                };
+                if is_there {
+                    let axes = [("column", self.statistics.len())];
+                    let what = "RMS value of what vibrates faster than rows can tell";
+                    f.numbers("folded", &mut self.folded, &axes, "of the column", what)?;
+                }
+                Ok(())
             })?;
         }
         if sweep {
@@ -105,6 +127,18 @@ impl Record for MeshRecord {
                 what,
             )?;
         }
+        f.optional("stage", &mut self.stage, StageSummary::fields)?;
+        let mut speeds: Vec<f64> = self.speeds_rad_per_s.into_iter().flatten().collect();
+        if !f.is_reading() || f.has("speeds_rad_per_s") {
+            let what = "speeds of gear 1 and gear 2 about their z at the start";
+            let axes = [("gear", OPEN)];
+            f.numbers("speeds_rad_per_s", &mut speeds, &axes, "rad/s", what)?;
+        }
+        self.speeds_rad_per_s = speeds
+            .first()
+            .copied()
+            .zip(speeds.get(1).copied())
+            .map(Into::into);
         Ok(())
     }
 }
@@ -263,6 +297,10 @@ fn point_fields(
         let what = "share of each force element in the strain energy";
         share_fields("strain", &mut it.strain, f, (axes, what))?;
     }
+    f.list("meshes", &mut it.loads, |(mesh, load), f| {
+        f.count("mesh", mesh, "place of the mesh among all")?;
+        load.fields(f)
+    })?;
     if f.is_reading() {
         let shape = |i: usize| (i * dofs..(i + 1) * dofs).map(|k| [real[k], imaginary[k]]);
         let mode = |i: usize| NaturalMode {
@@ -273,6 +311,22 @@ fn point_fields(
         it.modes = (0..modes.1).map(mode).collect();
     }
     Ok(())
+}
+
+impl Record for StageLoad {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let what = "moments of the mesh on the bodies of gear 1 and gear 2 about their z";
+        let axes = [("gear", 2)];
+        f.fixed("moments_Nm", &mut self.moments_nm, &axes, "N·m", what)?;
+        let mut forces: Vec<f64> = self.forces_n.into_iter().flatten().collect();
+        let what = "tangential, radial and axial force on gear 1; none of kinematic meshes";
+        f.numbers("forces_N", &mut forces, &[("way", OPEN)], "N", what)?;
+        self.forces_n = forces.first_chunk().copied();
+        let what = "largest over mean line load of the slices";
+        f.optional_number("k_h_beta", &mut self.k_h_beta, "1", what)?;
+        let what = "pairs of teeth that carry; none of kinematic meshes";
+        f.optional_number("loaded_pairs", &mut self.loaded_pairs, "1", what)
+    }
 }
 
 fn share_fields(

@@ -12,6 +12,8 @@ pub struct Recorded {
     pub next_sample: u64,
     /// Wall time used \[s\].
     pub wall_s: f64,
+    /// Rows that are not written yet.
+    pub rows: Vec<f64>,
     /// Counted angles.
     pub angles: Vec<f64>,
     /// Statistics of all rows, then of the window that is open.
@@ -42,6 +44,7 @@ pub fn to_tree(checkpoint: &Checkpoint, recorded: &Recorded) -> DataTree {
         ("simulation/matrix", c.matrix.clone()),
         ("recorded/progress", progress.to_vec()),
         ("recorded/angles", r.angles.clone()),
+        ("recorded/rows", r.rows.clone()),
         ("recorded/statistics", r.statistics[0].clone()),
         ("recorded/window", r.statistics[1].clone()),
         ("recorded/windows", r.windows.clone()),
@@ -53,19 +56,36 @@ pub fn to_tree(checkpoint: &Checkpoint, recorded: &Recorded) -> DataTree {
     tree
 }
 
+/// Above this not every whole number is a 64-bit float: 2⁵³.
+const MOST_COUNT: f64 = 9_007_199_254_740_992.0;
+
 /// The way back; `path` is named in errors.
 ///
 /// # Errors
-/// [`FileError::Missing`], [`FileError::WrongShape`], [`FileError::WrongType`].
+/// [`FileError::Missing`], [`FileError::WrongShape`], [`FileError::WrongType`], [`FileError::Contradiction`].
 pub fn from_tree(tree: &mut DataTree, path: &Path) -> Result<(Checkpoint, Recorded), FileError> {
     let mut take = |name: &str| {
         let [length] = tree.shape(path, name)?;
         tree.take_f64(path, name, &[length])
     };
-    let counts = |values: Vec<f64>| values.into_iter().map(|n| n as u64).collect::<Vec<_>>();
+    // Counts are stored as numbers, which hold whole ones up to here.
+    let count = |name: &str, n: f64| {
+        if (0.0..MOST_COUNT).contains(&n) && n.fract() == 0.0 {
+            return Ok(n as u64);
+        }
+        Err(FileError::Contradiction {
+            path: path.to_owned(),
+            item: name.to_owned(),
+            problem: format!("{n} is no count"),
+        })
+    };
+    let counts = |name: &str, values: Vec<f64>| {
+        let counts = values.into_iter().map(|n| count(name, n));
+        counts.collect::<Result<Vec<_>, _>>()
+    };
     let checkpoint = Checkpoint {
         scalars: take("simulation/scalars")?,
-        counts: counts(take("simulation/counts")?),
+        counts: counts("simulation/counts", take("simulation/counts")?)?,
         positions_m: take("simulation/positions")?,
         quaternions: take("simulation/quaternions")?,
         modal: take("simulation/modal")?,
@@ -77,11 +97,13 @@ pub fn from_tree(tree: &mut DataTree, path: &Path) -> Result<(Checkpoint, Record
     };
     let [next_sample, wall_s, closed]: [f64; 3] =
         take("recorded/progress")?.try_into().unwrap_or([0.0; 3]);
+    let [next_sample, closed] = [next_sample, closed].map(|n| count("recorded/progress", n));
     let recorded = Recorded {
-        next_sample: next_sample as u64,
+        next_sample: next_sample?,
         wall_s,
-        closed: closed as usize,
+        closed: closed? as usize,
         angles: take("recorded/angles")?,
+        rows: take("recorded/rows")?,
         statistics: [take("recorded/statistics")?, take("recorded/window")?],
         windows: take("recorded/windows")?,
     };

@@ -38,6 +38,22 @@ impl SystemResult {
         Ok((times.last().copied().unwrap_or(f64::NAN) - times[0]) / steps as f64)
     }
 
+    /// What the statistics of a transient result go over, in words.
+    #[must_use]
+    pub fn statistics_in_words(&self) -> String {
+        let end_s = self
+            .record
+            .as_ref()
+            .map_or(f64::NAN, |record| record.simulated_s);
+        let samples = match self.samples_per_row {
+            1 => "all rows".to_owned(),
+            samples => format!("{samples} samples a row"),
+        };
+        let from_s = (1e9 * self.statistics_from_s).round() / 1e9;
+        let end_s = (1e9 * end_s).round() / 1e9;
+        format!("figures from {from_s} s to {end_s} s, of {samples}")
+    }
+
     /// Largest error of the energy balance of a run in time over the work done.
     #[must_use]
     pub fn relative_energy_error(&self) -> Option<f64> {
@@ -84,7 +100,9 @@ impl SystemResult {
                 continue;
             }
             let dominant_hz = if varies && !is_progressive(&column.name) {
-                dominant_hz(&self.rows.read(&column.name)?, interval_s)
+                let values = self.read_for_spectrum(&column.name)?;
+                let first = (self.statistics_from_s / interval_s).round() as usize;
+                dominant_hz(&values[first.min(values.len() - 1)..], interval_s)
             } else {
                 None
             };

@@ -237,3 +237,31 @@ fn bad_bearing_ratings_are_told() {
         }
     }
 }
+
+/// What `gearmesh bearing` warns of under one load is warned of in a run, for each load of it, and kept in the result.
+#[test]
+fn loads_beyond_the_limits_of_a_bearing_are_reported() {
+    let folder = folder();
+    let result = finish(SCENE, folder.path());
+    assert_eq!(result.warnings().unwrap(), Vec::<String>::new());
+    // 20 kN: s0 = 7850/20 000, more than half of C, and steel yields.
+    let heavy = changed(SCENE, "force_N = 1000.0", "force_N = 20000.0");
+    let result = finish(&heavy, folder.path());
+    let warnings = result.warnings().unwrap();
+    for what in [
+        "static safety: s0 = C0/P0 = 0.39",
+        "pressure: ",
+        "more than 0.5 C = 7000 N",
+    ] {
+        let found = warnings.iter().find(|w| w.contains(what));
+        let found = found.unwrap_or_else(|| panic!("{what} is not in {warnings:?}"));
+        assert!(found.starts_with("bearing front: "), "{found}");
+    }
+    // A tenth of a newton at speed: balls may skid.
+    let light = changed(SCENE, "force_N = 1000.0", "force_N = 10.0");
+    let warnings = finish(&light, folder.path()).warnings().unwrap();
+    assert!(
+        warnings.iter().any(|w| w.contains("minimum load: ")),
+        "{warnings:?}"
+    );
+}

@@ -64,8 +64,25 @@ pub fn transient(params: Params, end_s: f64, interval_s: f64) -> RunKind {
         start: Start::AsGiven,
         end_s,
         interval_s,
+        statistics_from_s: 0.0,
         windows: Vec::new(),
     })
+}
+
+/// The same with statistics from a time on.
+pub fn transient_from(
+    params: Params,
+    end_s: f64,
+    interval_s: f64,
+    statistics_from_s: f64,
+) -> RunKind {
+    match transient(params, end_s, interval_s) {
+        RunKind::Transient(run) => RunKind::Transient(InTime {
+            statistics_from_s,
+            ..run
+        }),
+        other => other,
+    }
 }
 
 /// A wheel on a revolute joint about z: 0.5 kg m².

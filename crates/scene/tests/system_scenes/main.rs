@@ -24,11 +24,13 @@ mod rolling_bearings;
 mod run_out;
 mod shafts;
 mod shipped;
+mod stages;
 mod start;
 mod static_pairs;
 #[path = "../system_runs/mod.rs"]
 mod system_runs;
 mod tables;
+mod tilted_shafts;
 
 use gearmesh_scene::system::BuiltSystem;
 

@@ -268,16 +268,17 @@ fn misalignment_is_taken_from_a_gearbox() {
         unreachable!()
     };
     let file = desk.output.display();
-    let loaded_with = |torque_nm: f64, keys: &str| {
+    let loaded_under = |torques_nm: &[f64], keys: &str| {
         let text = format!(
             "title = \"taken\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n{keys}\n\
-             [run]\ntorques_Nm = [{torque_nm:?}]\nstart_deg = {start_deg:?}\npitches = 1\npoints_per_pitch = 4\n\
+             [run]\ntorques_Nm = {torques_nm:?}\nstart_deg = {start_deg:?}\npitches = 1\npoints_per_pitch = 4\n\
              [mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\nteeth.path = \"line-of-action\"\n{lead}\n"
         );
         load_pair(
             Scene::from_document(InputDocument::new("pair.toml", text), folder.path()).unwrap(),
         )
     };
+    let loaded_with = |torque_nm: f64, keys: &str| loaded_under(&[torque_nm], keys);
     let scene = |keys: &str| loaded_with(100.0, keys);
     let from = format!("misalignment_from = {{ result = \"{file}\", mesh = \"stage\" }}");
     let taken = scene(&from).unwrap();
@@ -338,6 +339,18 @@ fn misalignment_is_taken_from_a_gearbox() {
             "`{complaint}` is not in {refused}"
         );
     }
+    // An equilibrium is that of one torque: others have other axes.
+    let several = loaded_under(&[50.0, 100.0], &from).unwrap_err().to_string();
+    let complaint = "run.torques_Nm: found [50.0, 100.0] with pair.misalignment_from";
+    assert!(several.contains(complaint), "{several}");
+    assert_eq!(taken.scene.notes.len(), 1, "{:?}", taken.scene.notes);
+    let other = loaded_with(150.0, &from).unwrap();
+    let note = other.scene.notes.last().unwrap();
+    assert!(
+        note.contains("run.torques_Nm is 150 N m, but the axes"),
+        "{note}"
+    );
+
     let both = format!("{from}\ndeviation_mrad = 0.1");
     let text = format!(
         "title = \"t\"\n[pair]\ngear_1 = \"a\"\ngear_2 = \"b\"\ncentre_distance_mm = 106.8\n{both}\n[run]\ntorques_Nm = [1.0]\npitches = 1\npoints_per_pitch = 4\n[mesh]\nmodel.kind = \"hybrid\"\n"

@@ -85,6 +85,36 @@ fn over_order_the_mesh_orders_stand() {
     }
 }
 
+/// A tooth force: 1510 N in the mean, which rises with the run-up, and 30 N that vibrate. Nothing but these is a line.
+#[test]
+fn mean_and_trend_are_no_lines() {
+    let (_, angle_rad) = run_up();
+    let force = |(i, a): (usize, &f64)| 1510.0 + 2e-3 * i as f64 + 30.0 * (17.0 * a).cos();
+    let x: Vec<f64> = angle_rad.iter().enumerate().map(force).collect();
+    let blocks = OrderBlocks {
+        samples_per_revolution: 100,
+        block_revolutions: 4,
+        step_revolutions: 4,
+        window: Window::Hann,
+    };
+    let map = order_map(&x, &angle_rad, RATE_HZ, blocks, &Resampler::default()).unwrap();
+    for row in &map {
+        let (line, found) = row.spectrum.peak(0.0, 40.0).unwrap();
+        assert!((row.spectrum.at(line) - 17.0).abs() < 1e-12 && (found - 30.0).abs() < 0.1);
+        let (_, beside) = row.spectrum.peak(0.0, 15.0).unwrap();
+        assert!(beside < 0.1, "{beside}");
+    }
+    let blocks = FrequencyBlocks {
+        block_samples: 4000,
+        step_samples: 2000,
+        window: Window::Hann,
+    };
+    for row in frequency_map(&x, &angle_rad, RATE_HZ, blocks).unwrap() {
+        let (line, _) = row.spectrum.peak(0.0, 2000.0).unwrap();
+        assert!(row.spectrum.at(line) > 100.0, "{}", row.spectrum.at(line));
+    }
+}
+
 #[test]
 fn maps_that_cannot_be_made_are_refused() {
     let (mut x, mut angle_rad) = run_up();

@@ -3,11 +3,13 @@
 use crate::arguments::ExportArguments;
 use crate::failure::Failure;
 use crate::{console, offline};
+use gearmesh_bevel::{SlotSection, SolidOutline};
 use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_mesh::python::PythonError;
 use gearmesh_model::write_by;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
+use std::path::Path;
 
 const WRITE: &str = include_str!("../../step/write.py");
 
@@ -28,12 +30,12 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
             "{shown}: a model or a result; a .step file is made of a gear file (.toml)"
         )));
     }
-    let gear = offline::gear(&a.result)?;
+    let solid = Solid::read(&a.result)?;
     let python = offline::python()?;
     let task = format!("writing {}", a.output.display());
-    let input = description(&gear).to_string();
+    let input = solid.description.to_string();
     let mut told = Vec::new();
-    let bar = console::StageBar::new(&gear.name);
+    let bar = console::StageBar::new(&solid.name);
     gearmesh_reduction::Progress::stage(
         &bar,
         "making the solid and comparing it with the exact flanks",
@@ -49,7 +51,7 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
     bar.finish();
     outcome?;
     let told: Value = serde_json::from_slice(&told).map_err(Failure::work)?;
-    let left_out = left_out(&gear);
+    let left_out = solid.left_out;
     if a.json {
         console::json(&json!({ "file": a.output, "solid": told, "left_out": left_out }));
     } else {
@@ -66,7 +68,50 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What the gear has and the solid has not.
+/// What is written of a gear.
+struct Solid {
+    name: String,
+    description: Value,
+    left_out: Vec<&'static str>,
+}
+
+impl Solid {
+    /// Of a cylindrical gear's file or a bevel gear's.
+    fn read(path: &Path) -> Result<Self, Failure> {
+        if let Some(gear) = offline::bevel_gear(path)? {
+            let outline = gear.solid_outline();
+            let outline = outline.map_err(|e| Failure::work(e).about(path))?;
+            return Ok(Self {
+                description: bevel_description(gear.blank().teeth, &outline),
+                name: gear.name,
+                left_out: Vec::new(),
+            });
+        }
+        let gear = offline::gear(path)?;
+        Ok(Self {
+            description: description(&gear),
+            left_out: left_out(&gear),
+            name: gear.name,
+        })
+    }
+}
+
+/// The blank's meridian, a slot in sections, and points of the exact flanks of tooth 0 to compare with; lengths in mm.
+fn bevel_description(teeth: usize, outline: &SolidOutline) -> Value {
+    let mm = |points: &Vec<[f64; 3]>| -> Vec<[f64; 3]> {
+        points.iter().map(|p| p.map(|x| 1e3 * x)).collect()
+    };
+    let section = |s: &SlotSection| json!({ "walls": s.walls_m.each_ref().map(mm), "lid": s.lid_m.map(|x| 1e3 * x) });
+    let corners = outline.meridian_m.iter();
+    json!({
+        "teeth": teeth,
+        "meridian": corners.map(|p| p.map(|x| 1e3 * x)).collect::<Vec<_>>(),
+        "slot": outline.slot.iter().map(section).collect::<Vec<_>>(),
+        "flanks": outline.flanks_m.each_ref().map(mm),
+    })
+}
+
+/// What a cylindrical gear has and the solid has not.
 fn left_out(gear: &GearDefinition) -> Vec<&'static str> {
     let solid = gearmesh_geometry::Blank::solid(gear.blank.bore_radius_m());
     let mut left_out = Vec::new();
@@ -84,7 +129,7 @@ fn left_out(gear: &GearDefinition) -> Vec<&'static str> {
     left_out
 }
 
-/// The outline in pieces, and points of the exact flanks of teeth 0 to compare with; lengths in mm.
+/// A cylindrical gear's outline in pieces, and points of the exact flanks of teeth 0 to compare with; lengths in mm.
 fn description(gear: &GearDefinition) -> Value {
     let tooth = &gear.profile;
     let curve = ProfileCurve::new(tooth);

@@ -4,18 +4,20 @@ use crate::arguments::ExportArguments;
 use crate::failure::Failure;
 use crate::{console, uff};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_model::write_bytes;
+use gearmesh_model::write_streamed;
 use gearmesh_report::export::{
-    ExportError, Table, csv_text, functions, mat_bytes, pair_tables, parquet_bytes, study_table,
-    system_tables,
+    ExportError, Table, functions, pair_tables, study_table, system_tables, write_csv, write_mat,
+    write_parquet,
 };
 use gearmesh_scene::ResultFile;
 use serde_json::json;
-use std::path::Path;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 /// Writes the table that was asked for, or all in a .mat file.
 pub fn run(a: &ExportArguments, ending: &str) -> Result<(), Failure> {
-    let tables = tables_of(&a.result)?;
+    let opened = Opened::open(&a.result)?;
+    let tables = opened.tables()?;
     let names: Vec<&str> = tables.iter().map(|table| &*table.name).collect();
     let chosen = match &a.table {
         None => None,
@@ -32,19 +34,19 @@ pub fn run(a: &ExportArguments, ending: &str) -> Result<(), Failure> {
         }
     };
     let first = &tables[chosen.unwrap_or(0)];
-    let bytes = match ending {
-        ".csv" => Some(csv_text(first).map(String::into_bytes)),
-        ".parquet" => Some(parquet_bytes(first)),
-        ".mat" => Some(mat_bytes(
-            chosen.map_or(&tables[..], |place| &tables[place..=place]),
-        )),
-        _ => None,
+    let stream = |fill: &dyn Fn(&mut (dyn Write + Send)) -> Result<(), ExportError>| {
+        write_streamed(&a.output, |out| fill(out)).map_err(|error| blame(error, &a.output))
     };
-    match bytes {
-        Some(bytes) => write_bytes(&a.output, &bytes.map_err(blame)?).map_err(Failure::work)?,
-        None => write_functions(a, first)?,
+    match ending {
+        ".csv" => stream(&|out| write_csv(first, out))?,
+        ".parquet" => stream(&|out| write_parquet(first, out))?,
+        ".mat" => {
+            let all = chosen.map_or(&tables[..], |place| &tables[place..=place]);
+            stream(&|out| write_mat(all, out))?;
+        }
+        _ => write_functions(a, first)?,
     }
-    let written: Vec<&Table> = match (ending, chosen) {
+    let written: Vec<&Table<'_>> = match (ending, chosen) {
         (".mat", None) => tables.iter().collect(),
         _ => vec![first],
     };
@@ -75,8 +77,8 @@ pub fn run(a: &ExportArguments, ending: &str) -> Result<(), Failure> {
 }
 
 /// A table as functions over its axis.
-fn write_functions(a: &ExportArguments, table: &Table) -> Result<(), Failure> {
-    let functions = functions(table);
+fn write_functions(a: &ExportArguments, table: &Table<'_>) -> Result<(), Failure> {
+    let functions = functions(table)?;
     if functions.is_empty() {
         return Err(Failure::input(format!(
             "{}: table `{}` holds no functions over an axis; a universal file takes the curves of a pair, the rows of a run in time and the windows of a sweep",
@@ -88,28 +90,48 @@ fn write_functions(a: &ExportArguments, table: &Table) -> Result<(), Failure> {
     uff::write(&a.output, &title.to_string_lossy(), &functions)
 }
 
-/// All tables of a result, or of the folder of a study; the most wanted one first.
-fn tables_of(path: &Path) -> Result<Vec<Table>, Failure> {
-    if path.is_dir() || path.extension().is_some_and(|ending| ending == "csv") {
-        let file = if path.is_dir() {
-            path.join("study.csv")
-        } else {
-            path.to_owned()
-        };
-        let text = InputDocument::read(&file)?.text;
-        let table = study_table(&text)
-            .map_err(|error| Failure::input(format!("{}: {error}", file.display())))?;
-        return Ok(vec![table]);
+/// What tables are made of.
+enum Opened {
+    /// The table of a study, and where it stands.
+    Study(String, PathBuf),
+    Result(ResultFile),
+}
+
+impl Opened {
+    /// A result, or the folder of a study.
+    fn open(path: &Path) -> Result<Self, Failure> {
+        if path.is_dir() || path.extension().is_some_and(|ending| ending == "csv") {
+            let file = if path.is_dir() {
+                path.join("study.csv")
+            } else {
+                path.to_owned()
+            };
+            return Ok(Self::Study(InputDocument::read(&file)?.text, file));
+        }
+        let result = ResultFile::open(path).map_err(Failure::input)?;
+        Ok(Self::Result(result))
     }
-    match ResultFile::open(path).map_err(Failure::input)? {
-        ResultFile::System(result) => system_tables(&result).map_err(blame),
-        ResultFile::Pair(result) => Ok(pair_tables(&result)),
+
+    /// All tables; the most wanted one first.
+    fn tables(&self) -> Result<Vec<Table<'_>>, Failure> {
+        match self {
+            Self::Study(text, file) => match study_table(text) {
+                Ok(table) => Ok(vec![table]),
+                Err(error) => Err(Failure::input(format!("{}: {error}", file.display()))),
+            },
+            Self::Result(ResultFile::System(result)) => Ok(system_tables(result)),
+            Self::Result(ResultFile::Pair(result)) => Ok(pair_tables(result)),
+        }
     }
 }
 
-fn blame(error: ExportError) -> Failure {
+/// What cannot be written is not the input's fault.
+fn blame(error: ExportError, output: &Path) -> Failure {
     match error {
-        ExportError::Parquet(_) => Failure::work(error),
-        _ => Failure::input(error),
+        ExportError::File(error) => Failure::work(error),
+        ExportError::TooLarge { .. } => Failure::input(error),
+        ExportError::Csv(_) | ExportError::Write(_) | ExportError::Parquet(_) => {
+            Failure::work(format!("cannot write {}: {error}", output.display()))
+        }
     }
 }

@@ -6,7 +6,9 @@ use crate::console;
 use crate::failure::Failure;
 use gearmesh_model::{csv_cell, write_text};
 use gearmesh_report::min_max;
-use gearmesh_report::page::{Align, Axis, AxisScale, LineChart, LineSeries, Page, Section, Table};
+use gearmesh_report::page::{
+    Align, Axis, AxisScale, LineChart, LineSeries, MapChart, Page, Section, Table,
+};
 use gearmesh_signal::Spectrum;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -19,8 +21,6 @@ pub struct Curve {
     name: String,
     unit: String,
     values: Vec<f64>,
-    /// Whether a page draws it; a table has all.
-    pub is_drawn: bool,
 }
 
 impl Curve {
@@ -29,7 +29,6 @@ impl Curve {
             name: name.to_owned(),
             unit: unit.to_owned(),
             values,
-            is_drawn: true,
         }
     }
 }
@@ -95,6 +94,8 @@ pub struct Outcome {
     pub is_logarithmic: bool,
     /// A spectrum that is drawn, too.
     pub spectrum: Option<LineSpectrum>,
+    /// A map that is drawn in place of the curves.
+    pub map: Option<MapChart>,
 }
 
 impl Outcome {
@@ -110,6 +111,7 @@ impl Outcome {
             curves: Vec::new(),
             is_logarithmic: false,
             spectrum: None,
+            map: None,
         }
     }
 
@@ -205,41 +207,11 @@ impl Outcome {
     }
 
     fn page(&self) -> Result<String, Failure> {
-        let mut drawn = self.curves.iter().filter(|curve| curve.is_drawn);
-        let Some(x) = drawn.next() else {
-            return Err(Failure::work("nothing to draw"));
+        let mut section = Section::new(self.analysis);
+        section = match &self.map {
+            Some(map) => section.push(map.clone()),
+            None => section.push(self.chart()?),
         };
-        let ordinates: Vec<&Curve> = drawn.collect();
-        let unit = ordinates.first().map_or("", |curve| &*curve.unit);
-        let what = match &ordinates[..] {
-            [one] => &*one.name,
-            _ => "value",
-        };
-        let scale = if self.is_logarithmic {
-            AxisScale::Logarithmic
-        } else {
-            AxisScale::Linear
-        };
-        // The mean is taken off: the line at zero would fix the scale of a logarithmic axis.
-        let first = usize::from(self.is_logarithmic);
-        let mut chart = LineChart::new(
-            format!("{}: {}", self.column, self.analysis),
-            Axis::new(x.name.clone(), x.unit.clone()),
-            Axis::new(what, unit),
-        )
-        .x_values(min_max::abscissas(&x.values[first..]))
-        .y_scale(scale);
-        for curve in ordinates {
-            let mut values = min_max::values(&curve.values[first..]);
-            if self.is_logarithmic {
-                let floor = FLOOR * values.iter().copied().fold(0.0, f64::max);
-                values
-                    .iter_mut()
-                    .for_each(|value| *value = value.max(floor));
-            }
-            chart = chart.series(LineSeries::new(curve.name.clone(), values));
-        }
-        let mut section = Section::new(self.analysis).push(chart);
         if let Some(spectrum) = &self.spectrum {
             section = section.push(spectrum.chart());
         }
@@ -268,6 +240,43 @@ impl Outcome {
             .subtitle(self.column.clone())
             .section(section);
         page.render().map_err(Failure::work)
+    }
+
+    /// The curves over the first of them.
+    fn chart(&self) -> Result<LineChart, Failure> {
+        let [x, ordinates @ ..] = &self.curves[..] else {
+            return Err(Failure::work("nothing to draw"));
+        };
+        let unit = ordinates.first().map_or("", |curve| &*curve.unit);
+        let what = match ordinates {
+            [one] => &*one.name,
+            _ => "value",
+        };
+        let scale = if self.is_logarithmic {
+            AxisScale::Logarithmic
+        } else {
+            AxisScale::Linear
+        };
+        // The mean is taken off: the line at zero would fix the scale of a logarithmic axis.
+        let first = usize::from(self.is_logarithmic);
+        let mut chart = LineChart::new(
+            format!("{}: {}", self.column, self.analysis),
+            Axis::new(x.name.clone(), x.unit.clone()),
+            Axis::new(what, unit),
+        )
+        .x_values(min_max::abscissas(&x.values[first..]))
+        .y_scale(scale);
+        for curve in ordinates {
+            let mut values = min_max::values(&curve.values[first..]);
+            if self.is_logarithmic {
+                let floor = FLOOR * values.iter().copied().fold(0.0, f64::max);
+                values
+                    .iter_mut()
+                    .for_each(|value| *value = value.max(floor));
+            }
+            chart = chart.series(LineSeries::new(curve.name.clone(), values));
+        }
+        Ok(chart)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::arguments::{AbscissaArguments, SeriesArguments, WindowKind};
 use crate::commands::signal::outcome::Curve;
+use crate::console;
 use crate::failure::Failure;
 use gearmesh_scene::system_run::{ResultKind, SystemResult};
 use gearmesh_signal::{AngleSamples, Resampler, Window};
@@ -11,6 +12,15 @@ use std::path::Path;
 
 /// Columns named in a message at most.
 const NAMED: usize = 12;
+
+/// What is read of a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// Its values at the instants of the rows.
+    Instants,
+    /// What its rows can tell of its vibration.
+    LowPass,
+}
 
 /// Uniform samples.
 pub struct Series {
@@ -28,6 +38,8 @@ pub struct Series {
     pub place: &'static str,
     pub place_unit: &'static str,
     pub values: Vec<f64>,
+    /// Share of half the rate of the rows up to which they are right.
+    pub band: f64,
     /// Angle of the shaft at each sample, rising \[rad\].
     shaft_rad: Option<Vec<f64>>,
 }
@@ -46,8 +58,13 @@ pub fn open(path: &Path) -> Result<SystemResult, Failure> {
 }
 
 impl Series {
-    /// Reads a column and, if asked for, the turns of a body.
-    pub fn read(a: &SeriesArguments, shaft: Option<&str>) -> Result<Self, Failure> {
+    /// Reads a column and, if asked for, the turns of a body, of which so many are needed: where no begin is stated,
+    /// the series begins early enough for them.
+    pub fn read(
+        a: &SeriesArguments,
+        shaft: Option<(&str, usize)>,
+        form: Form,
+    ) -> Result<Self, Failure> {
         let result = open(&a.result)?;
         let names: Vec<&str> = result.rows.columns().iter().map(|c| &*c.name).collect();
         if !names.contains(&&*a.column) {
@@ -67,11 +84,24 @@ impl Series {
         }
         let read = |name: &str| result.rows.read(name).map_err(Failure::work);
         let rate = 1.0 / result.interval_s().map_err(Failure::work)?;
-        let mut values = read(&a.column)?;
-        let range = range(a, values.len(), rate)?;
+        let mut values = match form {
+            Form::Instants => read(&a.column)?,
+            Form::LowPass => result.read_for_spectrum(&a.column).map_err(Failure::work)?,
+        };
+        if let (Form::LowPass, Some(share)) = (form, result.folded_share(&a.column)) {
+            console::warning(format!(
+                "`{}` is written every {} s: {:.2} % of its RMS value vibrates faster than {} Hz and stands at false places in its spectra; \
+                 lower output.interval_s of the scene",
+                a.column,
+                1.0 / rate,
+                100.0 * share,
+                0.5 * rate
+            ));
+        }
+        let mut range = range(a, values.len(), rate)?;
         let shaft_rad = match shaft {
             None => None,
-            Some(body) => {
+            Some((body, needed)) => {
                 let column = format!("bodies/{body}/turn_rad");
                 if !names.contains(&&*column) {
                     let bodies = names
@@ -82,7 +112,18 @@ impl Series {
                         bodies.collect::<Vec<_>>().join(", ")
                     )));
                 }
-                let mut turns = read(&column)?[range.clone()].to_vec();
+                let all = read(&column)?;
+                if a.from_s.is_none() {
+                    let first = early_enough(&all, &range, needed);
+                    if first < range.start {
+                        range.start = first;
+                        console::note(format!(
+                            "begins at {} s: from the middle of the run on there are not {needed} turns of `{body}`",
+                            first as f64 / rate
+                        ));
+                    }
+                }
+                let mut turns = all[range.clone()].to_vec();
                 // Orders do not depend on the sense of turning.
                 if turns.last() < turns.first() {
                     turns.iter_mut().for_each(|angle| *angle = -*angle);
@@ -115,13 +156,21 @@ impl Series {
             place: "frequency",
             place_unit: "Hz",
             values,
+            band: match form {
+                Form::LowPass if result.has_low_pass(&a.column) => result.spectrum_band(),
+                _ => 1.0,
+            },
             shaft_rad,
         })
     }
 
     /// Reads a column over time, or over a shaft's angle for whole turns if one is asked for.
     pub fn over(a: &SeriesArguments, abscissa: &AbscissaArguments) -> Result<Self, Failure> {
-        let series = Self::read(a, abscissa.shaft.as_deref())?;
+        let series = Self::read(
+            a,
+            abscissa.shaft.as_deref().map(|shaft| (shaft, 1)),
+            Form::LowPass,
+        )?;
         if abscissa.shaft.is_none() {
             return Ok(series);
         }
@@ -186,6 +235,22 @@ impl Series {
     }
 }
 
+/// The last row not behind the begin of a range from which a shaft makes so many turns up to its end, and the
+/// neighbours that resampling needs at both ends besides; the first row where it makes fewer.
+fn early_enough(angles_rad: &[f64], range: &Range<usize>, turns: usize) -> usize {
+    let neighbours = 2 * Resampler::default().half_width() + 2;
+    let last = range.end.saturating_sub(1);
+    let needed = TAU * turns as f64;
+    let whole = |first: usize| {
+        let from = first + neighbours;
+        from <= last && (angles_rad[last] - angles_rad[from]).abs() >= needed
+    };
+    (0..=range.start)
+        .rev()
+        .find(|first| whole(*first))
+        .unwrap_or(0)
+}
+
 /// The window that was asked for, or the usual one.
 pub fn window(a: &AbscissaArguments) -> Window {
     match a.window {
@@ -210,4 +275,26 @@ fn range(a: &SeriesArguments, rows: usize, rate: f64) -> Result<Range<usize>, Fa
     }
     let first = (from_s * rate).round() as usize;
     Ok(first..((to_s * rate).round() as usize + 1).min(rows))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The drive of the README: 0.94 turns in the second half of its run.
+    #[test]
+    fn a_series_begins_early_enough_for_a_turn() {
+        let rows = 4000;
+        let angle = |row: usize| 1.88 * TAU * row as f64 / (rows - 1) as f64;
+        let angles: Vec<f64> = (0..rows).map(angle).collect();
+        let half = rows / 2..rows;
+        let first = early_enough(&angles, &half, 1);
+        let held = (angles[rows - 1] - angles[first]) / TAU;
+        assert!(
+            first < half.start && (1.0..1.05).contains(&held),
+            "{first} {held}"
+        );
+        assert_eq!(early_enough(&angles, &(100..rows), 1), 100);
+        assert_eq!(early_enough(&angles, &half, 2), 0);
+    }
 }

@@ -95,6 +95,11 @@ pub(super) struct PlacedMotion {
 }
 
 impl PlacedMotion {
+    /// Name of the motion.
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
     /// Speed about the joint's axis at t = 0 \[rad/s\], where the angle is driven.
     pub(super) fn spin_at_start(&self) -> Option<f64> {
         match (&self.motion, self.driven) {

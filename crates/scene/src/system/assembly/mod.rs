@@ -14,6 +14,7 @@
 //! | speeds that contradict a joint, stiffnesses that no run resolves | `stated_speeds.rs`, `stiffness.rs` |
 //! | joints and motions, loads and springs, bearings | `joints.rs`, `elements.rs`, `bearings/` |
 //! | whether the tables fit each other | `consistency.rs` |
+//! | gears that overlap, loads that drive | `overlaps.rs`, `load_powers.rs` |
 //! | what is judged after the run | `ratings.rs` |
 
 mod bearings;
@@ -28,12 +29,14 @@ mod gear_mesh;
 mod gears;
 mod gears_in_motion;
 mod joints;
+mod load_powers;
 mod lump;
 mod mesh_effects;
 mod mesh_frequency;
 mod mesh_model;
 mod mesh_stiffness;
 mod operating_point;
+mod overlaps;
 mod pair_stiffness;
 mod parts;
 mod ratings;
@@ -246,6 +249,8 @@ impl LoadedSystem {
         mesh_frequency::refuse_long_steps(&self.scene, &meshes, [&bodies, &fastest])?;
         stated_speeds::check(&tables.body, &bodies, &joints, document)?;
         start::settle_phases(&mut bodies, &meshes, document, &mut parts.notes)?;
+        overlaps::note(&bodies, &mut parts.notes);
+        load_powers::note(tables, &motions, &bodies, &mut parts.notes);
         // Gears have been turned: frames along their axes are the same, others follow.
         let joints = joints::place(&tables.joint, document, &bodies)?;
         housing::place(&tables.bearing, document, &mut bodies)?;
@@ -454,6 +459,7 @@ fn describe(mesh: &PreparedMesh, bodies: &Bodies) -> BuiltMesh {
         base_radii_m: mesh.base_radii_m,
         model: mesh.model.name(),
         frequency_hz: mesh_frequency::frequency_hz(mesh, bodies),
+        speeds_rad_per_s: (mesh.bodies).map(|b| bodies.list[b].body.angular_velocity_rad_per_s.z),
         stage: mesh.stage.map(|stage| StageSummary {
             pitch_line_speed_m_per_s: stage.pitch_radius_1_m
                 * mesh_frequency::spin_rad_per_s(mesh, bodies).abs(),

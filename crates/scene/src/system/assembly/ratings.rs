@@ -47,7 +47,8 @@ pub(super) fn build(
                     let known: Vec<&str> = meshes.iter().map(|mesh| &*mesh.name).collect();
                     keys.error("mesh", names::unknown("gear mesh", &mesh, &known))
                 })?;
-                let job = nominal(prepared, load, bodies, &keys)?;
+                let load_and_class = (load, table.class(&keys)?);
+                let job = nominal(prepared, load_and_class, bodies, &keys)?;
                 written(scene, &mesh, &keys)?;
                 RatingJob {
                     name: format!("mesh {mesh}"),
@@ -293,7 +294,7 @@ fn normal_forces(mesh: &PreparedMesh) -> Vec<String> {
 
 fn nominal(
     mesh: &PreparedMesh,
-    load: LoadPoint,
+    load_and_class: (LoadPoint, Option<usize>),
     bodies: &Bodies,
     keys: &TableKeys<'_>,
 ) -> Result<NominalRating, InputError> {
@@ -311,6 +312,6 @@ fn nominal(
         gears.map(|gear| &gear.tooth),
         gears.map(|gear| gear.material),
     );
-    NominalRating::new(&pair, teeth, materials, gears.map(rim_m), load)
+    NominalRating::new(&pair, teeth, materials, gears.map(rim_m), load_and_class)
         .map_err(|error| nominal_error(&error, "mesh", keys))
 }

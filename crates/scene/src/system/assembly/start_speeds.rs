@@ -150,6 +150,14 @@ fn drive(
             let sense = bodies.list[led].axis().dot(&axis).signum();
             settle(bodies, led, (end - spin_rad_per_s) * sense, from, notes)
         }
+        ([_, Some(led)], Some((base, true)), None) => {
+            let along = bodies.list[led].body.orientation.inverse() * axis;
+            settle_about(bodies, led, (along, base + spin_rad_per_s), from, notes)
+        }
+        ([Some(led), _], None, Some((end, true))) => {
+            let along = bodies.list[led].body.orientation.inverse() * axis;
+            settle_about(bodies, led, (along, end - spin_rad_per_s), from, notes)
+        }
         _ => false,
     }
 }
@@ -204,7 +212,8 @@ fn fitting_spin(bodies: &Bodies, mesh: &PreparedMesh, (from, to): (usize, usize)
     carrier - (spin - carrier) * mesh.teeth[from] as f64 / mesh.teeth[to] as f64
 }
 
-/// Tells of bodies whose speed nobody states and that a torsion spring joins to one that turns: they start at rest, and the spring jerks them.
+/// Tells of bodies whose speed nobody states and that a torsion spring joins to one that turns: they start at rest, and
+/// the spring jerks them; and of bodies that turn and are held to the ground, as scenes at rest hold their trains.
 pub(super) fn note_jerks(bodies: &Bodies, springs: &[TorsionSpringTable], notes: &mut Vec<String>) {
     for spring in springs {
         let find = |name: &str| bodies.list.iter().position(|p| p.body.name == name);
@@ -212,6 +221,17 @@ pub(super) fn note_jerks(bodies: &Bodies, springs: &[TorsionSpringTable], notes:
             spring.body_1.as_deref().and_then(find),
             find(&spring.body_2),
         ];
+        if spring.body_1.is_none()
+            && let Some(body) = ends[1].map(|body| &bodies.list[body].body)
+            && body.angular_velocity_rad_per_s.z != 0.0
+        {
+            let rpm = body.angular_velocity_rad_per_s.z * 60.0 / TAU;
+            notes.push(format!(
+                "torsion spring `{}` joins `{}`, which starts with {rpm:.6} rpm, to the ground: at rest that holds a train, in time it stops it at once. To drive the train, \
+                 give the spring a body_1 of its own with a [[joint]] about the shaft's axis and a [[motion]] (`gearmesh import --transient` writes them)",
+                spring.name, body.name
+            ));
+        }
         let [Some(a), Some(b)] = ends else { continue };
         for (still, turning) in [(a, b), (b, a)] {
             let [led, leading] = [still, turning].map(|body| &bodies.list[body]);
@@ -264,11 +284,22 @@ pub(super) fn refuse_missed_ratios(
     Ok(())
 }
 
-/// Sets the speed of a body, if nobody has; says whether it did.
+/// Sets the speed of a body about its z, if nobody has; says whether it did.
 fn settle(
     bodies: &mut Bodies,
     body: usize,
     spin_rad_per_s: f64,
+    from: impl Fn() -> String,
+    notes: &mut Vec<String>,
+) -> bool {
+    settle_about(bodies, body, (Vector3::z(), spin_rad_per_s), from, notes)
+}
+
+/// Sets the speed of a body about an axis of its own, if nobody has; says whether it did.
+fn settle_about(
+    bodies: &mut Bodies,
+    body: usize,
+    (along, spin_rad_per_s): (Vector3<f64>, f64),
     from: impl Fn() -> String,
     notes: &mut Vec<String>,
 ) -> bool {
@@ -277,7 +308,7 @@ fn settle(
         return false;
     }
     placed.speed_is_free = false;
-    placed.body.angular_velocity_rad_per_s = Vector3::new(0.0, 0.0, spin_rad_per_s);
+    placed.body.angular_velocity_rad_per_s = spin_rad_per_s * along;
     if spin_rad_per_s != 0.0 {
         let rpm = spin_rad_per_s * 60.0 / TAU;
         notes.push(format!(

@@ -16,6 +16,8 @@ pub const MOST_ROWS: f64 = 4_294_967_296.0;
 pub struct OutputTable {
     /// Distance of the output times, for runs that step through time.
     pub interval_s: Option<f64>,
+    /// Begin of mean, deviation and extremes of a `transient` run; the middle of the run where not given.
+    pub statistics_from_s: Option<f64>,
     /// Names of the bodies whose motion is written; all where not given.
     pub bodies: Option<Vec<String>>,
     /// Names of the joints and motions whose reactions and angles are written; all where not given.
@@ -29,6 +31,8 @@ pub struct OutputTable {
 pub struct Output {
     /// Distance of the output times \[s\]; none for runs that do not step through time.
     pub interval_s: Option<f64>,
+    /// Begin of the statistics of a `transient` run \[s\].
+    pub statistics_from_s: Option<f64>,
     /// Bodies; all where not given.
     pub bodies: Option<Vec<String>>,
     /// Joints and motions; all where not given.
@@ -69,8 +73,20 @@ impl OutputTable {
                 Some(interval)
             }
         };
+        if let Some(from_s) = self.statistics_from_s {
+            let Run::Transient { end_s } = run else {
+                return Err(keys.error(
+                    "statistics_from_s",
+                    format!("is not used by run.kind = \"{kind}\"; remove it"),
+                ));
+            };
+            let allowed = format!("0 or more, below the end of the run at {end_s}");
+            let is_inside = (0.0..*end_s).contains(&from_s);
+            keys.require("statistics_from_s", from_s, is_inside, &allowed)?;
+        }
         Ok(Output {
             interval_s,
+            statistics_from_s: self.statistics_from_s,
             bodies: self.bodies.clone(),
             joints: self.joints.clone(),
             elements: self.elements.clone(),

@@ -1,13 +1,13 @@
 //! Bearings of constant stiffness and damping.
 
-use gearmesh_bearings::QuasiStaticBearing;
+use gearmesh_bearings::{QuasiStaticBearing, QuasiStaticElement, RingDamping};
 use gearmesh_dynamics::elements::{AxialSupport, LinearBearing, MatrixBearing};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 use nalgebra::{Matrix5, Vector5};
 
 use super::tangent::TangentSeat;
-use super::{quasi_static, rolling_bearing};
+use super::{control, quasi_static, rolling_bearing};
 use crate::system::assembly::elements::{Connections, PER_MM, pair};
 use crate::system::assembly::stiffness::refuse_rigid;
 use crate::system::tables::bearing::{
@@ -189,7 +189,7 @@ fn by_tangent(
     let keys = TableKeys::new(connections.document, &key);
     let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
     let frame = bodies.stated_frame(&keys, ends[1], table.at_mm, table.axis)?;
-    let definition = rolling_bearing::without_friction("model.tangent_of", &file, folder, &keys)?;
+    let definition = rolling_bearing::definition("model.tangent_of", &file, folder, &keys)?;
     let rolling = QuasiStaticBearing::new(&definition).map_err(|e| keys.error("model", e))?;
     let at = rolling.ring_markers(pair(bodies, ends, &frame));
     let seat = TangentSeat::new(number, (at, rolling), model);
@@ -216,5 +216,29 @@ fn by_tangent(
             load: tangent.load,
         };
         Ok(bearing.between(&table.name, at))
-    })
+    })?;
+    if definition.friction.is_none() {
+        return Ok(());
+    }
+    // The torque of the loads that the bearing itself has where the rings stand.
+    let name = format!("{}/friction", table.name);
+    let named = (&*name, table.body_1.as_deref(), &*table.body_2);
+    let at_rest = connections.manner.at_rest;
+    let control = control(model.control.unwrap_or_default());
+    connections.add(
+        ("bearing", number),
+        "bearing friction",
+        named,
+        |keys, ends| {
+            let (at, damping) = (pair(bodies, ends, &frame), RingDamping::default());
+            let element = QuasiStaticElement::new(&name, at, &definition, control, damping)
+                .map_err(|e| keys.error("model", e))?
+                .friction_alone();
+            Ok(Ok(if at_rest {
+                element.without_friction_torque()
+            } else {
+                element
+            }))
+        },
+    )
 }

@@ -7,7 +7,7 @@ use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
-/// As [`definition`], for a model that applies no friction torque.
+/// As [`definition`], for balls that move: what they lose is the slip of their contacts, which a torque would count twice.
 pub(in crate::system::assembly) fn without_friction(
     key: &str,
     file: &str,
@@ -17,7 +17,7 @@ pub(in crate::system::assembly) fn without_friction(
     let found = definition(key, file, folder, keys)?;
     if found.friction.is_some() {
         let problem = format!(
-            "the bearing file {file} has [friction], which acts in `quasi-static` bearings only: remove the table, or take that model; balls of `dynamic` bearings rub by `traction`"
+            "the bearing file {file} has [friction], which `dynamic` bearings do not use: what their balls lose is the slip of `traction`, and a torque would count it twice; remove the table, or take the model `quasi-static`, or `linear` with tangent_of"
         );
         return Err(keys.error(key, problem));
     }

@@ -1,5 +1,6 @@
 //! `kind = "linear"`: a bearing of constant stiffness and damping.
 
+use gearmesh_geometry::given;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -78,53 +79,22 @@ impl LinearBearingTable {
     /// Keys that are given, each with the sources it goes with.
     pub fn given(&self) -> impl Iterator<Item = (&'static str, &'static [StiffnessSource])> {
         use StiffnessSource::{Diagonal, Matrix, Tangent};
-        let all: [(&'static str, bool, &'static [StiffnessSource]); 11] = [
-            (
-                "radial_stiffness_N_per_mm",
-                self.radial_stiffness_N_per_mm.is_some(),
-                &[Diagonal],
-            ),
-            (
-                "axial_stiffness_N_per_mm",
-                self.axial_stiffness_N_per_mm.is_some(),
-                &[Diagonal],
-            ),
-            (
-                "tilt_stiffness_Nm_per_rad",
-                self.tilt_stiffness_Nm_per_rad.is_some(),
-                &[Diagonal],
-            ),
-            ("axial_support", self.axial_support.is_some(), &[Diagonal]),
-            (
-                "stiffness_matrix_SI",
-                self.stiffness_matrix_SI.is_some(),
+        let of = |sources: &'static [StiffnessSource], keys: &[(&'static str, bool)]| {
+            let given = keys.iter().filter(|(_, given)| *given);
+            given.map(|(key, _)| (*key, sources)).collect::<Vec<_>>()
+        };
+        let stiffnesses = given!(self; radial_stiffness_N_per_mm, axial_stiffness_N_per_mm, tilt_stiffness_Nm_per_rad, axial_support);
+        let dampings = given!(self; radial_damping_N_s_per_mm, axial_damping_N_s_per_mm, tilt_damping_Nm_s_per_rad);
+        [
+            of(&[Diagonal], &stiffnesses),
+            of(
                 &[Matrix],
+                &given!(self; stiffness_matrix_SI, damping_matrix_SI),
             ),
-            (
-                "damping_matrix_SI",
-                self.damping_matrix_SI.is_some(),
-                &[Matrix],
-            ),
-            ("tangent_of", self.tangent_of.is_some(), &[Tangent]),
-            ("control", self.control.is_some(), &[Tangent]),
-            (
-                "radial_damping_N_s_per_mm",
-                self.radial_damping_N_s_per_mm.is_some(),
-                &[Diagonal, Tangent],
-            ),
-            (
-                "axial_damping_N_s_per_mm",
-                self.axial_damping_N_s_per_mm.is_some(),
-                &[Diagonal, Tangent],
-            ),
-            (
-                "tilt_damping_Nm_s_per_rad",
-                self.tilt_damping_Nm_s_per_rad.is_some(),
-                &[Diagonal, Tangent],
-            ),
-        ];
-        all.into_iter()
-            .filter(|(_, given, _)| *given)
-            .map(|(key, _, sources)| (key, sources))
+            of(&[Tangent], &given!(self; tangent_of, control)),
+            of(&[Diagonal, Tangent], &dampings),
+        ]
+        .into_iter()
+        .flatten()
     }
 }

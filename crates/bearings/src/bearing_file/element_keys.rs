@@ -1,0 +1,194 @@
+//! Keys that balls and rollers share: their number, size and circle, laminae and clearance.
+
+use std::fmt;
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
+
+use super::{BearingFile, UM};
+
+/// Laminae where the file names none.
+pub(super) const LAMINAE: usize = 40;
+
+/// Balls and rollers may be too large for their rings by this share of their diameter: for balls of 8 mm 80 um, several times what tight fits take
+/// away.
+const MOST_INTERFERENCE: f64 = 0.01;
+
+/// Share of a limit of the clearance within which a number counts as the limit: 0.52 + 0.53 − 1 is not 0.05 to the last digit.
+const ROUNDING: f64 = 1e-12;
+
+/// Balls or rollers on their circle.
+pub(super) struct Elements {
+    pub number: usize,
+    pub diameter_mm: f64,
+    pub pitch_mm: f64,
+}
+
+impl Elements {
+    /// Balls as the file states them.
+    pub fn balls(file: &BearingFile, keys: &TableKeys<'_>) -> Result<Self, InputError> {
+        let names = ["ball", "balls", "ball_diameter_mm"];
+        Self::checked(names, (file.balls, file.ball_diameter_mm), file, keys)
+    }
+
+    /// Rollers as the file states them.
+    pub fn rollers(file: &BearingFile, keys: &TableKeys<'_>) -> Result<Self, InputError> {
+        let names = ["roller", "rollers", "roller_diameter_mm"];
+        Self::checked(names, (file.rollers, file.roller_diameter_mm), file, keys)
+    }
+
+    fn checked(
+        [word, number_key, diameter_key]: [&str; 3],
+        (number, diameter_mm): (Option<usize>, Option<f64>),
+        file: &BearingFile,
+        keys: &TableKeys<'_>,
+    ) -> Result<Self, InputError> {
+        let needed_by = format!("kind = \"{}\"", file.kind.word());
+        let number = keys.needed(number_key, number, &needed_by)?;
+        let diameter_mm = keys.needed(diameter_key, diameter_mm, &needed_by)?;
+        let pitch_mm = keys.needed("pitch_diameter_mm", file.pitch_diameter_mm, &needed_by)?;
+        keys.require(diameter_key, diameter_mm, diameter_mm > 0.0, "more than 0")?;
+        let allowed = format!("more than the {word}'s diameter, {diameter_mm}");
+        keys.require(
+            "pitch_diameter_mm",
+            pitch_mm,
+            pitch_mm > diameter_mm,
+            &allowed,
+        )?;
+        // Neighbours must not touch.
+        let room = (std::f64::consts::PI / (diameter_mm / pitch_mm).asin()).floor();
+        keys.require(
+            number_key,
+            number as f64,
+            number >= 3 && number as f64 <= room,
+            &format!(
+                "3 to {room}, as many {number_key} of {diameter_mm} mm as go round on {pitch_mm} mm"
+            ),
+        )?;
+        Ok(Self {
+            number,
+            diameter_mm,
+            pitch_mm,
+        })
+    }
+}
+
+/// Length of rollers \[mm\].
+pub(super) fn roller_length_mm(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+) -> Result<f64, InputError> {
+    let needed_by = format!("kind = \"{}\"", file.kind.word());
+    let length = keys.needed("roller_length_mm", file.roller_length_mm, &needed_by)?;
+    keys.require("roller_length_mm", length, length > 0.0, "more than 0")?;
+    Ok(length)
+}
+
+/// Number of laminae.
+pub(super) fn laminae(file: &BearingFile, keys: &TableKeys<'_>) -> Result<usize, InputError> {
+    let laminae = file.laminae.unwrap_or(LAMINAE);
+    keys.require(
+        "laminae",
+        laminae as f64,
+        (2..=1000).contains(&laminae),
+        "2 to 1000; ISO/TS 16281 asks for 30 at least",
+    )?;
+    Ok(laminae)
+}
+
+/// A contact angle within \[deg\], in radians; more than the least one where that is 0.
+pub(super) fn contact_angle_rad(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    [least, most]: [f64; 2],
+) -> Result<f64, InputError> {
+    let key = "contact_angle_deg";
+    let needed_by = format!("kind = \"{}\"", file.kind.word());
+    let degrees = keys.needed(key, file.contact_angle_deg, &needed_by)?;
+    let allowed = if least > 0.0 {
+        format!("{least} to {most}")
+    } else {
+        format!("more than 0 and at most {most}")
+    };
+    let within = degrees > 0.0 && (least..=most).contains(&degrees);
+    keys.require(key, degrees, within, &allowed)?;
+    Ok(degrees.to_radians())
+}
+
+/// Radius of a groove over the ball's diameter.
+pub(super) fn conformity(keys: &TableKeys<'_>, key: &str, value: f64) -> Result<f64, InputError> {
+    let allowed = "more than 0.5, the ball's own radius, and at most 1";
+    keys.require(key, value, value > 0.5 && value <= 1.0, allowed)?;
+    Ok(value)
+}
+
+/// Radial clearances that a bearing can have: down to an interference of a hundredth of the diameter of its balls or rollers, up to, not including, a most.
+pub(super) struct Clearances {
+    least_m: f64,
+    most_m: f64,
+    word: &'static str,
+    why: &'static str,
+}
+
+impl Clearances {
+    /// Of balls of a diameter that touch both grooves up to the clearance `most_m`.
+    pub fn of_balls(diameter_m: f64, most_m: f64) -> Self {
+        Self {
+            least_m: -MOST_INTERFERENCE * diameter_m,
+            most_m,
+            word: "ball",
+            why: ": with more no ball touches both rings",
+        }
+    }
+
+    /// Of rollers of a diameter.
+    pub fn of_rollers(diameter_m: f64) -> Self {
+        Self {
+            least_m: -MOST_INTERFERENCE * diameter_m,
+            most_m: 1e-3,
+            word: "roller",
+            why: "",
+        }
+    }
+
+    /// Whether balls or rollers go in between.
+    pub fn holds_elements(&self, clearance_m: f64) -> bool {
+        clearance_m >= self.least_m
+    }
+
+    /// Whether balls or rollers touch both rings somewhere.
+    pub fn touches(&self, clearance_m: f64) -> bool {
+        clearance_m < self.most_m * (1.0 - ROUNDING)
+    }
+
+    /// Whether a bearing can have it.
+    pub fn allows(&self, clearance_m: f64) -> bool {
+        self.holds_elements(clearance_m) && self.touches(clearance_m)
+    }
+
+    /// `radial_clearance_um`, 0 where it is not given, in metres.
+    pub fn stated_m(&self, file: &BearingFile, keys: &TableKeys<'_>) -> Result<f64, InputError> {
+        let um = file.radial_clearance_um.unwrap_or(0.0);
+        let clearance_m = UM * um;
+        keys.require(
+            "radial_clearance_um",
+            um,
+            self.allows(clearance_m),
+            &self.to_string(),
+        )?;
+        Ok(clearance_m)
+    }
+}
+
+impl fmt::Display for Clearances {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            to,
+            "{:.1} (interference of a hundredth of the {}'s diameter) up to, not including, {:.1}{}",
+            self.least_m / UM,
+            self.word,
+            self.most_m / UM,
+            self.why
+        )
+    }
+}

@@ -1,0 +1,147 @@
+//! A folder of files that belong together, written beside and renamed: a process killed meanwhile leaves all or none.
+
+use std::fs::File;
+use std::path::Path;
+
+use crate::atomic_file::{
+    TEMPORARY_SUFFIX, demand_output, folder_of, temporary_prefix, wait_for_writes, write_text,
+};
+use crate::file_error::FileError;
+
+/// Writes text files by name into a folder, which is made where it is not there.
+///
+/// A new folder gets its name when all of its files are whole. Into one that is there already the files are moved one
+/// after the other, in the order given, when the last of them is whole; what else it holds stays.
+///
+/// # Errors
+/// [`FileError::NotARegularFile`], [`FileError::OutputIsALink`], [`FileError::Io`].
+pub fn write_folder(folder: &Path, files: &[(String, String)]) -> Result<(), FileError> {
+    let io = |action| {
+        move |source| FileError::Io {
+            path: folder.to_owned(),
+            action,
+            source,
+        }
+    };
+    for (name, _) in files {
+        demand_output(&folder.join(name))?;
+    }
+    let parent = folder_of(folder);
+    std::fs::create_dir_all(parent).map_err(io("make the folder of"))?;
+    let prefix = temporary_prefix(folder);
+    remove_abandoned(parent, &prefix);
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix).suffix(TEMPORARY_SUFFIX);
+    #[cfg(unix)]
+    {
+        // The usual rights under the user's umask instead of a temporary folder's 0700.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o777));
+    }
+    let staged = (builder.tempdir_in(parent)).map_err(io("make a temporary folder beside"))?;
+    // Locked while it is written: one without a lock belongs to a process that was killed.
+    let lock = File::open(staged.path())
+        .and_then(|open| open.try_lock().map(|()| open).map_err(Into::into))
+        .ok();
+    for (name, text) in files {
+        write_text(&staged.path().join(name), text)?;
+    }
+    let _held = wait_for_writes();
+    // A rename takes the place of an empty folder, but not of a link to one.
+    if folder.symlink_metadata().is_err() && std::fs::rename(staged.path(), folder).is_ok() {
+        // What had to be removed has another name now.
+        let _ = staged.keep();
+    } else {
+        std::fs::create_dir_all(folder).map_err(io("make the folder"))?;
+        for (name, _) in files {
+            std::fs::rename(staged.path().join(name), folder.join(name))
+                .map_err(io("move the new files to"))?;
+        }
+    }
+    drop(lock);
+    // The new names are on the disk only when their folder is. Where folders cannot be opened, the renames still hold.
+    for changed in [folder, parent] {
+        if let Ok(open) = File::open(changed) {
+            open.sync_all().map_err(io("force to the disk"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Removes what killed writes of the same folder have left beside it.
+fn remove_abandoned(parent: &Path, prefix: &str) {
+    for entry in std::fs::read_dir(parent).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let is_ours = name.starts_with(prefix) && name.ends_with(TEMPORARY_SUFFIX);
+        if !is_ours || !entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            continue;
+        }
+        if File::open(entry.path()).is_ok_and(|open| open.try_lock().is_ok()) {
+            let _ = std::fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).unwrap();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = names.collect();
+        names.sort();
+        names
+    }
+
+    fn files(text: &str) -> [(String, String); 2] {
+        ["a.csv", "b.toml"].map(|name| (name.to_owned(), text.to_owned()))
+    }
+
+    #[test]
+    fn a_new_folder_and_one_that_is_there_get_all_files_and_nothing_is_left_beside() {
+        let desk = tempfile::tempdir().unwrap();
+        let folder = desk.path().join("deep/record");
+        write_folder(&folder, &files("old")).unwrap();
+        std::fs::write(folder.join("mine.txt"), "mine").unwrap();
+        write_folder(&folder, &files("new")).unwrap();
+        assert_eq!(names(&folder), ["a.csv", "b.toml", "mine.txt"]);
+        assert_eq!(std::fs::read(folder.join("b.toml")).unwrap(), b"new");
+        assert_eq!(names(&desk.path().join("deep")), ["record"]);
+    }
+
+    #[test]
+    fn what_a_killed_write_left_goes_with_the_next_one_and_what_is_at_work_stays() {
+        let desk = tempfile::tempdir().unwrap();
+        let folder = desk.path().join("record");
+        let prefix = temporary_prefix(&folder);
+        let left = |number: usize| {
+            let path = desk.path().join(format!("{prefix}{number}.tmp"));
+            std::fs::create_dir(&path).unwrap();
+            std::fs::write(path.join("a.csv"), "half").unwrap();
+            path
+        };
+        let (abandoned, at_work) = (left(1), left(2));
+        let open = File::open(&at_work).unwrap();
+        open.try_lock().unwrap();
+        write_folder(&folder, &files("new")).unwrap();
+        assert!(!abandoned.exists() && at_work.exists());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn nothing_is_written_where_a_file_is_a_link() {
+        let desk = tempfile::tempdir().unwrap();
+        let folder = desk.path().join("record");
+        std::fs::create_dir(&folder).unwrap();
+        let other = desk.path().join("other");
+        std::fs::write(&other, "old").unwrap();
+        std::os::unix::fs::symlink(&other, folder.join("b.toml")).unwrap();
+        let refused = write_folder(&folder, &files("new"));
+        assert!(matches!(refused, Err(FileError::OutputIsALink { .. })));
+        assert_eq!(names(&folder), ["b.toml"]);
+        assert_eq!(std::fs::read(&other).unwrap(), b"old");
+    }
+}

@@ -1,0 +1,334 @@
+//! A map: how large something is over two axes, as colours of a logarithmic scale.
+//!
+//! Drawn as SVG in the page itself: it needs no script.
+
+use super::PageError;
+use super::line_chart::Axis;
+use super::markup::escape;
+use super::polar_chart::round_step;
+use super::typography::{html, plain, svg};
+use crate::short_number::short;
+use std::fmt::Write as _;
+
+/// Cells of the picture along and up at most: a screen shows no more, and a cell costs some bytes of the page.
+const CELLS: [usize; 2] = [160, 120];
+
+/// The picture and the space round it for the axes, in its own units.
+const SIZE: [f64; 2] = [640.0, 360.0];
+const MARGIN: f64 = 56.0;
+
+/// Decades below the largest value that are told apart, and colours of a decade.
+const DECADES: usize = 4;
+const SHADES: usize = 6;
+
+/// Ends and three steps between of the colours, dark to light: even in lightness, also without colour.
+const COLOURS: [[f64; 3]; 5] = [
+    [68.0, 1.0, 84.0],
+    [59.0, 82.0, 139.0],
+    [33.0, 145.0, 140.0],
+    [94.0, 201.0, 98.0],
+    [253.0, 231.0, 37.0],
+];
+
+/// Values over two axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapChart {
+    title: String,
+    axes: [Axis; 2],
+    quantity: Axis,
+    /// Places along, rising.
+    along: Vec<f64>,
+    /// Distance of the places up, which begin at 0.
+    spacing: f64,
+    /// Values up at each place along.
+    columns: Vec<Vec<f64>>,
+}
+
+impl MapChart {
+    /// An empty map of a quantity over the axis along and the axis up.
+    pub fn new(title: impl Into<String>, along: Axis, up: Axis, quantity: Axis) -> Self {
+        Self {
+            title: title.into(),
+            axes: [along, up],
+            quantity,
+            along: Vec::new(),
+            spacing: 1.0,
+            columns: Vec::new(),
+        }
+    }
+
+    /// Places along, rising, and at each the values up, which lie `spacing` apart from 0 on.
+    #[must_use]
+    pub fn values(mut self, along: Vec<f64>, spacing: f64, columns: Vec<Vec<f64>>) -> Self {
+        (self.along, self.spacing, self.columns) = (along, spacing, columns);
+        self
+    }
+
+    fn check(&self) -> Result<usize, PageError> {
+        let block = || self.title.clone();
+        let lines = self.columns.first().map_or(0, Vec::len);
+        if self.along.is_empty() || lines == 0 {
+            return Err(PageError::Empty {
+                block: block(),
+                what: "the map",
+            });
+        }
+        let counts = self.columns.iter().map(Vec::len);
+        for (what, found, expected) in [("map", self.columns.len(), self.along.len())]
+            .into_iter()
+            .chain(counts.map(|count| ("column", count, lines)))
+        {
+            if found != expected {
+                return Err(PageError::Count {
+                    block: block(),
+                    what: what.to_owned(),
+                    found,
+                    expected,
+                });
+            }
+        }
+        let values = self.columns.iter().flatten().chain(&self.along);
+        match values.enumerate().find(|(_, value)| !value.is_finite()) {
+            None => Ok(lines),
+            Some((index, &found)) => Err(PageError::NotFinite {
+                block: block(),
+                what: "values".to_owned(),
+                index,
+                found,
+            }),
+        }
+    }
+
+    pub(super) fn render(&self, page: &mut String) -> Result<(), PageError> {
+        let lines = self.check()?;
+        let (from, to) = (self.along[0], self.along[self.along.len() - 1]);
+        let cells = [CELLS[0].min(2 * self.along.len()), CELLS[1].min(lines)];
+        let largest = self.columns.iter().flatten().copied().fold(0.0, f64::max);
+        let (title, name) = (html(&self.title), escape(&plain(&self.title)));
+        let [wide, high] = SIZE;
+        // Writing to a String does not fail.
+        let _ = write!(
+            page,
+            "<figure class=\"polar map\">\n<figcaption>{title}</figcaption>\n\
+             <svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{name}\">\n",
+            wide + 2.0 * MARGIN,
+            high + 1.5 * MARGIN
+        );
+        let _ = writeln!(
+            page,
+            "<rect x=\"{MARGIN}\" y=\"8\" width=\"{wide}\" height=\"{high}\" fill=\"{}\"/>",
+            colour(0)
+        );
+        let levels = |x: usize| -> Vec<usize> {
+            let place = from + (to - from) * (x as f64 + 0.5) / cells[0] as f64;
+            let column = &self.columns[nearest(&self.along, place)];
+            let of_cell = |y: usize| {
+                let range = y * lines / cells[1]..(y + 1) * lines / cells[1];
+                column[range].iter().copied().fold(0.0, f64::max)
+            };
+            (0..cells[1]).map(|y| level(of_cell(y), largest)).collect()
+        };
+        let columns: Vec<Vec<usize>> = (0..cells[0]).map(levels).collect();
+        let rows: Vec<Vec<usize>> = (0..cells[1])
+            .map(|y| columns.iter().map(|column| column[y]).collect())
+            .collect();
+        let size = [wide / cells[0] as f64, high / cells[1] as f64];
+        for shade in 1..DECADES * SHADES {
+            let mut path = String::new();
+            for (y, row) in rows.iter().enumerate() {
+                let mut x = 0;
+                while x < cells[0] {
+                    let first = x;
+                    while x < cells[0] && row[x] == shade {
+                        x += 1;
+                    }
+                    if x > first {
+                        let _ = write!(
+                            path,
+                            "M{:.1} {:.1}h{:.1}v-{:.1}h-{2:.1}z",
+                            MARGIN + first as f64 * size[0],
+                            8.0 + high - y as f64 * size[1],
+                            (x - first) as f64 * size[0],
+                            size[1]
+                        );
+                    } else {
+                        x += 1;
+                    }
+                }
+            }
+            if !path.is_empty() {
+                let _ = writeln!(
+                    page,
+                    "<path d=\"{path}\" fill=\"{}\" shape-rendering=\"crispEdges\"/>",
+                    colour(shade)
+                );
+            }
+        }
+        let top = self.spacing * lines as f64;
+        self.ticks(page, ([from, to], top));
+        page.push_str("</svg>\n");
+        self.scale(page, largest);
+        page.push_str("</figure>\n");
+        Ok(())
+    }
+
+    /// Numbers and names of both axes.
+    fn ticks(&self, page: &mut String, ([from, to], top): ([f64; 2], f64)) {
+        let [wide, high] = SIZE;
+        let bottom = 8.0 + high;
+        let named = |axis: &Axis| match &axis.unit[..] {
+            "" => svg(&axis.label),
+            unit => format!("{} ({})", svg(&axis.label), svg(unit)),
+        };
+        let step = round_step(to - from);
+        let mut value = step * (from / step).ceil();
+        while to > from && value <= to + 1e-9 * step {
+            let x = MARGIN + wide * (value - from) / (to - from);
+            let _ = write!(
+                page,
+                "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
+                bottom + 15.0,
+                on_axis(value, step)
+            );
+            value += step;
+        }
+        if to <= from {
+            let _ = write!(
+                page,
+                "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
+                MARGIN + 0.5 * wide,
+                bottom + 15.0,
+                short(from)
+            );
+        }
+        let step = round_step(top);
+        let mut value = 0.0;
+        while value <= top + 1e-9 * step {
+            let y = bottom - high * value / top;
+            let _ = write!(
+                page,
+                "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
+                MARGIN - 6.0,
+                y + 4.0,
+                on_axis(value, step)
+            );
+            value += step;
+        }
+        let _ = writeln!(
+            page,
+            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\
+             <text x=\"14\" y=\"{:.1}\" text-anchor=\"middle\" transform=\"rotate(-90 14 {3:.1})\">{}</text>",
+            MARGIN + 0.5 * wide,
+            bottom + 34.0,
+            named(&self.axes[0]),
+            8.0 + 0.5 * high,
+            named(&self.axes[1])
+        );
+    }
+
+    /// The colours of the decades.
+    fn scale(&self, page: &mut String, largest: f64) {
+        page.push_str("<p class=\"legend\">");
+        for decade in (0..=DECADES).rev() {
+            let value = largest / 10_f64.powi(decade as i32);
+            let _ = write!(
+                page,
+                "<span class=\"entry\"><span class=\"key\" style=\"background: {}\"></span> {}{}</span> ",
+                colour(level(value, largest)),
+                if decade == DECADES { "up to " } else { "" },
+                short(value)
+            );
+        }
+        let _ = writeln!(
+            page,
+            "{} ({})</p>",
+            html(&self.quantity.label),
+            html(&self.quantity.unit)
+        );
+    }
+}
+
+/// The place that is nearest to a value, of places that rise.
+fn nearest(places: &[f64], value: f64) -> usize {
+    let after = places.partition_point(|place| *place < value);
+    let before = after.saturating_sub(1);
+    if after == places.len() || value - places[before] <= places[after] - value {
+        before
+    } else {
+        after
+    }
+}
+
+/// Which of the colours a value has: 0 for all that is [`DECADES`] decades below the largest.
+fn level(value: f64, largest: f64) -> usize {
+    if value <= 0.0 || largest <= 0.0 {
+        return 0;
+    }
+    let above = (DECADES as f64 + (value / largest).log10()) * SHADES as f64;
+    (above.max(0.0) as usize).min(DECADES * SHADES - 1)
+}
+
+fn colour(level: usize) -> String {
+    let at = (COLOURS.len() - 1) as f64 * level as f64 / (DECADES * SHADES - 1) as f64;
+    let first = (at as usize).min(COLOURS.len() - 2);
+    let share = at - first as f64;
+    let part = |k: usize| (1.0 - share) * COLOURS[first][k] + share * COLOURS[first + 1][k];
+    format!("rgb({:.0},{:.0},{:.0})", part(0), part(1), part(2))
+}
+
+/// A tick in as many digits as its step needs.
+fn on_axis(value: f64, step: f64) -> String {
+    let digits = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{value:.digits$}")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn map() -> MapChart {
+        let axis = |label: &str| Axis::new(label, "");
+        MapChart::new("m", axis("x"), axis("y"), axis("z"))
+    }
+
+    #[test]
+    fn a_line_that_stands_is_one_row_of_the_brightest_colour() {
+        let columns = vec![vec![0.0, 1e-9, 7.0, 0.0]; 50];
+        let along = (0..50).map(f64::from).collect();
+        let mut html = String::new();
+        map().values(along, 1.0, columns).render(&mut html).unwrap();
+        // All else is the ground.
+        assert_eq!(html.matches("<path").count(), 1, "{html}");
+        let brightest = colour(DECADES * SHADES - 1);
+        // From the third of four rows over the whole width.
+        let row = format!("<path d=\"M56.0 188.0h640.0v-90.0h-640.0z\" fill=\"{brightest}\"");
+        assert!(html.contains(&row), "{html}");
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let mut html = String::new();
+        assert!(matches!(
+            map().render(&mut html),
+            Err(PageError::Empty { .. })
+        ));
+        let short = map().values(vec![1.0, 2.0], 1.0, vec![vec![1.0]]);
+        assert!(matches!(
+            short.render(&mut html),
+            Err(PageError::Count { .. })
+        ));
+        let wrong = map().values(vec![1.0], 1.0, vec![vec![f64::NAN]]);
+        assert!(matches!(
+            wrong.render(&mut html),
+            Err(PageError::NotFinite { .. })
+        ));
+    }
+
+    #[test]
+    fn the_nearest_place_is_found() {
+        let places = [1.0, 2.0, 4.0];
+        let found = [0.0, 1.4, 1.6, 3.1, 9.0].map(|value| nearest(&places, value));
+        assert_eq!(found, [0, 0, 1, 2, 2]);
+    }
+}

@@ -1,0 +1,270 @@
+//! Positions beside the even grid of a run, under each torque of its own: where a pair of teeth takes load or gives it
+//! up, where contact goes from a flank to a tip edge or back, and at the peaks.
+//!
+//! Even positions see what happens between them by chance only: the transmission error has corners, and on the line of
+//! action jumps, at those events, and a slice of a helical pair is pressed most where it leaves the path. The pairs
+//! that carry at neighbouring positions say that something has happened between them; halving finds it. Then the
+//! largest values are followed by halving the steps beside them, until less than [`PEAK_SHARE`] may be open.
+//!
+//! Only the first period of the run is looked at: the others are alike. Means, spectra and everything else that goes
+//! over a period are those of the even grid.
+
+use super::position::{Position, PositionSolver};
+use super::run::RunError;
+use std::ops::Range;
+
+/// Halvings of an even step for an event: it is known to 1/32 of a step, on both sides.
+const EVENT_HALVINGS: usize = 5;
+
+/// A peak is followed until less than this share may still be open: of the peak-to-peak value of the transmission
+/// error, of the largest pressure, of K_Hβ.
+pub const PEAK_SHARE: f64 = 1e-3;
+
+/// Halvings for a peak at most. Each leaves half of what is open at a corner, a quarter at a smooth peak.
+const MOST_HALVINGS: usize = 10;
+
+/// Peaks of a curve that are followed.
+const PEAKS: usize = 3;
+
+/// Peaks that are lower than the highest one by more than this share of the range do not come above it.
+const PEAK_BAND: f64 = 0.3;
+
+/// Positions of a result beside its even grid, torque after torque, by rising angle. E positions, L lines, S slices.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct BetweenPositions {
+    /// Positions of each torque, T.
+    pub count: Vec<u32>,
+    /// Driver angles \[rad\], E.
+    pub angle_rad: Vec<f64>,
+    /// Transmission error \[m\], E.
+    pub te_m: Vec<f64>,
+    /// Transmission error at first touch \[m\], E.
+    pub unloaded_m: Vec<f64>,
+    /// Tangent mesh stiffness \[N/m\], E.
+    pub tangent_n_per_m: Vec<f64>,
+    /// Contact lines L.
+    pub slots: usize,
+    /// Slice forces \[N\], `[E][L][S]`.
+    pub force_n: Vec<f64>,
+    /// Hertz pressure \[Pa\], `[E][L][S]`.
+    pub pressure_pa: Vec<f64>,
+    /// What steps of this length still leave open: of the transmission error's peak-to-peak value, as a share of it, T.
+    pub te_error: Vec<f64>,
+    /// Of the largest pressure, T.
+    pub pressure_error: Vec<f64>,
+    /// Of K_Hβ, T.
+    pub k_h_beta_error: Vec<f64>,
+}
+
+impl BetweenPositions {
+    /// The positions of a torque; none of a result of an older program.
+    #[must_use]
+    pub fn of(&self, torque: usize) -> Range<usize> {
+        let before = self.count.iter().take(torque).sum::<u32>() as usize;
+        before..before + self.count.get(torque).map_or(0, |count| *count as usize)
+    }
+
+    /// Slice forces \[N\] at a position, `[L][S]`.
+    #[must_use]
+    pub fn position_forces(&self, position: usize) -> &[f64] {
+        let size = self.force_n.len() / self.angle_rad.len().max(1);
+        &self.force_n[position * size..][..size]
+    }
+
+    /// Those that were found under each torque.
+    pub(super) fn new(found: Vec<Found>, slices: usize) -> Self {
+        let lines = |p: &Position| p.force_n.len() / slices.max(1);
+        let all = || found.iter().flat_map(|found| &found.positions);
+        let mut it = Self {
+            slots: all().map(lines).max().unwrap_or(1).max(1),
+            te_error: found.iter().map(|found| found.errors[0]).collect(),
+            pressure_error: found.iter().map(|found| found.errors[1]).collect(),
+            k_h_beta_error: found.iter().map(|found| found.errors[2]).collect(),
+            count: (found.iter().map(|found| found.positions.len() as u32)).collect(),
+            ..Self::default()
+        };
+        for p in found.into_iter().flat_map(|found| found.positions) {
+            it.angle_rad.push(p.angle_rad);
+            it.te_m.push(p.te_m);
+            it.unloaded_m.push(p.unloaded_m);
+            it.tangent_n_per_m.push(p.tangent_n_per_m);
+            let unused = it.slots * slices - p.force_n.len();
+            for (all, own) in [
+                (&mut it.force_n, p.force_n),
+                (&mut it.pressure_pa, p.pressure_pa),
+            ] {
+                all.extend(own);
+                all.extend(std::iter::repeat_n(0.0, unused));
+            }
+        }
+        it
+    }
+}
+
+/// Positions of one torque, by rising angle, and what is left open of transmission error, pressure and K_Hβ.
+#[derive(Default)]
+pub(super) struct Found {
+    pub positions: Vec<Position>,
+    pub errors: [f64; 3],
+}
+
+/// A position of the even grid, of which only the figures are looked at, or one that was added.
+enum Node<'a> {
+    Even(&'a Position),
+    Added(Position),
+}
+
+impl Node<'_> {
+    fn get(&self) -> &Position {
+        match self {
+            Self::Even(position) => position,
+            Self::Added(position) => position,
+        }
+    }
+}
+
+/// What lies between even positions; `even`: those that are looked at. Where the run repeats after them, `repeats`, the
+/// steps before the first one and after the last one are looked at, too.
+///
+/// # Errors
+/// [`RunError::Contact`] where a position has no solution.
+pub(super) fn find(
+    solver: &mut PositionSolver,
+    even: &[Position],
+    repeats: bool,
+) -> Result<Found, RunError> {
+    let [first, second, ..] = even else {
+        return Ok(Found::default());
+    };
+    let step = second.angle_rad - first.angle_rad;
+    // Both ends belong to the period before and the one after: for their neighbours' sake only.
+    let ends = if repeats {
+        let after = first.angle_rad + step * even.len() as f64;
+        Some([solver.at(first.angle_rad - step)?, solver.at(after)?])
+    } else {
+        None
+    };
+    let mut nodes: Vec<Node<'_>> = Vec::with_capacity(2 * even.len());
+    let [before, after] = ends.as_ref().map_or([None; 2], |[a, b]| [Some(a), Some(b)]);
+    nodes.extend(before.map(Node::Even));
+    for (number, here) in even.iter().enumerate() {
+        nodes.push(Node::Even(here));
+        if let Some(next) = even.get(number + 1).or(after) {
+            let mut found = Vec::new();
+            halve(solver, [here, next], EVENT_HALVINGS, &mut found)?;
+            found.sort_by(|a, b| a.angle_rad.total_cmp(&b.angle_rad));
+            nodes.extend(found.into_iter().map(Node::Added));
+        }
+    }
+    nodes.extend(after.map(Node::Even));
+    let te: [fn(&Position) -> f64; 2] = [|p| p.te_m, |p| -p.te_m];
+    let mut te_error = 0.0;
+    let range = spread(&nodes, te[0]);
+    for value in te {
+        te_error += follow(solver, &mut nodes, value, range)?;
+    }
+    let pressure: fn(&Position) -> f64 = Position::pressure_largest_pa;
+    let largest = highest(&nodes, pressure);
+    let pressure_error = follow(solver, &mut nodes, pressure, largest)?;
+    let factor: fn(&Position) -> f64 = |p| p.k_h_beta;
+    let largest = highest(&nodes, factor);
+    let factor_error = follow(solver, &mut nodes, factor, largest)?;
+    let errors = [
+        over(te_error, spread(&nodes, te[0])),
+        over(pressure_error, highest(&nodes, pressure)),
+        over(factor_error, highest(&nodes, factor)),
+    ];
+    let added = |node: Node<'_>| match node {
+        Node::Added(position) => Some(position),
+        Node::Even(_) => None,
+    };
+    let positions = nodes.into_iter().filter_map(added).collect();
+    Ok(Found { positions, errors })
+}
+
+fn over(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 { part / whole } else { 0.0 }
+}
+
+fn highest(nodes: &[Node<'_>], value: fn(&Position) -> f64) -> f64 {
+    let values = nodes.iter().map(|node| value(node.get()));
+    values.fold(f64::NEG_INFINITY, f64::max)
+}
+
+fn spread(nodes: &[Node<'_>], value: fn(&Position) -> f64) -> f64 {
+    let values = nodes.iter().map(|node| value(node.get()));
+    highest(nodes, value) - values.fold(f64::INFINITY, f64::min)
+}
+
+/// Halves the step between two positions at which other pairs carry, and each half in which that is so, and keeps the
+/// positions in between.
+fn halve(
+    solver: &mut PositionSolver,
+    [a, b]: [&Position; 2],
+    halvings: usize,
+    found: &mut Vec<Position>,
+) -> Result<(), RunError> {
+    if a.carriers == b.carriers || halvings == 0 {
+        return Ok(());
+    }
+    let middle = solver.at(0.5 * (a.angle_rad + b.angle_rad))?;
+    halve(solver, [a, &middle], halvings - 1, found)?;
+    halve(solver, [&middle, b], halvings - 1, found)?;
+    found.push(middle);
+    Ok(())
+}
+
+/// Follows the highest peaks of a figure; returns how far the highest may still be off.
+fn follow(
+    solver: &mut PositionSolver,
+    nodes: &mut Vec<Node<'_>>,
+    value: fn(&Position) -> f64,
+    scale: f64,
+) -> Result<f64, RunError> {
+    let at = |nodes: &[Node<'_>], k: usize| value(nodes[k].get());
+    let least = highest(nodes, value) - PEAK_BAND * spread(nodes, value);
+    let mut peaks: Vec<usize> = (1..nodes.len().saturating_sub(1))
+        .filter(|&k| {
+            let here = at(nodes, k);
+            here >= least && here >= at(nodes, k - 1) && here > at(nodes, k + 1)
+        })
+        .collect();
+    peaks.sort_by(|a, b| at(nodes, *b).total_cmp(&at(nodes, *a)));
+    peaks.truncate(PEAKS);
+    // From behind, so that those before keep their places.
+    peaks.sort_unstable_by(|a, b| b.cmp(a));
+    let mut best = (f64::NEG_INFINITY, 0.0);
+    for mut peak in peaks {
+        let mut open = f64::INFINITY;
+        // What the last two halvings have changed.
+        let mut changes = [f64::INFINITY; 2];
+        for _ in 0..MOST_HALVINGS {
+            let before = at(nodes, peak);
+            let [a, b, c] = [peak - 1, peak, peak + 1].map(|k| nodes[k].get().angle_rad);
+            nodes.insert(peak + 1, Node::Added(solver.at(0.5 * (b + c))?));
+            nodes.insert(peak, Node::Added(solver.at(0.5 * (a + b))?));
+            // The old peak is the one in the middle now.
+            peak = [peak, peak + 2].into_iter().fold(peak + 1, |top, k| {
+                if at(nodes, k) > at(nodes, top) {
+                    k
+                } else {
+                    top
+                }
+            });
+            changes = [changes[1], at(nodes, peak) - before];
+            // Beside a jump the curve goes on rising as it did, up to the neighbour behind the jump at most.
+            let angle = |k: usize| nodes[k].get().angle_rad;
+            let step = [angle(peak) - angle(peak - 1), angle(peak + 1) - angle(peak)];
+            let fall = [peak - 1, peak + 1].map(|k| at(nodes, peak) - at(nodes, k));
+            let beyond = (fall[0] * step[1] / step[0]).min(fall[1] * step[0] / step[1]);
+            open = beyond.max(changes[0] + changes[1]);
+            if open <= PEAK_SHARE * scale {
+                break;
+            }
+        }
+        if at(nodes, peak) > best.0 {
+            best = (at(nodes, peak), open);
+        }
+    }
+    Ok(best.1)
+}

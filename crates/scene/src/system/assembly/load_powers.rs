@@ -1,0 +1,105 @@
+//! Power of torques at the speeds of the start: loads that drive where a motion drives already, and torques that do not
+//! balance where nothing else holds the train.
+//!
+//! P = T·ω of each constant torque on a body that turns; positive where it goes in. Functions of time are not judged.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+
+use super::bodies::Bodies;
+use super::joints::PlacedMotion;
+use crate::system::scene::SystemTables;
+use crate::system::tables::function::FunctionTable;
+use crate::system::tables::load::{AxesWord, LoadTable};
+
+/// Power that does not come out, as a share of what goes in, from which it is reported.
+const MISSING: f64 = 0.01;
+
+/// A torque on a body that turns.
+struct Power<'a> {
+    load: &'a LoadTable,
+    torque_nm: f64,
+    speed_rpm: f64,
+    watts: f64,
+}
+
+/// Adds warnings.
+pub(super) fn note(
+    tables: &SystemTables,
+    motions: &[PlacedMotion],
+    bodies: &Bodies,
+    notes: &mut Vec<String>,
+) {
+    let powers: Vec<Power<'_>> = (tables.load.iter())
+        .filter_map(|load| power(load, bodies))
+        .collect();
+    let driving = motions
+        .iter()
+        .find(|motion| motion.spin_at_start().is_some_and(|w| w != 0.0));
+    if let Some(motion) = driving {
+        for p in powers.iter().filter(|p| p.watts > 0.0) {
+            notes.push(format!(
+                "warning: load `{}` drives: {} N m on `{}`, which turns at {:.6} rpm, put {:.6} W in, and motion `{}` must brake. A load that takes power has \
+                 the sign against the speed: {} N m",
+                p.load.name(),
+                p.torque_nm,
+                p.load.body,
+                p.speed_rpm,
+                p.watts,
+                motion.name(),
+                -p.torque_nm
+            ));
+        }
+        return;
+    }
+    // What joins the train to the ground about its axis may take the rest.
+    let to_ground = |body: &Option<String>| {
+        body.as_deref()
+            .is_none_or(|name| name == super::bodies::GROUND_NAME)
+    };
+    let is_held = !motions.is_empty()
+        || tables
+            .torsion_spring
+            .iter()
+            .any(|s| to_ground(&s.body_1) || s.body_2 == super::bodies::GROUND_NAME)
+        || tables
+            .bushing
+            .iter()
+            .any(|b| to_ground(&b.body_1) || b.body_2 == super::bodies::GROUND_NAME)
+        || !tables.python_element.is_empty();
+    let sum = |sign: f64| -> f64 { powers.iter().map(|p| (sign * p.watts).max(0.0)).sum() };
+    let [into, out] = [sum(1.0), sum(-1.0)];
+    if !is_held && (into - out).abs() > MISSING * into.max(out) {
+        let names = powers
+            .iter()
+            .map(|p| format!("`{}` {:+.6} W", p.load.name(), p.watts));
+        notes.push(format!(
+            "warning: power does not balance at the speeds of the start: loads put {into:.6} W in and take {out:.6} W out ({}). Nothing else holds the train, \
+             which gathers or loses speed",
+            names.collect::<Vec<_>>().join(", ")
+        ));
+    }
+}
+
+fn power<'a>(load: &'a LoadTable, bodies: &Bodies) -> Option<Power<'a>> {
+    let Some(FunctionTable::Constant(torque_nm)) = load.torque_Nm else {
+        return None;
+    };
+    let placed = bodies.list.iter().find(|p| p.body.name == load.body)?;
+    let spin = placed.body.angular_velocity_rad_per_s;
+    let along = Vector3::from(load.along.unwrap_or([0.0, 0.0, 1.0]));
+    let along = along.try_normalize(0.0)?;
+    let own = match load.axes {
+        Some(AxesWord::Body) => along,
+        _ if load.along.is_none() => along,
+        _ => placed.body.orientation.inverse() * along,
+    };
+    let speed = own.dot(&spin);
+    (speed != 0.0 && torque_nm != 0.0).then_some(Power {
+        load,
+        torque_nm,
+        speed_rpm: speed * 60.0 / TAU,
+        watts: torque_nm * speed,
+    })
+}
