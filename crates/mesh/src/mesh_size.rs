@@ -7,7 +7,7 @@
 //! is taken; how far it is off stands in docs/theory/reduction.md.
 
 use crate::MeshError;
-use crate::body::{element_length, region_circles};
+use crate::body::{element_length, region_circles, repeating_down_to_m};
 use crate::grading::{Pieces, graded};
 use crate::layers::Layers;
 use crate::solid_problem::THROUGH_WEB;
@@ -87,11 +87,17 @@ impl MeshSize {
             sector_nodes: 0.0,
             cut_nodes: column(side, all),
         };
-        let circles = region_circles(gear);
+        let mut circles = region_circles(gear);
+        let deep = repeating_down_to_m(gear);
+        if let Some(deep) = deep {
+            let inside = circles.iter().position(|(radius, _)| *radius < deep);
+            let at = inside.unwrap_or(circles.len());
+            circles.insert(at, (deep, circles[at - 1].1));
+        }
         let below = if circles[0].1 { web } else { all };
         size.foot_nodes = column(2.0 * side - 2.0, all) + column(ring + 1.0, below);
         let length = element_length(gear, ring_size);
-        let mut body_nodes = 0.0;
+        let (mut body_nodes, mut below_teeth) = (0.0, 0.0);
         for pair in circles.windows(2) {
             let ((outer, web_only), (inner, _)) = (pair[0], pair[1]);
             let stubs = (0..layers.count()).filter(|&layer| {
@@ -114,16 +120,22 @@ impl MeshSize {
                 continue;
             }
             let quads = free_quads(gear, outer, inner, &length);
-            body_nodes += column(quads, layers);
             size.elements += quads * layers;
             let even = Pieces {
                 least: 2,
                 even: true,
             };
             let radial = graded(outer, inner, &length, even).len() as f64 - 1.0;
+            if deep.is_some_and(|deep| inner >= deep) {
+                // Part of the cells of the teeth, which share their sides.
+                below_teeth += column(quads, layers);
+                size.tooth_nodes += column(quads / teeth + radial, layers);
+                continue;
+            }
+            body_nodes += column(quads, layers);
             size.cut_nodes += column(radial, layers);
         }
-        size.nodes += body_nodes;
+        size.nodes += body_nodes + below_teeth;
         size.sector_nodes = (body_nodes + teeth * (size.foot_nodes - column(side, all))) / sectors;
         if sectors == 1.0 {
             size.cut_nodes = 0.0;

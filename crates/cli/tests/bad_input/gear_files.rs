@@ -156,7 +156,7 @@ web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = 
             "web =",
             &[
                 "blank.web.0.diameter_mm",
-                "more than 14.000 and less than 18.000",
+                "at least 14.0060 and less than 18.000",
             ],
         ),
         (
