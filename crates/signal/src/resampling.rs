@@ -110,6 +110,27 @@ impl Resampler {
         self.half_width
     }
 
+    /// The last row not behind the begin of `rows` from which a shaft makes so many turns up to their end, beside the
+    /// neighbours that resampling needs at both ends; the first row where it makes fewer.
+    pub fn first_row_for(
+        &self,
+        turns: usize,
+        angles_rad: &[f64],
+        rows: &std::ops::Range<usize>,
+    ) -> usize {
+        let neighbours = 2 * self.half_width + 2;
+        let last = rows.end.saturating_sub(1);
+        let needed = TAU * turns as f64;
+        let whole = |first: usize| {
+            let from = first + neighbours;
+            from <= last && (angles_rad[last] - angles_rad[from]).abs() >= needed
+        };
+        (0..=rows.start)
+            .rev()
+            .find(|first| whole(*first))
+            .unwrap_or(0)
+    }
+
     /// Fraction of the lower Nyquist frequency up to which the result is right.
     pub fn band(&self) -> f64 {
         self.band

@@ -196,3 +196,22 @@ fn what_cannot_be_resampled_is_refused() {
         );
     }
 }
+
+/// The drive of the README: 0.94 turns in the second half of its run.
+#[test]
+fn rows_begin_early_enough_for_a_turn() {
+    let rows = 4000;
+    let angle = |row: usize| 1.88 * TAU * row as f64 / (rows - 1) as f64;
+    let angles: Vec<f64> = (0..rows).map(angle).collect();
+    let half = rows / 2..rows;
+    let resampler = Resampler::default();
+    let first = resampler.first_row_for(1, &angles, &half);
+    let held = (angles[rows - 1] - angles[first]) / TAU;
+    // A turn, and the neighbours of its first row: some tens of rows of 2100.
+    assert!(
+        first < half.start && (1.0..1.05).contains(&held),
+        "{first} {held}"
+    );
+    assert_eq!(resampler.first_row_for(1, &angles, &(100..rows)), 100);
+    assert_eq!(resampler.first_row_for(2, &angles, &half), 0);
+}

@@ -114,7 +114,7 @@ impl Series {
                 }
                 let all = read(&column)?;
                 if a.from_s.is_none() {
-                    let first = early_enough(&all, &range, needed);
+                    let first = Resampler::default().first_row_for(needed, &all, &range);
                     if first < range.start {
                         range.start = first;
                         console::note(format!(
@@ -235,22 +235,6 @@ impl Series {
     }
 }
 
-/// The last row not behind the begin of a range from which a shaft makes so many turns up to its end, and the
-/// neighbours that resampling needs at both ends besides; the first row where it makes fewer.
-fn early_enough(angles_rad: &[f64], range: &Range<usize>, turns: usize) -> usize {
-    let neighbours = 2 * Resampler::default().half_width() + 2;
-    let last = range.end.saturating_sub(1);
-    let needed = TAU * turns as f64;
-    let whole = |first: usize| {
-        let from = first + neighbours;
-        from <= last && (angles_rad[last] - angles_rad[from]).abs() >= needed
-    };
-    (0..=range.start)
-        .rev()
-        .find(|first| whole(*first))
-        .unwrap_or(0)
-}
-
 /// The window that was asked for, or the usual one.
 pub fn window(a: &AbscissaArguments) -> Window {
     match a.window {
@@ -275,26 +259,4 @@ fn range(a: &SeriesArguments, rows: usize, rate: f64) -> Result<Range<usize>, Fa
     }
     let first = (from_s * rate).round() as usize;
     Ok(first..((to_s * rate).round() as usize + 1).min(rows))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The drive of the README: 0.94 turns in the second half of its run.
-    #[test]
-    fn a_series_begins_early_enough_for_a_turn() {
-        let rows = 4000;
-        let angle = |row: usize| 1.88 * TAU * row as f64 / (rows - 1) as f64;
-        let angles: Vec<f64> = (0..rows).map(angle).collect();
-        let half = rows / 2..rows;
-        let first = early_enough(&angles, &half, 1);
-        let held = (angles[rows - 1] - angles[first]) / TAU;
-        assert!(
-            first < half.start && (1.0..1.05).contains(&held),
-            "{first} {held}"
-        );
-        assert_eq!(early_enough(&angles, &(100..rows), 1), 100);
-        assert_eq!(early_enough(&angles, &half, 2), 0);
-    }
 }
