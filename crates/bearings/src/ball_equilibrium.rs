@@ -1,9 +1,9 @@
 //! The equilibrium of one ball between two grooves, and what it does to the inner ring.
 //!
-//! Each ball stays in its axial plane (the cage holds it there) and has two unknowns, the place of its centre b in that plane. A
-//! groove is half a torus: a circle of radius R, the line of the groove's centres, and round it the groove's radius r,
-//! up to contact angles of 90° (in thrust bearings from 0° to 180°). With the distance ℓ of b from that circle the
-//! approach is δ = ℓ − (r − D/2), the force Q = k δ^1.5 points to the circle. Formulas (3) to (7) of
+//! Each ball stays in its axial plane (the cage holds it there) and has two unknowns, the place of its centre b in
+//! that plane. A groove is half a torus: a circle of radius R, the line of the groove's centres, and round it the
+//! groove's radius r, up to contact angles of 90° (in thrust bearings from 0° to 180°). With the distance ℓ of b from
+//! that circle the approach is δ = ℓ − (r − D/2), the force Q = k δ^1.5 points to the circle. Formulas (3) to (7) of
 //! docs/theory/rolling_bearings.md.
 
 mod race_control;
@@ -21,8 +21,8 @@ use crate::operation::Operation;
 use crate::ring_load::{RingLoad, by_ring};
 use crate::ring_pose::{RingPose, cross};
 
-/// Share of the free contact angle up to which a ball of an angular-contact bearing may touch its groove on the side away from
-/// the load, where a shoulder is missing.
+/// Share of the free contact angle up to which a ball of an angular-contact bearing may touch its groove on the side
+/// away from the load, where a shoulder is missing.
 pub(crate) const FAR_SIDE: f64 = 0.5;
 
 /// Newton's iterations of one ball before it is given up.
@@ -124,10 +124,11 @@ impl Ball<'_> {
         Ok(self.report(&place, &state))
     }
 
-    /// Where the iteration begins, and where it begins again if that fails; none where the ball is loose and nothing presses it.
+    /// Where the iteration begins, and where it begins again if that fails; none where the ball is loose and nothing
+    /// presses it.
     ///
-    /// Where the centrifugal force is more than what the rings press with, the ball is sought at the bottom of the outer groove: contacts that
-    /// hardly touch have no slope to begin with, and the way along a groove is narrow.
+    /// Where the centrifugal force is more than what the rings press with, the ball is sought at the bottom of the
+    /// outer groove: contacts that hardly touch have no slope to begin with, and the way along a groove is narrow.
     fn starts(&self) -> [Option<Vector2<f64>>; 2] {
         let row = self.row;
         let (inner, outer) = (self.inner, self.outer);
@@ -272,7 +273,8 @@ impl Ball<'_> {
         }
     }
 
-    /// Change of the inner contact's force on the ring by a displacement of the ball relative to it, without the part of δφ × f.
+    /// Change of the inner contact's force on the ring by a displacement of the ball relative to it, without the part
+    /// of δφ × f.
     fn inner_by_point(&self, state: &State) -> Matrix3<f64> {
         let c = &state.inner;
         let [(friction, by), _] = state.friction();
@@ -284,7 +286,8 @@ impl Ball<'_> {
             + (c.m * by[0] - c.n * friction) * by_angle.transpose()
     }
 
-    /// −∂residual/∂place, and the part of ∂residual that goes through α_i alone, by a displacement relative to the ring.
+    /// −∂residual/∂place, and the part of ∂residual that goes through α_i alone, by a displacement relative to the
+    /// ring.
     fn plane_tangent(
         &self,
         state: &State,
@@ -358,7 +361,8 @@ impl Ball<'_> {
         Err(self.no_equilibrium(size))
     }
 
-    /// Angular-contact bearings have no groove on the side away from their load: a ball that climbs there has left the bearing.
+    /// Angular-contact bearings have no groove on the side away from their load: a ball that climbs there has left the
+    /// bearing.
     fn refuse_far_side(&self, state: &State) -> Result<(), BearingError> {
         let (free, inner) = (self.row.free_angle_rad, &state.inner);
         if inner.sine * free >= 0.0 {

@@ -1,6 +1,7 @@
 //! How fast a ball orbits and spins, and what that does: centrifugal force and gyroscopic moment.
 //!
-//! The ball rolls without gross slip at the middle of both contacts. With γ' = D/d_m and the pitch angle β of its spin axis,
+//! The ball rolls without gross slip at the middle of both contacts. With γ' = D/d_m and the pitch angle β of its spin
+//! axis,
 //!
 //! ```text
 //! X_o = cos(α_o − β)/(1 + γ' cos α_o),  X_i = cos(α_i − β)/(1 − γ' cos α_i)
@@ -9,8 +10,8 @@
 //! F_c = ½ m d_m ω_m²,   M_g = J ω_m ω_R sin β
 //! ```
 //!
-//! Source: A. B. Jones, *A general theory for elastically constrained ball and radial roller bearings under arbitrary load and
-//! speed conditions*, J. Basic Eng. 82 (1960); derived anew in docs/theory/rolling_bearings.md.
+//! Source: A. B. Jones, *A general theory for elastically constrained ball and radial roller bearings under arbitrary
+//! load and speed conditions*, J. Basic Eng. 82 (1960); derived anew in docs/theory/rolling_bearings.md.
 
 use crate::dual::Dual;
 

@@ -96,8 +96,8 @@ impl BallRow {
         }
     }
 
-    /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at its place, which it
-    /// leaves where it ends.
+    /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at
+    /// its place, which it leaves where it ends.
     ///
     /// # Errors
     /// [`BearingError::NoBallEquilibrium`], [`BearingError::PulledOut`].

@@ -1,9 +1,9 @@
 //! Boundary dimensions of common designations: bore d, outside diameter D, width B (tapered bearings T) in mm.
 //!
 //! The dimension series of ISO 15 (radial bearings), ISO 104 (thrust ball bearings) and ISO 355 (tapered roller
-//! bearings, with their contact angles), where two public tables agree. Load ratings are not in them: they follow from the
-//! estimated inside by ISO 281 and ISO 76. Contact angles of ball bearings are those that the letters behind the number
-//! usually mean (C 15, AC 25, A 30, B 40 degrees), which no standard says.
+//! bearings, with their contact angles), where two public tables agree. Load ratings are not in them: they follow from
+//! the estimated inside by ISO 281 and ISO 76. Contact angles of ball bearings are those that the letters behind the
+//! number usually mean (C 15, AC 25, A 30, B 40 degrees), which no standard says.
 
 mod tables;
 

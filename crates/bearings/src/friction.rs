@@ -66,8 +66,8 @@ impl FrictionTorque {
     }
 }
 
-/// f₀ and f₁ by the type of bearing in an oil bath: Harris' tables, of ranges their middle; docs/theory/rolling_bearings.md
-/// has a second source.
+/// f₀ and f₁ by the type of bearing in an oil bath: Harris' tables, of ranges their middle;
+/// docs/theory/rolling_bearings.md has a second source.
 #[must_use]
 pub fn usual_factors(geometry: &BearingGeometry) -> (f64, LoadFactor) {
     match geometry {

@@ -22,8 +22,8 @@
 //! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `designations.rs`, `element_room.rs`, `estimate.rs` |
 //! | frequencies of rolling | [`BearingFrequencies`] | `frequencies.rs` |
 //!
-//! SI units. Frame: that of the outer ring, z its axis; the pose of the inner ring is seen in it, loads act on the inner ring.
-//! Formulas are derived in docs/theory/rolling_bearings.md.
+//! SI units. Frame: that of the outer ring, z its axis; the pose of the inner ring is seen in it, loads act on the
+//! inner ring. Formulas are derived in docs/theory/rolling_bearings.md.
 
 mod axial_plane;
 mod ball_equilibrium;

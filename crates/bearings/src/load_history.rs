@@ -1,12 +1,15 @@
-//! Life over a history of loads and speeds: loads that are alike are gathered, each has a life, damages add up (A. Palmgren 1924, M. A. Miner 1945).
+//! Life over a history of loads and speeds: loads that are alike are gathered, each has a life, damages add up (A.
+//! Palmgren 1924, M. A. Miner 1945).
 //!
 //! ```text
 //! L = Σ N_k / Σ (N_k/L_k),   P = (Σ N_k P_k^p / Σ N_k)^(1/p),   N_k: turns of the rings against each other under load k
 //! ```
 //!
-//! Loads are alike where their magnitudes lie in one octave and no component differs by more than a 64th of the octave's lower end; each group is
-//! taken at its mean load and speed. A life that goes with the p-th power is then off by p(p − 1)/2 times the variance within a group, below 3e-4.
-//! Elements pass: a group's damage is the mean of that with an element under the radial force and with a gap there. The direction of the radial force does not matter: loads are seen from it.
+//! Loads are alike where their magnitudes lie in one octave and no component differs by more than a 64th of the
+//! octave's lower end; each group is taken at its mean load and speed. A life that goes with the p-th power is then
+//! off by p(p − 1)/2 times the variance within a group, below 3e-4. Elements pass: a group's damage is the mean of
+//! that with an element under the radial force and with a gap there. The direction of the radial force does not
+//! matter: loads are seen from it.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

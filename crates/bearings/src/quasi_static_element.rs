@@ -1,10 +1,11 @@
 //! A bearing whose balls or rollers are in equilibrium at every moment, between two bodies of a system.
 //!
-//! Marker A is the outer ring, marker B the inner one, z the axis. Load and tangent are those of [`QuasiStaticBearing`] at the place of B in A, with linear
-//! damping beside it. The speeds that balls feel (centrifugal force, gyroscopic moment) are those of the last accepted step; between steps the cage goes on
-//! at its speed of rolling, (ω_i − ω_o)(1 − γ)/2 seen from the outer ring, so that elements pass. The friction torque
-//! of a definition that has one is that of the loads and speeds of the last accepted step, too, and nothing in the
-//! first: M ω/√(ω² + ω₀²) against the turning of the rings.
+//! Marker A is the outer ring, marker B the inner one, z the axis. Load and tangent are those of
+//! [`QuasiStaticBearing`] at the place of B in A, with linear damping beside it. The speeds that balls feel
+//! (centrifugal force, gyroscopic moment) are those of the last accepted step; between steps the cage goes on at its
+//! speed of rolling, (ω_i − ω_o)(1 − γ)/2 seen from the outer ring, so that elements pass. The friction torque of a
+//! definition that has one is that of the loads and speeds of the last accepted step, too, and nothing in the first: M
+//! ω/√(ω² + ω₀²) against the turning of the rings.
 
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, Power, View};
 use gearmesh_dynamics::{BodyId, ElementFailure, MarkerPair, RelativeMotion};
@@ -38,9 +39,9 @@ const CREEP_RAD_PER_S: f64 = 0.1;
 
 /// The bearing as a force element.
 ///
-/// Channels: force and moment on the inner ring (A axes; `force_shaft_x_N` and so on), the force in world axes and across the axis; with
-/// [`Self::with_element_loads`] the load of every ball or roller at both races; of a bearing with friction torque and
-/// power loss of the loads and speeds of the moment.
+/// Channels: force and moment on the inner ring (A axes; `force_shaft_x_N` and so on), the force in world axes and
+/// across the axis; with [`Self::with_element_loads`] the load of every ball or roller at both races; of a bearing
+/// with friction torque and power loss of the loads and speeds of the moment.
 pub struct QuasiStaticElement {
     name: String,
     pair: MarkerPair,
@@ -56,8 +57,8 @@ pub struct QuasiStaticElement {
     rubbing: Option<(BearingDefinition, bool)>,
     /// Time, cage's angle and speeds of the rings at the last accepted step.
     kept: Kept,
-    /// Where the elements stood at the last accepted step: every search begins there. Part of the saved state, so that a resumed run is the same to the
-    /// last bit.
+    /// Where the elements stood at the last accepted step: every search begins there. Part of the saved state, so that
+    /// a resumed run is the same to the last bit.
     kept_places: ElementPlaces,
     /// Where those of the last evaluation stand.
     places: ElementPlaces,
@@ -119,7 +120,8 @@ impl QuasiStaticElement {
         })
     }
 
-    /// Adds the load of every ball or roller to the channels: `element_<number>_inner_N`, `element_<number>_outer_N`, counted from one, row after row.
+    /// Adds the load of every ball or roller to the channels: `element_<number>_inner_N`, `element_<number>_outer_N`,
+    /// counted from one, row after row.
     #[must_use]
     pub fn with_element_loads(mut self) -> Self {
         self.element_loads = true;
@@ -204,7 +206,8 @@ impl QuasiStaticElement {
         }
     }
 
-    /// Damping by the rates of the displacement and by the angular velocity, of which the rate of the tilt counts alone.
+    /// Damping by the rates of the displacement and by the angular velocity, of which the rate of the tilt counts
+    /// alone.
     fn damping_matrix(&self, motion: &RelativeMotion) -> Matrix6<f64> {
         let d = &self.damping;
         let radial = d.radial_n_s_per_m;

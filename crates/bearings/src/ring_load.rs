@@ -4,9 +4,11 @@ use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3, Vector5, Vector6};
 
 use crate::ring_pose::cross;
 
-/// Load on the inner ring by its rolling elements: force \[N\] and moment about the ring's middle \[N·m\], in the axes of the outer ring.
+/// Load on the inner ring by its rolling elements: force \[N\] and moment about the ring's middle \[N·m\], in the axes
+/// of the outer ring.
 ///
-/// `tangent` holds the derivatives by a displacement of the ring's middle and a rotation about the fixed axes, rows: load.
+/// `tangent` holds the derivatives by a displacement of the ring's middle and a rotation about the fixed axes, rows:
+/// load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RingLoad {
     /// Force and moment.
@@ -31,8 +33,9 @@ impl RingLoad {
         self.load.fixed_rows::<5>(0).into_owned()
     }
 
-    /// Takes the moment about the ring's own axis a away, and what a turn about it changes: both are rounding, because races are surfaces of
-    /// revolution and friction has no arm about the axis. A shaft that turns freely in its bearings would otherwise find no rest.
+    /// Takes the moment about the ring's own axis a away, and what a turn about it changes: both are rounding, because
+    /// races are surfaces of revolution and friction has no arm about the axis. A shaft that turns freely in its
+    /// bearings would otherwise find no rest.
     ///
     /// With a·M = 0 at all times a·δM = −δa·M = −(a × M)·δφ.
     pub(crate) fn turn_freely(&mut self, axis: &Vector3<f64>) {
@@ -49,8 +52,8 @@ impl RingLoad {
         block -= axis * axis.cross(&moment).transpose();
     }
 
-    /// Adds a force f at the place w from the ring's middle, of a point that does not move with the ring, whose change is
-    /// δf = `by_point` (δb + B δq) + δφ × f with B δq = −δu + w × δφ; of δb nothing is added here.
+    /// Adds a force f at the place w from the ring's middle, of a point that does not move with the ring, whose change
+    /// is δf = `by_point` (δb + B δq) + δφ × f with B δq = −δu + w × δφ; of δb nothing is added here.
     pub(crate) fn add_at_fixed_point(
         &mut self,
         w: &Vector3<f64>,
@@ -68,7 +71,8 @@ impl RingLoad {
         self.add_following(w, f, &force_by_ring, &-by_shift);
     }
 
-    /// Adds what the ring's motion changes of a force f at the place w: its own change, and the moment by how its point moves.
+    /// Adds what the ring's motion changes of a force f at the place w: its own change, and the moment by how its
+    /// point moves.
     pub(crate) fn add_following(
         &mut self,
         w: &Vector3<f64>,

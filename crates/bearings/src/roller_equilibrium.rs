@@ -1,10 +1,10 @@
 //! The equilibrium of one roller between two races, lamina by lamina, and what it does to the inner ring.
 //!
-//! A roller moves in its axial plane: centre (r, z) and tilt φ about the circumferential direction; it does not skew. Each lamina
-//! touches a race along the race's normal, its contact being that of a circle about the roller's axis: a tilt of the roller against
-//! the race moves the line of the force by less than (D/2) φ along the axis, which is left out. Cylindrical rollers are led by the ribs of
-//! one ring: they do not move along z. Tapered ones lean on the inner ring's rib with a spherical end.
-//! Formula (8) and what follows it in docs/theory/rolling_bearings.md.
+//! A roller moves in its axial plane: centre (r, z) and tilt φ about the circumferential direction; it does not skew.
+//! Each lamina touches a race along the race's normal, its contact being that of a circle about the roller's axis: a
+//! tilt of the roller against the race moves the line of the force by less than (D/2) φ along the axis, which is left
+//! out. Cylindrical rollers are led by the ribs of one ring: they do not move along z. Tapered ones lean on the inner
+//! ring's rib with a spherical end. Formula (8) and what follows it in docs/theory/rolling_bearings.md.
 
 use nalgebra::{Matrix3, Matrix3x6, Vector2, Vector3};
 
@@ -17,8 +17,8 @@ use crate::ring_load::{RingLoad, by_ring};
 use crate::ring_pose::{RingPose, cross};
 use crate::roller_row::{Lamina, RollerRow};
 
-/// Share of its weight, which is left out, that a roller may have left over where the search does not end, as on one that nothing but a slow turn throws
-/// between race and rib.
+/// Share of its weight, which is left out, that a roller may have left over where the search does not end, as on one
+/// that nothing but a slow turn throws between race and rib.
 const LEFT_OVER: f64 = 1e-3;
 
 /// Standard gravity \[m/s²\].
@@ -122,7 +122,8 @@ impl Roller<'_> {
         (point, load)
     }
 
-    /// Calls `each` with every contact with the inner ring: the point, its load, and the lamina's number where it is one.
+    /// Calls `each` with every contact with the inner ring: the point, its load, and the lamina's number where it is
+    /// one.
     fn inner_points(
         &self,
         place: &Vector3<f64>,
@@ -225,8 +226,8 @@ impl Roller<'_> {
         plane.tr_mul(&(m * plane))
     }
 
-    /// Where a cylindrical roller lies on the outer race under its centrifugal force, all of its length taken to bear; where nothing throws it, far inside. Between
-    /// the races nothing tells a search which way to go.
+    /// Where a cylindrical roller lies on the outer race under its centrifugal force, all of its length taken to bear;
+    /// where nothing throws it, far inside. Between the races nothing tells a search which way to go.
     fn thrown_out_m(&self) -> f64 {
         let row = self.row;
         let thrown_n = row.mass_kg * row.pitch_radius_m * self.orbit * self.orbit;
@@ -274,8 +275,9 @@ impl Roller<'_> {
         0.25 * self.row.laminae.len() as f64 * self.row.laminae[0].length_m
     }
 
-    /// Newton's method. Where it stops with forces left over, as on a tapered roller that is thrown about between race and rib, proximal steps follow: each ends
-    /// where the roller would rest if a spring held it to its place before; springs are softened from step to step.
+    /// Newton's method. Where it stops with forces left over, as on a tapered roller that is thrown about between race
+    /// and rib, proximal steps follow: each ends where the roller would rest if a spring held it to its place before;
+    /// springs are softened from step to step.
     fn equilibrium(&self, start: ElementPlace) -> Result<(Vector3<f64>, State), BearingError> {
         let begin = start.unwrap_or_else(|| self.start());
         let first = self.newton(begin, None);
@@ -303,7 +305,8 @@ impl Roller<'_> {
         first
     }
 
-    /// Newton's method. With a spring to a place (N/m; about the circumferential direction by the square of [`Self::arm_m`]), if one is given.
+    /// Newton's method. With a spring to a place (N/m; about the circumferential direction by the square of
+    /// [`Self::arm_m`]), if one is given.
     fn newton(
         &self,
         start: Vector3<f64>,

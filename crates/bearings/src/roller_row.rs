@@ -95,8 +95,8 @@ impl RollerRow {
         (orbit, (w_i - orbit) * inner / (0.5 * self.diameter_m))
     }
 
-    /// Adds what the row does to the ring, and hands every roller's load to `each`. The search of each roller begins at its place, which
-    /// it leaves where it ends.
+    /// Adds what the row does to the ring, and hands every roller's load to `each`. The search of each roller begins
+    /// at its place, which it leaves where it ends.
     ///
     /// # Errors
     /// [`BearingError::NoRollerEquilibrium`].

@@ -140,8 +140,8 @@ impl Mesh<'_> {
         Some([self.flanks[0].point(at[0])?, self.flanks[1].point(at[1])?])
     }
 
-    /// Relative speed along the normal at a point of the gear that touches, with the teeth's ratio of speeds: n·v₁₂ over
-    /// the pinion's speed and the mean cone distance.
+    /// Relative speed along the normal at a point of the gear that touches, with the teeth's ratio of speeds: n·v₁₂
+    /// over the pinion's speed and the mean cone distance.
     pub(crate) fn slip(&self, p: &SurfacePoint) -> f64 {
         let [m1, m2] = &self.assembly.members;
         let v = m1.axis().cross(&(p.r - m1.apex_m))
@@ -159,8 +159,8 @@ impl Mesh<'_> {
         self.solve(pinion_turn, start, &Meeting::Edge(*edge))
     }
 
-    /// Contact of the points that two lines fix: an edge of each member, or two lines of one member that meet in a point of its
-    /// flank.
+    /// Contact of the points that two lines fix: an edge of each member, or two lines of one member that meet in a
+    /// point of its flank.
     pub fn lines_touch(
         &self,
         pinion_turn: f64,

@@ -76,8 +76,8 @@ pub struct ToothContact {
     pub peak_to_peak_rad: f64,
     /// Pitches during which a pair's flanks touch at the path inside their limits; 0 where only edges touch.
     pub contact_ratio: f64,
-    /// Contact of the extended flanks at which the ratio of speeds is exactly that of the teeth; none where only edges touch, and
-    /// of conjugate flanks.
+    /// Contact of the extended flanks at which the ratio of speeds is exactly that of the teeth; none where only edges
+    /// touch, and of conjugate flanks.
     pub mean: Option<Touch>,
     /// Ease-off over the pinion's flank in this assembly.
     pub ease_off: EaseOffMap,
@@ -162,7 +162,8 @@ pub fn tooth_contact(
         .iter()
         .filter(|p| p.kind == ContactKind::Flanks)
         .max_by(|a, b| a.error_rad.total_cmp(&b.error_rad));
-    // From the mean points as designed, and where errors are too large for that, from the contact that is farthest ahead.
+    // From the mean points as designed, and where errors are too large for that, from the contact that is farthest
+    // ahead.
     let designed = first_touch(flanks, blank, &request.error).map(|(_, touch)| touch);
     let starts = [designed.ok(), best.map(|p| p.touch)];
     let mut means = starts.into_iter().flatten();

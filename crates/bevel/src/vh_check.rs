@@ -304,9 +304,9 @@ impl Way<'_> {
     }
 }
 
-/// The gear's place G that keeps the backlash beside E, P and the shaft angle, per unit of each: with the inward normals
-/// n and n′ of both flanks of the pinion's tooth at its mean point, (n + n′)·u = 0, u the move of the pinion against the
-/// gear there.
+/// The gear's place G that keeps the backlash beside E, P and the shaft angle, per unit of each: with the inward
+/// normals n and n′ of both flanks of the pinion's tooth at its mean point, (n + n′)·u = 0, u the move of the pinion
+/// against the gear there.
 fn gear_axial_of_backlash(blank: &PairBlank, pinion: [&Flank; 2]) -> Vector3<f64> {
     let assembly = Assembly::new(blank, &AssemblyError::default());
     let [k1, k2] = assembly.members.map(|m| m.axis());

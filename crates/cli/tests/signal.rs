@@ -187,7 +187,8 @@ fn envelope_statistics_average_and_map_agree_with_the_tones() {
     assert_near(list(&map, "at rpm")[0], 600.0);
 }
 
-/// The envelope beats with 10 Hz, which is BPFO of this bearing at 167.07 rpm: the line is found there and nowhere else, and the page marks it.
+/// The envelope beats with 10 Hz, which is BPFO of this bearing at 167.07 rpm: the line is found there and nowhere
+/// else, and the page marks it.
 #[test]
 fn frequencies_of_a_bearing_are_marked_in_the_envelope() {
     let (desk, file) = result();

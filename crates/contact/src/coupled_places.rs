@@ -18,8 +18,8 @@ pub struct CoupledPlaces<'a> {
 }
 
 impl CoupledPlaces<'_> {
-    /// Φ_aᵀ C Φ_b of a slice at the first place and one at the second \[m/N\]; the calibrated correction's part between neighbours is
-    /// included.
+    /// Φ_aᵀ C Φ_b of a slice at the first place and one at the second \[m/N\]; the calibrated correction's part
+    /// between neighbours is included.
     #[inline(always)]
     #[must_use]
     pub fn value(&self, slices: [usize; 2]) -> f64 {
@@ -46,8 +46,9 @@ impl CoupledPlaces<'_> {
         [a.walked.as_ref(), b.walked.as_ref()]
     }
 
-    /// The same with its derivatives by both places up the flank, and by those along the teeth \[m/N per m\], which are zero where slices do
-    /// not walk that way. Of a slice with itself each is half the derivative of its compliance.
+    /// The same with its derivatives by both places up the flank, and by those along the teeth \[m/N per m\], which
+    /// are zero where slices do not walk that way. Of a slice with itself each is half the derivative of its
+    /// compliance.
     #[inline(always)]
     #[must_use]
     pub fn coupling(&self, slices: [usize; 2]) -> (Coupling, [f64; 2]) {
@@ -84,8 +85,8 @@ impl CoupledPlaces<'_> {
         sum
     }
 
-    /// The calibrated correction's part between two slices of one tooth: each slice gives its own term to both neighbours, and a neighbour
-    /// gets the mean of the two slices' terms, so that a uniform load deflects as before.
+    /// The calibrated correction's part between two slices of one tooth: each slice gives its own term to both
+    /// neighbours, and a neighbour gets the mean of the two slices' terms, so that a uniform load deflects as before.
     #[inline(always)]
     fn shared(&self, [a, b]: [usize; 2]) -> Coupling {
         let each = match a.abs_diff(b) {

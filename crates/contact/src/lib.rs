@@ -2,7 +2,8 @@
 //!
 //! # Where things are
 //!
-//! Contact of two elastic gears: patches, their compliance and local contact, the complementarity problem; involute pairs at rest.
+//! Contact of two elastic gears: patches, their compliance and local contact, the complementarity problem; involute
+//! pairs at rest.
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |

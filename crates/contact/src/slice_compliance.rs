@@ -1,9 +1,10 @@
 //! Compliance between slices on contact lines, from the compliance between unit loads on the flank grid.
 //!
-//! A slice force at u is a combination Φ of grid loads. Along the tooth its shares ([`AxialSpread`]) make it nearly a uniform load on the
-//! slice, and equal slice forces an exactly uniform line load. Along the profile the nearest stations share the force so that its first two
-//! moments are kept ([`ProfileHats`]). C = Φᵀ C_grid Φ as a whole. The part of Φ along the tooth does not depend on the position and is
-//! applied once, when the model is loaded. Slices may stand each at its own u: on one line they have one only where it runs along the tooth.
+//! A slice force at u is a combination Φ of grid loads. Along the tooth its shares ([`AxialSpread`]) make it nearly a
+//! uniform load on the slice, and equal slice forces an exactly uniform line load. Along the profile the nearest
+//! stations share the force so that its first two moments are kept ([`ProfileHats`]). C = Φᵀ C_grid Φ as a whole. The
+//! part of Φ along the tooth does not depend on the position and is applied once, when the model is loaded. Slices may
+//! stand each at its own u: on one line they have one only where it runs along the tooth.
 
 use crate::axial_spread::AxialSpread;
 use crate::calibrated_field::CalibratedField;
@@ -30,8 +31,8 @@ pub struct SliceCompliance {
     blocks: StationBlocks,
     /// Of the flank in contact; only where the local contact is calibrated.
     near_field: Option<CalibratedField>,
-    /// What neighbouring slices of one contact line share of the calibrated correction \[m/N\], at the roll stations and
-    /// half-way between; empty where there is none.
+    /// What neighbouring slices of one contact line share of the calibrated correction \[m/N\], at the roll stations
+    /// and half-way between; empty where there is none.
     spread: Vec<f64>,
     /// What a crack adds; none where the gear has none that loads on this flank open.
     crack: Option<CrackRows>,
@@ -79,8 +80,8 @@ impl SliceCompliance {
     /// Condenses a reduced gear to slices that lie anywhere on its face.
     ///
     /// # Errors
-    /// [`ReducedGearError::BevelGear`] for one, [`ReducedGearError::FlankNotReduced`] when the model carries no loads on `flank`,
-    /// [`ReducedGearError::NotCalibrated`] when `local` is calibrated and the model is not.
+    /// [`ReducedGearError::BevelGear`] for one, [`ReducedGearError::FlankNotReduced`] when the model carries no loads
+    /// on `flank`, [`ReducedGearError::NotCalibrated`] when `local` is calibrated and the model is not.
     pub fn on_slices(
         gear: &ReducedGear,
         flank: Flank,
@@ -189,8 +190,8 @@ impl SliceCompliance {
         })
     }
 
-    /// Lets slices stand where the places of their patches are along the tooth, v from the middle of the face, not where they
-    /// were laid. Of own slices over the whole face, at least three.
+    /// Lets slices stand where the places of their patches are along the tooth, v from the middle of the face, not
+    /// where they were laid. Of own slices over the whole face, at least three.
     #[must_use]
     pub fn walking_along(mut self, face_1_m: f64) -> Self {
         let face_m = self.slices as f64 * self.slice_width_m;
@@ -320,7 +321,8 @@ impl SliceCompliance {
         }
     }
 
-    /// What neighbouring slices share of the calibrated correction at a place \[m/N\], and its derivative by u; zero where there is none.
+    /// What neighbouring slices share of the calibrated correction at a place \[m/N\], and its derivative by u; zero
+    /// where there is none.
     fn shared_at(&self, place: &ProfilePlace) -> (f64, f64) {
         if self.spread.is_empty() {
             return (0.0, 0.0);
@@ -378,9 +380,10 @@ fn blocks_of_all(
     blocks
 }
 
-/// The largest term between neighbours that leaves the compliance positive \[m/N\]: half of the least xᵀCx/xᵀLx of the loads x
-/// = (1, −1) on two and (1, −2, 1) on three slices side by side, L the graph Laplacian of the row of slices, in whose shape the
-/// term enters. Reached where slices are narrower than the elements across the width, which cannot tell them apart.
+/// The largest term between neighbours that leaves the compliance positive \[m/N\]: half of the least xᵀCx/xᵀLx of the
+/// loads x = (1, −1) on two and (1, −2, 1) on three slices side by side, L the graph Laplacian of the row of slices,
+/// in whose shape the term enters. Reached where slices are narrower than the elements across the width, which cannot
+/// tell them apart.
 fn largest_neighbour_term(blocks: &StationBlocks, slices: usize, place: &ProfilePlace) -> f64 {
     let c = |i: usize, j: usize| blocks.at(0, [place, place]).between([i, j]);
     let mut least = f64::INFINITY;

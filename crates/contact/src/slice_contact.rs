@@ -1,7 +1,7 @@
 //! The patches of two elastic gears: compliance, local laws and the forces at given gaps.
 //!
-//! This is what a contact at rest and the gear mesh of a multibody system share: it is told which patches face each other and how far apart they
-//! stand, and does not ask where that comes from, nor of what family the gears are.
+//! This is what a contact at rest and the gear mesh of a multibody system share: it is told which patches face each
+//! other and how far apart they stand, and does not ask where that comes from, nor of what family the gears are.
 
 use crate::contact_error::ContactError;
 use crate::contact_patch::ContactPatch;
@@ -86,8 +86,8 @@ pub struct SliceContact {
 }
 
 impl SliceContact {
-    /// Prepares the contact of two reduced gears with so many teeth, loaded on flanks of one hand, on the slices of a layout; for up to
-    /// `most_lines` contact lines at once.
+    /// Prepares the contact of two reduced gears with so many teeth, loaded on flanks of one hand, on the slices of a
+    /// layout; for up to `most_lines` contact lines at once.
     ///
     /// # Errors
     /// [`ContactError`] when the models do not fit the teeth or each other.
@@ -194,13 +194,14 @@ impl SliceContact {
         self.work.reset();
     }
 
-    /// Lets the next solve at a given approach start from these forces \[N\], one for each patch; see [`Workspace::start_from`].
+    /// Lets the next solve at a given approach start from these forces \[N\], one for each patch; see
+    /// [`Workspace::start_from`].
     pub fn start_from(&mut self, forces_n: &[f64]) {
         self.work.start_from(forces_n);
     }
 
-    /// Takes R Rᵀ from the compliance of the patches that were prepared: what `columns` quantities of R, `[patch][column]` \[√(m/N)\],
-    /// carry elsewhere, as the vibration modes of a gear body do.
+    /// Takes R Rᵀ from the compliance of the patches that were prepared: what `columns` quantities of R,
+    /// `[patch][column]` \[√(m/N)\], carry elsewhere, as the vibration modes of a gear body do.
     pub fn subtract_from_compliance(&mut self, rows: &[f64], columns: usize) {
         if columns == 0 {
             return;
@@ -236,8 +237,9 @@ impl SliceContact {
         self.work.apply_tangent(separation_change, force_change);
     }
 
-    /// Makes compliance and local laws of the patches that face each other. `floor_n`: force below which the logarithm of the local
-    /// law is continued by its tangent. `with_rates`: what [`Self::energy_by_u`] and [`Self::energy_by_share`] need; without edges.
+    /// Makes compliance and local laws of the patches that face each other. `floor_n`: force below which the logarithm
+    /// of the local law is continued by its tangent. `with_rates`: what [`Self::energy_by_u`] and
+    /// [`Self::energy_by_share`] need; without edges.
     ///
     /// # Errors
     /// [`ContactError::TooMany`], and [`ContactError::LocalLaw`] with the teeth that have none.
@@ -364,8 +366,8 @@ impl SliceContact {
         })
     }
 
-    /// Solves for the forces of the patches that were prepared; returns the approach at which the first would touch, and the solver's
-    /// figures. No allocation.
+    /// Solves for the forces of the patches that were prepared; returns the approach at which the first would touch,
+    /// and the solver's figures. No allocation.
     ///
     /// # Errors
     /// [`ContactError::Nlcp`].

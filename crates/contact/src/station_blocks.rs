@@ -4,9 +4,9 @@
 //! C_ab = Σ_s Σ_t w_s w_t T_st            ∂C_ab/∂u_a = Σ_s Σ_t w′_s w_t T_st,   ∂C_ab/∂u_b = Σ_s Σ_t w_s w′_t T_st
 //! ```
 //!
-//! T_st belongs to station s of slice a of one flank and station t of slice b of another one, w are the four shares of a place. All T of two
-//! slices lie in one piece, station by station, so that a combination reads four short stretches of memory: this is the dearest part of a
-//! contact.
+//! T_st belongs to station s of slice a of one flank and station t of slice b of another one, w are the four shares of
+//! a place. All T of two slices lie in one piece, station by station, so that a combination reads four short stretches
+//! of memory: this is the dearest part of a contact.
 
 use crate::profile_shares::{ProfilePlace, SHARES};
 use crate::walked_slice::WalkedSlice;
@@ -75,7 +75,8 @@ impl StationBlocks {
         }
     }
 
-    /// Of a body's patterns, combined to its stations and slices, each pair `[tooth][response tooth]` when it is asked for first.
+    /// Of a body's patterns, combined to its stations and slices, each pair `[tooth][response tooth]` when it is asked
+    /// for first.
     #[must_use]
     pub fn of_patterns(
         stations: usize,

@@ -20,9 +20,9 @@
 //! | a gear cut into its shaft, its frame on one face, the other moving by modes | [`GearOnFaces`] | `gear_on_faces.rs` |
 //! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`], [`modal_gear_body`] | `gear_inertia.rs`, `gear_body.rs` |
 //!
-//! An effect that is not asked for is not called: friction, damping, the coast side and flank errors are absent unless given. Spur and helical gears on
-//! parallel axes, bevel gears on axes that meet.
-//! The theory is in docs/theory/gear_meshes.md.
+//! An effect that is not asked for is not called: friction, damping, the coast side and flank errors are absent unless
+//! given. Spur and helical gears on parallel axes, bevel gears on axes that meet. The theory is in
+//! docs/theory/gear_meshes.md.
 
 mod base_helix;
 pub mod bevel;

@@ -1,4 +1,5 @@
-//! What a mesh reports of its load: the force on gear 1 by directions that a gear designer names, and the line load of each slice.
+//! What a mesh reports of its load: the force on gear 1 by directions that a gear designer names, and the line load of
+//! each slice.
 //!
 //! With e_r from the axis of gear 1 to gear 2 across that axis (parallel axes: towards gear 2's origin; bevel gears:
 //! towards gear 2's axis), e_t = e_z × e_r and F the force on gear 2 (friction included),
@@ -82,7 +83,8 @@ pub(crate) fn forces() -> [Channel; FORCES] {
 /// Number of [`moments`].
 pub(crate) const MOMENTS: usize = 2;
 
-/// Moments of the mesh on both gears: M₁ and M₂ with M₁ ω₁ + M₂ ω₂ = −P of the teeth's friction where nothing accelerates.
+/// Moments of the mesh on both gears: M₁ and M₂ with M₁ ω₁ + M₂ ω₂ = −P of the teeth's friction where nothing
+/// accelerates.
 pub(crate) fn moments() -> [Channel; MOMENTS] {
     [1, 2].map(|gear| {
         let what = format!(
@@ -104,7 +106,8 @@ pub(crate) fn force_on_gear_1(mesh: &GearMesh, pose: &Pose) -> [f64; 3] {
     [-force.dot(&tangential), force.dot(&radial), -force[2]]
 }
 
-/// Line loads of the slices at the last pose: of each the largest among the pairs of teeth that touch there, for the pressure is theirs.
+/// Line loads of the slices at the last pose: of each the largest among the pairs of teeth that touch there, for the
+/// pressure is theirs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SliceLineLoads {
     /// Width of a slice \[m\].

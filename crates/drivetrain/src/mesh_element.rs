@@ -50,10 +50,10 @@ impl PairTangents {
 
 /// A [`GearMesh`] at its place. The markers are the gears' frames: z along the axis, origin at mid-face, tooth 0 on +x.
 ///
-/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry, whether the gears are apart (1 where
-/// no tooth reaches the mate; the transmission error then goes on as that of continued flanks); strain of each gauge; the force
-/// on gear 1 and the line load of each slice (mesh_channels.rs); the pairs of teeth that carry (pair_channels.rs);
-/// powers where the teeth rub.
+/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry, whether the
+/// gears are apart (1 where no tooth reaches the mate; the transmission error then goes on as that of continued
+/// flanks); strain of each gauge; the force on gear 1 and the line load of each slice (mesh_channels.rs); the pairs of
+/// teeth that carry (pair_channels.rs); powers where the teeth rub.
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,
@@ -85,8 +85,8 @@ impl MeshElement {
         }
     }
 
-    /// States the axes about which the bodies turn, for gears that stand beside them or askew: the transmission error is then that of ideal
-    /// flanks on these axes, with runout and wobble in it.
+    /// States the axes about which the bodies turn, for gears that stand beside them or askew: the transmission error
+    /// is then that of ideal flanks on these axes, with runout and wobble in it.
     #[must_use]
     pub fn with_axes(mut self, [a, b]: [Marker; 2]) -> Self {
         let found = FlankContacts::with_capacity(self.mesh.kinematics().capacity());
@@ -94,7 +94,8 @@ impl MeshElement {
         self
     }
 
-    /// Adds the line load of each slice, slices being so wide \[m\]: channels `line_load_slice_<number>_N_per_m`, counted along gear 1's z.
+    /// Adds the line load of each slice, slices being so wide \[m\]: channels `line_load_slice_<number>_N_per_m`,
+    /// counted along gear 1's z.
     #[must_use]
     pub fn with_line_loads(mut self, slice_width_m: f64) -> Self {
         self.line_loads = Some(SliceLineLoads {
@@ -103,15 +104,16 @@ impl MeshElement {
         self
     }
 
-    /// Adds tooth, force and place of each pair that carries (pair_channels.rs), its pressure and its ellipse after Hertz with E* \[Pa\]; of families whose
-    /// flanks touch in points, as those of bevel gears.
+    /// Adds tooth, force and place of each pair that carries (pair_channels.rs), its pressure and its ellipse after
+    /// Hertz with E* \[Pa\]; of families whose flanks touch in points, as those of bevel gears.
     #[must_use]
     pub fn with_tooth_pairs(mut self, contact_modulus_pa: f64) -> Self {
         self.pairs = Some(PairChannels { contact_modulus_pa });
         self
     }
 
-    /// Adds gauges of gear 1 or 2, read at every output time: channels `strain_gear1_<gauge>_method1_ustrain` and `…_method2_ustrain`.
+    /// Adds gauges of gear 1 or 2, read at every output time: channels `strain_gear1_<gauge>_method1_ustrain` and
+    /// `…_method2_ustrain`.
     ///
     /// # Errors
     /// As [`StrainGauges::new`].

@@ -13,8 +13,8 @@ use mesh_common::running_pair::*;
 use mesh_common::*;
 use nalgebra::Vector3;
 
-/// The reading is the dot product of the gauge's row with the forces on the unit loads, friction along the profile included; its
-/// direction is taken from where the flanks are.
+/// The reading is the dot product of the gauge's row with the forces on the unit loads, friction along the profile
+/// included; its direction is taken from where the flanks are.
 #[test]
 fn gauges_read_the_forces_on_the_flanks() {
     for pair in [pair_a(), helical_pair_a()] {
@@ -150,8 +150,8 @@ fn gauges_are_channels_of_the_mesh() {
         std::ops::ControlFlow::Continue(())
     })
     .unwrap();
-    // The rows are waves of amplitude 1e-9 a newton, their difference in method 1 one of 1e-10 more; a force lies between two stations, whose
-    // rows differ by 0.1 at most: most of a crest is seen while the flank goes by.
+    // The rows are waves of amplitude 1e-9 a newton, their difference in method 1 one of 1e-10 more; a force lies
+    // between two stations, whose rows differ by 0.1 at most: most of a crest is seen while the flank goes by.
     let [first, second] = [1.1e-3, 1e-3];
     for (seen, most) in largest.iter().zip([first, second, first, second]) {
         assert!(*seen <= most && *seen > 0.5 * most, "{largest:?}");

@@ -1,4 +1,5 @@
-//! The whole state of a run as plain arrays: a run that goes on from them gives the same bits as one that was never stopped.
+//! The whole state of a run as plain arrays: a run that goes on from them gives the same bits as one that was never
+//! stopped.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -16,10 +17,11 @@ const OLD_COUNTS: usize = 8;
 /// Arrays of a run. Each may be stored as it is; names say what they hold.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Checkpoint {
-    /// time, step length, step length of the factors \[s\], shortest and longest step \[s\], largest violations (2), energies (13).
+    /// time, step length, step length of the factors \[s\], shortest and longest step \[s\], largest violations (2),
+    /// energies (13).
     pub scalars: Vec<f64>,
-    /// steps, rejected, unconverged, iterations, factorisations, pivotings, evaluations, steps of the present length, steps to come that begin with new
-    /// factors (left out by earlier versions: none).
+    /// steps, rejected, unconverged, iterations, factorisations, pivotings, evaluations, steps of the present length,
+    /// steps to come that begin with new factors (left out by earlier versions: none).
     pub counts: Vec<u64>,
     /// x, y, z of every body \[m\].
     pub positions_m: Vec<f64>,
@@ -35,8 +37,8 @@ pub struct Checkpoint {
     pub reactions: Vec<f64>,
     /// Angles and offsets of joints, then the internal states of elements.
     pub internal: Vec<f64>,
-    /// The iteration matrix that was factorised last, the scales of its joint rows, where it is sparse the matrix for which pivots were chosen, and the
-    /// gradients of the joints when it was made.
+    /// The iteration matrix that was factorised last, the scales of its joint rows, where it is sparse the matrix for
+    /// which pivots were chosen, and the gradients of the joints when it was made.
     pub matrix: Vec<f64>,
 }
 
@@ -217,7 +219,8 @@ impl Simulation {
     }
 }
 
-/// Hands stored numbers to joints and elements, in the order in which they were saved; the total length has been checked.
+/// Hands stored numbers to joints and elements, in the order in which they were saved; the total length has been
+/// checked.
 fn restore_internal(system: &mut System, numbers: &[f64]) {
     let mut rest = numbers;
     let mut take = |count: usize| {

@@ -1,7 +1,8 @@
 #![doc = include_str!("../README.md")]
 //! # Where things are
 //!
-//! Multibody dynamics: bodies, joints and force elements in space, integrated by the Lie-group generalized-alpha scheme.
+//! Multibody dynamics: bodies, joints and force elements in space, integrated by the Lie-group generalized-alpha
+//! scheme.
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
@@ -19,10 +20,11 @@
 //! | where does the system stand still, and why not | [`equilibrium`] | `statics.rs`, `static_correction.rs`, `unbalanced.rs` |
 //! | natural frequencies, damping and shapes about a motion | [`natural_modes`] | `eigen.rs`, `krylov.rs` |
 //!
-//! Everything is in absolute coordinates: place and unit quaternion of each body. Joints are equations, not reduced coordinates, so every
-//! reaction is at hand. Matrices hold what bodies, joints and elements connect, and are factorised as dense or sparse ones, whichever is faster
-//! (`structure.rs`, `saddle.rs`): a step of two bodies on bearings takes some microseconds, one of a thousand bodies some milliseconds, and
-//! neither allocates. The theory is in docs/theory/multibody.md.
+//! Everything is in absolute coordinates: place and unit quaternion of each body. Joints are equations, not reduced
+//! coordinates, so every reaction is at hand. Matrices hold what bodies, joints and elements connect, and are
+//! factorised as dense or sparse ones, whichever is faster (`structure.rs`, `saddle.rs`): a step of two bodies on
+//! bearings takes some microseconds, one of a thousand bodies some milliseconds, and neither allocates. The theory is
+//! in docs/theory/multibody.md.
 
 pub mod body;
 pub mod builder;

@@ -7,9 +7,9 @@
 //! (u̇, ω) = J ν,   ν = (ẋ_a, Ω_a, ẋ_b, Ω_b)       J: 6 × 12
 //! ```
 //!
-//! A force f on B and a moment μ on B, both along A's axes and acting in the point of B, with the reaction on A's body, have the
-//! generalised force Jᵀ(f, μ). Its derivative for constant (f, μ) is the geometric tangent. Everything that acts between two
-//! markers, joint or force element, is built from these. Derivation: docs/theory/multibody.md.
+//! A force f on B and a moment μ on B, both along A's axes and acting in the point of B, with the reaction on A's
+//! body, have the generalised force Jᵀ(f, μ). Its derivative for constant (f, μ) is the geometric tangent. Everything
+//! that acts between two markers, joint or force element, is built from these. Derivation: docs/theory/multibody.md.
 
 use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
 
@@ -74,8 +74,8 @@ impl Marker {
         }
     }
 
-    /// The same place as this one with its z axis along a direction of the body; x and y are any that fit. A direction of
-    /// length zero leaves the axes as they are.
+    /// The same place as this one with its z axis along a direction of the body; x and y are any that fit. A direction
+    /// of length zero leaves the axes as they are.
     #[must_use]
     pub fn along(self, z_axis: [f64; 3]) -> Self {
         let direction = Vector3::from(z_axis);
@@ -202,7 +202,8 @@ impl RelativeMotion {
         self.a_from_world.tr_mul(in_a)
     }
 
-    /// J: derivative of (u, rotation of B against A in A axes) by the increments of both bodies, and of (u̇, ω) by their velocities.
+    /// J: derivative of (u, rotation of B against A in A axes) by the increments of both bodies, and of (u̇, ω) by
+    /// their velocities.
     #[must_use]
     pub fn jacobian(&self) -> Jacobian {
         let mut j = Jacobian::zeros();

@@ -27,8 +27,8 @@ pub struct RunInfo {
     pub iterations: u64,
     /// Factorisations of the iteration matrix.
     pub factorisations: u64,
-    /// Those among them of a sparse matrix that chose pivots and found the pattern of the factors; the others kept both. Zero where the
-    /// matrix is solved as a dense one.
+    /// Those among them of a sparse matrix that chose pivots and found the pattern of the factors; the others kept
+    /// both. Zero where the matrix is solved as a dense one.
     pub pivotings: u64,
     /// Evaluations of the equations: calls of each active force element.
     pub evaluations: u64,
@@ -36,7 +36,8 @@ pub struct RunInfo {
     pub step_range_s: (f64, f64),
     /// Largest violation of a joint equation (m or rad).
     pub largest_violation: f64,
-    /// Largest violation of the rate of a joint equation (m/s or rad/s). Of the second order in the step: docs/theory/multibody.md.
+    /// Largest violation of the rate of a joint equation (m/s or rad/s). Of the second order in the step:
+    /// docs/theory/multibody.md.
     pub largest_violation_rate: f64,
     /// Energy balance.
     pub energy: EnergyBalance,
@@ -154,7 +155,8 @@ impl Simulation {
     /// Begins at the system's start, velocities fitted to the joints.
     ///
     /// # Errors
-    /// [`DynamicsError::Parameter`], [`DynamicsError::Contradiction`], [`DynamicsError::Singular`], or the error of an element.
+    /// [`DynamicsError::Parameter`], [`DynamicsError::Contradiction`], [`DynamicsError::Singular`], or the error of an
+    /// element.
     pub fn new(system: System, params: Params) -> Result<Self, DynamicsError> {
         let start = system.start().clone();
         Self::from_state(system, start, params)
@@ -221,7 +223,8 @@ impl Simulation {
         })
     }
 
-    /// State now. In directions that joints prescribe the velocity is that of the scheme, exact to the second order in the step.
+    /// State now. In directions that joints prescribe the velocity is that of the scheme, exact to the second order in
+    /// the step.
     #[must_use]
     pub fn state(&self) -> &State {
         &self.now.state
@@ -288,8 +291,9 @@ impl Simulation {
     /// Makes one step that is accepted, after as many shorter trials as the step control allows.
     ///
     /// # Errors
-    /// [`DynamicsError::StepTooLarge`] or [`DynamicsError::StepSingular`] with advice, [`DynamicsError::Contradiction`] if a redundant joint equation no longer holds,
-    /// [`DynamicsError::Singular`], or the error of an element.
+    /// [`DynamicsError::StepTooLarge`] or [`DynamicsError::StepSingular`] with advice,
+    /// [`DynamicsError::Contradiction`] if a redundant joint equation no longer holds, [`DynamicsError::Singular`], or
+    /// the error of an element.
     pub fn step(&mut self) -> Result<(), DynamicsError> {
         loop {
             let h = self.step_s;
@@ -478,18 +482,20 @@ impl Simulation {
     }
 }
 
-/// A fixed step at which no solution is found is made in so many parts, and each of those again, down to this share. After as many steps of one length
-/// the step is that many times longer again.
+/// A fixed step at which no solution is found is made in so many parts, and each of those again, down to this share.
+/// After as many steps of one length the step is that many times longer again.
 const PARTS: u64 = 4;
 const LEAST_PART: f64 = 1.0 / 256.0;
 
 /// A step that has more often no solution than once in so many is too long.
 const RARE: u64 = 20;
 
-/// An adaptive step grows by this factor at once, where it could grow by more: a change costs a factorisation and stirs the reactions.
+/// An adaptive step grows by this factor at once, where it could grow by more: a change costs a factorisation and
+/// stirs the reactions.
 const GROWTH: f64 = 1.5;
 
-/// Steps of one length before it grows: what a change has stirred must die out first, or it would be taken for an error.
+/// Steps of one length before it grows: what a change has stirred must die out first, or it would be taken for an
+/// error.
 const SETTLED: u64 = 4;
 
 const FIXED_ADVICE: &str = "the fixed step is too large for the stiffest force or the fastest rotation: take a tenth of it, or an adaptive step";

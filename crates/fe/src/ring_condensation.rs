@@ -1,8 +1,10 @@
-//! N equal parts in a ring round a core that does not repeat: condensed by harmonics to the core's nodes, the core by itself.
+//! N equal parts in a ring round a core that does not repeat: condensed by harmonics to the core's nodes, the core by
+//! itself.
 //!
-//! Every part has the same stiffness S over its nodes, in components that turn with the parts ([`crate::CylindricalFrames`]). Some of its nodes
-//! are the next part's too, some are the core's. With c(p) the displacements that part p has before the next one and the core has not, and
-//! b(p) those of the core's nodes on it likewise, both of harmonic k,
+//! Every part has the same stiffness S over its nodes, in components that turn with the parts
+//! ([`crate::CylindricalFrames`]). Some of its nodes are the next part's too, some are the core's. With c(p) the
+//! displacements that part p has before the next one and the core has not, and b(p) those of the core's nodes on it
+//! likewise, both of harmonic k,
 //!
 //! ```text
 //! [ K_cc(k)  K_cb(k) ]                                      K(k) = E(k)ᴴ S E(k),   E(k) (c, b) = the part's displacements, e^{ikα} ahead where
@@ -15,16 +17,19 @@
 //! S_b(k) = K_bb − Xᴴ X       y(k) = Λ⁻¹ p_c(k)       p_b'(k) = p_b(k) − Xᴴ y(k)       c(k) = Λ⁻ᴴ (y(k) − X b(k))
 //! ```
 //!
-//! as in [`crate::StaticCondensation`]. Back from harmonics, S_b is a block-circulant matrix over the core's nodes on all parts: added to the
-//! core's own stiffness it makes a matrix that is factorised as any other. Work of two loads is that of their halves,
+//! as in [`crate::StaticCondensation`]. Back from harmonics, S_b is a block-circulant matrix over the core's nodes on
+//! all parts: added to the core's own stiffness it makes a matrix that is factorised as any other. Work of two loads
+//! is that of their halves,
 //!
 //! ```text
 //! pᵀ K⁻¹ q = (1/N) Σ_k Re( y_p(k)ᴴ y_q(k) ) + y_pᵀ y_q of the core
 //! ```
 //!
-//! over all N harmonics, of which those beyond N/2 are the conjugates of others. It is the factorisation of the whole in another order.
+//! over all N harmonics, of which those beyond N/2 are the conjugates of others. It is the factorisation of the whole
+//! in another order.
 //!
-//! Source: D. L. Thomas, *Dynamics of rotationally periodic structures*, Int. J. Numer. Meth. Eng. 14 (1979) 81-102, for the transform.
+//! Source: D. L. Thomas, *Dynamics of rotationally periodic structures*, Int. J. Numer. Meth. Eng. 14 (1979) 81-102,
+//! for the transform.
 
 use crate::error::FeError;
 use crate::factor::FactorInfo;
@@ -90,8 +95,9 @@ impl PartLoads {
 }
 
 impl Ring {
-    /// Condenses equal parts with the stiffness S (three rows a node, N/m). `nodes` are those of the whole for each node of each part, the
-    /// i-th of each part the image of the i-th of the first; `in_core` tells which are the core's.
+    /// Condenses equal parts with the stiffness S (three rows a node, N/m). `nodes` are those of the whole for each
+    /// node of each part, the i-th of each part the image of the i-th of the first; `in_core` tells which are the
+    /// core's.
     ///
     /// # Errors
     /// [`FeError::SizeMismatch`] where S or the lists of nodes do not fit, or there are fewer than three parts;
@@ -260,8 +266,8 @@ impl Ring {
         }
     }
 
-    /// Work of each load on the part that is `result`'s number further on (rows) in the displacements by each load on part 0, the core's nodes
-    /// held (m/N).
+    /// Work of each load on the part that is `result`'s number further on (rows) in the displacements by each load on
+    /// part 0, the core's nodes held (m/N).
     pub fn work(&self, loads: &PartLoads) -> Vec<Mat<f64>> {
         let products: Vec<Mat<c64>> = (loads.spectrum.par_iter())
             .map(|y| y.adjoint() * y)
@@ -311,8 +317,8 @@ pub struct RingCondensation {
 }
 
 impl RingCondensation {
-    /// Joins a ring to its core: `core` was condensed with the ring's stiffness added, no node kept; `core_nodes` are its nodes among those of
-    /// the whole, ascending.
+    /// Joins a ring to its core: `core` was condensed with the ring's stiffness added, no node kept; `core_nodes` are
+    /// its nodes among those of the whole, ascending.
     ///
     /// # Errors
     /// [`FeError::SizeMismatch`] where they do not fit.
@@ -419,8 +425,8 @@ impl RingCondensation {
         }
     }
 
-    /// Half solves in the core alone of loads that were carried to it, turned by `parts`: [`CondensedLoads::gram`] of two is their work but for
-    /// [`Ring::work`].
+    /// Half solves in the core alone of loads that were carried to it, turned by `parts`: [`CondensedLoads::gram`] of
+    /// two is their work but for [`Ring::work`].
     pub fn condense_at_core(&self, at_core: MatRef<'_, f64>, parts: usize) -> CondensedLoads {
         let own = self.ring.own()[1];
         let mut loads = Mat::zeros(self.core.size(), at_core.ncols());

@@ -80,8 +80,9 @@ impl StaticCondensation {
         Self::announced(k, &[], kept, |_| ())
     }
 
-    /// As [`StaticCondensation::new`]; the nodes `late` of the interior are eliminated after its other ones ([`DofOrdering::interior_first`]),
-    /// `before` is told what will be factorised, so that it can say how long that takes.
+    /// As [`StaticCondensation::new`]; the nodes `late` of the interior are eliminated after its other ones
+    /// ([`DofOrdering::interior_first`]), `before` is told what will be factorised, so that it can say how long that
+    /// takes.
     ///
     /// # Errors
     /// As [`StaticCondensation::new`].

@@ -291,8 +291,9 @@ fn a_ring_of_elements_by_sectors_and_as_a_whole() {
     assert!((own - direct).abs() < 1e-11 * direct);
 }
 
-/// Parts with any stiffness in a ring round a core that does not repeat, against one dense matrix: solutions, work of any two loads, and the way
-/// of loads on one part. Two nodes of a part are the ring's, two the core's; those of both kinds at its left are the next part's.
+/// Parts with any stiffness in a ring round a core that does not repeat, against one dense matrix: solutions, work of
+/// any two loads, and the way of loads on one part. Two nodes of a part are the ring's, two the core's; those of both
+/// kinds at its left are the next part's.
 #[test]
 fn a_ring_round_a_core_is_solved_by_harmonics() {
     for parts in [4, 5] {

@@ -109,12 +109,12 @@ pub(crate) fn element_length(gear: &GearDefinition, ring_size: f64) -> impl Fn(f
     }
 }
 
-/// Radius down to which a body that does not repeat does so with its teeth \[m\]; none of one that repeats, and where nothing lies between
-/// the ring below the teeth and the openings.
+/// Radius down to which a body that does not repeat does so with its teeth \[m\]; none of one that repeats, and where
+/// nothing lies between the ring below the teeth and the openings.
 ///
-/// What is outside of it has the same mesh below every tooth: it is condensed once and joined to a ring by harmonics, as the teeth are. Half
-/// way between the openings and the next circle outside of them, where a module is between them, the mesh has become coarser, so that few
-/// nodes lie on the circle.
+/// What is outside of it has the same mesh below every tooth: it is condensed once and joined to a ring by harmonics,
+/// as the teeth are. Half way between the openings and the next circle outside of them, where a module is between
+/// them, the mesh has become coarser, so that few nodes lie on the circle.
 pub fn repeating_down_to_m(gear: &GearDefinition) -> Option<f64> {
     let openings = gear.blank.openings()?;
     if gear.sectors() > 1 || gear.mesh.element == Element::Tet10 || gear.mesh.plane_strain {
@@ -175,8 +175,8 @@ pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
 pub enum BodyLengths {
     /// As wanted, whatever the sector's width.
     Wanted,
-    /// Nowhere longer than the sector is wide: towards the bore the wedge of one tooth becomes narrower than an element, and quads of
-    /// twice its width and several times its length have corners of some ten degrees.
+    /// Nowhere longer than the sector is wide: towards the bore the wedge of one tooth becomes narrower than an
+    /// element, and quads of twice its width and several times its length have corners of some ten degrees.
     WithinSector,
 }
 
@@ -404,7 +404,8 @@ const AT_CORNER: f64 = 0.6;
 const FAR_FROM_CORNER: f64 = 0.4;
 
 /// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ...
-/// Sides are as long as the corners want, and longer with the distance from small ones; their middles stand between the nodes.
+/// Sides are as long as the corners want, and longer with the distance from small ones; their middles stand between
+/// the nodes.
 fn slot_outline(s: &Slots, body_m: f64) -> Vec<(f64, f64)> {
     let (r_in, r_out, c, half) = (
         s.inner_radius_m,

@@ -8,8 +8,8 @@ use std::process::{Command, Stdio};
 /// Environment variable that names the Python interpreter.
 pub const PYTHON_VARIABLE: &str = "GEARMESH_PYTHON";
 
-/// Processor time that a script is given \[s\]; a mesh of the largest body that is begun takes a fifth of it. Of the processor, so that a busy
-/// machine refuses nothing that a quiet one does.
+/// Processor time that a script is given \[s\]; a mesh of the largest body that is begun takes a fifth of it. Of the
+/// processor, so that a busy machine refuses nothing that a quiet one does.
 pub const LIMIT_S: u32 = 600;
 /// What ends a process at its limit of processor time.
 const SIGXCPU: i32 = 24;
@@ -111,7 +111,8 @@ impl PythonEnvironment {
     /// Runs a script text in an isolated interpreter with `input` on its standard input; returns its standard output.
     ///
     /// # Errors
-    /// [`PythonError`] when it cannot be started, takes longer than [`LIMIT_S`] or ends with an error; the message holds the end of its output.
+    /// [`PythonError`] when it cannot be started, takes longer than [`LIMIT_S`] or ends with an error; the message
+    /// holds the end of its output.
     pub fn run(
         &self,
         task: &str,

@@ -42,7 +42,8 @@ pub struct ToothCell {
 }
 
 impl ToothCell {
-    /// Adds what repeats with the teeth below the ring, one sector of it below each: its outer circle are the nodes of the cell's inner one.
+    /// Adds what repeats with the teeth below the ring, one sector of it below each: its outer circle are the nodes of
+    /// the cell's inner one.
     pub(crate) fn extend_below(&mut self, below: &BodyProblem, mesh: &PlaneMesh) {
         let mut place = vec![usize::MAX; mesh.nodes.len()];
         for (&local, &own) in below.ring.iter().zip(&self.bottom) {

@@ -172,7 +172,8 @@ fn three_slots() {
     });
 }
 
-/// Corners of 0.3 mm cost a sixth of nodes more than corners of 3 mm: elements grow along the slot's edges with the distance from them.
+/// Corners of 0.3 mm cost a sixth of nodes more than corners of 3 mm: elements grow along the slot's edges with the
+/// distance from them.
 #[test]
 fn small_corners_of_slots_are_graded() {
     let large = source("gear3.toml");
@@ -205,8 +206,8 @@ fn slots_that_do_not_divide_the_teeth_and_drilled_holes() {
     });
 }
 
-/// The sector of one tooth narrows to less than an element at the bore. With elements as long as elsewhere these wheels had a corner with a
-/// scaled Jacobian of 0.196 and 0.180, and were refused.
+/// The sector of one tooth narrows to less than an element at the bore. With elements as long as elsewhere these
+/// wheels had a corner with a scaled Jacobian of 0.196 and 0.180, and were refused.
 #[test]
 fn sectors_that_become_narrow_towards_the_bore_are_meshed() {
     for teeth in [71, 75] {
@@ -270,10 +271,9 @@ fn the_size_of_a_mesh_is_known_before_it_is_made() {
         ];
         println!("{name}: {all:.3?} of {}", mesh.nodes.len());
         // Blocks are counted (quadratic ones by the nodes a corner has in the mean). The free mesh of the body leaves
-        // open half of its sector (50.2 % too few between slots, on a sector of few elements) and a fifth of the gear: a
-        // third of the memory, by the power of 4/3.
-        // Below the ring the cells of teeth that do not repeat with the holes are a free mesh, a fifteenth of their nodes, of
-        // which half may be missing as in the body.
+        // open half of its sector (50.2 % too few between slots, on a sector of few elements) and a fifth of the gear:
+        // a third of the memory, by the power of 4/3. Below the ring the cells of teeth that do not repeat with the
+        // holes are a free mesh, a fifteenth of their nodes, of which half may be missing as in the body.
         let tooth = match name {
             "quadratic" => 0.06,
             "six holes" => 0.5 / 15.0,

@@ -1,7 +1,7 @@
 //! C_hub of a body that does not repeat, in few patterns a tooth.
 //!
-//! Loads on a tooth reach the body through the tooth's foot only, where the detail of where they stand on the flank is hardly felt. With i
-//! and j the loads of a tooth (flank by flank), a and b two teeth, p and q patterns:
+//! Loads on a tooth reach the body through the tooth's foot only, where the detail of where they stand on the flank is
+//! hardly felt. With i and j the loads of a tooth (flank by flank), a and b two teeth, p and q patterns:
 //!
 //! ```text
 //! C_hub(a i, b j) = δ_ab T_ij + Σ_pq V_ip B_(a p)(b q) V_jq
@@ -40,7 +40,8 @@ impl HubPatterns {
     /// Whether the arrays are as long as a gear's teeth and loads want them.
     ///
     /// # Errors
-    /// [`ReducedGearError::OutOfRange`] for a body that repeats, [`ReducedGearError::WrongLength`], [`ReducedGearError::NotFinite`].
+    /// [`ReducedGearError::OutOfRange`] for a body that repeats, [`ReducedGearError::WrongLength`],
+    /// [`ReducedGearError::NotFinite`].
     pub(crate) fn check(&self, gear: &ReducedGear) -> Result<(), ReducedGearError> {
         if gear.sectors != 1 {
             let item = "the sectors of a body whose C_hub is kept by patterns";
@@ -56,7 +57,8 @@ impl HubPatterns {
         check_array("body of C_hub", &self.body, body, triangle)
     }
 
-    /// The same for combinations of loads, each a list of loads of a tooth and shares: T and V between them, B as it is.
+    /// The same for combinations of loads, each a list of loads of a tooth and shares: T and V between them, B as it
+    /// is.
     #[must_use]
     pub fn combined(&self, combinations: &[Vec<(usize, f64)>]) -> Self {
         let (r, n) = (self.count, combinations.len());
@@ -90,8 +92,8 @@ impl HubPatterns {
         self.body[row * (row + 1) / 2 + column]
     }
 
-    /// The block of C_hub between two flanks, `[load][response]`: of tooth `a` from its load `from` on, of tooth `b` from its load
-    /// `to` on, `loads` each.
+    /// The block of C_hub between two flanks, `[load][response]`: of tooth `a` from its load `from` on, of tooth `b`
+    /// from its load `to` on, `loads` each.
     #[must_use]
     pub fn block(&self, [a, b]: [usize; 2], [from, to]: [usize; 2], loads: usize) -> Vec<f64> {
         let r = self.count;

@@ -18,8 +18,8 @@ use crate::stored_gear::StoredGear;
 /// axial station. Between the points a load is spread by hat functions in roll angle and z.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FlankGrid {
-    /// Roll angles ξ = tan α of the stations, increasing from root to tip; radius r = r_b √(1 + ξ²). Of a bevel flank the share of
-    /// the way up it, 0 to 1 ([`BevelBody`]).
+    /// Roll angles ξ = tan α of the stations, increasing from root to tip; radius r = r_b √(1 + ξ²). Of a bevel flank
+    /// the share of the way up it, 0 to 1 ([`BevelBody`]).
     pub roll_angles_rad: Vec<f64>,
     /// Axial positions of the stations, increasing; zero at mid-face. Of a bevel flank places along the pitch cone.
     pub z_m: Vec<f64>,
@@ -210,8 +210,9 @@ impl ReducedGear {
             })
     }
 
-    /// C_hub between two flanks in m/N, `[load L][response L]`. Any two teeth; a load on tooth s·z/N + r acts as one on
-    /// tooth r with all teeth renumbered by s sectors. Allocates only where it is kept by patterns, 4·10⁶ operations a block.
+    /// C_hub between two flanks in m/N, `[load L][response L]`. Any two teeth; a load on tooth s·z/N + r acts as one
+    /// on tooth r with all teeth renumbered by s sectors. Allocates only where it is kept by patterns, 4·10⁶
+    /// operations a block.
     ///
     /// # Panics
     /// If a tooth does not exist or a hand carries no loads (ask [`ReducedGear::flank_index`] once beforehand).
@@ -262,7 +263,8 @@ impl ReducedGear {
         Cow::Owned(full)
     }
 
-    /// C_hub of one hand of flank by patterns, less C_tooth of the loads' own tooth where that is wanted; none where it is kept in full.
+    /// C_hub of one hand of flank by patterns, less C_tooth of the loads' own tooth where that is wanted; none where
+    /// it is kept in full.
     ///
     /// # Panics
     /// If the hand carries no loads.

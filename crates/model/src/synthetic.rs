@@ -236,7 +236,8 @@ pub fn small_two_faced_gear() -> ReducedGear {
     }
 }
 
-/// The gear of a bevel pair with 20 teeth, three by five loads on both hands: points on cones, compliance that decays with distance.
+/// The gear of a bevel pair with 20 teeth, three by five loads on both hands: points on cones, compliance that decays
+/// with distance.
 pub fn small_bevel_gear() -> ReducedGear {
     let teeth = 20;
     let grid = FlankGrid {

@@ -114,7 +114,8 @@ impl NativeResult {
         }
     }
 
-    /// All data sets of a pair by name: (array, names of the axes, unit, description). The arrays are this result's own memory.
+    /// All data sets of a pair by name: (array, names of the axes, unit, description). The arrays are this result's
+    /// own memory.
     fn data_sets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         match &self.0 {
             Kept::Pair(pair) => pair.data_sets(py),

@@ -40,7 +40,8 @@ fn study_error(error: StudyError) -> PyErr {
 }
 
 /// Runs a study into a folder, as many cases at a time as there are processors: what `gearmesh study --json` prints.
-/// interpreter is a Python with gmsh, for gears that have to be reduced. progress("cases", done, count) hears how far it is.
+/// interpreter is a Python with gmsh, for gears that have to be reduced. progress("cases", done, count) hears how far
+/// it is.
 ///
 /// Raises InputError before the first case, OSError; KeyboardInterrupt after the cases at hand.
 #[pyfunction]
@@ -98,8 +99,8 @@ fn reduced(
     outcome.map_err(|error| error.to_string())
 }
 
-/// The same of what lies in a folder already; nothing is computed. failures: why cases have failed, by the names of their
-/// files.
+/// The same of what lies in a folder already; nothing is computed. failures: why cases have failed, by the names of
+/// their files.
 #[pyfunction]
 pub(crate) fn gather_study(
     py: Python<'_>,
@@ -114,8 +115,8 @@ pub(crate) fn gather_study(
     })
 }
 
-/// Checks a study and lists the gears that it needs reduced and that are not in its folder yet: (path of the model, text
-/// of the gear file). Changed copies of other files are written.
+/// Checks a study and lists the gears that it needs reduced and that are not in its folder yet: (path of the model,
+/// text of the gear file). Changed copies of other files are written.
 ///
 /// Raises InputError for a study, scene, key or column that is wrong.
 #[pyfunction]
@@ -201,8 +202,8 @@ impl NativeCaseRunner {
         py.detach(|| CaseRunner::is_there(&sent(case), &folder))
     }
 
-    /// Runs a case into a folder unless its file is there; whether it was computed. places: where files lie here that lie
-    /// elsewhere where the case comes from.
+    /// Runs a case into a folder unless its file is there; whether it was computed. places: where files lie here that
+    /// lie elsewhere where the case comes from.
     ///
     /// Raises InputError, WorkError, OSError.
     fn run(

@@ -20,9 +20,9 @@
 //! Y_DT = 2.366 − 0.666 ε_αn      2.05 < ε_αn < 2.5 and tolerance class 4 or better (ISO 1328-1)
 //! ```
 //!
-//! since only flanks of small errors share the load among three pairs (ISO 6336-3:2006, deep tooth factor, from memory;
-//! its ends meet 1 at 2.05 and 0.7 at 2.5 within 1e-3). From ε_αn = 2.5 on there is no σ_F0 here, nor below half a tooth
-//! height of rim, where Y_B is not defined.
+//! since only flanks of small errors share the load among three pairs (ISO 6336-3:2006, deep tooth factor, from
+//! memory; its ends meet 1 at 2.05 and 0.7 at 2.5 within 1e-3). From ε_αn = 2.5 on there is no σ_F0 here, nor below
+//! half a tooth height of rim, where Y_B is not defined.
 
 use crate::root_section::{RootConstruction, RootSection, RootSectionError};
 use crate::virtual_gear::VirtualGear;
@@ -123,8 +123,9 @@ impl IsoPressure {
 
 impl IsoRoot {
     /// The factors of one gear of a pair, by its definition and its geometry, over the common face width \[m\];
-    /// `rim_m`: rim below the root circle, none of a solid gear; `tolerance_class`: of ISO 1328-1, the worse one of both
-    /// gears. None where the method has none: ε_αn from 2.5 on, no 30° tangent, or a rim below half a tooth height.
+    /// `rim_m`: rim below the root circle, none of a solid gear; `tolerance_class`: of ISO 1328-1, the worse one of
+    /// both gears. None where the method has none: ε_αn from 2.5 on, no 30° tangent, or a rim below half a tooth
+    /// height.
     ///
     /// # Errors
     /// [`RootSectionError`] where the normal section is that of no spur gear.

@@ -17,7 +17,8 @@ use gearmesh_mesh::python::PythonEnvironment;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// A gear held at its bore, or at the ends of its shaft's stubs, ready to be loaded. How it is solved shows in nothing but time and memory.
+/// A gear held at its bore, or at the ends of its shaft's stubs, ready to be loaded. How it is solved shows in nothing
+/// but time and memory.
 pub struct GearBody<M = GearMesh> {
     /// Mesh.
     pub mesh: M,
@@ -53,7 +54,8 @@ pub fn model_of(gear: &GearDefinition, mesh: &GearMesh) -> Result<FeModel, Reduc
 }
 
 impl GearBody {
-    /// Meshes and factorises a gear with its bore, or the ends of its shaft, fixed, in plane strain where its definition says so.
+    /// Meshes and factorises a gear with its bore, or the ends of its shaft, fixed, in plane strain where its
+    /// definition says so.
     ///
     /// # Errors
     /// [`ReductionError`] when it cannot be meshed or is not held.
@@ -185,8 +187,8 @@ impl<M: RepeatedMesh> GearBody<M> {
         }
     }
 
-    /// The body under loads given on tooth 0 and placed, turned, on every tooth, as a single sector; none where it repeats or was
-    /// factorised as a whole.
+    /// The body under loads given on tooth 0 and placed, turned, on every tooth, as a single sector; none where it
+    /// repeats or was factorised as a whole.
     pub(crate) fn single_sector(
         &self,
         vectors: &[&SparseVector],

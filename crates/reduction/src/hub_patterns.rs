@@ -1,18 +1,21 @@
 //! C_hub of a body that does not repeat, found and kept by the patterns that a tooth passes on to its body.
 //!
-//! Loads on a tooth reach the body through the tooth's foot only. With T what stays inside the tooth, the same on every tooth,
+//! Loads on a tooth reach the body through the tooth's foot only. With T what stays inside the tooth, the same on
+//! every tooth,
 //!
 //! ```text
 //! C_hub(a, b) = δ_ab T + B_ab ≈ δ_ab T + V (Vᵀ B_ab V) Vᵀ,        V orthonormal: loads × patterns
 //! ```
 //!
-//! Where a load stands on the flank is felt below the tooth less and less, the finer the detail (Saint-Venant). V are the left singular
-//! vectors of the blocks of some teeth with themselves and a neighbour, where detail is felt most. Of the wheel with 47 teeth and six
-//! holes 198 loads a tooth leave some 75 patterns. So all loads are solved for on the sampled teeth only, on the others the patterns.
+//! Where a load stands on the flank is felt below the tooth less and less, the finer the detail (Saint-Venant). V are
+//! the left singular vectors of the blocks of some teeth with themselves and a neighbour, where detail is felt most.
+//! Of the wheel with 47 teeth and six holes 198 loads a tooth leave some 75 patterns. So all loads are solved for on
+//! the sampled teeth only, on the others the patterns.
 //!
-//! What is left out, with P = V Vᵀ, is B − P B P = (1 − P) B P + P B (1 − P) + (1 − P) B (1 − P). Between sampled teeth every entry of it is
-//! known. For the others the patterns are joined by what they leave of some combinations g of all loads with random signs: the mean square
-//! of an entry of E g is the sum of the squares of that row of E, so that no entry of E is likely to be larger than the largest of E g.
+//! What is left out, with P = V Vᵀ, is B − P B P = (1 − P) B P + P B (1 − P) + (1 − P) B (1 − P). Between sampled
+//! teeth every entry of it is known. For the others the patterns are joined by what they leave of some combinations g
+//! of all loads with random signs: the mean square of an entry of E g is the sum of the squares of that row of E, so
+//! that no entry of E is likely to be larger than the largest of E g.
 
 use crate::Progress;
 use crate::flank_loads::SparseVector;
@@ -26,7 +29,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Largest difference of an entry over the largest entry. Far below any mesh error, and below what single precision would leave out (6e-8).
+/// Largest difference of an entry over the largest entry. Far below any mesh error, and below what single precision
+/// would leave out (6e-8).
 const ALLOWED: f64 = 1e-8;
 /// The same of the sampled teeth, from which the patterns are: on the others they leave more.
 const ALLOWED_OF_SAMPLED: f64 = 0.1 * ALLOWED;
@@ -47,14 +51,15 @@ pub struct FoundPatterns {
     pub patterns: HubPatterns,
     /// Largest entry that they leave out, over the largest of all.
     pub left_out: f64,
-    /// C_hub of the loads of tooth 0, `[load][tooth][response]` (m/N): in full where the response is on a sampled tooth, tooth 0 among them.
+    /// C_hub of the loads of tooth 0, `[load][tooth][response]` (m/N): in full where the response is on a sampled
+    /// tooth, tooth 0 among them.
     pub first_tooth: Vec<f64>,
     /// Right-hand sides that were solved.
     pub solved: usize,
 }
 
-/// Solves for the patterns of C_hub; none for a body that repeats or was factorised as a whole, and where there would be as many of them as
-/// loads. `vectors`: the loads of tooth 0.
+/// Solves for the patterns of C_hub; none for a body that repeats or was factorised as a whole, and where there would
+/// be as many of them as loads. `vectors`: the loads of tooth 0.
 pub fn by_patterns(
     body: &GearBody<impl RepeatedMesh>,
     vectors: &[&SparseVector],
@@ -169,8 +174,8 @@ impl Sampled {
         blocks.map(of_block).reduce(|| 0.0, f64::max)
     }
 
-    /// C_hub of tooth 0's loads: from its own solutions, where the response is on another tooth from the patterns. `kept`: VᵀBV, lower triangle
-    /// of teeth.
+    /// C_hub of tooth 0's loads: from its own solutions, where the response is on another tooth from the patterns.
+    /// `kept`: VᵀBV, lower triangle of teeth.
     fn first_rows(&self, kept: &[Mat<f64>], shares: MatRef<'_, f64>, teeth: usize) -> Vec<f64> {
         let n = self.inside.nrows();
         let blocks: Vec<Mat<f64>> = (0..teeth)
@@ -230,7 +235,8 @@ impl<'a> Others<'a> {
         }
     }
 
-    /// VᵀBV of each tooth with all up to itself, and the largest entry that is found to be left out where a tooth is not among the sampled.
+    /// VᵀBV of each tooth with all up to itself, and the largest entry that is found to be left out where a tooth is
+    /// not among the sampled.
     fn products(&self, sampled: &Sampled, progress: &dyn Progress) -> (Vec<Mat<f64>>, f64) {
         let teeth = self.sector.teeth();
         progress.stage("work of the loads of each tooth on each");

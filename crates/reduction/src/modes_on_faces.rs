@@ -1,7 +1,7 @@
 //! Natural modes of a gear that is cut into its shaft, from held stub ends to held faces, without the stubs' mass.
 //!
-//! The modes Φ are searched with the stubs' ends held and the stubs' mass there. The inertial loads of the gear in them,
-//! P = M_g Φ Ω² with M_g the mass without the stubs, deflect the gear with its faces held by
+//! The modes Φ are searched with the stubs' ends held and the stubs' mass there. The inertial loads of the gear in
+//! them, P = M_g Φ Ω² with M_g the mass without the stubs, deflect the gear with its faces held by
 //!
 //! ```text
 //! Φ_face = K⁻¹ P − Ψ_face G p,   p = Ψ_faceᵀ P,      Φ_faceᵀ K Φ_face = Pᵀ Φ_face,   Φ_faceᵀ M_g Φ_face

@@ -1,8 +1,9 @@
-//! A sector condensed to its cuts: its body and the feet of its teeth in one factorisation, or the ring of its teeth by harmonics first.
+//! A sector condensed to its cuts: its body and the feet of its teeth in one factorisation, or the ring of its teeth
+//! by harmonics first.
 //!
-//! A body that does not repeat is one sector with all teeth. Their cells are equal all the same, so that what they share with one another is
-//! eliminated by harmonics ([`Ring`]), and the body alone is factorised with the ring's stiffness at its outer circle. Loads on teeth then reach
-//! that circle and nothing further in.
+//! A body that does not repeat is one sector with all teeth. Their cells are equal all the same, so that what they
+//! share with one another is eliminated by harmonics ([`Ring`]), and the body alone is factorised with the ring's
+//! stiffness at its outer circle. Loads on teeth then reach that circle and nothing further in.
 
 use crate::Progress;
 use crate::sector_stiffness::sector_stiffness;
@@ -14,8 +15,8 @@ use gearmesh_fe::{
 /// Displacements of a node.
 const AXES: usize = 3;
 
-/// Displacements of the circle that are factorised as one dense block: it takes 1.6 GB, as much as the circle of a wheel of 90 teeth with 12
-/// layers. Beyond that nested dissection needs less.
+/// Displacements of the circle that are factorised as one dense block: it takes 1.6 GB, as much as the circle of a
+/// wheel of 90 teeth with 12 layers. Beyond that nested dissection needs less.
 const MOST_ON_CIRCLE: usize = 14_000;
 
 /// A sector without the inside of its teeth, condensed.
@@ -27,8 +28,9 @@ pub enum SectorCondensation {
 }
 
 impl SectorCondensation {
-    /// Condenses a body whose teeth go all the way round by its ring; none where that would not pay, or teeth touch held nodes.
-    /// `body` is its own stiffness over `body_nodes`, ascending; `foot` that of a tooth over its `tooth_nodes`.
+    /// Condenses a body whose teeth go all the way round by its ring; none where that would not pay, or teeth touch
+    /// held nodes. `body` is its own stiffness over `body_nodes`, ascending; `foot` that of a tooth over its
+    /// `tooth_nodes`.
     ///
     /// # Errors
     /// [`FeError`] when a factorisation fails.

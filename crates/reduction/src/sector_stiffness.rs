@@ -1,7 +1,7 @@
 //! The stiffness of a sector: its body and the dense blocks of the teeth at their feet.
 //!
-//! Where one sector has all teeth those blocks are most of it, some 10⁸ numbers. They are added in place to a pattern that is found node by
-//! node: a list of rows, columns and values would take several times the memory of the matrix.
+//! Where one sector has all teeth those blocks are most of it, some 10⁸ numbers. They are added in place to a pattern
+//! that is found node by node: a list of rows, columns and values would take several times the memory of the matrix.
 
 use faer::sparse::{SparseColMat, SparseColMatRef, SymbolicSparseColMat};
 use gearmesh_fe::{FeError, StiffnessMatrix};
@@ -9,8 +9,8 @@ use gearmesh_fe::{FeError, StiffnessMatrix};
 /// Displacements of a node.
 const AXES: usize = 3;
 
-/// Lower triangle of the stiffness over three rows a node: the body's own, over `body_nodes`, and one dense block over each list of
-/// `tooth_nodes`.
+/// Lower triangle of the stiffness over three rows a node: the body's own, over `body_nodes`, and one dense block over
+/// each list of `tooth_nodes`.
 ///
 /// # Errors
 /// [`FeError::OutOfMemory`].

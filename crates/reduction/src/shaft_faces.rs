@@ -2,8 +2,8 @@
 //!
 //! The mesh goes on into stubs of the shaft and is held at their ends, some way off the teeth, where the shaft's
 //! sections are plane. Ψ are the displacements of all nodes under six unit motions of each end about the centre of its
-//! face, K the stiffness between the ends, s = Ψᵀn what a load n on the body does to held ends. P holds the nodes of the
-//! ends alone, f are all others:
+//! face, K the stiffness between the ends, s = Ψᵀn what a load n on the body does to held ends. P holds the nodes of
+//! the ends alone, f are all others:
 //!
 //! ```text
 //! Ψ = P − K_ff⁻¹ (K P)_f,      K = Pᵀ K Ψ      (12 × 12; none where the shaft goes on at one face only)

@@ -1,7 +1,8 @@
 //! A body of a single sector under loads on its teeth: half solves, whose products are what goes from tooth to tooth.
 //!
-//! Where its teeth are condensed as a ring, loads reach the circle on which it stands in few shapes: some sixty, to rounding, of the 198 loads of
-//! a tooth. They are half solved once for every tooth, and what any loads of two teeth do to each other is a product of small matrices.
+//! Where its teeth are condensed as a ring, loads reach the circle on which it stands in few shapes: some sixty, to
+//! rounding, of the 198 loads of a tooth. They are half solved once for every tooth, and what any loads of two teeth
+//! do to each other is a product of small matrices.
 
 use crate::Progress;
 use crate::cyclic_body::CyclicBody;
@@ -32,7 +33,8 @@ struct OnRing {
 /// Shapes of load at the circle are left out below this share of the largest: rounding.
 const LEAST_SHAPE: f64 = 1e-13;
 
-/// Loads of a tooth, as shares of all of a tooth (loads × columns), and where they are not on a ring half solved in the body.
+/// Loads of a tooth, as shares of all of a tooth (loads × columns), and where they are not on a ring half solved in
+/// the body.
 pub(crate) struct HalfSolves {
     tooth: usize,
     shares: Mat<f64>,
@@ -91,8 +93,8 @@ impl<'a> SingleSector<'a> {
         }
     }
 
-    /// With F the loads carried to a tooth's foot and S the compliance of the body with the feet: (F a)ᵀ S F b for the shares a (rows) and b
-    /// (columns) of two half solves (m/N).
+    /// With F the loads carried to a tooth's foot and S the compliance of the body with the feet: (F a)ᵀ S F b for the
+    /// shares a (rows) and b (columns) of two half solves (m/N).
     pub fn work(&self, a: &HalfSolves, b: &HalfSolves) -> Mat<f64> {
         if let (Some(in_body), Some(other)) = (&a.in_body, &b.in_body) {
             return in_body.gram(other);

@@ -3,7 +3,8 @@
 use crate::page::Axis;
 use crate::short_number::usual_unit;
 
-/// How units are written behind a name, longer ones before those that end them: with `_` as columns have them, a space stands for it.
+/// How units are written behind a name, longer ones before those that end them: with `_` as columns have them, a space
+/// stands for it.
 const UNITS: [(&str, &str); 38] = [
     ("N_per_mm_um", "N/(mm·µm)"),
     ("N_per_um", "N/µm"),
@@ -113,7 +114,8 @@ pub(crate) fn head((words, unit): (String, &str)) -> String {
     format!("{words} {unit}").trim_end().to_owned()
 }
 
-/// A column's words, its unit as people read it, and the factor that brings values there; `largest` is its largest amount.
+/// A column's words, its unit as people read it, and the factor that brings values there; `largest` is its largest
+/// amount.
 pub(crate) fn shown(name: &str, largest: f64) -> (String, &'static str, f64) {
     let (words, unit) = words_and_unit(name);
     let (factor, unit) = usual_unit(unit, largest);

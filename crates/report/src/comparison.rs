@@ -133,8 +133,8 @@ pub struct SeriesComparison {
     /// Whether the record holds whole periods of ours. Where it does not, what is not locked to the record's
     /// revolutions has been averaged out of ours, as a rig's averaging does.
     pub is_locked: bool,
-    /// The widest step of the reference where it leaves out more than half a mesh period: there its curve and what depends on
-    /// it are interpolated.
+    /// The widest step of the reference where it leaves out more than half a mesh period: there its curve and what
+    /// depends on it are interpolated.
     pub reference_hole: Option<ReferenceHole>,
     /// Our signal as compared: filtered, one block of revolutions, uniform in the angle from 0.
     #[serde(skip)]

@@ -122,7 +122,8 @@ pub fn compare_scene(
                 source,
             })?;
             let compared = compare_with_column(&ours, record, column, view)?;
-            // A record of other revolutions averages what is not locked to them out of ours: it has another period then.
+            // A record of other revolutions averages what is not locked to them out of ours: it has another period
+            // then.
             let own = ShaftPeriod::new(coverage.period_pitches, pair.teeth_on(shaft));
             let own = own.filter(|own| revolutions.is_multiple_of(own.whole_revolutions()));
             comparisons.push(match own {

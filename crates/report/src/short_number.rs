@@ -16,8 +16,8 @@ pub fn short(value: f64) -> String {
 /// What is smaller than this share of the amounts beside it is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The same beside an amount of its kind: 0 where it is only rounding of that one, as the sideways displacement of a ring under a
-/// load along its axis.
+/// The same beside an amount of its kind: 0 where it is only rounding of that one, as the sideways displacement of a
+/// ring under a load along its axis.
 #[must_use]
 pub fn short_beside(value: f64, amount: f64) -> String {
     short(match value.abs() <= ROUNDING * amount.abs() {

@@ -90,7 +90,8 @@ const KNOWN: [&str; 40] = [
     "topographical_modification",
 ];
 
-/// Imports a file to scenes at rest. `stem` begins the names of the files that are made; `with` is what the scene computes its gear meshes with.
+/// Imports a file to scenes at rest. `stem` begins the names of the files that are made; `with` is what the scene
+/// computes its gear meshes with.
 ///
 /// # Errors
 /// [`RexsError`] for files that are no REXS or lack what a gearbox cannot do without.

@@ -14,8 +14,8 @@ pub enum Running {
     InTime,
 }
 
-/// Damping over stiffness of shafts, bearings, meshes and drives \[s\], of which files say nothing: 0.3 % of the critical
-/// one at 1 kHz.
+/// Damping over stiffness of shafts, bearings, meshes and drives \[s\], of which files say nothing: 0.3 % of the
+/// critical one at 1 kHz.
 pub const DAMPING_S: f64 = 1e-6;
 /// Steps in a period of the fastest mesh: the solver asks for ten at least.
 const STEPS_A_PERIOD: f64 = 20.0;

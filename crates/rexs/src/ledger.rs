@@ -65,7 +65,8 @@ pub struct Entry {
     pub text: String,
     /// What kind of thing it touches.
     pub about: About,
-    /// Whether it is a single value that no part of the import asked for, rather than a component, a relation or a judgement.
+    /// Whether it is a single value that no part of the import asked for, rather than a component, a relation or a
+    /// judgement.
     pub is_value: bool,
 }
 

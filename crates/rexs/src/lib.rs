@@ -6,7 +6,8 @@
 //!
 //! Data walk one way: bytes ([`container`]) → text of a [`model::Model`] ([`xml`], [`json`]) → names of version 2.0.0
 //! ([`versions`]) → values with units ([`source`], which keeps the list of what was taken) → shafts, gears, bearings,
-//! loads → gear files, scenes, bearing files, bevel pair files as text ([`mod@import`]). docs/rexs.md says what becomes of what.
+//! loads → gear files, scenes, bearing files, bevel pair files as text ([`mod@import`]). docs/rexs.md says what
+//! becomes of what.
 
 pub mod bearing;
 pub mod bearings_and_couplings;

@@ -1,5 +1,6 @@
-//! Gears that turn loose on their shafts: idlers on bearings, and gears of gearboxes with several speeds whose clutch is open. Each has a
-//! shaft of its own in the train, its hub, along the line of the shaft that carries it; in the scene this is the gear's body.
+//! Gears that turn loose on their shafts: idlers on bearings, and gears of gearboxes with several speeds whose clutch
+//! is open. Each has a shaft of its own in the train, its hub, along the line of the shaft that carries it; in the
+//! scene this is the gear's body.
 
 use crate::bearing::{self, AxialSupport, Bearing};
 use crate::coupling;
@@ -27,8 +28,8 @@ fn other_side(structure: &Structure, train: &Train, between: i64, gear: i64) -> 
     train.shaft(other).map(|_| other)
 }
 
-/// The shaft on which a gear sits, and whether it turns loose on it: all clutches between the two are open, or there are bearings
-/// between them and nothing else that joins them.
+/// The shaft on which a gear sits, and whether it turns loose on it: all clutches between the two are open, or there
+/// are bearings between them and nothing else that joins them.
 pub fn seat(
     source: &Source<'_>,
     structure: &Structure,
@@ -59,8 +60,8 @@ pub fn seat(
     })
 }
 
-/// Bearings between a shaft and a gear: on the hub of one that turns loose, at the same place as on the shaft where none is given.
-/// False for a bearing inside of a gear that is fixed to the shaft, which carries nothing.
+/// Bearings between a shaft and a gear: on the hub of one that turns loose, at the same place as on the shaft where
+/// none is given. False for a bearing inside of a gear that is fixed to the shaft, which carries nothing.
 pub fn stand_on_hubs(
     source: &Source<'_>,
     train: &Train,

@@ -1,8 +1,9 @@
-//! Planetary stages: scenes have no planets, but speeds and torques pass through where one of sun, ring and carrier stands, so that
-//! what is before and behind such a stage turns and is loaded as it should be.
+//! Planetary stages: scenes have no planets, but speeds and torques pass through where one of sun, ring and carrier
+//! stands, so that what is before and behind such a stage turns and is loaded as it should be.
 //!
-//! Willis: ω_s − i₀ ω_r = (1 − i₀) ω_c with i₀ = −z_A z_r/(z_s z_B), the ratio of sun to ring under a carrier that stands; planet A meets the
-//! sun, B the ring, both on one shaft, mostly one gear (Niemann, Winter: Maschinenelemente, volume 2, planetary gears).
+//! Willis: ω_s − i₀ ω_r = (1 − i₀) ω_c with i₀ = −z_A z_r/(z_s z_B), the ratio of sun to ring under a carrier that
+//! stands; planet A meets the sun, B the ring, both on one shaft, mostly one gear (Niemann, Winter: Maschinenelemente,
+//! volume 2, planetary gears).
 
 use crate::ledger::About;
 use crate::model::Component;
@@ -225,7 +226,8 @@ fn couple(
     (About::Support, what)
 }
 
-/// Whether something but the stage itself may turn a shaft: a load that transmits torque, another gear, a coupling to another shaft.
+/// Whether something but the stage itself may turn a shaft: a load that transmits torque, another gear, a coupling to
+/// another shaft.
 fn is_driven(source: &Source<'_>, acting: &Acting, part: i64, shaft: i64) -> bool {
     let component = source.model.component(shaft);
     let stands = component.is_some_and(|c| {

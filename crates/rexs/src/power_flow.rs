@@ -1,5 +1,5 @@
-//! Speeds and torques through a gear train by the ratios, as by hand: which flanks touch, where the load goes, which bearing
-//! is pushed along its axis.
+//! Speeds and torques through a gear train by the ratios, as by hand: which flanks touch, where the load goes, which
+//! bearing is pushed along its axis.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
@@ -30,18 +30,18 @@ pub struct Flow {
     pub speed_rpm: BTreeMap<i64, f64>,
     /// Torque of each [`TorqueOn`].
     pub torque_nm: Vec<f64>,
-    /// Torque that each shaft brings to each link, about z: of the first and of the second shaft. None for the links of a
-    /// loop, where it depends on stiffness.
+    /// Torque that each shaft brings to each link, about z: of the first and of the second shaft. None for the links
+    /// of a loop, where it depends on stiffness.
     pub link_nm: Vec<Option<[f64; 2]>>,
     /// Shafts whose speed was assumed.
     pub assumed_speed: Vec<i64>,
-    /// Trains whose stated torques do not balance: the torque where most power goes in, and by how much it was changed so that they
-    /// do \[N m\].
+    /// Trains whose stated torques do not balance: the torque where most power goes in, and by how much it was changed
+    /// so that they do \[N m\].
     pub unbalanced: Vec<(usize, f64)>,
     /// Torques that were given the other sign, because only then the power balances.
     pub turned: Vec<usize>,
-    /// Links that close a loop with another ratio than the rest of it has: the link, and the speed of its second shaft over that
-    /// of the first one by the rest.
+    /// Links that close a loop with another ratio than the rest of it has: the link, and the speed of its second shaft
+    /// over that of the first one by the rest.
     pub locked: Vec<(usize, f64)>,
     /// Shafts whose stated speed \[1/min\] is not what follows from that of another one.
     pub other_speed: Vec<(i64, f64)>,
@@ -207,14 +207,15 @@ fn train(
     }
 }
 
-/// Which links are part of a loop: those that close one, and the way from both of their shafts up to where they come together. Each
-/// link is walked once: what is part of a loop is passed over by the next one.
+/// Which links are part of a loop: those that close one, and the way from both of their shafts up to where they come
+/// together. Each link is walked once: what is part of a loop is passed over by the next one.
 fn loops(reached: &[Reached], links: &[Link], closing: &[usize]) -> Vec<bool> {
     let mut found = vec![false; links.len()];
     let place: HashMap<i64, usize> = (reached.iter().enumerate())
         .map(|(i, r)| (r.shaft, i))
         .collect();
-    // Shafts stand behind those by which they are reached. Of each shaft the next one on the way up whose link is not marked.
+    // Shafts stand behind those by which they are reached. Of each shaft the next one on the way up whose link is not
+    // marked.
     let mut above: Vec<usize> = (0..reached.len()).collect();
     fn unmarked(above: &mut [usize], mut i: usize) -> usize {
         while above[i] != i {

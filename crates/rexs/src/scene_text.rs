@@ -98,7 +98,8 @@ pub fn scene(
     Ok((text, held))
 }
 
-/// Trains that are joined by meshes of the scene and couplings, as far as these links are wanted: the number of each shaft's train.
+/// Trains that are joined by meshes of the scene and couplings, as far as these links are wanted: the number of each
+/// shaft's train.
 fn joined(train: &Train, wanted: impl Fn(usize) -> bool) -> BTreeMap<i64, usize> {
     // A tree of shafts for each train, the first one of the file at its root.
     let mut above: Vec<usize> = (0..train.shafts.len()).collect();

@@ -63,7 +63,8 @@ pub struct Shaft {
 const SAME_MM: f64 = 1e-3;
 
 impl Shaft {
-    /// The hub of a gear that turns loose on this shaft: its number is that of the gear, and it has no sections of its own.
+    /// The hub of a gear that turns loose on this shaft: its number is that of the gear, and it has no sections of its
+    /// own.
     pub fn hub(&self, gear: i64, name: &str) -> Self {
         Self {
             id: gear,
@@ -101,8 +102,8 @@ impl Shaft {
         self.points_mm.push(u_mm);
     }
 
-    /// Cuts a gear into the shaft, with its station in the middle of the face and none elsewhere in it. False where something
-    /// else stands within the face.
+    /// Cuts a gear into the shaft, with its station in the middle of the face and none elsewhere in it. False where
+    /// something else stands within the face.
     pub fn cut_in(&mut self, mid_mm: f64, width_mm: f64) -> bool {
         let face = [mid_mm - 0.5 * width_mm, mid_mm + 0.5 * width_mm];
         let sorted = self.sorted_mm.get_or_init(|| {

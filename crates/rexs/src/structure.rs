@@ -40,7 +40,8 @@ impl Structure {
     /// Reads the relations of a model.
     ///
     /// # Errors
-    /// [`RexsError::Duplicate`] for numbers that stand twice, [`RexsError::Cycle`] for components that contain each other.
+    /// [`RexsError::Duplicate`] for numbers that stand twice, [`RexsError::Cycle`] for components that contain each
+    /// other.
     pub fn new(model: &Model, ledger: &mut Ledger) -> Result<Self, RexsError> {
         let mut kinds = BTreeMap::new();
         for component in &model.components {
@@ -175,8 +176,8 @@ impl Structure {
         self.kinds.get(&id).map_or("", String::as_str)
     }
 
-    /// Components of some types that share a relation with a component, whatever the relation is called: programs differ.
-    /// Relations that only join gears to stages do not count.
+    /// Components of some types that share a relation with a component, whatever the relation is called: programs
+    /// differ. Relations that only join gears to stages do not count.
     pub fn partners(&self, id: i64, kinds: &[&str]) -> Vec<i64> {
         if self.of.get(&id).map_or(0, Vec::len) < MANY_RELATIONS {
             return self.found_partners(id, kinds);

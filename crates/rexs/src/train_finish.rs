@@ -1,4 +1,5 @@
-//! What follows once all parts of a gearbox are read: stations, one direction for parallel shafts, tips, bores, the flow of power.
+//! What follows once all parts of a gearbox are read: stations, one direction for parallel shafts, tips, bores, the
+//! flow of power.
 
 use crate::gear::Gear;
 use crate::ledger::About;
@@ -14,7 +15,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 /// Directions that differ by an angle whose cosine is less than this from 1 are one line.
 const SAME_LINE: f64 = 1e-6;
 
-/// Size of the cells in which lines are looked for: more than the distance √(2·[`SAME_LINE`]) of the ends of such directions.
+/// Size of the cells in which lines are looked for: more than the distance √(2·[`SAME_LINE`]) of the ends of such
+/// directions.
 const CELL: f64 = 2e-3;
 
 /// Directions in the order in which they came, by the cell of their end.
@@ -25,7 +27,8 @@ struct Lines {
 }
 
 impl Lines {
-    /// The first direction along the same line, either way; the given one, which is kept, where there is none before it.
+    /// The first direction along the same line, either way; the given one, which is kept, where there is none before
+    /// it.
     fn first_along(&mut self, direction: [f64; 3]) -> [f64; 3] {
         let cell = |d: [f64; 3]| d.map(|x| (x / CELL).floor() as i64);
         let mut first: Option<usize> = None;
@@ -136,8 +139,9 @@ const MOST_JAM: f64 = 0.05;
 
 /// Circumferential backlash on the reference circles in the transverse section \[mm\], negative for teeth that jam.
 ///
-/// inv α_w = inv α_t + 2 tan α_n Σx₀/Σz is the profile shift Σx₀ without backlash at a working pressure angle; what the
-/// gears have less than that is 2 m_n tan α_n/cos β of backlash a module, and their teeth are thinner by the allowances.
+/// inv α_w = inv α_t + 2 tan α_n Σx₀/Σz is the profile shift Σx₀ without backlash at a working pressure angle; what
+/// the gears have less than that is 2 m_n tan α_n/cos β of backlash a module, and their teeth are thinner by the
+/// allowances.
 fn backlash_mm([a, b]: [&Gear; 2], distance_mm: f64) -> f64 {
     let normal = a.pressure_angle_deg.to_radians().tan();
     let cos_helix = a.helix_deg.to_radians().cos();
@@ -233,7 +237,8 @@ fn told_distance(source: &Source<'_>, mesh: &Mesh, distance_mm: f64) {
     }
 }
 
-/// Says so where the axes of mates are not parallel, or their faces do not overlap: the scene refuses such meshes by its own names.
+/// Says so where the axes of mates are not parallel, or their faces do not overlap: the scene refuses such meshes by
+/// its own names.
 fn told_apart(source: &Source<'_>, mesh: &Mesh, gears: [&SeatedGear; 2], frames: [Frame; 2]) {
     let Some(stage) = source.model.component(mesh.stage) else {
         return;

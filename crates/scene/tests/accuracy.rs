@@ -1,5 +1,5 @@
-//! `accuracy` of a made-up pair and of a multibody scene: errors against runs of the scenes by themselves, advice that keeps its
-//! word, what is refused.
+//! `accuracy` of a made-up pair and of a multibody scene: errors against runs of the scenes by themselves, advice that
+//! keeps its word, what is refused.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::path::Path;
@@ -270,7 +270,8 @@ fn the_reference_is_refined_until_its_last_step_is_small() {
     assert!(single(last - 2).error() > 0.01, "{found:?}");
 }
 
-/// Under load positions and slices of the loaded contact are knobs of their own; those of the rigid flanks change nothing there.
+/// Under load positions and slices of the loaded contact are knobs of their own; those of the rigid flanks change
+/// nothing there.
 #[test]
 fn a_loaded_bevel_pair_has_knobs_of_its_load() {
     let folder = tempfile::tempdir().unwrap();
@@ -301,7 +302,8 @@ fn a_loaded_bevel_pair_has_knobs_of_its_load() {
     assert!(largest("load.positions") > 1e-3, "{found:?}");
 }
 
-/// A disc on a damped torsion spring behind a shaft whose speed is stepped: what is left of the swing decays with the time that is given to it.
+/// A disc on a damped torsion spring behind a shaft whose speed is stepped: what is left of the swing decays with the
+/// time that is given to it.
 #[test]
 fn a_sweep_is_worth_its_settling_time() {
     let scene = "title = \"sweep\"\n[run]\nkind = \"speed-sweep\"\nmotion = \"driver\"\nfrom_rpm = 60.0\nto_rpm = 120.0\nspeeds = 2\ndirection = \"up\"\n\

@@ -1,9 +1,10 @@
 //! Optimisation against Harris's law, whose optimum is known in closed form, and what is refused.
 //!
-//! S. L. Harris, Dynamic loads on the teeth of spur gears, Proc. IMechE 172 (1958) 87-112: with constant stiffness k of a
-//! pair of teeth and a contact ratio between 1 and 2 the transmission error is F/k where one pair carries F, and F/(2k) + (e_1 + e_2)/2
-//! where two pairs with reliefs e_1 and e_2 do. It is constant at the design load F if e_1 + e_2 = F/k in all of the double
-//! contact: linear tip reliefs from the highest point of single contact on, F/k at the tip.
+//! S. L. Harris, Dynamic loads on the teeth of spur gears, Proc. IMechE 172 (1958) 87-112: with constant stiffness k
+//! of a pair of teeth and a contact ratio between 1 and 2 the transmission error is F/k where one pair carries F, and
+//! F/(2k) + (e_1 + e_2)/2 where two pairs with reliefs e_1 and e_2 do. It is constant at the design load F if e_1 +
+//! e_2 = F/k in all of the double contact: linear tip reliefs from the highest point of single contact on, F/k at the
+//! tip.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::path::Path;
@@ -86,9 +87,10 @@ fn stated((relief, start): (f64, f64)) -> String {
     format!("tip_relief_um = {relief:?}\ntip_relief_start_diameter_mm = {start:?}")
 }
 
-/// Relief [um] that nulls the transmission error at a share of the design load, for a start [mm] from Harris's on outwards. A
-/// relief over the length u at the end of the path, u below that of double contact D, takes a pair out of contact for D − u; both
-/// carry over 2u − D, where the slope s of both adds up to F/k if s (2u − D) = F/k. At the tip it is s u; of u = D Harris's F/k.
+/// Relief [um] that nulls the transmission error at a share of the design load, for a start [mm] from Harris's on
+/// outwards. A relief over the length u at the end of the path, u below that of double contact D, takes a pair out of
+/// contact for D − u; both carry over 2u − D, where the slope s of both adds up to F/k if s (2u − D) = F/k. At the tip
+/// it is s u; of u = D Harris's F/k.
 fn by_law(start: f64, share: f64) -> f64 {
     let tooth = tooth();
     let along = |radius: f64| (radius.powi(2) - tooth.base_radius_m.powi(2)).sqrt();
@@ -159,7 +161,8 @@ fn a_long_linear_relief_nulls_the_transmission_error_at_its_design_load() {
     assert_eq!((found.front, found.tried), (again.front, again.tried));
 }
 
-/// Half the load asks for half the relief: between the two there is a front, and every trial on it is a run of its scene.
+/// Half the load asks for half the relief: between the two there is a front, and every trial on it is a run of its
+/// scene.
 #[test]
 fn two_loads_have_a_front_between_their_reliefs() {
     let folder = tempfile::tempdir().unwrap();
@@ -189,7 +192,8 @@ fn two_loads_have_a_front_between_their_reliefs() {
     }
 }
 
-/// Scatter of ±5 µm about what the variable says: the best relief is worth what its pairs are worth in the mean, not nothing.
+/// Scatter of ±5 µm about what the variable says: the best relief is worth what its pairs are worth in the mean, not
+/// nothing.
 #[test]
 fn scatter_is_added_to_the_variable() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
-//! Studies and optimisations of what is neither a gear pair nor a run in time: bevel pairs, bearings, natural frequencies, sweeps; figures against
-//! the models themselves.
+//! Studies and optimisations of what is neither a gear pair nor a run in time: bevel pairs, bearings, natural
+//! frequencies, sweeps; figures against the models themselves.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::f64::consts::TAU;
@@ -99,7 +99,8 @@ fn bevel_assemblies_that_jam_fail() {
     }
 }
 
-/// Under the torques of its `[load]` a bevel pair has a line for each, with the figures that this assembly has by itself.
+/// Under the torques of its `[load]` a bevel pair has a line for each, with the figures that this assembly has by
+/// itself.
 #[test]
 fn a_bevel_pair_is_loaded_in_each_assembly() {
     let columns =
@@ -324,8 +325,8 @@ fn a_run_in_time_is_optimised() {
     );
 }
 
-/// A longer contact ellipse takes load from the middle of the tooth: the longest that is allowed is best. The key stands in the pair file that
-/// the scene's mesh names.
+/// A longer contact ellipse takes load from the middle of the tooth: the longest that is allowed is best. The key
+/// stands in the pair file that the scene's mesh names.
 #[test]
 fn a_key_of_a_bevel_pair_in_motion_is_optimised() {
     let folder = tempfile::tempdir().unwrap();

@@ -32,8 +32,8 @@ fn command<'a>(mut command: Command) -> Step<'a> {
 }
 
 /// Everything that CI runs, in order, up to the first failure. Each step names the whole workspace: another choice of
-/// packages would unite other features, and what several steps need would be compiled for each. The time that is printed
-/// at the end counts from `start`, before the preparation.
+/// packages would unite other features, and what several steps need would be compiled for each. The time that is
+/// printed at the end counts from `start`, before the preparation.
 ///
 /// # Errors
 /// [`XtaskError::Failed`] names the command that failed.

@@ -102,14 +102,15 @@ pub(super) fn four_point_kind(
     Ok(BallBearingKind::FourPoint { clearance_m })
 }
 
-/// α₀ and the interference of deep-groove bearings from the clearance and the distance of the grooves' centres: cos α = 1 − P_d/(2A) as
-/// sin²(α/2) = P_d/(4A), which keeps the digits of small clearances.
+/// α₀ and the interference of deep-groove bearings from the clearance and the distance of the grooves' centres: cos α
+/// = 1 − P_d/(2A) as sin²(α/2) = P_d/(4A), which keeps the digits of small clearances.
 pub(super) fn angle_of_clearance(clearance: f64, distance: f64) -> (f64, f64) {
     let half_sine = (0.25 * clearance.max(0.0) / distance).sqrt();
     (2.0 * half_sine.asin(), (-clearance).max(0.0))
 }
 
-/// α₀ from the contact angle, the clearance or the raceways' diameters: cos α₀ = 1 − P_d/(2A); and how far P_d lies below zero \[mm\].
+/// α₀ from the contact angle, the clearance or the raceways' diameters: cos α₀ = 1 − P_d/(2A); and how far P_d lies
+/// below zero \[mm\].
 fn free_angle(
     file: &BearingFile,
     keys: &TableKeys<'_>,

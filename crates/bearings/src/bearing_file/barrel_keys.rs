@@ -7,7 +7,8 @@ use super::element_keys::{Clearances, Elements, contact_angle_rad, laminae, roll
 use super::{BearingFile, MM};
 use crate::definition::{Arrangement, BarrelShape, RollerGeometry, RollerProfile};
 
-/// Radius of the rollers' profile over that of the sphere, and of the sphere over the inner groove's, where the file names none.
+/// Radius of the rollers' profile over that of the sphere, and of the sphere over the inner groove's, where the file
+/// names none.
 const PROFILE_OVER_SPHERE: f64 = 0.97;
 
 /// Barrels and races, and the two rows.

@@ -10,11 +10,12 @@ use super::{BearingFile, UM};
 /// Laminae where the file names none.
 pub(super) const LAMINAE: usize = 40;
 
-/// Balls and rollers may be too large for their rings by this share of their diameter: for balls of 8 mm 80 um, several times what tight fits take
-/// away.
+/// Balls and rollers may be too large for their rings by this share of their diameter: for balls of 8 mm 80 um,
+/// several times what tight fits take away.
 const MOST_INTERFERENCE: f64 = 0.01;
 
-/// Share of a limit of the clearance within which a number counts as the limit: 0.52 + 0.53 − 1 is not 0.05 to the last digit.
+/// Share of a limit of the clearance within which a number counts as the limit: 0.52 + 0.53 − 1 is not 0.05 to the
+/// last digit.
 const ROUNDING: f64 = 1e-12;
 
 /// Balls or rollers on their circle.
@@ -122,7 +123,8 @@ pub(super) fn conformity(keys: &TableKeys<'_>, key: &str, value: f64) -> Result<
     Ok(value)
 }
 
-/// Radial clearances that a bearing can have: down to an interference of a hundredth of the diameter of its balls or rollers, up to, not including, a most.
+/// Radial clearances that a bearing can have: down to an interference of a hundredth of the diameter of its balls or
+/// rollers, up to, not including, a most.
 pub(super) struct Clearances {
     least_m: f64,
     most_m: f64,

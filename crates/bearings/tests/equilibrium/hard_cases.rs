@@ -122,7 +122,8 @@ fn rest_is_the_limit_of_slow_turning() {
     }
 }
 
-/// Rows that are mirror images: O and X preloaded alike have the same axial stiffness, O tilts much harder; each row bears the stated preload.
+/// Rows that are mirror images: O and X preloaded alike have the same axial stiffness, O tilts much harder; each row
+/// bears the stated preload.
 #[test]
 fn pairs_are_preloaded_and_o_resists_tilting() {
     let pair = |arrangement: &str| {
@@ -193,8 +194,9 @@ fn a_profile_relieves_the_edge() {
     assert!(edge(&profiled) < 0.95, "{}", edge(&profiled));
 }
 
-/// Radial stiffness of the catalogue's 6205 at 0.1 C beside Palmgren's approximation δ = 4.37e-4 Q_max^⅔ D^−⅓ mm (N, mm; A. Palmgren, *Ball and
-/// Roller Bearing Engineering*, 1959; quoted by Harris), Q_max = 5 F/Z: stiffness 1.5 F/δ. The approximation is for all ball bearings alike.
+/// Radial stiffness of the catalogue's 6205 at 0.1 C beside Palmgren's approximation δ = 4.37e-4 Q_max^⅔ D^−⅓ mm (N,
+/// mm; A. Palmgren, *Ball and Roller Bearing Engineering*, 1959; quoted by Harris), Q_max = 5 F/Z: stiffness 1.5 F/δ.
+/// The approximation is for all ball bearings alike.
 #[test]
 fn stiffness_at_a_tenth_of_c_is_near_palmgrens() {
     let bearing = bearing(B6205);
@@ -208,7 +210,8 @@ fn stiffness_at_a_tenth_of_c_is_near_palmgrens() {
     assert!(definition(B6205).stated_ratings.dynamic_n.is_none());
 }
 
-/// A ring that walks at random, through lift-off and speed: searches that begin at the places before find what searches from nothing find.
+/// A ring that walks at random, through lift-off and speed: searches that begin at the places before find what
+/// searches from nothing find.
 #[test]
 fn warm_searches_find_what_cold_ones_find() {
     let mut numbers = fastrand::Rng::with_seed(5);
@@ -276,8 +279,8 @@ fn a_ring_pulled_out_is_an_error() {
     assert_eq!(ring.load.norm(), 0.0);
 }
 
-/// Without clearance (the default) and load all contacts just touch and have no slope; at speed each ball then rests in the outer groove
-/// under its centrifugal force alone.
+/// Without clearance (the default) and load all contacts just touch and have no slope; at speed each ball then rests
+/// in the outer groove under its centrifugal force alone.
 #[test]
 fn balls_that_just_touch_rest_in_the_outer_groove_at_speed() {
     let bearing = bearing(B6205);
@@ -296,7 +299,8 @@ fn balls_that_just_touch_rest_in_the_outer_groove_at_speed() {
     }
 }
 
-/// Rings that hardly touch the balls, or press them hard, at any speed: every ball is found, and bears its centrifugal force.
+/// Rings that hardly touch the balls, or press them hard, at any speed: every ball is found, and bears its centrifugal
+/// force.
 #[test]
 fn balls_are_found_from_no_load_to_heavy_load_at_all_speeds() {
     for (text, ball_m) in [(B6205, 7.938e-3), (B218, 22.23e-3)] {

@@ -1,4 +1,5 @@
-//! Equilibrium of bearings against independent solutions (tools/reference/bearings.py), their tangents, their lives, and bad files.
+//! Equilibrium of bearings against independent solutions (tools/reference/bearings.py), their tangents, their lives,
+//! and bad files.
 #![allow(clippy::unwrap_used, clippy::expect_used)] // test code
 
 mod ball_types;

@@ -1,5 +1,6 @@
-//! Beside figures of another program: the results of MASTA that the tests of github.com/minzhun/ISO16281 quote (Test_BallBearing.py): a deep-groove
-//! bearing of 7 balls of 11.5 mm on 43.5 mm, conformities 0.52 and 0.53, 210 GPa, C 23 400 N.
+//! Beside figures of another program: the results of MASTA that the tests of github.com/minzhun/ISO16281 quote
+//! (Test_BallBearing.py): a deep-groove bearing of 7 balls of 11.5 mm on 43.5 mm, conformities 0.52 and 0.53, 210 GPa,
+//! C 23 400 N.
 
 use crate::common::{close, definition};
 use gearmesh_bearings::{AppliedBearingLoad, TiltCondition};
@@ -45,8 +46,8 @@ fn found(clearance_um: f64, force_n: [f64; 3]) -> ([f64; 3], f64) {
     (pose.centre_m.map(|u| 1e6 * u).into(), life.reference_mrev)
 }
 
-/// Axially both programs find the same to a hundred-thousandth. Radially theirs yields 3e-4 less, whose way to turn with the
-/// ring is not published; loads go with its power 1.5, and lives with their cube.
+/// Axially both programs find the same to a hundred-thousandth. Radially theirs yields 3e-4 less, whose way to turn
+/// with the ring is not published; loads go with its power 1.5, and lives with their cube.
 #[test]
 fn radial_and_axial_displacements_and_lives_are_those_of_masta() {
     let ([x, ..], life) = found(0.0, [1000.0, 0.0, 0.0]);

@@ -1,5 +1,5 @@
-//! Where rings come to rest: loads for which Newton's method alone finds nothing, balls that a groove does not reach, interference, the apex of
-//! tapered rollers.
+//! Where rings come to rest: loads for which Newton's method alone finds nothing, balls that a groove does not reach,
+//! interference, the apex of tapered rollers.
 
 use crate::common::{B6205, ROLLERS, TAPERED, bearing, close, definition};
 use gearmesh_bearings::quasi_static::{Row, RowLoads};
@@ -51,8 +51,8 @@ fn free(force_n: [f64; 3], moment_nm: [f64; 2]) -> AppliedBearingLoad {
     }
 }
 
-/// Found by random trials: few balls or much play, a tilt that is free, forces and moments at once. Newton's method alone stayed behind an edge of
-/// the energy; once it said that 1.6 % of the load unbalanced were an equilibrium.
+/// Found by random trials: few balls or much play, a tilt that is free, forces and moments at once. Newton's method
+/// alone stayed behind an edge of the energy; once it said that 1.6 % of the load unbalanced were an equilibrium.
 #[test]
 fn rings_rest_under_loads_that_few_balls_bear() {
     let ball_bearing =
@@ -104,8 +104,8 @@ fn lightly_pressed_balls_are_found_by_least_spin() {
     }
 }
 
-/// A groove is the half of a torus that faces the balls. With much play, or pushed far aside, a ring's torus would reach over the balls on the other
-/// side, and press them from outside.
+/// A groove is the half of a torus that faces the balls. With much play, or pushed far aside, a ring's torus would
+/// reach over the balls on the other side, and press them from outside.
 #[test]
 fn grooves_do_not_reach_over_balls() {
     let tight = bearing(B6205);
@@ -206,7 +206,8 @@ fn interference_presses_every_roller_alike() {
     }
 }
 
-/// At speed rollers that the inner ring does not press lie on the outer race under their centrifugal force, and all others press it by as much more.
+/// At speed rollers that the inner ring does not press lie on the outer race under their centrifugal force, and all
+/// others press it by as much more.
 #[test]
 fn unpressed_rollers_press_the_outer_race() {
     let turning = Operation {
@@ -256,7 +257,8 @@ fn tapered_rollers_and_races_share_an_apex() {
     }
 }
 
-/// The unloaded row of a pair of tapered bearings at speed: every roller bears its centrifugal force on the outer race and the rib.
+/// The unloaded row of a pair of tapered bearings at speed: every roller bears its centrifugal force on the outer race
+/// and the rib.
 #[test]
 fn unpressed_tapered_rollers_are_in_equilibrium() {
     let pair = bearing(&format!(
@@ -275,13 +277,15 @@ fn unpressed_tapered_rollers_are_in_equilibrium() {
         panic!("no rollers")
     };
     for roller in &loads.elements[1] {
-        // Across the axis, along the outer race's normal: at least the centrifugal force, whatever rib and inner race add.
+        // Across the axis, along the outer race's normal: at least the centrifugal force, whatever rib and inner race
+        // add.
         let across = roller.outer_load_n * row.outer.normal.0;
         assert!(across > 0.9 * roller.centrifugal_n, "{roller:?}");
     }
 }
 
-/// At 18 rpm hardly anything throws the rollers of an unloaded row: what their search leaves over is far below their weight, and no reason to fail.
+/// At 18 rpm hardly anything throws the rollers of an unloaded row: what their search leaves over is far below their
+/// weight, and no reason to fail.
 #[test]
 fn rows_that_hardly_turn_may_be_unloaded() {
     let pair = bearing(

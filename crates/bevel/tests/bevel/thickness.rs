@@ -328,8 +328,8 @@ fn the_contact_goes_to_toe_and_heel() {
                     assert!(path[beside].lead_rad < path[k].lead_rad, "{name} {i}");
                 }
                 assert!(found.contact_ratio > 0.5, "{name} {}", found.contact_ratio);
-                // G keeps the backlash to the first order; without it some micrometres would be lost or won. Settings by
-                // the shaft angle are larger, and lose some beside the mean points.
+                // G keeps the backlash to the first order; without it some micrometres would be lost or won. Settings
+                // by the shaft angle are larger, and lose some beside the mean points.
                 if i > 1 {
                     continue;
                 }

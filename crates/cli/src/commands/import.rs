@@ -54,8 +54,8 @@ pub fn run(a: &ImportArguments) -> Result<(), Failure> {
         trial.check(&found, &a.output, !a.reduced);
         match other {
             None => trial.run(&found, &a.output)?,
-            // The models of the gears are not there yet, motion takes its time: the loads are those of the same scene with
-            // springs, at rest.
+            // The models of the gears are not there yet, motion takes its time: the loads are those of the same scene
+            // with springs, at rest.
             Some(bytes) => {
                 let scratch = tempfile::tempdir().map_err(Failure::work)?;
                 let springs = made(bytes, Meshes::Iso6336, Running::AtRest)?;

@@ -118,7 +118,8 @@ fn models(load: &LoadRequest, path: &Path) -> Result<Option<[(ReducedGear, PathB
     Ok(Some([read(0)?, read(1)?]))
 }
 
-/// On half spaces the law of a slice is cut off where it is shorter than the contact's half width (docs/theory/sliced_contact.md).
+/// On half spaces the law of a slice is cut off where it is shorter than the contact's half width
+/// (docs/theory/sliced_contact.md).
 fn warn_of_short_slices(found: &[LoadedContact]) {
     let too_short = |patch: &&LoadedPatch| patch.half_width_m > patch.length_m;
     let patches = found.iter().flat_map(LoadedContact::patches);

@@ -107,8 +107,8 @@ fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
     Ok(lines)
 }
 
-/// Names, units and cells of the first columns; `cells` takes a column and the factor to the unit in which it is read. A mark may stand behind
-/// the last cell.
+/// Names, units and cells of the first columns; `cells` takes a column and the factor to the unit in which it is read.
+/// A mark may stand behind the last cell.
 fn table_of(
     found: &[ColumnSummary],
     heads: &[&str],

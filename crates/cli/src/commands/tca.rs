@@ -156,8 +156,8 @@ pub(super) fn moves(s: &Sensitivity) -> [(&'static str, [f64; 2]); 4] {
     ]
 }
 
-/// What is to be known of flanks through points: how well they fit, and what that is beside the transmission error. Nothing of flanks
-/// that were cut.
+/// What is to be known of flanks through points: how well they fit, and what that is beside the transmission error.
+/// Nothing of flanks that were cut.
 pub(super) fn worth_of_points(flanks: [&Flank; 2]) -> Vec<String> {
     let words = |flank: &Flank| {
         let fit = flank.grid_fit()?;

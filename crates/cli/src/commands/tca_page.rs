@@ -216,8 +216,8 @@ fn edges(path: &[PathPoint]) -> Vec<(String, Vec<&PathPoint>)> {
     found
 }
 
-/// Corners of a contact's ellipse on a member: cone distance and height. None at edges, and where the flanks are nearer than the
-/// marking all along.
+/// Corners of a contact's ellipse on a member: cone distance and height. None at edges, and where the flanks are
+/// nearer than the marking all along.
 fn ellipse(
     (of, blank): (&Analysed<'_>, &MemberBlank),
     assembly: &Assembly,

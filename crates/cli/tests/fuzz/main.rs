@@ -1,8 +1,9 @@
-//! Fuzzing: whatever stands in a file, its reader answers with a value or an error, never with a panic, an endless loop or a full memory.
+//! Fuzzing: whatever stands in a file, its reader answers with a value or an error, never with a panic, an endless
+//! loop or a full memory.
 //!
-//! The normal tests make a few hundred cases of each target, always the same ones. With `GEARMESH_FUZZ_SECONDS` each target goes on for that
-//! time with cases that no run has had; how to: docs/fuzzing.md. A case that fails is kept in `target/fuzz-findings`; mended, it becomes a file
-//! in `regressions/TARGET`, which every run begins with.
+//! The normal tests make a few hundred cases of each target, always the same ones. With `GEARMESH_FUZZ_SECONDS` each
+//! target goes on for that time with cases that no run has had; how to: docs/fuzzing.md. A case that fails is kept in
+//! `target/fuzz-findings`; mended, it becomes a file in `regressions/TARGET`, which every run begins with.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -33,7 +34,8 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Runs the cases of a target: the regression files, then what `make` makes, `usual` cases or as long as the environment says.
+/// Runs the cases of a target: the regression files, then what `make` makes, `usual` cases or as long as the
+/// environment says.
 pub fn fuzz(target: &str, usual: u64, make: impl Fn(&mut Rng) -> Vec<u8>, read: impl Fn(&[u8])) {
     let findings = root().join("target/fuzz-findings");
     std::fs::create_dir_all(&findings).unwrap();

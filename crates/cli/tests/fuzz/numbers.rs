@@ -1,6 +1,6 @@
-//! Every number of every kind of file, one after the other made 0, -1, huge and no number under a good seal: each reader answers with a value or an
-//! error. Arrays are changed at their first and their last entry; sizes are compared with the arrays that are there, so that no count can ask for
-//! more memory than the file has bytes.
+//! Every number of every kind of file, one after the other made 0, -1, huge and no number under a good seal: each
+//! reader answers with a value or an error. Arrays are changed at their first and their last entry; sizes are compared
+//! with the arrays that are there, so that no count can ask for more memory than the file has bytes.
 
 use crate::drilled_pair::{scene, scene_in_time, write_models};
 use crate::fuzz;
@@ -127,7 +127,8 @@ fn answered(name: &str, read: impl FnOnce() + Send) -> Option<String> {
     })
 }
 
-/// Goes through all numbers of a file: with every value where the fuzzing is long, otherwise with one after the other. `read` says whether the file was taken.
+/// Goes through all numbers of a file: with every value where the fuzzing is long, otherwise with one after the other.
+/// `read` says whether the file was taken.
 fn walk(file: &Path, format: &FileFormat, read: impl Fn(&Path) -> bool + Sync) {
     let desk = tempfile::tempdir().unwrap();
     let path = desk.path().join("case.h5");

@@ -58,7 +58,8 @@ fn blank_and_contact_of_seed_001() {
     }
 }
 
-/// Under load the first screen has transmission error, sharing and pressure of every torque; the page draws them; wrong loads are refused.
+/// Under load the first screen has transmission error, sharing and pressure of every torque; the page draws them;
+/// wrong loads are refused.
 #[test]
 fn a_pair_file_with_loads_is_analysed_under_them() {
     let desk = Desk::new();
@@ -140,8 +141,8 @@ fn points(flank: &Flank, size: [usize; 2]) -> String {
     text
 }
 
-/// Contact analysis of a flank from points says how well it fits and what that is beside the transmission error: in print, in the page,
-/// in JSON. Tables with other separators are told apart.
+/// Contact analysis of a flank from points says how well it fits and what that is beside the transmission error: in
+/// print, in the page, in JSON. Tables with other separators are told apart.
 #[test]
 fn contact_of_points_says_what_they_are_worth() {
     let desk = Desk::new();
@@ -213,8 +214,8 @@ fn contact_of_points_says_what_they_are_worth() {
     }
 }
 
-/// A zerol pair under a light load touches inside its flanks: of a load on tips nothing is said but 0. Straight teeth have no body, and
-/// the refusal asks for no key that they refuse.
+/// A zerol pair under a light load touches inside its flanks: of a load on tips nothing is said but 0. Straight teeth
+/// have no body, and the refusal asks for no key that they refuse.
 #[test]
 fn zerol_and_straight_pairs() {
     let desk = Desk::new();

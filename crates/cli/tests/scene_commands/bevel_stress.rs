@@ -47,7 +47,8 @@ fn reduced_pair() -> Desk {
     desk
 }
 
-/// Of a field's file: largest stress and where (node sets of the element's corners), displacement at the bore and the largest elsewhere.
+/// Of a field's file: largest stress and where (node sets of the element's corners), displacement at the bore and the
+/// largest elsewhere.
 const FIELD: &str = "
 import json, sys
 import meshio, numpy as np
@@ -60,7 +61,8 @@ json.dump({'largest': float(stress.max()), 'at': worst.tolist(), 'bore': float(m
            'moved': float(moved.max()), 'cells': len(stress)}, sys.stdout)
 ";
 
-/// Of each moment: force on each gear (vector, sum of magnitudes), largest stress of each gear and of the two gears' cells that carry load, open edges.
+/// Of each moment: force on each gear (vector, sum of magnitudes), largest stress of each gear and of the two gears'
+/// cells that carry load, open edges.
 const SERIES: &str = "
 import json, sys
 import numpy as np, pyvista
@@ -101,7 +103,8 @@ for title, data in re.findall(r'<figcaption>([^<]*)</figcaption>.*?<script type=
 json.dump(told, sys.stdout)
 ";
 
-/// Pictures of a page as its figures say: four of each gear, colours up to the largest root stress, which is one of the values drawn.
+/// Pictures of a page as its figures say: four of each gear, colours up to the largest root stress, which is one of
+/// the values drawn.
 fn demand_pictures(page: &Path, stress: &Value) {
     let drawn = python(PICTURES, &[argument(page)]);
     let drawn = drawn.as_object().unwrap();
@@ -271,7 +274,8 @@ fn in_motion(desk: &Desk) {
             continue;
         }
         most = most.max(sizes[0]);
-        // Loaded cells, 4.6 by 1.5 mm, lie on each other within a diagonal; the largest stress is on a tooth that carries.
+        // Loaded cells, 4.6 by 1.5 mm, lie on each other within a diagonal; the largest stress is on a tooth that
+        // carries.
         assert!(moment["apart_m"].as_f64().unwrap() < 5e-3, "{moment}");
         for gear in 0..2 {
             let teeth = moment["teeth"][gear].as_array().unwrap();
@@ -285,7 +289,8 @@ fn in_motion(desk: &Desk) {
         }
     }
     assert!(most > 10.0, "{most}");
-    // The page's pictures at the last of these moments show the stress of the series: the largest of the tooth is on the side that is seen.
+    // The page's pictures at the last of these moments show the stress of the series: the largest of the tooth is on
+    // the side that is seen.
     let at = moments[3]["at"].as_f64().unwrap();
     let page = desk.path("run.html");
     let words = [

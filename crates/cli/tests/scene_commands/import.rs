@@ -1,4 +1,5 @@
-//! `gearmesh import`: the shipped REXS gearbox becomes files that the program accepts, and its bearings carry what hand statics say.
+//! `gearmesh import`: the shipped REXS gearbox becomes files that the program accepts, and its bearings carry what
+//! hand statics say.
 
 use super::shipped_gearboxes::coarse;
 use crate::common::{Desk, argument, changed, gearmesh, names_in, refused, succeeds};
@@ -52,8 +53,8 @@ fn a_gearbox_of_three_stages_is_imported_and_runs() {
     assert!((input / 28.2068 - 1.0).abs() < 1e-4, "{input}");
 }
 
-/// Imported to run in time it begins where it stands at rest and stays there, for no mesh excites it: bearings carry what
-/// statics say, the drive puts in what the load takes, and energy balances.
+/// Imported to run in time it begins where it stands at rest and stays there, for no mesh excites it: bearings carry
+/// what statics say, the drive puts in what the load takes, and energy balances.
 #[test]
 fn a_gearbox_is_imported_to_run_in_time() {
     let desk = Desk::new();
@@ -348,8 +349,8 @@ fn bevel_gearbox() -> String {
     )
 }
 
-/// Seed 001 at 100 N m: 3367 N along the circle, 2725 and -609 N along and across the axes. The left-hand pinion turns counter-clockwise, seen
-/// from its back, and is pulled to the apex.
+/// Seed 001 at 100 N m: 3367 N along the circle, 2725 and -609 N along and across the axes. The left-hand pinion turns
+/// counter-clockwise, seen from its back, and is pulled to the apex.
 #[test]
 fn bearings_of_a_bevel_stage_carry_its_forces() {
     let desk = Desk::new();
@@ -408,8 +409,9 @@ fn bearings_of_a_bevel_stage_carry_its_forces() {
     }
 }
 
-/// An idler that turns on a needle bearing on its axle, between two gears of 20 teeth on either side: 30 N m at the working pitch radius
-/// of 60.05 mm/3 push it the same way twice, and the axle's bearings bear what the needle bearing hands on.
+/// An idler that turns on a needle bearing on its axle, between two gears of 20 teeth on either side: 30 N m at the
+/// working pitch radius of 60.05 mm/3 push it the same way twice, and the axle's bearings bear what the needle bearing
+/// hands on.
 #[test]
 fn an_idler_on_a_bearing_loads_its_axle() {
     let desk = Desk::new();

@@ -16,8 +16,9 @@ fn python(script: &str, arguments: &[&str]) -> Value {
     serde_json::from_slice(&told).unwrap()
 }
 
-/// Of each moment of a series: what PyVista says it is at, force on each gear (vector, sum of magnitudes), largest distance of loaded
-/// quadrilaterals of the two gears, open edges and volume of each gear's surface; figures of the first file by meshio.
+/// Of each moment of a series: what PyVista says it is at, force on each gear (vector, sum of magnitudes), largest
+/// distance of loaded quadrilaterals of the two gears, open edges and volume of each gear's surface; figures of the
+/// first file by meshio.
 const READ: &str = "
 import json, sys
 import meshio, numpy as np, pyvista
@@ -141,7 +142,8 @@ fn a_pair_turns_under_load() {
     );
 }
 
-/// Of the first moment of a series with stress: largest stress and the tooth it is on, of each gear; of a whole field the largest stress.
+/// Of the first moment of a series with stress: largest stress and the tooth it is on, of each gear; of a whole field
+/// the largest stress.
 const STRESS: &str = "
 import json, sys
 import meshio, numpy as np
@@ -258,7 +260,8 @@ fn gears_of_a_run_in_time_turn_under_the_forces_of_the_run() {
     ]);
 }
 
-/// Points of the flanks of tooth 0 by the closed form of the involute, written down once more, and their distance to the solid's faces.
+/// Points of the flanks of tooth 0 by the closed form of the involute, written down once more, and their distance to
+/// the solid's faces.
 const DISTANCE: &str = "
 import json, math, os, sys
 import gmsh
@@ -319,8 +322,8 @@ fn the_flanks_of_a_step_file_are_the_exact_ones() {
     assert!(!Path::new(&none).exists());
 }
 
-/// A bevel gear's file as the OCC kernel reads it: largest distance of the points of a measuring machine's tables to the
-/// nearest face, number of solids, volume; and the volume of a mesh of hexahedra.
+/// A bevel gear's file as the OCC kernel reads it: largest distance of the points of a measuring machine's tables to
+/// the nearest face, number of solids, volume; and the volume of a mesh of hexahedra.
 const BEVEL_SOLID: &str = r"
 import csv, json, math, os, sys
 answer = os.fdopen(os.dup(1), 'w')
@@ -350,8 +353,8 @@ for k in range(8):
 json.dump([worst, len(gmsh.model.getEntities(3)), volume, 1e9 * whole], answer)
 ";
 
-/// The flanks of a bevel gear's solid go through the points of its measuring machine's tables, and its volume is that of
-/// its mesh, whose circles are polygons.
+/// The flanks of a bevel gear's solid go through the points of its measuring machine's tables, and its volume is that
+/// of its mesh, whose circles are polygons.
 #[test]
 fn a_bevel_gear_goes_out_as_step() {
     let desk = Desk::new();

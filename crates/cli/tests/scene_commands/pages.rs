@@ -233,7 +233,8 @@ fn demand_drawings(name: &str, html: &str) {
     }
 }
 
-/// K_Hβ of a mesh is the largest of its slices' line loads over their mean, all as the page prints them: to four digits.
+/// K_Hβ of a mesh is the largest of its slices' line loads over their mean, all as the page prints them: to four
+/// digits.
 fn demand_face_load_factor(html: &str, mesh: &str) {
     let cells = |row: &str| -> Vec<f64> {
         let cells = between(row, "<td class=\"number\">", "</td>");

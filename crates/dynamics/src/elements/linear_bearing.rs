@@ -1,14 +1,16 @@
 //! Linear bearing: radial, axial and tilting stiffness and damping; spins freely about its axis.
 //!
-//! A sits in the housing, B on the shaft, z is the axis. With c the z axis of B seen in A, the tilt about x and y is (−c_y, c_x),
+//! A sits in the housing, B on the shaft, z is the axis. With c the z axis of B seen in A, the tilt about x and y is
+//! (−c_y, c_x),
 //!
 //! ```text
 //! f = −(k_r u_x + c_r u̇_x, k_r u_y + c_r u̇_y, k_a u_z + c_a u̇_z)
 //! μ = −k_t c_z (−c_y, c_x, 0) − c_t (ω − (ω·c) c)
 //! ```
 //!
-//! (ω − (ω·c) c = c × ċ is the rate of the tilt: a shaft that turns about its own tilted axis is not braked)
-//! (an axial support that bears one way has k_a = 0 on the other side of u_z = 0; its damping acts both ways), which is the gradient of ½ k_r(u_x² + u_y²) + ½ k_a u_z² + ½ k_t(c_x² + c_y²) and the same for every angle of B.
+//! (ω − (ω·c) c = c × ċ is the rate of the tilt: a shaft that turns about its own tilted axis is not braked) (an axial
+//! support that bears one way has k_a = 0 on the other side of u_z = 0; its damping acts both ways), which is the
+//! gradient of ½ k_r(u_x² + u_y²) + ½ k_a u_z² + ½ k_t(c_x² + c_y²) and the same for every angle of B.
 
 use nalgebra::{SMatrix, Vector3};
 

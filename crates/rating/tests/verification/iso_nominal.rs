@@ -179,8 +179,8 @@ fn helical_teeth_by_the_standards_equations() {
     assert!((share - 1.0).abs() < 1e-12);
 }
 
-/// The gears of the FZG test, type C (ISO 14635-1), by hand after ISO 6336-3:2006, 6.2 and 7.2, with a rack of h_fP = 1.25
-/// m and ρ_fP = 0.25 m, F = 4000 N across the flanks, F_t = F cos 20°:
+/// The gears of the FZG test, type C (ISO 14635-1), by hand after ISO 6336-3:2006, 6.2 and 7.2, with a rack of h_fP =
+/// 1.25 m and ρ_fP = 0.25 m, F = 4000 N across the flanks, F_t = F cos 20°:
 ///
 /// ```text
 /// α_w = 22.43879°, ε_α = 1.4430935        gear 1        gear 2
@@ -274,8 +274,8 @@ fn fzg_type_c() {
     near(rating.iso_pressure.contact_ratio_factor, 0.923_202_12);
 }
 
-/// Y_B = 1.6 ln(2.242 h_t/s_R): 1.29179 for a rim of one tooth height, continuous at 1.2, none below one half; Y_DT of teeth
-/// of which three pairs may carry, and no σ_F0 from a contact ratio of 2.5 on.
+/// Y_B = 1.6 ln(2.242 h_t/s_R): 1.29179 for a rim of one tooth height, continuous at 1.2, none below one half; Y_DT of
+/// teeth of which three pairs may carry, and no σ_F0 from a contact ratio of 2.5 on.
 #[test]
 fn rims_and_deep_teeth() {
     let teeth = [standard(30), standard(40)];

@@ -57,7 +57,8 @@ fn the_shaft_is_held_some_way_off_its_faces() {
     assert!((moved.mass_kg / mass - 1.0).abs() < 1e-12);
 }
 
-/// The hole that the mesh leaves open does not count: half of it gives the same compliance. The cyclic solution is that of the whole gear.
+/// The hole that the mesh leaves open does not count: half of it gives the same compliance. The cyclic solution is
+/// that of the whole gear.
 #[test]
 fn the_hole_in_the_axis_does_not_count() {
     let gear = small_gears::gear(COARSE, FRONT, 0.0);
@@ -77,8 +78,8 @@ fn the_hole_in_the_axis_does_not_count() {
     );
 }
 
-/// A torque on the face that is not held turns the core like a shaft: away from both ends by T/(G J) in a length, J between that of
-/// the root circle and that of the reference circle.
+/// A torque on the face that is not held turns the core like a shaft: away from both ends by T/(G J) in a length, J
+/// between that of the root circle and that of the reference circle.
 #[test]
 fn the_core_twists_as_a_shaft() {
     let mut gear = small_gears::gear(COARSE, FRONT, 0.0);

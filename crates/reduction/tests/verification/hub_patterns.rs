@@ -8,7 +8,8 @@ use gearmesh_reduction::Silent;
 use gearmesh_reduction::flank_loads::{SparseVector, flank_grid, flank_loads};
 use gearmesh_reduction::hub_patterns::by_patterns;
 
-/// Five holes and 18 teeth. Every block of every tooth is what it was, to what is said to be left out, and that is less than 1e-8.
+/// Five holes and 18 teeth. Every block of every tooth is what it was, to what is said to be left out, and that is
+/// less than 1e-8.
 #[test]
 fn patterns_keep_every_block() {
     let holes = "holes = { count = 5, pitch_circle_diameter_mm = 29.0, diameter_mm = 4.0, phase_deg = 7.0 }\n";

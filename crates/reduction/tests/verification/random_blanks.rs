@@ -122,7 +122,8 @@ struct Room {
 }
 
 impl Draw {
-    /// Between two limits, at one of them, or beside it by anything from a millionth of a micrometre to a tenth of a millimetre.
+    /// Between two limits, at one of them, or beside it by anything from a millionth of a micrometre to a tenth of a
+    /// millimetre.
     fn near(&mut self, low: f64, high: f64) -> f64 {
         let beside = 10f64.powf(self.0.f64() * 8.0 - 9.0);
         let inwards = self.of(&[0.0, beside, beside, -beside, -1e-9, -1e-3]);
@@ -337,9 +338,10 @@ fn every_blank_is_reduced_or_refused() {
     assert!(files < 60, "{files}");
 }
 
-/// The same of as many as are asked for: `BLANKS=1000 BLANKS_SEED=1 cargo test --workspace --test verification -- --ignored --nocapture
-/// many_blanks`. Each is drawn from a seed of its own, which the lines name, so that any of them can be drawn again alone; `BLANKS_FOLDER`
-/// keeps the files of those that failed.
+/// The same of as many as are asked for:
+/// `BLANKS=1000 BLANKS_SEED=1 cargo test --workspace --test verification -- --ignored --nocapture many_blanks`. Each
+/// is drawn from a seed of its own, which the lines name, so that any of them can be drawn again alone;
+/// `BLANKS_FOLDER` keeps the files of those that failed.
 #[test]
 #[ignore = "some seconds a blank"]
 fn many_blanks_are_reduced_or_refused() {

@@ -31,8 +31,9 @@ const FUNCTIONS: [(&str, &str, Option<&str>); 3] = [
     ("windows", "speed_rad_per_s", Some("up")),
 ];
 
-/// The functions of a table: its columns of numbers over the axis, each torque or way of a sweep by itself. Values that are not there, and functions
-/// of less than two values, are left out; empty for a table without an axis (contact, modes, ratings).
+/// The functions of a table: its columns of numbers over the axis, each torque or way of a sweep by itself. Values
+/// that are not there, and functions of less than two values, are left out; empty for a table without an axis
+/// (contact, modes, ratings).
 ///
 /// # Errors
 /// [`FileError`] if a column cannot be read.

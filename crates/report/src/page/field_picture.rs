@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 /// Coordinates are stored as 16-bit steps of the mesh's larger extent: 2.4 µm for a gear of 155 mm.
 const COORDINATE_STEPS: f64 = 65_535.0;
 
-/// Share of the area that [`FieldPicture::colours_of_most`] shows in full, and how far above it a value must be to be cut off:
-/// two thirds of the colours are left for all else otherwise.
+/// Share of the area that [`FieldPicture::colours_of_most`] shows in full, and how far above it a value must be to be
+/// cut off: two thirds of the colours are left for all else otherwise.
 const MOST_OF_AREA: f64 = 0.9;
 const FAR_ABOVE: f64 = 1.5;
 
@@ -126,8 +126,9 @@ impl FieldPicture {
         self
     }
 
-    /// The colour scale from 0 to the largest value, or, where a small part of the picture stands far above all else (an edge that
-    /// carries alone), to what nine tenths of the area that has a value stay below: the bar then ends in ≥.
+    /// The colour scale from 0 to the largest value, or, where a small part of the picture stands far above all else
+    /// (an edge that carries alone), to what nine tenths of the area that has a value stay below: the bar then ends in
+    /// ≥.
     #[must_use]
     pub fn colours_of_most(mut self) -> Self {
         self.colours_of_most = true;
@@ -171,7 +172,8 @@ impl FieldPicture {
         self
     }
 
-    /// The mesh is a body seen in space: how light each quad is, from 0 to 1. Later quads hide earlier ones, and what is hidden has no outline.
+    /// The mesh is a body seen in space: how light each quad is, from 0 to 1. Later quads hide earlier ones, and what
+    /// is hidden has no outline.
     #[must_use]
     pub fn shades(mut self, shades: Vec<f64>) -> Self {
         self.shades = shades;

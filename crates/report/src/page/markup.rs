@@ -20,7 +20,8 @@ pub(super) fn escape(text: &str) -> String {
     safe
 }
 
-/// The line below a drawing: a patch of colour and a name for each kind of curve, which are not torn apart, and what is said behind them.
+/// The line below a drawing: a patch of colour and a name for each kind of curve, which are not torn apart, and what
+/// is said behind them.
 pub(super) fn legend<'a>(entries: impl Iterator<Item = (usize, &'a str)>, told: &str) -> String {
     let entry = |(colour, name): (usize, &str)| {
         format!(
@@ -33,8 +34,8 @@ pub(super) fn legend<'a>(entries: impl Iterator<Item = (usize, &'a str)>, told: 
     format!("<p class=\"legend\">{entries}{}</p>\n", html(told))
 }
 
-/// About how wide a text of a drawing is in the drawing's own units, at the size that it has on a small screen (14 units, page.css);
-/// 0.62 of it is the mean width of digits and small letters in the widest of the style's fonts.
+/// About how wide a text of a drawing is in the drawing's own units, at the size that it has on a small screen (14
+/// units, page.css); 0.62 of it is the mean width of digits and small letters in the widest of the style's fonts.
 pub(super) fn text_width(text: &str) -> f64 {
     14.0 * 0.62 * text.chars().count() as f64
 }

@@ -1,4 +1,5 @@
-//! How texts are set: names of keys and files in code letters, minus signs, powers of ten, units and symbols as in print.
+//! How texts are set: names of keys and files in code letters, minus signs, powers of ten, units and symbols as in
+//! print.
 
 use super::markup::escape;
 

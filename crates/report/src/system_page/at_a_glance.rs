@@ -83,7 +83,8 @@ pub(super) fn key_figures(r: &SystemResult, found: &[ColumnSummary]) -> KeyFigur
     figures
 }
 
-/// Meshes, bearings and speeds, and folded line loads and all other force elements; those without a column are left out.
+/// Meshes, bearings and speeds, and folded line loads and all other force elements; those without a column are left
+/// out.
 pub(super) fn tables(
     r: &SystemResult,
     found: Vec<ColumnSummary>,

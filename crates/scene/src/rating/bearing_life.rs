@@ -18,13 +18,14 @@ pub struct BearingLifeJob {
     pub lubrication: Option<Lubrication>,
     /// Speeds of the inner and outer ring where the run has no rows of them \[rad/s\].
     pub speeds_rad_per_s: [f64; 2],
-    /// 1 or −1 where the shaft's own z axis is along or against the bearing's, then the same of the housing's; none where speeds have no rows.
+    /// 1 or −1 where the shaft's own z axis is along or against the bearing's, then the same of the housing's; none
+    /// where speeds have no rows.
     pub senses: Option<[f64; 2]>,
 }
 
 impl BearingLifeJob {
-    /// One moment of the history: columns are force and moments that the bearing exerts on the shaft, then the speeds of the shaft and, where it turns, of
-    /// the housing.
+    /// One moment of the history: columns are force and moments that the bearing exerts on the shaft, then the speeds
+    /// of the shaft and, where it turns, of the housing.
     #[must_use]
     pub fn sample(&self, weight: f64, values: &[f64]) -> HistorySample {
         let [inner, outer] = match self.senses {

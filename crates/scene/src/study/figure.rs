@@ -177,8 +177,8 @@ impl Wanted {
     }
 }
 
-/// Amplitude of the part of a series that swings at a frequency: |Σ w (x − x̄) e^(−iωt)| · 2/Σ w under the Hann window w, x̄ the mean under
-/// the same window, so that neither the mean nor lines three spacings away leak into it.
+/// Amplitude of the part of a series that swings at a frequency: |Σ w (x − x̄) e^(−iωt)| · 2/Σ w under the Hann window
+/// w, x̄ the mean under the same window, so that neither the mean nor lines three spacings away leak into it.
 #[must_use]
 pub fn line_amplitude(values: &[f64], interval_s: f64, hz: f64) -> f64 {
     let count = values.len();

@@ -80,8 +80,8 @@ pub struct BuiltMesh {
     pub speeds_rad_per_s: [f64; 2],
     /// The stage at a glance; none of bevel pairs.
     pub stage: Option<StageSummary>,
-    /// Of bevel pairs the corners of a flank of gear 1, then gear 2 \[m\]: cone distance and height above the pitch cone of lower line and tip at the toe, tip
-    /// and lower line at the heel; empty for others.
+    /// Of bevel pairs the corners of a flank of gear 1, then gear 2 \[m\]: cone distance and height above the pitch
+    /// cone of lower line and tip at the toe, tip and lower line at the heel; empty for others.
     pub flank_corners_m: Vec<f64>,
 }
 

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-/// What is smaller, over the largest value of its unit, is rounding and what solvers leave: they end at shares of 1e-8 and below. Lengths
-/// have a finer limit: a place of a metre stands beside a transmission error of nanometres.
+/// What is smaller, over the largest value of its unit, is rounding and what solvers leave: they end at shares of 1e-8
+/// and below. Lengths have a finer limit: a place of a metre stands beside a transmission error of nanometres.
 #[must_use]
 pub fn rounding(unit: &str) -> f64 {
     if unit == "m" { 1e-9 } else { 1e-7 }
@@ -79,7 +79,8 @@ fn is_beam(owner: &str) -> bool {
         .is_some_and(|(a, b)| number(a) && number(b))
 }
 
-/// Whether a channel tells of one of the pairs of teeth that carry, whose number changes from row to row: `pair_2_force_N`.
+/// Whether a channel tells of one of the pairs of teeth that carry, whose number changes from row to row:
+/// `pair_2_force_N`.
 pub fn is_of_pair(channel: &str) -> bool {
     let number = channel
         .strip_prefix("pair_")
@@ -87,7 +88,8 @@ pub fn is_of_pair(channel: &str) -> bool {
     number.is_some_and(|(number, _)| number.parse::<usize>().is_ok())
 }
 
-/// Columns that a reader asks for first: channels of force elements but those of single pairs of teeth, and speeds about the bodies' own axes.
+/// Columns that a reader asks for first: channels of force elements but those of single pairs of teeth, and speeds
+/// about the bodies' own axes.
 pub fn is_prominent(name: &str) -> bool {
     let of_element =
         name.starts_with("elements/") && !name.rsplit('/').next().is_some_and(is_of_pair);

@@ -264,7 +264,8 @@ pub(crate) fn inputs(scene: &SystemScene) -> Vec<String> {
     inputs
 }
 
-/// Names and digests of all files that a scene names, and that these name, as [`RunHead::inputs`] keeps them: whether files beside a scene are still those of a result.
+/// Names and digests of all files that a scene names, and that these name, as [`RunHead::inputs`] keeps them: whether
+/// files beside a scene are still those of a result.
 pub fn digests_of_named_files(text: &str, folder: &Path) -> Vec<String> {
     let digest = |(name, path): (String, PathBuf)| {
         // The seal of a model names its content; anything else is read.

@@ -132,8 +132,8 @@ fn largest(a: f64, b: f64) -> f64 {
     }
 }
 
-/// Ratings of a run whose rows are kept, the time, or the number of the equilibrium, in their first column. What a rating cannot judge is its problem, not
-/// that of the run.
+/// Ratings of a run whose rows are kept, the time, or the number of the equilibrium, in their first column. What a
+/// rating cannot judge is its problem, not that of the run.
 pub(super) fn of_rows(
     jobs: &[RatingJob],
     columns: &[Column],

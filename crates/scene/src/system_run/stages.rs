@@ -223,8 +223,8 @@ impl StageTable {
     }
 }
 
-/// Steps that found no equilibrium of forces are repeated shorter; many of them are the sign of a force that jumps. One in
-/// a hundred costs little and is usual where bodies strike each other.
+/// Steps that found no equilibrium of forces are repeated shorter; many of them are the sign of a force that jumps.
+/// One in a hundred costs little and is usual where bodies strike each other.
 fn repeated_steps(record: &RunRecord) -> Option<String> {
     (100.0 * record.unconverged > record.steps).then(|| {
         format!(
@@ -235,9 +235,9 @@ fn repeated_steps(record: &RunRecord) -> Option<String> {
 }
 
 impl SystemResult {
-    /// What is to be reported of the figures: what cannot be rated or is beyond a limit of bearings, pressures under which
-    /// steel yields, meshes that are open, power that does not balance. What was said before the run is among the notes of
-    /// the head.
+    /// What is to be reported of the figures: what cannot be rated or is beyond a limit of bearings, pressures under
+    /// which steel yields, meshes that are open, power that does not balance. What was said before the run is among
+    /// the notes of the head.
     ///
     /// # Errors
     /// [`FileError`].
@@ -266,9 +266,9 @@ impl SystemResult {
         Ok(found)
     }
 
-    /// The stages: means over the second half of a run in time, over the equilibria of the largest load factor, over the
-    /// window of a sweep in which the meshes carry most, or the last operating point of the largest load factor. None of a
-    /// scene without gear meshes.
+    /// The stages: means over the second half of a run in time, over the equilibria of the largest load factor, over
+    /// the window of a sweep in which the meshes carry most, or the last operating point of the largest load factor.
+    /// None of a scene without gear meshes.
     ///
     /// # Errors
     /// [`FileError`].

@@ -72,8 +72,8 @@ fn figure(result: &SystemResult, name: &str) -> f64 {
     value.unwrap_or_else(|| panic!("{name} is not in {rated:?}"))
 }
 
-/// One load across the axis: P is the load, L10 = (14 000 N/1000 N)³ = 2744 million turns or 15 244 h at 3000 rpm; L10r by ISO/TS 16281, written out here,
-/// from the loads of the balls in the rows.
+/// One load across the axis: P is the load, L10 = (14 000 N/1000 N)³ = 2744 million turns or 15 244 h at 3000 rpm;
+/// L10r by ISO/TS 16281, written out here, from the loads of the balls in the rows.
 #[test]
 fn one_load_has_the_life_of_the_standard() {
     let folder = folder();
@@ -86,7 +86,8 @@ fn one_load_has_the_life_of_the_standard() {
         1e-8,
     );
     let one = reference_life(&result);
-    // 53.13 degrees lie between a ball and the gap beside it: life by the mean damage of a ball under the load and a gap there.
+    // 53.13 degrees lie between a ball and the gap beside it: life by the mean damage of a ball under the load and a
+    // gap there.
     let [ball, gap] = [0.0_f64, 20.0].map(|degrees| {
         let (sine, cosine) = degrees.to_radians().sin_cos();
         let along = format!("along = [{cosine}, {sine}, 0.0]");
@@ -119,8 +120,8 @@ fn reference_life(result: &SystemResult) -> f64 {
     damage.powf(-0.9)
 }
 
-/// Half the time under 500 N, half under 1000 N: L10 = (C/P)³ with P³ = (500³ + 1000³)/2. With another load share the life follows; hours are those of the
-/// speed.
+/// Half the time under 500 N, half under 1000 N: L10 = (C/P)³ with P³ = (500³ + 1000³)/2. With another load share the
+/// life follows; hours are those of the speed.
 #[test]
 fn damages_add_up_over_time() {
     let folder = folder();

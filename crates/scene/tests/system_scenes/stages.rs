@@ -225,9 +225,9 @@ fn eigen_says_where_meshes_are_open() {
     assert!(load.loaded_pairs.unwrap() > 0.0);
 }
 
-/// A disc on springs that tilt, between a torque T that follows it and −T that keeps its axis: the stiffness of tilts is
-/// [[k, −T], [T, k]] (docs/theory/multibody.md, "Loads that follow"), and modes have damping ratios of ±T/2k without any
-/// damping.
+/// A disc on springs that tilt, between a torque T that follows it and −T that keeps its axis: the stiffness of tilts
+/// is [[k, −T], [T, k]] (docs/theory/multibody.md, "Loads that follow"), and modes have damping ratios of ±T/2k
+/// without any damping.
 #[test]
 fn damping_of_torques_that_follow_is_explained() {
     let text = |torques: &str| {

@@ -179,8 +179,8 @@ impl LoadedSystem {
         bearings::any_dynamic(&self.scene.tables.bearing)
     }
 
-    /// The system; `at_rest`: with balls in equilibrium, where others would move. `tangents`: of the bearings that are linear about an operating
-    /// point, as far as known; others are taken with balls in equilibrium.
+    /// The system; `at_rest`: with balls in equilibrium, where others would move. `tangents`: of the bearings that are
+    /// linear about an operating point, as far as known; others are taken with balls in equilibrium.
     fn assemble(
         &self,
         variation: &Variation,

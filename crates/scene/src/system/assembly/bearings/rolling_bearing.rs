@@ -7,7 +7,8 @@ use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
-/// As [`definition`], for balls that move: what they lose is the slip of their contacts, which a torque would count twice.
+/// As [`definition`], for balls that move: what they lose is the slip of their contacts, which a torque would count
+/// twice.
 pub(in crate::system::assembly) fn without_friction(
     key: &str,
     file: &str,
