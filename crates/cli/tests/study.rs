@@ -127,9 +127,9 @@ fn what_is_without_load_stands_once() {
         entries,
         [
             "the same at every torque",
-            "50 N m",
-            "100 N m",
-            "200 N m",
+            "50 N·m",
+            "100 N·m",
+            "200 N·m",
             "cases",
             "front"
         ],

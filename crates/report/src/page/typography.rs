@@ -4,7 +4,10 @@
 use super::markup::escape;
 
 /// Symbols as programs write them: letter and index.
-const SYMBOLS: [(&str, &str, &str); 7] = [
+const SYMBOLS: [(&str, &str, &str); 10] = [
+    ("ε_α", "ε", "α"),
+    ("ε_β", "ε", "β"),
+    ("c_γ", "c", "γ"),
     ("K_Hbeta", "K", "Hβ"),
     ("K_Halpha", "K", "Hα"),
     ("c_gamma", "c", "γ"),

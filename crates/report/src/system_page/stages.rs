@@ -23,7 +23,6 @@ pub(super) fn table(r: &SystemResult) -> Result<Option<Table>, FileError> {
             "overlap_ratio" => "ε_β",
             "single_stiffness_N_per_mm_um" => "c′ of ISO 6336-1",
             "mesh_stiffness_N_per_mm_um" => "c_γ of ISO 6336-1",
-            "k_h_beta" => "K_Hβ",
             _ => line.label,
         };
         let values = line.values.iter();

@@ -156,6 +156,10 @@ impl<'a> Tape<'a> {
                 return Some((item, format!("it has {found} entries, {needed} are needed")));
             }
         }
+        if !self.rows.fits(&recorded.rows, self.samples) {
+            let problem = "it is not that of these rows".to_owned();
+            return Some(("recorded/rows", problem));
+        }
         if recorded.next_sample > self.samples || recorded.closed > windows {
             let problem = format!("there are {} rows and {windows} windows", self.samples);
             return Some(("recorded/progress", problem));

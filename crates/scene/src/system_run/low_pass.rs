@@ -195,11 +195,29 @@ impl RowFilter {
         numbers.copied().collect()
     }
 
-    /// Takes what [`Self::save`] gave for the same rows.
+    /// Rows that are given once so many samples are seen.
+    fn given_after(&self, samples: usize) -> usize {
+        let waiting = self.half;
+        samples
+            .checked_sub(waiting + 1)
+            .map_or(0, |before| before / self.per_row + 1)
+    }
+
+    /// Whether [`Self::save`] may have given these numbers for the same rows, at most `samples` of them seen.
+    pub fn fits(&self, numbers: &[f64], samples: u64) -> bool {
+        let Some(([seen, given, compared], rest)) = numbers.split_first_chunk::<3>() else {
+            return false;
+        };
+        rest.len() == self.width + self.ring.len() + self.waiting.len()
+            && (0.0..=samples as f64).contains(seen)
+            && seen.fract() == 0.0
+            && *given == self.given_after(*seen as usize) as f64
+            && (0.0..=*given).contains(compared)
+    }
+
+    /// Takes what [`Self::save`] gave for the same rows; [`Self::fits`] says whether it did.
     pub fn restore(&mut self, numbers: &[f64]) {
-        if let Some(([seen, given, compared], rest)) = numbers.split_first_chunk::<3>()
-            && rest.len() == self.width + self.ring.len() + self.waiting.len()
-        {
+        if let Some(([seen, given, compared], rest)) = numbers.split_first_chunk::<3>() {
             (self.seen, self.given) = (*seen as usize, *given as usize);
             self.compared = *compared;
             let (folded, rest) = rest.split_at(self.width);
@@ -240,6 +258,12 @@ mod tests {
         for n in 0..samples {
             if stored_at == Some(n) {
                 let numbers = filter.save();
+                assert!(filter.fits(&numbers, samples as u64), "{n}");
+                for (place, wrong) in [(0, f64::INFINITY), (1, 1e3), (2, -1.0), (0, f64::NAN)] {
+                    let mut numbers = numbers.clone();
+                    numbers[place] = wrong;
+                    assert!(!filter.fits(&numbers, samples as u64), "{n} {place}");
+                }
                 filter = RowFilter::new(&columns(), PER_ROW).unwrap();
                 filter.restore(&numbers);
             }

@@ -174,7 +174,7 @@ fn bearings_tell_their_loss() {
     assert!((same / torque - 1.0).abs() < 1e-9, "{same} {torque}");
     let moving = changed(
         &coasting(),
-        "file = \"balls.toml\", radial_damping_N_s_per_mm = 1.0, axial_damping_N_s_per_mm = 1.0, tilt_damping_Nm_s_per_rad = 0.0",
+        "file = \"balls.toml\", radial_damping_N_s_per_mm = 1.0, axial_damping_N_s_per_mm = 1.0, tilt_damping_Nm_s_per_rad = 0.5",
         "file = \"balls.toml\"",
     );
     let moving = changed(&moving, "kind = \"quasi-static\"", "kind = \"dynamic\"");
