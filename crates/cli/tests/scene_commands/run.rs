@@ -295,5 +295,7 @@ fn stages_are_on_console_page_and_in_json() {
     let page = desk.path("drive.html");
     succeeds(&["report", argument(&output), "-o", argument(&page)]);
     let page = std::fs::read_to_string(page).unwrap();
-    assert!(page.contains("Stages, loads mean over the second half") && page.contains("K_Hβ"));
+    assert!(
+        page.contains("Stages, loads mean over the second half") && page.contains("K<sub>Hβ</sub>")
+    );
 }
