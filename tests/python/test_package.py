@@ -2,6 +2,7 @@
 
 import json
 import pickle
+import shutil
 from typing import Any
 
 import numpy as np
@@ -265,8 +266,14 @@ def test_two_gears_of_one_hand_are_refused_before_they_are_reduced(pinion):
         gm.Pair(helical, other.but(hand="left"), centre_distance_mm=97.0, torques_Nm=50)
 
 
-def test_tables_of_a_scene_know_where_its_files_lie(tmp_path, monkeypatch):
-    scene = gm.Scene("fe_models/first_pair/drive.toml")
+@pytest.fixture
+def drive(models):
+    """The shipped scene beside models of its gears."""
+    return shutil.copy("fe_models/first_pair/drive.toml", models[0].path.parent)
+
+
+def test_tables_of_a_scene_know_where_its_files_lie(drive, tmp_path, monkeypatch):
+    scene = gm.Scene(drive)
     monkeypatch.chdir(tmp_path)
     tables = scene.tables
     tables["run"]["end_s"] = 1e-3
@@ -275,8 +282,8 @@ def test_tables_of_a_scene_know_where_its_files_lie(tmp_path, monkeypatch):
     assert any("mesh frequency at the start 230.000 Hz" in line for line in again.plan())
 
 
-def test_what_a_run_warns_of_is_in_its_result(tmp_path):
-    tables = gm.Scene("fe_models/first_pair/drive.toml").tables
+def test_what_a_run_warns_of_is_in_its_result(drive):
+    tables = gm.Scene(drive).tables
     tables["run"]["end_s"] = 2e-3
     tables["load"][0]["torque_Nm"] = 100.0
     warnings = gm.Scene(tables).run().warnings
