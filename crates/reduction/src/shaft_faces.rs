@@ -10,7 +10,7 @@
 //! ```
 //!
 //! What lies between a face and its stub's end is the shaft's, and the shaft's beams have it. So its flexibility F as a
-//! beam ([`stub_flexibility`]) is taken out again: the ends move by q + F g under motions q and forces g of the faces,
+//! beam (`stub_flexibility`) is taken out again: the ends move by q + F g under motions q and forces g of the faces,
 //!
 //! ```text
 //! B = (1 − F K)⁻¹,   K_face = K B,   Ψ_face = Ψ B,   C_face = C − sᵀ B F s = C − s_faceᵀ G s_face,   G = F − F K F
