@@ -3,7 +3,7 @@
 use crate::MeshError;
 use crate::body::{BodyLengths, Span, body_problem, first_tooth, repeating_down_to_m};
 use crate::crack_line::CrackLine;
-use crate::plane_mesher::mesh_plane;
+use crate::plane_mesher::{PlaneMesh, mesh_plane};
 use crate::python::PythonEnvironment;
 use crate::tooth_blocks::ToothBlocks;
 use crate::tooth_cell::{ToothCell, ring_radius_m};
@@ -90,7 +90,7 @@ impl Section {
         let mut below_teeth = below_teeth
             .map(|span| body_problem(gear, ring_size_m, &span, BodyLengths::WithinSector))
             .transpose()?;
-        let span = Span {
+        let mut span = Span {
             radii_m: [
                 repeating_down_to_m(gear).unwrap_or(ring_m),
                 gear.blank.inner_radius_m(),
@@ -110,6 +110,16 @@ impl Section {
             let narrow = body_problem(gear, ring_size_m, &span, BodyLengths::WithinSector)?;
             let mut meshes = mesh_plane(python, std::slice::from_ref(&narrow.problem))?;
             (body, body_mesh) = (narrow, meshes.pop().ok_or_else(mismatch)?);
+        }
+        let is_poor =
+            |mesh: &PlaneMesh| mesh.smallest_scaled_jacobian() < gear.mesh.min_scaled_jacobian;
+        if below_teeth.is_some() && (is_poor(&body_mesh) || meshes.as_slice().iter().any(is_poor)) {
+            // gmsh finds no good quads beside this circle: the cells of the teeth end at the ring.
+            below_teeth = None;
+            (span.radii_m[0], span.pieces) = (ring_m, ring_pieces);
+            body = body_problem(gear, ring_size_m, &span, BodyLengths::Wanted)?;
+            let mut meshes = mesh_plane(python, std::slice::from_ref(&body.problem))?;
+            body_mesh = meshes.pop().ok_or_else(mismatch)?;
         }
         let mut cell = cell_problem.finish(cell_mesh, shape);
         let crack = gear.crack.as_ref();

@@ -284,3 +284,15 @@ fn the_size_of_a_mesh_is_known_before_it_is_made() {
         }
     }
 }
+
+/// Lengths by default, with which gmsh finds no good quads beside the circle that would end the cells of the teeth.
+#[test]
+fn where_a_circle_outside_the_holes_gives_poor_quads_the_teeth_end_at_the_ring() {
+    let text = source("wheel_47_drilled.toml");
+    let (before, rest) = text.split_once("[mesh]").unwrap();
+    let (_, after) = rest.split_once("[reduction]").unwrap();
+    let text = format!("{before}[reduction]{after}");
+    let gear = GearDefinition::from_document(&InputDocument::new("gear.toml", text)).unwrap();
+    let mesh = GearMesh::new(&gear, &PythonEnvironment::find().unwrap()).unwrap();
+    assert_eq!(mesh.teeth(), 47);
+}
