@@ -110,7 +110,7 @@ pub struct Judged<'a> {
     pub bearing: &'a QuasiStaticBearing,
     /// Where its inner ring stands.
     pub pose: &'a RingPose,
-    /// What its elements do to the inner ring.
+    /// Load of its elements on the inner ring.
     pub ring: &'a RingLoad,
     /// Loads of its balls or rollers.
     pub loads: &'a RowLoads,

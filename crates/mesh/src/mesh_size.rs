@@ -24,8 +24,8 @@ const TET_NODES: f64 = 11.0;
 /// Tetrahedra likewise.
 const TETRAHEDRA: f64 = 7.0;
 
-/// Tetrahedra of a sector of the body that are begun: gmsh takes some two minutes for them, and their factorisation
-/// tens of gigabytes.
+/// Tetrahedra of a sector of the body that are begun. Chosen, not measured: far above what bodies with
+/// sensible element lengths have.
 const MOST_TETRAHEDRA: f64 = 1e6;
 
 /// Sizes of a mesh and of its parts, estimated.

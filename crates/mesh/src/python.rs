@@ -8,8 +8,8 @@ use std::process::{Command, Stdio};
 /// Environment variable that names the Python interpreter.
 pub const PYTHON_VARIABLE: &str = "GEARMESH_PYTHON";
 
-/// Processor time that a script is given \[s\]; a mesh of the largest body that is begun takes a fifth of it. Of the
-/// processor, so that a busy machine refuses nothing that a quiet one does.
+/// Processor time that a script is given \[s\]; so that no mesh runs without end. Of the processor,
+/// so that a busy machine refuses nothing that a quiet one does.
 pub const LIMIT_S: u32 = 600;
 /// What ends a process at its limit of processor time.
 const SIGXCPU: i32 = 24;

@@ -1,8 +1,8 @@
 //! A body of a single sector under loads on its teeth: half solves, whose products are what goes from tooth to tooth.
 //!
-//! Where its teeth are condensed as a ring, loads reach the circle on which it stands in few shapes: some sixty, to
-//! rounding, of the 198 loads of a tooth. They are half solved once for every tooth, and what any loads of two teeth
-//! do to each other is a product of small matrices.
+//! Where its teeth are condensed as a ring, loads reach the circle on which it stands in fewer shapes than there are
+//! loads, to rounding. They are half solved once for every tooth, and the compliance between loads of two teeth is a
+//! product of small matrices.
 
 use crate::Progress;
 use crate::cyclic_body::CyclicBody;

@@ -123,7 +123,7 @@ fn rest_is_the_limit_of_slow_turning() {
 }
 
 /// Rows that are mirror images: O and X preloaded alike have the same axial stiffness, O tilts much harder; each row
-/// bears the stated preload.
+/// carries the stated preload.
 #[test]
 fn pairs_are_preloaded_and_o_resists_tilting() {
     let pair = |arrangement: &str| {
@@ -299,7 +299,7 @@ fn balls_that_just_touch_rest_in_the_outer_groove_at_speed() {
     }
 }
 
-/// Rings that hardly touch the balls, or press them hard, at any speed: every ball is found, and bears its centrifugal
+/// Rings that hardly touch the balls, or press them hard, at any speed: every ball is found, and carries its centrifugal
 /// force.
 #[test]
 fn balls_are_found_from_no_load_to_heavy_load_at_all_speeds() {

@@ -257,7 +257,7 @@ fn tapered_rollers_and_races_share_an_apex() {
     }
 }
 
-/// The unloaded row of a pair of tapered bearings at speed: every roller bears its centrifugal force on the outer race
+/// The unloaded row of a pair of tapered bearings at speed: every roller carries its centrifugal force on the outer race
 /// and the rib.
 #[test]
 fn unpressed_tapered_rollers_are_in_equilibrium() {
