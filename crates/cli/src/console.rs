@@ -1,12 +1,12 @@
 //! Printing: data to standard output, progress, warnings and errors to standard error.
 
 use crate::progress_lines::ProgressLines;
-use gearmesh_reduction::Progress;
+use gearmesh_operations::{Listener, Task, Watch};
 use gearmesh_report::printable;
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use std::cell::Cell;
 use std::io::{ErrorKind, Write};
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A line of data. A reader that has seen enough (`| head`) ends the printing, not the work; any other loss of data
@@ -36,29 +36,83 @@ pub fn warning(text: impl std::fmt::Display) {
     note(format!("warning: {text}"));
 }
 
-/// Numbers that look like those of another unit.
-pub fn unit_slips(slips: Vec<gearmesh_geometry::InputError>) {
-    slips.into_iter().for_each(warning);
-}
-
 /// An error.
 pub fn error(text: impl std::fmt::Display) {
     note(format!("error: {text}"));
 }
 
-/// A mesh error in words.
-pub fn mesh_error(relative: Option<f64>) -> String {
-    relative.map_or_else(
-        || "not estimated".to_owned(),
-        |error| format!("about {:.2} %", 100.0 * error),
-    )
+/// Prints what an operation says.
+struct Console;
+
+impl Listener for Console {
+    fn begin(&self, title: &str) -> Box<dyn Task + '_> {
+        Box::new(Bar {
+            title: title.to_owned(),
+            shown: OnceLock::new(),
+        })
+    }
+
+    fn note(&self, text: &str) {
+        note(text);
+    }
+
+    fn warning(&self, text: &str) {
+        warning(text);
+    }
+}
+
+/// Operations are listened to; Ctrl-C ends the program.
+pub fn watch() -> Watch<'static> {
+    Watch {
+        listener: &Console,
+        ..Watch::unattended()
+    }
+}
+
+/// A bar whose kind shows at its first word.
+struct Bar {
+    title: String,
+    shown: OnceLock<Shown>,
+}
+
+enum Shown {
+    /// A task in stages.
+    Stages(StageBar),
+    /// A task of one piece.
+    Run(Mutex<RunBar>),
+}
+
+impl Task for Bar {
+    fn stage(&self, name: &str) {
+        let stages = || Shown::Stages(StageBar::new(&self.title));
+        if let Shown::Stages(bar) = self.shown.get_or_init(stages) {
+            bar.stage(name);
+        }
+    }
+
+    fn advance(&self, done: f64, total: f64) {
+        let run = || Shown::Run(Mutex::new(RunBar::new(&self.title)));
+        match self.shown.get_or_init(run) {
+            Shown::Stages(bar) => bar.advance(done, total),
+            Shown::Run(bar) => {
+                let bar = bar.lock().unwrap_or_else(PoisonError::into_inner);
+                bar.advance(done, total);
+            }
+        }
+    }
+
+    fn expect(&self, seconds: f64) {
+        if let Some(Shown::Stages(bar)) = self.shown.get() {
+            bar.expect(seconds);
+        }
+    }
 }
 
 /// Remarks on the progress where standard error is no terminal.
 const REMARK_EVERY: Duration = Duration::from_secs(10);
 
 /// A run with a bar and the time to go; where standard error is no terminal, a remark now and then.
-pub struct RunBar {
+struct RunBar {
     title: String,
     bar: ProgressBar,
     begun: Instant,
@@ -69,7 +123,7 @@ pub struct RunBar {
 
 impl RunBar {
     /// A bar for a kind of run.
-    pub fn new(title: &str) -> Self {
+    fn new(title: &str) -> Self {
         let bar = ProgressBar::new(10_000);
         if let Ok(style) =
             ProgressStyle::with_template("{msg} {bar:30} {percent_precise} %, {eta} to go")
@@ -87,7 +141,7 @@ impl RunBar {
     }
 
     /// So much of it is done.
-    pub fn advance(&self, done: f64, total: f64) {
+    fn advance(&self, done: f64, total: f64) {
         if self.lines.are_asked_for() {
             return self.lines.tell(&self.title, done, total);
         }
@@ -115,15 +169,16 @@ impl RunBar {
             ));
         }
     }
+}
 
-    /// Removes the bar.
-    pub fn finish(&self) {
+impl Drop for RunBar {
+    fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
 }
 
 /// Stages with a bar and the time to go; where standard error is no terminal, a remark now and then.
-pub struct StageBar {
+struct StageBar {
     title: String,
     now: Mutex<Stage>,
     lines: ProgressLines,
@@ -155,7 +210,7 @@ impl Stage {
 
 impl StageBar {
     /// A bar for the stages of `title`.
-    pub fn new(title: &str) -> Self {
+    fn new(title: &str) -> Self {
         let now = Instant::now();
         Self {
             title: title.to_string(),
@@ -175,13 +230,6 @@ impl StageBar {
         }
     }
 
-    /// Removes the bar.
-    pub fn finish(&self) {
-        self.with(|stage| stage.bar.finish_and_clear());
-    }
-}
-
-impl Progress for StageBar {
     fn stage(&self, name: &str) {
         self.with(|stage| {
             stage.bar.finish_and_clear();
@@ -197,10 +245,10 @@ impl Progress for StageBar {
         });
     }
 
-    fn advance(&self, done: usize, total: usize) {
+    fn advance(&self, done: f64, total: f64) {
         self.with(|stage| {
             if self.lines.are_asked_for() {
-                return self.lines.tell(&stage.name, done as f64, total as f64);
+                return self.lines.tell(&stage.name, done, total);
             }
             if stage.bar.length().is_none() {
                 stage.bar.set_length(total as u64);
@@ -211,7 +259,7 @@ impl Progress for StageBar {
                 }
             }
             stage.bar.set_position(done as u64);
-            let left = (total - done.min(total)) as f64 / done.max(1) as f64;
+            let left = (total - done.min(total)) / done.max(1.0);
             stage.remark(&self.title, Some(stage.begun.elapsed().mul_f64(left)));
         });
     }
@@ -239,5 +287,11 @@ impl Progress for StageBar {
                 stage.remark(&self.title, Some(left));
             }
         });
+    }
+}
+
+impl Drop for StageBar {
+    fn drop(&mut self) {
+        self.with(|stage| stage.bar.finish_and_clear());
     }
 }

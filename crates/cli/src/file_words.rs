@@ -3,12 +3,21 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use gearmesh_contact::LocalContact;
 use gearmesh_geometry::Flank;
+use gearmesh_operations::mesh_file::LengthUnit;
 
 /// `right` and `left`.
 pub fn flank_words() -> impl TypedValueParser<Value = Flank> {
     words(&Flank::ALL, Flank::name, |flank| match flank {
         Flank::Right => "Faces clockwise",
         Flank::Left => "Faces counter-clockwise",
+    })
+}
+
+/// `m` and `mm`.
+pub fn length_words() -> impl TypedValueParser<Value = LengthUnit> {
+    words(&LengthUnit::ALL, LengthUnit::name, |unit| match unit {
+        LengthUnit::M => "Metres",
+        LengthUnit::Mm => "Millimetres",
     })
 }
 

@@ -1,16 +1,13 @@
 //! Ctrl-C: output files stay whole, scratch files go, exit code 130.
 
 use crate::console;
-use crate::failure::Failure;
 use gearmesh_model::wait_for_writes;
-use std::path::{Path, PathBuf};
+use gearmesh_operations::{Failure, Scratch};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What an interrupted program leaves behind in a shell's eyes: 128 + SIGINT.
-pub const EXIT_CODE: i32 = 130;
-
-static SCRATCH: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+pub const EXIT_CODE: u8 = 130;
 
 /// Asked by the first Ctrl-C, while some work stops by itself.
 static DEMAND: Mutex<Option<Arc<AtomicBool>>> = Mutex::new(None);
@@ -48,42 +45,9 @@ pub fn install() -> Result<(), Failure> {
         }
         // A file that is being written is finished and renamed first; the next one cannot begin.
         let _held = wait_for_writes();
-        let scratch = SCRATCH.lock().unwrap_or_else(PoisonError::into_inner);
-        scratch.iter().for_each(|path| remove(path));
+        Scratch::remove_all();
         console::error("interrupted; what had been written before is whole, the rest is not there");
-        std::process::exit(EXIT_CODE);
+        std::process::exit(i32::from(EXIT_CODE));
     })
     .map_err(Failure::work)
-}
-
-/// A file or folder that goes with this value, and on Ctrl-C.
-#[derive(Debug)]
-pub struct Scratch(PathBuf);
-
-impl Scratch {
-    /// Takes charge of a path, which need not exist yet.
-    pub fn new(path: PathBuf) -> Self {
-        let mut scratch = SCRATCH.lock().unwrap_or_else(PoisonError::into_inner);
-        scratch.push(path.clone());
-        Self(path)
-    }
-
-    /// The path.
-    pub fn path(&self) -> &Path {
-        &self.0
-    }
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        let mut scratch = SCRATCH.lock().unwrap_or_else(PoisonError::into_inner);
-        scratch.retain(|path| *path != self.0);
-        remove(&self.0);
-    }
-}
-
-/// Removes what is there; what is not there needs no removing.
-fn remove(path: &Path) {
-    let _ = std::fs::remove_file(path);
-    let _ = std::fs::remove_dir_all(path);
 }

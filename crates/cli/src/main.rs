@@ -4,27 +4,20 @@
 mod arguments;
 mod commands;
 mod console;
-mod failure;
 mod file_words;
 mod interrupt;
-mod length_unit;
-mod memory;
-mod offline;
-mod output_name;
 mod overwriting;
-mod page_file;
 mod progress_lines;
-mod stressed_gear;
-mod uff;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
+use gearmesh_operations::{Failure, Fault};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     gearmesh_fe::split_alike();
-    let sound = gearmesh_geometry::input::demand_threads().map_err(failure::Failure::from);
+    let sound = gearmesh_geometry::input::demand_threads().map_err(Failure::from);
     let sound = sound.and_then(|()| interrupt::install());
     let sound = sound.and_then(|()| overwriting::refuse(&arguments.command));
     let outcome = sound.and_then(|()| match &arguments.command {
@@ -60,7 +53,11 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             console::error(&failure.message);
-            failure.exit_code()
+            match failure.fault {
+                Fault::Work => ExitCode::from(1),
+                Fault::Input => ExitCode::from(2),
+                Fault::Stopped => ExitCode::from(interrupt::EXIT_CODE),
+            }
         }
     }
 }

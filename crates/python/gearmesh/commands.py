@@ -11,7 +11,8 @@ from typing import Any, Literal, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .program import options, program
+from .operations import operate
+from .program import program
 from .progress import Progress
 from .scene import Scene, scene_file
 from .toml_text import Tables, from_toml
@@ -34,17 +35,14 @@ def accuracy(
     too. time: what stands for cost. progress: see gearmesh.progress.Progress. Returns what `gearmesh accuracy --json`
     prints: the errors and seconds of each setting and what is advised for 1 %, 0.1 % and interactive work. Takes minutes.
     """
-    further = [] if page is None else ["-o", page]
-    if from_s:
-        further.append(f"--from-s={from_s!r}")
-    further += options({"elements": elements, "time": time})
+    given = {"columns": columns, "from_s": from_s, "elements": elements, "output": page}
     with scene_file(scene) as path:
-        return program("accuracy", path, "--columns", ",".join(columns), *further, progress=progress)
+        return operate("accuracy", progress, scene=path, by_processor_time=time == "processor", **given)
 
 
 def check(file: str | os.PathLike[str]) -> dict[str, Any]:
     """What a gear, bearing, bevel pair, scene, study, record, model or result is. Raises InputError for what is wrong."""
-    return program("check", file)
+    return operate("check", file=file)
 
 
 def doctor() -> dict[str, Any]:
@@ -70,7 +68,7 @@ def import_rexs(
     reduced: scenes with `hybrid` meshes of reduced gears. run: check the files and run the scenes at rest. Returns
     `warnings`, the figures `at_rest`, and what was taken, assumed and not represented, each with its weight.
     """
-    return program("import", model, "-o", folder, *options({"reduced": reduced, "no_run": not run}))
+    return operate("import", model=model, output=folder, reduced=reduced, no_run=not run)
 
 
 class Record:
@@ -84,7 +82,7 @@ class Record:
         self.path = Path(folder)
         text = (self.path / "record.toml").read_text(encoding="utf-8")
         self.tables: Tables = from_toml(text, str(self.path / "record.toml"))
-        program("check", self.path)
+        operate("check", file=self.path)
         self.title, self.kind = str(self.tables.get("title", "")), str(self.tables.get("kind", ""))
         with open(self.path / "data.csv", newline="", encoding="utf-8") as file:
             rows = list(csv.reader(line for line in file if line.strip() and not line.startswith("#")))
@@ -108,11 +106,11 @@ class Record:
 
 
 def compliance(model: str | os.PathLike[str], **given: Any) -> dict[str, Any]:
-    """Deflection of a tooth of a reduced gear under a line load; options of `gearmesh compliance` with underscores.
+    """Deflection of a tooth of a reduced gear under a line load; arguments of `gearmesh compliance` with underscores.
 
     compliance(model, tooth=0, radius_mm=[73.5, 75], line_load_N_per_mm=100, half_width_mm=0.1)
     """
-    return program("compliance", model, *options(given))
+    return operate("compliance", model=model, **given)
 
 
 def natural_frequencies(
@@ -129,7 +127,7 @@ def natural_frequencies(
     """
     given = {"count": count, "up_to_Hz": up_to_Hz, "shapes": shapes}
     with tempfile.TemporaryDirectory() as folder:
-        return program("modes", gear_file(gear, folder), *options(given), progress=progress)
+        return operate("modes", progress, gear=gear_file(gear, folder), **given)
 
 
 def mesh(
@@ -137,7 +135,7 @@ def mesh(
 ) -> dict[str, Any]:
     """Writes the finite element mesh of a gear (a Gear, or its file); the ending of path names the format."""
     with tempfile.TemporaryDirectory() as folder:
-        return program("mesh", gear_file(gear, folder), "-o", path, "--length-unit", length_unit, progress=progress)
+        return operate("mesh", progress, gear=gear_file(gear, folder), output=path, length_unit=length_unit)
 
 
 def gear_file(gear: Any, folder: str) -> Path:

@@ -7,8 +7,8 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .operations import operate
 from .optional import demanded
-from .program import program
 from .progress import Progress
 from .study import written
 from .toml_text import Tables
@@ -75,8 +75,8 @@ def optimise(
     """Seeks the relief, crowning or other keys that make the objectives of a pair least (docs/reference/optimise.md).
 
     source: the file, or its tables with a Scene or the path of one under "scene". progress: see
-    gearmesh.progress.Progress. Computed by the program: raises InputError, WorkError with its messages; KeyboardInterrupt on Ctrl-C, when folder has what was tried until then.
+    gearmesh.progress.Progress. Raises InputError, WorkError; KeyboardInterrupt on Ctrl-C, when folder has what was tried until then.
     """
     with tempfile.TemporaryDirectory(prefix="gearmesh-optimise-") as beside:
         path = written(source, Path(beside), "optimise.toml") if isinstance(source, dict) else Path(source)
-        return Optimum(program("optimise", path, "-o", folder, progress=progress), Path(folder))
+        return Optimum(operate("optimise", progress, file=path, output=folder), Path(folder))

@@ -12,7 +12,7 @@ from typing import Any
 from . import _native
 from .gear import Gear
 from .progress import Bar, Progress
-from .toml_text import Tables
+from .toml_text import Tables, from_toml
 
 
 class ReducedGear:
@@ -71,32 +71,33 @@ def reduce(
     *,
     error_estimate: bool = True,
     again: bool = False,
+    even_if_memory_is_short: bool = False,
     progress: Progress = None,
 ) -> ReducedGear:
     """Meshes a gear and condenses it to the compliance of its flanks; seconds to minutes.
 
-    gear: a Gear, a gear file or its tables. path: the model file; without it the file lies in the cache
+    gear: a Gear, a gear file or its tables; of a bevel gear its file. path: the model file; without it the file lies in the cache
     (GEARMESH_CACHE, else ~/.cache/gearmesh) under a digest of the gear file's text and the program's version; a gear
     that is there already is not reduced again unless again is true. error_estimate: also solve on a coarser mesh, for
-    the mesh error of compliance and gauges.
+    the mesh error of compliance and gauges. even_if_memory_is_short: begin where the estimate of the memory exceeds what is free.
 
-    Raises InputError, WorkError, MemoryError, OSError; Ctrl-C ends the wait, and no model is written.
+    Raises InputError, WorkError, MemoryError, OSError; KeyboardInterrupt on Ctrl-C, and no model is written.
     """
     if isinstance(gear, dict):
         gear = Gear(**gear)
-    elif not isinstance(gear, Gear):
-        gear = Gear.from_file(gear)
-    meshed_elsewhere = gear.tables["blank"]["kind"] == "mesh"
+    if isinstance(gear, Gear):
+        text, file = gear.toml, gear.file
+    else:
+        text, file = Path(gear).read_text(encoding="utf-8"), str(gear)
     if path is None:
-        if meshed_elsewhere:
-            problem = 'path: blank.kind = "mesh" reads another file; name the model that is made of it'
-            raise _native.InputError(problem)
-        path = _cache() / f"{_digest(gear, error_estimate)}.h5"
+        if others := _native.files_of(text, Path(file).parent):
+            raise _native.InputError(f"path: the gear reads another file, {others[0][0]}; name the model that is made of it")
+        path = _cache() / f"{_digest(text, error_estimate)}.h5"
         if path.exists() and not again:
             return ReducedGear(path)
         path.parent.mkdir(parents=True, exist_ok=True)
-    with Bar(progress, gear.name) as bar:
-        _native.reduce(gear.toml, gear.file, Path(path), interpreter(), error_estimate, bar.call)
+    with Bar(progress, str(from_toml(text, file).get("name", file))) as bar:
+        _native.reduce(text, file, Path(path), interpreter(), error_estimate, bar.call, even_if_memory_is_short)
     return ReducedGear(path)
 
 
@@ -106,8 +107,8 @@ def _cache() -> Path:
     return Path(named) if named else Path.home() / ".cache" / "gearmesh"
 
 
-def _digest(gear: Gear, error_estimate: bool) -> str:
-    text = "\0".join([gear.toml, _native.__version__, str(error_estimate)])
+def _digest(gear: str, error_estimate: bool) -> str:
+    text = "\0".join([gear, _native.__version__, str(error_estimate)])
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 

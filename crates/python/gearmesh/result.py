@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from .operations import operate
 from .optional import demanded
 from .program import options, program
 
@@ -219,7 +220,7 @@ class Result:
         Further options of `gearmesh report` with underscores: report("page.html", stress=True) adds the stress of the gears.
         """
         with tempfile.TemporaryDirectory() as folder:
-            program("report", self._file(folder), "-o", path, *options(given))
+            operate("report", results=self._file(folder), output=path, **given)
 
     def export(self, path: str | os.PathLike[str], table: str | None = None, **given: Any) -> None:
         """Writes a table for other programs; the ending chooses the format: .csv, .parquet, .mat, .uff; .pvd writes gears that move.
@@ -227,7 +228,7 @@ class Result:
         Further options of `gearmesh export` with underscores: export("drive.pvd", stress=True, moments=50).
         """
         with tempfile.TemporaryDirectory() as folder:
-            program("export", self._file(folder), "-o", path, *([] if table is None else ["--table", table]), *options(given))
+            operate("export", result=self._file(folder), output=path, table=table, **given)
 
     def recover(self, path: str | os.PathLike[str], **given: Any) -> dict[str, Any]:
         """Writes the strain of all gauges to a file; options of `gearmesh recover` with underscores.
@@ -235,7 +236,7 @@ class Result:
         recover("strain.h5", field_gear=1, field_angle_deg=0, field_output="field.vtu") also writes a whole stress field.
         """
         with tempfile.TemporaryDirectory() as folder:
-            return program("recover", self._file(folder), "-o", path, *options(given))
+            return operate("recover", result=self._file(folder), output=path, **given)
 
     def signal(self, analysis: str, column: str | None = None, **given: Any) -> dict[str, Any]:
         """What `gearmesh signal` finds in a column of a run in time; options with underscores.
@@ -297,5 +298,4 @@ def compare(result: Result | str | os.PathLike[str], record: str | os.PathLike[s
     """
     with tempfile.TemporaryDirectory() as folder:
         path = result._file(folder) if isinstance(result, Result) else result
-        columns = [f"--column={head}={name}" for head, name in dict(given.pop("column", {})).items()]
-        return program("compare", path, record, *columns, *options(given))
+        return operate("compare", result=path, reference=record, **given)

@@ -16,7 +16,7 @@ Tables = dict[str, Any]
 
 def to_toml(tables: Tables) -> str:
     """TOML text of nested dicts, lists, numbers, texts and truth values; None leaves a key out."""
-    return _native.toml_from_json(json.dumps(_plain(tables)))
+    return _native.toml_from_json(json.dumps(plain(tables)))
 
 
 def from_toml(text: str, file: str) -> Tables:
@@ -24,17 +24,17 @@ def from_toml(text: str, file: str) -> Tables:
     return json.loads(_native.json_from_toml(text, file))
 
 
-def _plain(value: Any, path: str = "") -> Any:
+def plain(value: Any, path: str = "") -> Any:
     """What JSON knows: paths become texts, NumPy's numbers and arrays Python's. InputError for numbers that are not finite."""
     if isinstance(value, dict):
         below = {str(key): item for key, item in value.items() if item is not None}
-        return {key: _plain(item, f"{path}.{key}" if path else key) for key, item in below.items()}
+        return {key: plain(item, f"{path}.{key}" if path else key) for key, item in below.items()}
     if isinstance(value, os.PathLike):
         return str(Path(value).absolute())
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, (list, tuple)):
-        return [_plain(item, f"{path}.{place}") for place, item in enumerate(value)]
+        return [plain(item, f"{path}.{place}") for place, item in enumerate(value)]
     if isinstance(value, float) and not math.isfinite(value):
         raise _native.InputError(f"{path}: found {value}, allowed is a finite number")
     return value

@@ -5,11 +5,10 @@ use std::io::ErrorKind;
 use gearmesh_fe::FeError;
 use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_model::FileError;
-use gearmesh_reduction::ReductionError;
-use gearmesh_scene::RunError;
-use gearmesh_scene::system_run::SystemRunError;
+use gearmesh_operations::{Cause, Failure, Fault};
 use pyo3::exceptions::{
-    PyFileNotFoundError, PyMemoryError, PyOSError, PyRuntimeError, PyValueError,
+    PyFileNotFoundError, PyKeyboardInterrupt, PyMemoryError, PyOSError, PyRuntimeError,
+    PyValueError,
 };
 use pyo3::prelude::*;
 
@@ -62,36 +61,16 @@ pub(crate) fn fe_error(error: FeError) -> PyErr {
     }
 }
 
-/// Of a scene of a gear pair.
-pub(crate) fn run_error(error: RunError) -> PyErr {
-    match error {
-        RunError::Input(complaint) => input_error(complaint),
-        RunError::File(error) => file_error(error),
-        error => blamed(error.is_input(), &error),
-    }
-}
-
-/// Of a multibody scene.
-pub(crate) fn system_error(error: SystemRunError) -> PyErr {
-    match error {
-        SystemRunError::Input(complaint) => input_error(complaint),
-        SystemRunError::File(error) => file_error(error),
-        error => blamed(error.is_input(), &error),
-    }
-}
-
-/// Of the offline stage.
-pub(crate) fn reduction_error(error: ReductionError) -> PyErr {
-    match error {
-        ReductionError::Fe(error @ FeError::OutOfMemory { .. }) => fe_error(error),
-        error => blamed(error.is_input(), &error),
-    }
-}
-
-fn blamed(is_input: bool, error: &dyn std::fmt::Display) -> PyErr {
-    if is_input {
-        InputError::new_err(error.to_string())
-    } else {
-        WorkError::new_err(error.to_string())
+/// Of an operation.
+pub(crate) fn raised(failure: Failure) -> PyErr {
+    let message = failure.message;
+    match (failure.fault, failure.cause) {
+        (Fault::Stopped, _) => PyKeyboardInterrupt::new_err(message),
+        (_, Cause::Place(complaint)) => input_error(*complaint),
+        (_, Cause::NotFound) => PyFileNotFoundError::new_err(message),
+        (_, Cause::System) => PyOSError::new_err(message),
+        (_, Cause::Memory) => PyMemoryError::new_err(message),
+        (Fault::Input, Cause::Other) => InputError::new_err(message),
+        (Fault::Work, Cause::Other) => WorkError::new_err(message),
     }
 }

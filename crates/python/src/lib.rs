@@ -8,6 +8,7 @@
 //! | check texts of files, make them from Python's dicts | `check_gear`, `check_scene`, `toml_from_json`, `schema` |
 //! | mesh and reduce a gear | `reduce` |
 //! | run a scene, look into its result | `run`, `plan`, `open_result` |
+//! | do what a command of the program does | `operate`, by its name |
 //! | list the cases of a study, run one that was sent | `study_gears`, `study_cases`, `NativeCaseRunner` |
 //! | turn a mesh file into a format of other programs, and back | `export_mesh`, `import_mesh` |
 //! | read and write a mesh file with NumPy arrays | `read_mesh`, `write_mesh` |
@@ -25,6 +26,7 @@ mod functions;
 mod mesh_arrays;
 mod meshio_exchange;
 mod meshio_format;
+mod operating;
 mod pair_arrays;
 mod reduced;
 mod reducing;
@@ -50,6 +52,8 @@ mod native {
     use crate::mesh_arrays::{read_mesh, write_mesh};
     #[pymodule_export]
     use crate::meshio_exchange::{export_mesh, import_mesh};
+    #[pymodule_export]
+    use crate::operating::operate;
     #[pymodule_export]
     use crate::reduced::{_write_synthetic_reduced, read_reduced};
     #[pymodule_export]

@@ -2,24 +2,20 @@
 
 use std::path::PathBuf;
 
-use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::write_reduced_gear;
-use gearmesh_reduction::{ReductionOptions, read_body, reduce as reduce_gear, reduce_imported};
-use pyo3::exceptions::PyOSError;
+use gearmesh_operations::gear_file::GearFile;
+use gearmesh_operations::reduce::{Reduction, reduce_to};
 use pyo3::prelude::*;
 
-use crate::errors::{file_error, input_error, reduction_error};
 use crate::watched::{OnInterrupt, watched};
 
-/// Meshes and reduces the gear of a text and writes the model. interpreter is a Python with gmsh and meshio, which run
-/// in a process of their own. progress(stage, done, total) hears how far it is.
+/// Meshes and reduces the gear of a text, cylindrical or bevel, and writes the model. interpreter is a Python with gmsh
+/// and meshio, which run in a process of their own. progress(stage, done, total) hears how far it is.
 ///
-/// Raises InputError, WorkError, OSError. On Ctrl-C the call ends at once, the computation in the background; no model
-/// is written.
+/// Raises InputError, WorkError, OSError; KeyboardInterrupt on Ctrl-C, and no model is written.
 #[pyfunction]
-#[pyo3(signature = (text, file, output, interpreter, error_estimate, progress))]
+#[pyo3(signature = (text, file, output, interpreter, error_estimate, progress, even_if_memory_is_short = false))]
+#[allow(clippy::too_many_arguments)]
 pub(crate) fn reduce(
     py: Python<'_>,
     text: String,
@@ -28,28 +24,15 @@ pub(crate) fn reduce(
     interpreter: PathBuf,
     error_estimate: bool,
     progress: Option<Bound<'_, PyAny>>,
+    even_if_memory_is_short: bool,
 ) -> PyResult<()> {
-    watched(py, progress.as_ref(), OnInterrupt::Leave, move |watch| {
-        let document = InputDocument::new(file, text);
-        let gear = GearDefinition::from_document(&document).map_err(input_error)?;
-        let python = PythonEnvironment::at(interpreter);
-        let model = match gear.blank.meshed() {
-            Some(body) => {
-                let folder = tempfile::tempdir().map_err(PyOSError::new_err)?;
-                let mesh = read_body(body, &python, &folder.path().join("mesh.h5"));
-                mesh.and_then(|mesh| reduce_imported(&gear, body, mesh, watch))
-            }
-            None => {
-                let options = ReductionOptions {
-                    estimate_error: error_estimate,
-                };
-                reduce_gear(&gear, &python, options, watch).map(|(model, _)| model)
-            }
-        };
-        let model = model.map_err(reduction_error)?;
-        if watch.stop.load(std::sync::atomic::Ordering::Relaxed) {
-            return Ok(());
-        }
-        write_reduced_gear(&output, &model).map_err(file_error)
+    let how = Reduction {
+        estimate_error: error_estimate,
+        even_if_memory_is_short,
+    };
+    let (progress, python) = (progress.as_ref(), Some(interpreter));
+    watched(py, progress, OnInterrupt::Leave, python, move |watch| {
+        let gear = GearFile::of(&InputDocument::new(file, text), watch)?;
+        reduce_to(&gear, how, &output, watch).map(|_| ())
     })
 }

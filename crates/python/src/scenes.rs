@@ -5,20 +5,18 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
-use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_operations::Watch;
+use gearmesh_operations::plan::plan as plan_scene;
+use gearmesh_operations::run::{self as operations, RunHow};
+use gearmesh_scene::SceneFile;
 use gearmesh_scene::pair::Scene;
 use gearmesh_scene::study::RestCases;
-use gearmesh_scene::system::{HostFunctions, SystemPlan, SystemScene};
-use gearmesh_scene::system_run::{
-    Outcome, RunCost, RunJob, RunOptions, SystemResult, run as run_job,
-};
-use gearmesh_scene::{SceneFile, load, run as run_pair_scene};
-use pyo3::exceptions::PyKeyboardInterrupt;
+use gearmesh_scene::system::{HostFunctions, SystemScene};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::errors::{InputError, file_error, input_error, run_error, system_error};
+use crate::errors::{InputError, input_error, raised};
 use crate::functions::Functions;
 use crate::results::NativeResult;
 use crate::watched::{OnInterrupt, watched};
@@ -41,25 +39,11 @@ pub(crate) fn plan(
 ) -> PyResult<Vec<String>> {
     let functions = Functions::of(functions.as_ref())?;
     let host = functions.for_scene(String::new());
-    let lines = py.detach(
-        move || match with_functions(read(text, file, folder)?, host)? {
-            SceneFile::Pair(scene) => {
-                let loaded = load(*scene).map_err(run_error)?;
-                loaded
-                    .contact()
-                    .map_err(|error| InputError::new_err(error.to_string()))?;
-                Ok(loaded.plan().lines)
-            }
-            SceneFile::System(scene) => {
-                let loaded = scene.load().map_err(input_error)?;
-                RunJob::from_scene(loaded.clone()).map_err(system_error)?;
-                let built = loaded.build().map_err(input_error)?;
-                let plan = SystemPlan::new(&loaded.scene, built).map_err(input_error)?;
-                let cost = RunCost::timed(&loaded).map_err(input_error)?;
-                Ok(plan.with_cost(&loaded.scene, cost).lines)
-            }
-        },
-    );
+    let lines = py.detach(move || {
+        let scene = with_functions(read(text, file, folder)?, host)?;
+        let planned = plan_scene(scene, &Watch::unattended()).map_err(raised)?;
+        Ok(planned.lines)
+    });
     functions.judge(lines)
 }
 
@@ -89,16 +73,8 @@ pub(crate) fn run(
     let host = functions.for_scene(identity);
     let scene = py.detach(move || with_functions(read(text, file, folder)?, host))?;
     let outcome = match scene {
-        SceneFile::Pair(_) if restart => Err(InputError::new_err(
-            "restart: scenes of a gear pair are not resumed; leave it out",
-        )),
-        SceneFile::Pair(scene) => run_pair(py, *scene, output, progress.as_ref()),
-        SceneFile::System(scene) => {
-            let output = output.ok_or_else(|| {
-                InputError::new_err("output: the result of a multibody scene is a file; name it")
-            })?;
-            run_system(py, *scene, (output, restart), progress.as_ref())
-        }
+        SceneFile::Pair(scene) => run_pair(py, *scene, (output, restart), progress.as_ref()),
+        SceneFile::System(scene) => run_system(py, *scene, (output, restart), progress.as_ref()),
     };
     let (result, notes) = functions.judge(outcome)?;
     Ok((result, notes, functions.cost()))
@@ -118,23 +94,28 @@ fn with_functions(scene: SceneFile, host: HostFunctions) -> PyResult<SceneFile> 
     }
 }
 
+/// How a scene is run from here.
+fn how((output, restart): &(Option<PathBuf>, bool)) -> RunHow<'_> {
+    RunHow {
+        output: output.as_deref(),
+        restart: *restart,
+        most_result_gb: None,
+        checkpoint_interval: CHECKPOINTS,
+    }
+}
+
 fn run_pair(
     py: Python<'_>,
     scene: Scene,
-    output: Option<PathBuf>,
+    place: (Option<PathBuf>, bool),
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(NativeResult, Vec<String>)> {
-    let (result, notes) = watched(py, progress, OnInterrupt::Leave, move |watch| {
-        let loaded = shelved_models(&scene).load(&scene).map_err(run_error)?;
-        let notes = notes(&loaded.scene.notes, &loaded.unit_slips());
-        let told = |done: usize, total: usize| {
-            watch.advance("torques", done as f64, total as f64);
-        };
-        let result = run_pair_scene(&loaded, &told).map_err(run_error)?;
-        if let Some(output) = output {
-            result.write(&output).map_err(file_error)?;
-        }
-        Ok((result, notes))
+    let (result, notes) = watched(py, progress, OnInterrupt::Leave, None, move |watch| {
+        let loaded = shelved_models(&scene).load(&scene)?;
+        let slips = loaded.unit_slips();
+        let slips = slips.iter().map(ToString::to_string);
+        let notes = loaded.scene.notes.iter().cloned().chain(slips).collect();
+        Ok((operations::run_pair(&loaded, &how(&place), watch)?, notes))
     })?;
     Ok((NativeResult::of_pair(py, result)?, notes))
 }
@@ -179,37 +160,18 @@ fn shelved_models(scene: &Scene) -> Arc<RestCases> {
 fn run_system(
     py: Python<'_>,
     scene: SystemScene,
-    (output, restart): (PathBuf, bool),
+    place: (Option<PathBuf>, bool),
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(NativeResult, Vec<String>)> {
-    watched(py, progress, OnInterrupt::Wait, move |watch| {
-        let loaded = scene.load().map_err(input_error)?;
+    watched(py, progress, OnInterrupt::Wait, None, move |watch| {
+        let loaded = scene.load()?;
         let mut notes = loaded.scene.notes.clone();
-        let job = RunJob::from_scene(loaded).map_err(system_error)?;
-        notes.extend(job.head.notes.iter().cloned());
-        let stage = job.kind.of_result().to_string();
-        let options = RunOptions {
-            output: &output,
-            restart,
-            checkpoint_interval: CHECKPOINTS,
-            stop: &watch.stop,
-            progress: &|advance| watch.advance(&stage, advance.done, advance.total),
-        };
-        match run_job(job, &options).map_err(system_error)? {
-            Outcome::Finished => {
-                let result = SystemResult::open(&output).map_err(file_error)?;
-                Ok((NativeResult::of_system(result), notes))
-            }
-            Outcome::Stopped => Err(PyKeyboardInterrupt::new_err("")),
-        }
+        let result = operations::run_system(loaded, &how(&place), watch)?;
+        notes.extend(result.head.notes.iter().cloned());
+        Ok((NativeResult::of_system(result), notes))
     })
 }
 
 fn read(text: String, file: String, folder: PathBuf) -> PyResult<SceneFile> {
     SceneFile::from_document(InputDocument::new(file, text), &folder).map_err(input_error)
-}
-
-fn notes(of_scene: &[String], slips: &[InputComplaint]) -> Vec<String> {
-    let slips = slips.iter().map(ToString::to_string);
-    of_scene.iter().cloned().chain(slips).collect()
 }

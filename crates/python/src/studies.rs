@@ -1,46 +1,26 @@
 //! Studies whose cases other processes compute.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use gearmesh_geometry::GearDefinition;
-use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::ReducedGear;
 use gearmesh_model::write_text;
-use gearmesh_reduction::{ReductionOptions, read_body, reduce, reduce_imported};
+use gearmesh_operations::study::{gather, study as run_study};
+use gearmesh_operations::{Failure, Watch};
 use gearmesh_report::study_figures;
-use gearmesh_report::study_page::study_page;
-use gearmesh_scene::study::{
-    CaseResult, CaseRunner, MadeFile, SentCase, Study, StudyCases, StudyError, StudyOptions,
-    gather_study as gather, run_study,
-};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
+use gearmesh_scene::study::{CaseRunner, MadeFile, SentCase, Study, StudyCases, StudyError};
+use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 
-use crate::errors::{WorkError, file_error, input_error, run_error, system_error};
-use crate::watched::{OnInterrupt, Watch, watched};
+use crate::errors::{file_error, input_error, raised};
+use crate::watched::{OnInterrupt, watched};
 
-/// Of a study or of one of its cases.
 fn study_error(error: StudyError) -> PyErr {
-    match error {
-        StudyError::Input(complaint) => input_error(complaint),
-        StudyError::Run(error) => system_error(error),
-        StudyError::Pair(error) => run_error(error),
-        StudyError::File(error) => file_error(error),
-        StudyError::Folder { .. } => PyOSError::new_err(error.to_string()),
-        StudyError::Stopped => PyKeyboardInterrupt::new_err(""),
-        StudyError::Bevel(_)
-        | StudyError::BevelLoad(_)
-        | StudyError::Bearing(_)
-        | StudyError::Column(_)
-        | StudyError::Reduction { .. }
-        | StudyError::Elsewhere(_) => WorkError::new_err(error.to_string()),
-    }
+    raised(error.into())
 }
 
 /// Runs a study into a folder, as many cases at a time as there are processors: what `gearmesh study --json` prints.
-/// interpreter is a Python with gmsh, for gears that have to be reduced. progress("cases", done, count) hears how far
+/// interpreter is a Python with gmsh, for gears that have to be reduced. progress("study", done, count) hears how far
 /// it is.
 ///
 /// Raises InputError before the first case, OSError; KeyboardInterrupt after the cases at hand.
@@ -53,50 +33,12 @@ pub(crate) fn study(
     interpreter: PathBuf,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    watched(py, progress.as_ref(), OnInterrupt::Wait, move |watch| {
-        let study = Study::read(&path).map_err(input_error)?;
-        let python = PythonEnvironment::at(interpreter);
-        let options = StudyOptions {
-            folder: &folder,
-            stop: &watch.stop,
-            progress: &|done, count| watch.advance("cases", done as f64, count as f64),
-            reduce: &|gear| reduced(gear, &python, watch),
-        };
-        let outcome = run_study(&study, &options).map_err(study_error)?;
-        if outcome.stopped {
-            return Err(PyKeyboardInterrupt::new_err(""));
-        }
-        told(&study, &outcome.cases, &folder)
+    let (progress, python) = (progress.as_ref(), Some(interpreter));
+    watched(py, progress, OnInterrupt::Wait, python, move |watch| {
+        let study = Study::read(&path)?;
+        let outcome = run_study(&study, &folder, watch)?;
+        Ok(study_figures(&study, &outcome.cases).to_string())
     })
-}
-
-/// What `gearmesh study --json` prints; the page study.html is written beside the results.
-fn told(study: &Study, cases: &[CaseResult], folder: &Path) -> PyResult<String> {
-    let page = study_page(study, cases).render();
-    let page = page.map_err(|error| WorkError::new_err(error.to_string()))?;
-    write_text(&folder.join("study.html"), &page).map_err(file_error)?;
-    Ok(study_figures(study, cases).to_string())
-}
-
-fn reduced(
-    gear: &GearDefinition,
-    python: &PythonEnvironment,
-    watch: &Watch,
-) -> Result<ReducedGear, String> {
-    let outcome = match gear.blank.meshed() {
-        Some(body) => {
-            let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
-            let mesh = read_body(body, python, &folder.path().join("mesh.h5"));
-            mesh.and_then(|mesh| reduce_imported(gear, body, mesh, watch))
-        }
-        None => {
-            let options = ReductionOptions {
-                estimate_error: true,
-            };
-            reduce(gear, python, options, watch).map(|(model, _)| model)
-        }
-    };
-    outcome.map_err(|error| error.to_string())
 }
 
 /// The same of what lies in a folder already; nothing is computed. failures: why cases have failed, by the names of
@@ -110,8 +52,8 @@ pub(crate) fn gather_study(
 ) -> PyResult<String> {
     py.detach(|| {
         let study = Study::read(&path).map_err(input_error)?;
-        let outcome = gather(&study, &folder, &failures).map_err(study_error)?;
-        told(&study, &outcome.cases, &folder)
+        let outcome = gather(&study, &folder, &failures, &Watch::unattended()).map_err(raised)?;
+        Ok(study_figures(&study, &outcome.cases).to_string())
     })
 }
 
@@ -214,15 +156,13 @@ impl NativeCaseRunner {
         folder: PathBuf,
     ) -> PyResult<bool> {
         let runner = Arc::clone(&self.0);
-        watched(py, None, OnInterrupt::Wait, move |watch| {
+        watched(py, None, OnInterrupt::Wait, None, move |watch| {
             let case = sent(case);
             // The scheduler counts a case as one thread.
             let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-            let pool = pool.map_err(|error| WorkError::new_err(error.to_string()))?;
-            let computed = pool.install(|| runner.run(&case, &places, &folder, &watch.stop));
-            computed
-                .map_err(study_error)?
-                .ok_or_else(|| PyKeyboardInterrupt::new_err(""))
+            let pool = pool.map_err(Failure::work)?;
+            let computed = pool.install(|| runner.run(&case, &places, &folder, watch.stop));
+            computed?.ok_or_else(|| Failure::stopped(""))
         })
     }
 }

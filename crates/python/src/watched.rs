@@ -1,18 +1,22 @@
 //! Long work beside Python: the lock is released, Ctrl-C is heard, progress is passed on.
 
 use std::panic::AssertUnwindSafe;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use gearmesh_reduction::Progress;
+use gearmesh_operations::{Failure, Listener, Task, Watch};
 use pyo3::prelude::*;
 
-use crate::errors::WorkError;
+use crate::errors::{WorkError, raised};
 
 /// Wall time between two looks at Ctrl-C and at the progress.
 const LOOKS: Duration = Duration::from_millis(50);
+
+/// So long work that was told to stop is waited for.
+const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Where the work stands: name of the stage, done, of how much (zero: not known).
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -24,35 +28,50 @@ struct Stand {
 
 /// What the work and the thread that waits for it share.
 #[derive(Debug, Default)]
-pub(crate) struct Watch {
+struct Shared {
     /// Set by Ctrl-C.
-    pub(crate) stop: AtomicBool,
+    stop: AtomicBool,
     stand: Mutex<Stand>,
 }
 
-impl Watch {
-    /// Says how far the work is.
-    pub(crate) fn advance(&self, stage: &str, done: f64, total: f64) {
-        let mut stand = self.stand.lock().unwrap_or_else(PoisonError::into_inner);
-        stand.stage.clear();
-        stand.stage.push_str(stage);
-        (stand.done, stand.total) = (done, total);
-    }
-
-    fn now(&self) -> Stand {
-        let stand = self.stand.lock().unwrap_or_else(PoisonError::into_inner);
-        stand.clone()
+impl Shared {
+    fn with(&self, act: impl FnOnce(&mut Stand)) {
+        act(&mut self.stand.lock().unwrap_or_else(PoisonError::into_inner));
     }
 }
 
-impl Progress for Watch {
-    fn stage(&self, name: &str) {
-        self.advance(name, 0.0, 0.0);
+/// Notes and warnings are kept by results, where a user finds them.
+impl Listener for Shared {
+    fn begin(&self, title: &str) -> Box<dyn Task + '_> {
+        Box::new(Told {
+            shared: self,
+            stage: Mutex::new(title.to_owned()),
+        })
     }
 
-    fn advance(&self, done: usize, total: usize) {
-        let mut stand = self.stand.lock().unwrap_or_else(PoisonError::into_inner);
-        (stand.done, stand.total) = (done as f64, total as f64);
+    fn note(&self, _: &str) {}
+
+    fn warning(&self, _: &str) {}
+}
+
+/// A task, and the stage that it is at.
+struct Told<'a> {
+    shared: &'a Shared,
+    stage: Mutex<String>,
+}
+
+impl Task for Told<'_> {
+    fn stage(&self, name: &str) {
+        name.clone_into(&mut self.stage.lock().unwrap_or_else(PoisonError::into_inner));
+        self.advance(0.0, 0.0);
+    }
+
+    fn advance(&self, done: f64, total: f64) {
+        let stage = self.stage.lock().unwrap_or_else(PoisonError::into_inner);
+        self.shared.with(|stand| {
+            stand.stage.clone_from(&stage);
+            (stand.done, stand.total) = (done, total);
+        });
     }
 
     fn expect(&self, _seconds: f64) {}
@@ -61,14 +80,15 @@ impl Progress for Watch {
 /// What becomes of the work on Ctrl-C.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum OnInterrupt {
-    /// It looks at [`Watch::stop`] and ends by itself, soon; what it has stored is whole.
+    /// It ends by itself; what it stores, a checkpoint or the cases at hand, is whole then.
     Wait,
-    /// It has no place to stop: it ends in the background, and what it makes is dropped.
+    /// It may be where it cannot stop, in a factorisation or a mesher. After a moment it ends in the background: it looks at
+    /// the flag before it writes anything.
     Leave,
 }
 
 /// Runs `work` on a thread of its own. `progress(stage, done, total)` is called about every 50 ms where something has
-/// changed, on the thread that called.
+/// changed, on the thread that called. `python` makes meshes.
 ///
 /// # Errors
 /// What `work` returns; `KeyboardInterrupt`, or what `progress` has raised; `WorkError` where the work panicked.
@@ -76,18 +96,24 @@ pub(crate) fn watched<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
     on_interrupt: OnInterrupt,
-    work: impl FnOnce(&Watch) -> PyResult<T> + Send + 'static,
+    python: Option<PathBuf>,
+    work: impl FnOnce(&Watch<'_>) -> Result<T, Failure> + Send + 'static,
 ) -> PyResult<T> {
-    let watch = Arc::new(Watch::default());
+    let shared = Arc::new(Shared::default());
     let (sender, mut receiver) = channel();
-    let theirs = Arc::clone(&watch);
+    let theirs = Arc::clone(&shared);
     let thread = std::thread::spawn(move || {
-        let outcome = std::panic::catch_unwind(AssertUnwindSafe(|| work(&theirs)));
+        let watch = Watch {
+            listener: &*theirs,
+            stop: &theirs.stop,
+            python: python.as_deref(),
+        };
+        let outcome = std::panic::catch_unwind(AssertUnwindSafe(|| work(&watch)));
         // Nobody listens any more where the work was left to itself.
         let _ = sender.send(outcome);
     });
     let mut told = Stand::default();
-    let mut raised = None;
+    let mut interrupted: Option<(PyErr, Instant)> = None;
     let outcome = loop {
         let queue = &mut receiver;
         let found = py.detach(move || queue.recv_timeout(LOOKS));
@@ -96,10 +122,15 @@ pub(crate) fn watched<T: Send + 'static>(
             Err(RecvTimeoutError::Disconnected) => break None,
             Err(RecvTimeoutError::Timeout) => {}
         }
-        if raised.is_some() {
+        if let Some((error, when)) = interrupted.take() {
+            if on_interrupt == OnInterrupt::Leave && when.elapsed() > PATIENCE {
+                return Err(error);
+            }
+            interrupted = Some((error, when));
             continue;
         }
-        let now = watch.now();
+        let mut now = Stand::default();
+        shared.with(|stand| now.clone_from(stand));
         let mut heard = py.check_signals();
         if let (Ok(()), Some(progress), true) = (&heard, progress, now != told) {
             heard = progress
@@ -108,19 +139,16 @@ pub(crate) fn watched<T: Send + 'static>(
             told = now;
         }
         if let Err(error) = heard {
-            watch.stop.store(true, Ordering::Relaxed);
-            if on_interrupt == OnInterrupt::Leave {
-                return Err(error);
-            }
-            raised = Some(error);
+            shared.stop.store(true, Ordering::Relaxed);
+            interrupted = Some((error, Instant::now()));
         }
     };
     let _ = py.detach(|| thread.join());
-    if let Some(error) = raised {
+    if let Some((error, _)) = interrupted {
         return Err(error);
     }
     match outcome {
-        Some(Ok(outcome)) => outcome,
+        Some(Ok(outcome)) => outcome.map_err(raised),
         _ => Err(WorkError::new_err(
             "the computation ended by a fault of the program; the message above says where",
         )),

@@ -1,10 +1,10 @@
 //! Arguments of the commands that mesh and reduce a gear, and of the deflections of a reduced one.
 
-use crate::file_words::{flank_words, local_words};
-use crate::length_unit::LengthUnit;
+use crate::file_words::{flank_words, length_words, local_words};
 use clap::Args;
 use gearmesh_contact::LocalContact;
 use gearmesh_geometry::Flank;
+use gearmesh_operations::mesh_file::LengthUnit;
 use std::path::PathBuf;
 
 /// `gearmesh mesh`.
@@ -17,7 +17,7 @@ pub struct MeshArguments {
     #[arg(short, long)]
     pub output: PathBuf,
     /// Unit of the coordinates in the file
-    #[arg(long, value_enum, default_value = "m")]
+    #[arg(long, value_parser = length_words(), default_value = "m")]
     pub length_unit: LengthUnit,
     /// Begin even if the memory estimate exceeds what is free
     #[arg(long)]

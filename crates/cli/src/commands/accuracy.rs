@@ -1,88 +1,37 @@
 //! `gearmesh accuracy`: what accuracy costs in time, for a scene of the user's own.
 
 use crate::arguments::{AccuracyArguments, TimeWord};
-use crate::console::{self, RunBar};
-use crate::failure::Failure;
-use crate::interrupt::{self, Scratch};
-use crate::offline;
-use crate::output_name;
-use crate::page_file;
-use gearmesh_report::accuracy_page::{accuracy_page, goal_in_words};
+use crate::{console, interrupt};
+use gearmesh_operations::accuracy::{AccuracyRequest, accuracy, demand_kept, figures};
+use gearmesh_operations::{Failure, Watch};
+use gearmesh_report::accuracy_page::goal_in_words;
 use gearmesh_report::short;
-use gearmesh_scene::accuracy::{
-    Accuracy, Advice, Bench, BenchOptions, EffectFound, Goal, JudgedTime, Tried, accuracy, words,
-};
-use gearmesh_scene::study::{Effort, StudyError, Wanted};
-use serde_json::{Value, json};
-
-/// Short runs are repeated for so long \[s\].
-const REPEATED_FOR_S: f64 = 0.2;
+use gearmesh_scene::accuracy::{Accuracy, Advice, EffectFound, JudgedTime, words};
+use gearmesh_scene::study::Effort;
 
 /// Runs the command.
-pub fn run(arguments: &AccuracyArguments) -> Result<(), Failure> {
-    if let Some(path) = &arguments.output {
-        output_name::demand_page(path)?;
-    }
-    let scratch = Scratch::new(tempfile::tempdir().map_err(Failure::work)?.keep());
+pub fn run(a: &AccuracyArguments) -> Result<(), Failure> {
     let stop = interrupt::on_demand();
-    let models = match &arguments.elements {
-        Some(folder) => folder.clone(),
-        None => scratch.path().to_owned(),
-    };
-    let options = BenchOptions {
-        wanted: arguments.columns.iter().map(|c| Wanted::of(c)).collect(),
-        from_s: arguments.from_s,
-        time: match arguments.time {
-            TimeWord::Wall => JudgedTime::Wall,
-            TimeWord::Processor => JudgedTime::Processor,
-        },
-        repeated_for_s: REPEATED_FOR_S,
-        elements: arguments.elements.is_some(),
-        scratch: scratch.path(),
-        models: &models,
+    let watch = Watch {
         stop: &stop.asked,
-        reduce: &offline::reduced_for_study,
+        ..console::watch()
     };
-    let bench = Bench::new(&arguments.scene, options)?;
-    let bar = RunBar::new("settings");
-    let found = accuracy(&bench, &|done, count| {
-        bar.advance(done as f64, count as f64)
-    });
-    bar.finish();
-    let found = match found {
-        Err(StudyError::Stopped) => {
-            console::error("interrupted; nothing is written");
-            drop(scratch);
-            std::process::exit(interrupt::EXIT_CODE);
-        }
-        found => found?,
+    let request = AccuracyRequest {
+        scene: a.scene.clone(),
+        columns: a.columns.clone(),
+        from_s: a.from_s,
+        by_processor_time: matches!(a.time, TimeWord::Processor),
+        elements: a.elements.clone(),
+        output: a.output.clone(),
     };
+    let found = accuracy(&request, &watch)?;
     drop(stop);
-    if let Some(path) = &arguments.output {
-        let scene = arguments.scene.display().to_string();
-        page_file::write(&accuracy_page(&scene, &found), path)?;
-    }
-    if arguments.json {
+    if a.json {
         console::json(&figures(&found));
     } else {
         table(&found).into_iter().for_each(console::data);
     }
     demand_kept(&found)
-}
-
-/// What was advised was run once more: it must keep its word.
-fn demand_kept(found: &Accuracy) -> Result<(), Failure> {
-    for Advice { goal, tried, .. } in &found.advice {
-        if let Goal::Within(most) = goal
-            && tried.error() > *most
-        {
-            let (error, most) = (short(100.0 * tried.error()), 100.0 * most);
-            return Err(Failure::work(format!(
-                "the setting for {most} %, run once more, has an error of {error} %"
-            )));
-        }
-    }
-    Ok(())
 }
 
 fn percent(error: f64) -> String {
@@ -201,42 +150,4 @@ fn count(number: f64) -> String {
     } else {
         format!("{number}")
     }
-}
-
-fn figures(found: &Accuracy) -> Value {
-    let by_column = |errors: &[f64]| {
-        let errors = found.columns.iter().zip(errors);
-        errors
-            .map(|(c, e)| (c.clone(), json!(e)))
-            .collect::<serde_json::Map<_, _>>()
-    };
-    let effort = |effort: &Effort| {
-        json!({
-            "wall_s": effort.wall_s, "cpu_s": effort.cpu_s, "states": effort.states,
-            "calls": effort.calls, "iterations": effort.iterations,
-        })
-    };
-    let setting = |one: &Tried| {
-        let mut value = effort(&one.effort);
-        value["setting"] = json!(words(&found.knobs, &one.rungs));
-        value["one_knob_alone"] = json!(one.alone.is_some());
-        value["errors"] = json!(by_column(&one.errors));
-        value["reduction_s"] = json!(one.reduction_s);
-        value
-    };
-    let effect = |one: &EffectFound| {
-        json!({
-            "effect": one.effect.name, "in_scene": one.effect.present, "changes": by_column(&one.changes),
-            "with": effort(&one.with), "without": effort(&one.without),
-        })
-    };
-    let advice = |one: &Advice| json!({"goal": goal_in_words(one.goal), "toml": one.toml, "run_again": setting(&one.tried)});
-    json!({
-        "tried": found.tried.iter().map(setting).collect::<Vec<_>>(),
-        "advice": found.advice.iter().map(advice).collect::<Vec<_>>(),
-        "effects": found.effects.iter().map(effect).collect::<Vec<_>>(),
-        "judged_by": found.time.words(),
-        "last_step_of_reference": found.unsettled().map(|(knob, error)| json!({"knob": knob.name, "change": error})),
-        "not_varied": found.left_out, "failed": found.failed,
-    })
 }

@@ -3,8 +3,6 @@
 use super::{bearing_clearance, bearing_friction, bearing_page};
 use crate::arguments::{BearingArguments, ControlWord};
 use crate::console;
-use crate::failure::Failure;
-use crate::output_name;
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingGeometry;
 use gearmesh_bearings::life::Lubrication;
@@ -15,13 +13,14 @@ use gearmesh_bearings::{
     BearingError, BearingWarning, Control, ElementLoad, FrictionTorque, Life, Operation,
     QuasiStaticBearing, Ratings, RingLoad, RingPose, StaticSafety,
 };
+use gearmesh_operations::{Failure, output_name};
 use serde_json::{Value, json};
 use std::path::Path;
 
 /// Reads a bearing file and tells its notes.
 pub fn read(path: &Path) -> Result<BearingFromFile, Failure> {
     let found = BearingFromFile::read(path)?;
-    console::unit_slips(found.unit_slips.clone());
+    found.unit_slips.iter().for_each(console::warning);
     found.notes.iter().for_each(console::note);
     found.warnings.iter().for_each(console::warning);
     Ok(found)

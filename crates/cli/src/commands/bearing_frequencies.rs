@@ -3,7 +3,7 @@
 use crate::arguments::BearingFrequenciesArguments;
 use crate::commands::bearing;
 use crate::console;
-use crate::failure::Failure;
+use gearmesh_operations::Failure;
 use serde_json::json;
 
 /// Runs the command.

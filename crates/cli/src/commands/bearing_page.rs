@@ -3,9 +3,10 @@
 use super::bearing::Answer;
 use super::{bearing_clearance, bearing_friction};
 use crate::arguments::BearingArguments;
-use crate::failure::Failure;
-use crate::page_file;
+use crate::console;
 use gearmesh_bearings::ElementLoad;
+use gearmesh_operations::Failure;
+use gearmesh_operations::page_file;
 use gearmesh_report::page::{
     Align, Axis, KeyFigures, LineChart, LineSeries, Page, PolarChart, Section, Table, Text,
 };
@@ -17,7 +18,7 @@ use std::path::Path;
 /// # Errors
 /// [`Failure`] where the page cannot be made or the file not be written.
 pub fn write(answer: &Answer<'_>, a: &BearingArguments, path: &Path) -> Result<(), Failure> {
-    page_file::write(&page(answer, a), path)
+    page_file::write(&page(answer, a), path, &console::watch())
 }
 
 fn page(answer: &Answer<'_>, a: &BearingArguments) -> Page {

@@ -2,9 +2,9 @@
 
 use crate::arguments::{Arguments, CompletionsArguments, ManArguments};
 use crate::console;
-use crate::failure::Failure;
 use clap::CommandFactory;
 use gearmesh_model::write_bytes;
+use gearmesh_operations::Failure;
 
 /// Runs `gearmesh completions`.
 pub fn completions(a: &CompletionsArguments) -> Result<(), Failure> {

@@ -1,14 +1,13 @@
 //! `gearmesh demo`: gear pairs A and B (seed 004 in docs/sources.md) from definition to report.
 
 use crate::arguments::DemoArguments;
-use crate::commands::report::write_page;
-use crate::commands::report_stress::CROSS_SECTION;
-use crate::commands::stress_picture::picture;
 use crate::console;
-use crate::failure::Failure;
-use crate::offline::{self, FieldCase};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_model::write_reduced_gear;
+use gearmesh_operations::Failure;
+use gearmesh_operations::cross_section::{CROSS_SECTION, FieldCase, picture};
+use gearmesh_operations::reduce::{reduced, summary};
+use gearmesh_operations::report::write_page;
 use gearmesh_reduction::GearBody;
 use gearmesh_report::page::{FieldPicture, Section, Text};
 use gearmesh_report::scene_comparison::compare_scene;
@@ -89,7 +88,8 @@ pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
             stress: Some(stress),
         });
     }
-    write_page(&chapters, &[], &out.join("report.html"))?;
+    let page = out.join("report.html");
+    write_page(&chapters, &[], &page, &console::watch())?;
     clock.lap("report".into());
     console::data("\ntime of each stage");
     for (name, seconds) in &clock.stages {
@@ -110,11 +110,9 @@ fn reduce_gear(
     clock: &mut Clock,
 ) -> Result<(GearDefinition, GearBody), Failure> {
     let gear = GearDefinition::read(&models.join(format!("{name}.toml")))?;
-    let (model, body) = offline::reduced(&gear, true)?;
+    let (model, body) = reduced(&gear, true, &console::watch())?;
     write_reduced_gear(&out.join(format!("{name}.h5")), &model).map_err(Failure::work)?;
-    super::reduce::summary(&model)
-        .into_iter()
-        .for_each(console::note);
+    summary(&model).into_iter().for_each(console::note);
     clock.lap(format!(
         "{name}: mesh and reduce {} degrees of freedom",
         model.provenance.dofs

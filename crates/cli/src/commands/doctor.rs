@@ -2,9 +2,9 @@
 
 use crate::arguments::DoctorArguments;
 use crate::console;
-use crate::failure::Failure;
-use crate::memory::free_bytes;
 use gearmesh_mesh::python::{PYTHON_VARIABLE, PythonEnvironment};
+use gearmesh_operations::Failure;
+use gearmesh_operations::memory::free_bytes;
 use serde_json::{Value, json};
 use std::process::{Command, Stdio};
 

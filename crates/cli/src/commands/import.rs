@@ -1,119 +1,37 @@
 //! `gearmesh import`: a gearbox from a REXS file.
 
 use crate::arguments::ImportArguments;
-use crate::commands::import_trial::{SceneRow, Trial};
 use crate::console;
-use crate::failure::Failure;
-use crate::overwriting::apart;
-use gearmesh_geometry::input::read_bytes;
-use gearmesh_model::write_folder;
+use gearmesh_operations::Failure;
+use gearmesh_operations::import::{ImportRequest, import, line};
+use gearmesh_operations::import_trial::{SceneRow, Trial};
 use gearmesh_report::{column_width, short};
-use gearmesh_rexs::container::MOST_MB;
-use gearmesh_rexs::{Entry, Import, Meshes, Running, Weight, import_to_run, model_file};
-use serde_json::{Value, json};
-use std::path::Path;
+use gearmesh_rexs::{Entry, Import, Meshes, Weight, model_file};
 
 /// Lines of one sort on the console; all are in the list.
 const MOST_LINES: usize = 20;
 
 /// Runs the command.
 pub fn run(a: &ImportArguments) -> Result<(), Failure> {
-    let shown = a.model.display();
-    let bytes = read_bytes(&a.model, MOST_MB << 20)
-        .map_err(|cause| Failure::input(format!("{shown}: {cause}")))?;
-    let stem = a.model.file_stem().unwrap_or_default().to_string_lossy();
-    let made = |bytes, with, running| {
-        import_to_run(bytes, &stem, with, running)
-            .map_err(|cause| Failure::input(format!("{shown}: {cause}")))
+    let request = ImportRequest {
+        model: a.model.clone(),
+        output: a.output.clone(),
+        reduced: a.reduced,
+        transient: a.transient,
+        no_run: a.no_run,
     };
-    let other = (a.reduced || a.transient).then(|| bytes.clone());
-    let with = if a.reduced {
-        Meshes::Hybrid
-    } else {
-        Meshes::Iso6336
-    };
-    let running = if a.transient {
-        Running::InTime
-    } else {
-        Running::AtRest
-    };
-    let found = made(bytes, with, running)?;
-    let list = (
-        "import.md".to_owned(),
-        found.ledger.page(
-            &format!(
-                "Import of {}",
-                a.model.file_name().unwrap_or_default().to_string_lossy()
-            ),
-            with,
-        ),
-    );
-    write(&found, &a.output, Some(list), &a.model)?;
-    let mut trial = Trial::default();
-    if !a.no_run {
-        trial.check(&found, &a.output, !a.reduced);
-        match other {
-            None => trial.run(&found, &a.output)?,
-            // The models of the gears are not there yet, motion takes its time: the loads are those of the same scene
-            // with springs, at rest.
-            Some(bytes) => {
-                let scratch = tempfile::tempdir().map_err(Failure::work)?;
-                let springs = made(bytes, Meshes::Iso6336, Running::AtRest)?;
-                write(&springs, scratch.path(), None, &a.model)?;
-                trial.run(&springs, scratch.path())?;
-            }
-        }
-    }
-    let alarms = alarms(&found, with, &trial);
-    told(&alarms, |text| console::warning(text));
-    if let Some((last, others)) = trial.refused.split_first() {
-        let words =
-            |(file, cause): &(String, Failure)| cause.clone().about(&a.output.join(file)).message;
-        told(&others.iter().map(words).collect::<Vec<_>>(), |text| {
-            console::error(text);
-        });
-        return Err(Failure {
-            fault: last.1.fault,
-            message: format!(
-                "{shown}: its files are written, {} cannot be used: {}",
-                match trial.refused.len() {
-                    1 => "but one of them".to_owned(),
-                    n => format!("but {n} of them"),
-                },
-                words(last)
-            ),
-        });
+    let found = import(&request, &console::watch())?;
+    told(&found.alarms, |text| console::warning(text));
+    if let Some((others, first)) = found.refusal(&request) {
+        told(&others, |text| console::error(text));
+        return Err(first);
     }
     if a.json {
-        console::json(&figures(&found, with, &alarms, &trial));
+        console::json(&found.figures());
     } else {
-        table(&found, with, &alarms, &trial, a);
+        table(&found.made, found.with, &found.alarms, &found.trial, a);
     }
     Ok(())
-}
-
-fn write(
-    made: &Import,
-    folder: &Path,
-    list: Option<(String, String)>,
-    model: &Path,
-) -> Result<(), Failure> {
-    let files = made.files.iter().map(|f| (f.name.clone(), f.text.clone()));
-    let files: Vec<(String, String)> = files.chain(list).collect();
-    for (name, _) in &files {
-        apart(&folder.join(name), &[model.to_owned()])?;
-    }
-    Ok(write_folder(folder, &files)?)
-}
-
-fn line(entry: &Entry) -> String {
-    format!("{}: {}", entry.subject, entry.text)
-}
-
-/// What makes the scenes another gearbox than that of the file.
-fn alarms(made: &Import, with: Meshes, trial: &Trial) -> Vec<String> {
-    let entries = made.ledger.of_weight(Weight::Warning, with).map(line);
-    entries.chain(trial.warnings.iter().cloned()).collect()
 }
 
 /// So many lines as a reader reads.
@@ -248,32 +166,4 @@ fn scene(row: &SceneRow, reduced: bool) {
         let k_h_beta = k_h_beta.map_or("-".to_owned(), |k| format!("{k:.4}"));
         print(name, &[short(*force), k_h_beta]);
     }
-}
-
-fn figures(made: &Import, with: Meshes, alarms: &[String], trial: &Trial) -> Value {
-    let list = |entries: &[Entry]| -> Value {
-        entries
-            .iter()
-            .map(|e| {
-                let weight = match e.about.weight(with) {
-                    Weight::Warning => "warning",
-                    Weight::Heavy => "more than 1 %",
-                    Weight::Light => "less than 1 %",
-                };
-                json!({ "subject": e.subject, "text": e.text, "weight": weight })
-            })
-            .collect()
-    };
-    json!({
-        "version": made.version,
-        "application": made.application,
-        "warnings": alarms,
-        "at_rest": trial.json(),
-        "files": made.files.iter().map(|f| &f.name).collect::<Vec<_>>(),
-        "scenes": made.scenes,
-        "gears": made.gears,
-        "taken": list(&made.ledger.taken),
-        "assumed": list(&made.ledger.assumed),
-        "not_represented": list(&made.ledger.not_represented),
-    })
 }

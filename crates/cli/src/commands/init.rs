@@ -2,8 +2,8 @@
 
 use crate::arguments::{InitArguments, InitKind};
 use crate::console;
-use crate::failure::Failure;
 use gearmesh_model::write_folder;
+use gearmesh_operations::Failure;
 use serde_json::json;
 
 const PINION: (&str, &str) = ("pinion.toml", include_str!("../../templates/pinion.toml"));

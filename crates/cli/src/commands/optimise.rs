@@ -1,66 +1,37 @@
 //! `gearmesh optimise`: keys of a scene that make its objectives least.
 
 use crate::arguments::OptimiseArguments;
-use crate::console::{self, RunBar};
-use crate::failure::Failure;
-use crate::interrupt::{self, Scratch};
-use crate::page_file;
-use gearmesh_model::{csv_cell, write_text};
-use gearmesh_report::optimise_page::optimise_page;
+use crate::{console, interrupt};
+use gearmesh_operations::optimise::{names, optimise};
+use gearmesh_operations::{Failure, Watch};
 use gearmesh_report::{column_width, short};
-use gearmesh_scene::optimise::{Optimisation, Optimum, Trial, optimise};
-use serde_json::{Value, json};
-use std::sync::{Mutex, PoisonError};
+use gearmesh_scene::optimise::{Optimisation, Optimum, Trial};
 
 /// Lines of a front beyond which the printed table leaves some out.
 const MOST_LINES: usize = 20;
 
 /// Runs the command.
-pub fn run(arguments: &OptimiseArguments) -> Result<(), Failure> {
-    let problem = Optimisation::read(&arguments.file)?;
-    let bar = Mutex::new(RunBar::new("search"));
-    let progress = |done: usize, count: usize| {
-        let bar = bar.lock().unwrap_or_else(PoisonError::into_inner);
-        bar.advance(done as f64, count as f64);
-    };
-    let scratch = Scratch::new(tempfile::tempdir().map_err(Failure::work)?.keep());
+pub fn run(a: &OptimiseArguments) -> Result<(), Failure> {
     let stop = interrupt::on_demand();
-    let found = optimise(&problem, scratch.path(), &stop.asked, &progress);
-    bar.lock().unwrap_or_else(PoisonError::into_inner).finish();
-    let found = found?;
-    let folder = &arguments.output;
-    std::fs::create_dir_all(folder).map_err(|cause| {
-        Failure::work(format!(
-            "cannot make the folder {}: {cause}",
-            folder.display()
-        ))
-    })?;
-    write_text(&folder.join("front.csv"), &csv(&problem, &found.front))?;
-    write_text(&folder.join("tried.csv"), &csv(&problem, &found.tried))?;
-    if !found.front.is_empty() {
-        let page = optimise_page(&problem, &found);
-        page_file::write(&page, &folder.join("optimise.html"))?;
-    }
-    if arguments.json {
-        console::json(&figures(&problem, &found));
-    } else {
-        table(&problem, &found).into_iter().for_each(console::data);
-    }
-    if found.stopped {
-        console::error("interrupted; the files have what was tried until then");
-        drop(scratch);
-        std::process::exit(interrupt::EXIT_CODE);
-    }
+    let watch = Watch {
+        stop: &stop.asked,
+        ..console::watch()
+    };
+    let found = optimise(&a.file, &a.output, &watch)?;
     drop(stop);
-    Ok(())
-}
-
-fn names(problem: &Optimisation) -> Vec<String> {
-    let tables = &problem.tables;
-    let variables = tables.variable.iter().map(|v| v.name.clone());
-    variables
-        .chain(tables.objective.iter().map(|o| o.name.clone()))
-        .collect()
+    if a.json {
+        console::json(&found.figures());
+    } else {
+        table(&found.problem, &found.optimum)
+            .into_iter()
+            .for_each(console::data);
+    }
+    match found.optimum.stopped {
+        true => Err(Failure::stopped(
+            "interrupted; the files have what was tried until then",
+        )),
+        false => Ok(()),
+    }
 }
 
 /// The front for people.
@@ -119,34 +90,4 @@ fn table(problem: &Optimisation, found: &Optimum) -> Vec<String> {
             .collect()));
     }
     lines
-}
-
-/// A line for each choice: variables, objectives.
-fn csv(problem: &Optimisation, trials: &[Trial]) -> String {
-    let names = names(problem);
-    let head: Vec<_> = names.iter().map(|name| csv_cell(name)).collect();
-    let line = |trial: &Trial| {
-        let numbers = trial.values.iter().chain(&trial.objectives);
-        numbers.map(f64::to_string).collect::<Vec<_>>().join(",") + "\n"
-    };
-    head.join(",") + "\n" + &trials.iter().map(line).collect::<String>()
-}
-
-/// The front for machines.
-fn figures(problem: &Optimisation, found: &Optimum) -> Value {
-    let tables = &problem.tables;
-    let trial = |trial: &Trial| {
-        let variables = tables.variable.iter().zip(&trial.values);
-        let objectives = tables.objective.iter().zip(&trial.objectives);
-        json!({
-            "variables": variables.map(|(v, x)| (v.name.clone(), json!(x))).collect::<serde_json::Map<_, _>>(),
-            "objectives": objectives.map(|(o, f)| (o.name.clone(), json!(f))).collect::<serde_json::Map<_, _>>(),
-        })
-    };
-    json!({
-        "title": tables.title,
-        "tried": found.tried.len(),
-        "as_it_is": found.before,
-        "front": found.front.iter().map(trial).collect::<Vec<_>>(),
-    })
 }

@@ -2,49 +2,17 @@
 
 use crate::arguments::PlanArguments;
 use crate::console;
-use crate::failure::Failure;
-use gearmesh_scene::system::SystemPlan;
-use gearmesh_scene::system_run::{ResultSize, RunCost, RunJob};
-use gearmesh_scene::{SceneFile, load};
-use serde_json::json;
+use gearmesh_operations::Failure;
+use gearmesh_operations::plan::plan;
+use gearmesh_scene::SceneFile;
 
 /// Runs the command.
-pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
-    let (lines, figures) = match SceneFile::read(&arguments.scene)? {
-        SceneFile::Pair(scene) => {
-            let loaded = load(*scene)?;
-            loaded.scene.notes.iter().for_each(console::note);
-            console::unit_slips(loaded.unit_slips());
-            loaded.contact().map_err(Failure::input)?;
-            let plan = loaded.plan();
-            let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns, "proposal": plan.proposal,
-                "result_bytes": loaded.result_bytes()});
-            (plan.lines, figures)
-        }
-        SceneFile::System(scene) => {
-            let loaded = scene.load()?;
-            loaded.scene.notes.iter().for_each(console::note);
-            console::unit_slips(loaded.unit_slips());
-            // What the run would refuse is refused here.
-            let size = ResultSize::of(&RunJob::from_scene(loaded.clone())?);
-            let plan = SystemPlan::new(&loaded.scene, loaded.build()?)?
-                .with_result(size)
-                .with_cost(&loaded.scene, RunCost::timed(&loaded)?);
-            let stages: serde_json::Map<String, serde_json::Value> = (plan.stages.iter())
-                .map(|(mesh, stage)| (mesh.clone(), json!(stage)))
-                .collect();
-            let figures = json!({
-                "lines": plan.lines, "stages": stages, "degrees_of_freedom": plan.degrees_of_freedom, "equations": plan.equations,
-                "mobility": plan.mobility, "highest_frequency_Hz": plan.highest_frequency_hz, "steps": plan.steps,
-                "step_cost_s": plan.step_cost_s, "result_bytes": size.map(|size| size.bytes()),
-            });
-            (plan.lines, figures)
-        }
-    };
-    if arguments.json {
-        console::json(&figures);
+pub fn run(a: &PlanArguments) -> Result<(), Failure> {
+    let found = plan(SceneFile::read(&a.scene)?, &console::watch())?;
+    if a.json {
+        console::json(&found.figures);
     } else {
-        lines.iter().for_each(console::data);
+        found.lines.iter().for_each(console::data);
     }
     Ok(())
 }

@@ -1,10 +1,10 @@
 //! `gearmesh record`: measured curves into a reference record.
 
 use crate::arguments::RecordArguments;
-use crate::failure::Failure;
-use crate::{console, output_name, uff};
+use crate::console;
 use gearmesh_geometry::input::{MOST_TEXT_BYTES, read_bytes};
 use gearmesh_model::{write_folder, write_text};
+use gearmesh_operations::{Failure, output_name, uff};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_report::measured::{
     Channel, MeasuredError, RecordFiles, RecordRequest, csv_channels, decoded, record_files,
@@ -83,7 +83,7 @@ fn channels_of(a: &RecordArguments) -> Result<Vec<Channel>, Failure> {
         }
         return csv_channels(&text, a.angle.as_deref()).map_err(|error| blame(&a.measured, &error));
     }
-    let mut functions = uff::read(&a.measured)?;
+    let mut functions = uff::read(&a.measured, &console::watch())?;
     let names: Vec<String> = functions.iter().map(|f| f.name.clone()).collect();
     for function in &mut functions {
         // Only what tells it from others belongs to its name.

@@ -1,173 +1,40 @@
 //! `gearmesh run`: a scene to a result file.
 
 use crate::arguments::RunArguments;
-use crate::commands::{periods, ratings, run_system};
-use crate::console;
-use crate::failure::Failure;
-use crate::output_name;
-use gearmesh_contact::ContactZone;
-use gearmesh_contact::mesh_stiffness::mesh_harmonics;
-use gearmesh_scene::pair::PairFigures;
-use gearmesh_scene::system_run::megabytes;
-use gearmesh_scene::{Scene, SceneFile, SceneResult, load, run as run_scene};
-use serde_json::json;
-use std::path::Path;
-
-/// Results from this size on are announced \[bytes\].
-const WORTH_A_WORD: f64 = 50e6;
+use crate::{console, interrupt};
+use gearmesh_operations::run::{Ran, RunHow, run as run_scene};
+use gearmesh_operations::{Failure, Watch, output_name};
+use gearmesh_scene::SceneFile;
+use std::time::Duration;
 
 /// Runs the command.
-pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    output_name::demand_hdf5(&arguments.output)?;
-    let scene = match SceneFile::read(&arguments.scene)? {
-        SceneFile::Pair(scene) => scene,
-        SceneFile::System(scene) => {
-            let loaded = scene.load()?;
-            return run_system::run(loaded, arguments);
-        }
+pub fn run(a: &RunArguments) -> Result<(), Failure> {
+    output_name::demand_hdf5(&a.output)?;
+    let how = RunHow {
+        output: Some(&a.output),
+        restart: a.restart,
+        most_result_gb: Some(a.most_result_gb),
+        checkpoint_interval: Duration::from_secs_f64(a.checkpoint_s),
     };
-    if arguments.restart {
-        return Err(Failure::input(
-            "--restart: scenes of a gear pair are not resumed; leave it out",
-        ));
+    let scene = SceneFile::read(&a.scene)?;
+    let stop = interrupt::on_demand();
+    let watch = Watch {
+        stop: &stop.asked,
+        ..console::watch()
+    };
+    let ran = run_scene(scene, &how, &watch)?;
+    drop(stop);
+    print(&ran, a.json)?;
+    match ran.problem() {
+        Some(problem) => Err(Failure::work(problem)),
+        None => Ok(()),
     }
-    let loaded = load(*scene)?;
-    loaded.scene.notes.iter().for_each(console::note);
-    let told = |done, total| console::note(format!("torque {done} of {total} solved"));
-    demand_size(loaded.result_bytes(), "run.pitches", arguments)?;
-    // Slips of units are among the warnings of the result; what is refused may follow from them.
-    let result =
-        run_scene(&loaded, &told).inspect_err(|_| console::unit_slips(loaded.unit_slips()))?;
-    result.write(&arguments.output).map_err(Failure::work)?;
-    result.warnings.iter().for_each(console::warning);
-    ratings::warn(&result.ratings);
-    if arguments.json {
-        console::json(&figures(&result));
-    } else {
-        table(&result)?.into_iter().for_each(console::data);
+}
+
+fn print(ran: &Ran, as_json: bool) -> Result<(), Failure> {
+    match as_json {
+        true => console::json(&ran.figures()?),
+        false => ran.lines()?.into_iter().for_each(console::data),
     }
     Ok(())
-}
-
-/// Refuses a result that is larger than it may be, before anything of it is written; a large one is announced.
-///
-/// # Errors
-/// [`Failure`] naming the option that allows more.
-pub fn demand_size(bytes: f64, key: &str, a: &RunArguments) -> Result<(), Failure> {
-    if bytes > 1e9 * a.most_result_gb {
-        return Err(Failure::input(format!(
-            "{}: {key}: the result will have {}, allowed are {} GB; give --most-result-GB {:.0} to allow it",
-            a.scene.display(),
-            megabytes(bytes),
-            a.most_result_gb,
-            (1e-9 * bytes).ceil()
-        )));
-    }
-    if bytes >= WORTH_A_WORD {
-        console::note(format!("the result will have {}", megabytes(bytes)));
-    }
-    Ok(())
-}
-
-/// The curves' figures for people.
-fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
-    let mut lines = vec![
-        format!("{}: {} positions per torque", result.title, result.angles()),
-        format!(
-            "{:>10} {:>12} {:>12} {:>14} {:>14} {:>8} {:>12} {:>12} {:>9}",
-            "torque N m",
-            "TE mean um",
-            "TE pk-pk um",
-            "secant N/mm/um",
-            "tangent N/mm/um",
-            "K_Hbeta",
-            "p_H max MPa",
-            "balance",
-            "iter/pos"
-        ),
-    ];
-    let mark = periods::mark(&result.contact_coverage);
-    let width_mm = 1e3 * zone_width_m(result)?;
-    let figures: Vec<PairFigures> = (0..result.torque_nm.len())
-        .map(|k| result.figures(k))
-        .collect();
-    for (k, f) in figures.iter().enumerate() {
-        let per_width = |stiffness: f64| stiffness / width_mm * 1e-6;
-        lines.push(format!(
-            "{:>10.1} {:>12.4} {:>12.4} {:>14.4} {:>15.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}{mark}",
-            f.torque_nm,
-            f.te_mean_m * 1e6,
-            f.te_peak_to_peak_m * 1e6,
-            per_width(f.secant_mean_n_per_m),
-            per_width(f.tangent_mean_n_per_m),
-            f.k_h_beta,
-            f.pressure_largest_pa * 1e-6,
-            result.torque_balance[k],
-            f64::from(result.iterations[k]) / result.angles() as f64
-        ));
-    }
-    lines.push(result.means_over());
-    lines.push(format!("errors: {}", result.errors_in_words()));
-    if result.has_axial_force() {
-        lines.push(format!(
-            "{:>10} {:>22} {:>24}",
-            "torque N m", "axial force gear 1 N", "axial over normal force"
-        ));
-        for f in &figures {
-            lines.push(format!(
-                "{:>10.1} {:>22.3} {:>24.6}{mark}",
-                f.torque_nm,
-                f.axial_force_1_mean_n,
-                f.axial_force_1_mean_n / f.normal_force_mean_n
-            ));
-        }
-    }
-    lines.push(format!(
-        "contact {:.3} s ({:.1} us a position), strain {:.3} s",
-        result.seconds[0],
-        1e6 * result.seconds[0] / (result.angles() * result.torque_nm.len()) as f64,
-        result.seconds[1]
-    ));
-    lines.extend(periods::lines(result));
-    lines.extend(ratings::lines(&result.ratings));
-    Ok(lines)
-}
-
-/// Width over which the faces overlap \[m\].
-fn zone_width_m(result: &SceneResult) -> Result<f64, Failure> {
-    use gearmesh_geometry::input::InputDocument;
-    let width_m = |gear: usize| -> Result<f64, Failure> {
-        let definition = result.gears[gear].definition_in("the result")?;
-        Ok(definition.tooth.face_width_m)
-    };
-    let scene = InputDocument::new("scene in result", &result.scene_toml);
-    let offset_m = Scene::from_document(scene, Path::new("."))?.axial_offset_m;
-    Ok(ContactZone::new([width_m(0)?, width_m(1)?], offset_m).width_m)
-}
-
-fn figures(result: &SceneResult) -> serde_json::Value {
-    let rows = (0..result.torque_nm.len())
-        .map(|k| {
-            let f = result.figures(k);
-            let curve = result.averaged(&result.tangent_n_per_m, k);
-            let pitches = result.contact_coverage.averaged_pitches();
-            let (_, harmonics) = mesh_harmonics(curve, pitches, 5);
-            json!({
-                "torque_Nm": f.torque_nm, "te_mean_m": f.te_mean_m, "te_peak_to_peak_m": f.te_peak_to_peak_m,
-                "tangent_stiffness_mean_N_per_m": f.tangent_mean_n_per_m,
-                "secant_stiffness_mean_N_per_m": f.secant_mean_n_per_m,
-                "tangent_stiffness_fourier": harmonics.iter().map(|(a, p)| json!({"amplitude_N_per_m": a, "phase_rad": p})).collect::<Vec<_>>(),
-                "axial_force_1_mean_N": f.axial_force_1_mean_n, "pressure_largest_Pa": f.pressure_largest_pa,
-                "k_h_beta": f.k_h_beta, "torque_balance": result.torque_balance[k],
-                "residual": result.residual[k], "iterations": result.iterations[k],
-                "complete": result.contact_coverage.is_whole(), "mean_over_pitches": pitches,
-                "errors": {
-                    "positions_te_peak_to_peak": f.errors.te_positions, "positions_pressure": f.errors.pressure_positions,
-                    "positions_k_h_beta": f.errors.k_h_beta_positions,
-                    "slices_k_h_beta": f.errors.slices, "mesh_strain": f.errors.mesh_strain,
-                },
-            })
-        })
-        .collect::<Vec<_>>();
-    json!({"title": result.title, "rows": rows, "means": result.means_over(), "errors": result.errors_in_words(), "coverage": periods::json(result), "ratings": ratings::json(&result.ratings), "warnings": result.warnings, "seconds": result.seconds})
 }

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::{data_set_page, schema_page};
 use crate::arguments::{SchemaArguments, SchemaKind};
 use crate::console;
-use crate::failure::Failure;
+use gearmesh_operations::Failure;
 
 /// What is known of a kind of file.
 enum Contents {

@@ -6,9 +6,9 @@ mod series;
 
 use crate::arguments::{AbscissaArguments, SignalAnalysis, SignalArguments};
 use crate::console;
-use crate::failure::Failure;
 use bearing_lines::BearingLines;
 use gearmesh_model::Column;
+use gearmesh_operations::Failure;
 use gearmesh_report::column_width;
 use gearmesh_report::page::{Axis, MapChart};
 use gearmesh_signal::statistics::{crest_factor, kurtosis, mean, peak_to_peak, rms};

@@ -2,111 +2,48 @@
 
 use super::study_elsewhere as elsewhere;
 use crate::arguments::StudyArguments;
-use crate::console::{self, RunBar};
-use crate::failure::Failure;
-use crate::interrupt;
-use crate::offline;
-use crate::page_file;
-use gearmesh_report::study_page::study_page;
+use crate::{console, interrupt};
+use gearmesh_operations::study::{gather, study as run_study};
+use gearmesh_operations::{Failure, Watch};
 use gearmesh_report::{column_width, short, study_figures, usual_unit};
-use gearmesh_scene::pair::warnings::excessive_pressure;
-use gearmesh_scene::study::{
-    CaseResult, Selected, SelectedValue, SeriesOver, Study, StudyOptions, StudyOutcome,
-    gather_study, run_study,
-};
+use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, SeriesOver, Study, StudyOutcome};
 use gearmesh_scene::system_run::{Figures, stem};
-use std::sync::{Mutex, PoisonError};
 
 /// Cases beyond which the table tells the extremes only.
 const MOST_LINES: usize = 50;
 
 /// Runs the command.
-pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
-    let study = Study::read(&arguments.study)?;
-    match (&arguments.scheduler, &arguments.gather) {
-        (None, None) => tell(&study, here(&study, arguments)?, arguments),
-        (None, Some(failures)) => {
-            let failures = elsewhere::failures(failures)?;
-            let outcome = gather_study(&study, &arguments.output, &failures)?;
-            tell(&study, outcome, arguments)
-        }
-        (Some(scheduler), _) => {
-            let failures = elsewhere::run(arguments, scheduler)?;
-            let outcome = gather_study(&study, &arguments.output, &failures)?;
-            tell(&study, outcome, arguments)
-        }
-    }
-}
-
-/// Runs the cases on this machine.
-fn here(study: &Study, arguments: &StudyArguments) -> Result<StudyOutcome, Failure> {
-    let bar = Mutex::new(RunBar::new("study"));
-    let progress = |done: usize, count: usize| {
-        let bar = bar.lock().unwrap_or_else(PoisonError::into_inner);
-        bar.advance(done as f64, count as f64);
+pub fn run(a: &StudyArguments) -> Result<(), Failure> {
+    let study = Study::read(&a.study)?;
+    let failures = match (&a.scheduler, &a.gather) {
+        (None, None) => None,
+        (None, Some(failures)) => Some(elsewhere::failures(failures)?),
+        (Some(scheduler), _) => Some(elsewhere::run(a, scheduler)?),
     };
-    let stop = interrupt::on_demand();
-    let outcome = run_study(
-        study,
-        &StudyOptions {
-            folder: &arguments.output,
-            stop: &stop.asked,
-            progress: &progress,
-            reduce: &offline::reduced_for_study,
-        },
-    );
-    bar.lock().unwrap_or_else(PoisonError::into_inner).finish();
-    let outcome = outcome?;
-    if outcome.stopped {
-        console::error("interrupted; the same command goes on from here");
-        std::process::exit(interrupt::EXIT_CODE);
-    }
-    drop(stop);
-    Ok(outcome)
-}
-
-/// Writes the page and prints the figures.
-fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Result<(), Failure> {
-    let page = study_page(study, &outcome.cases);
-    page_file::write(&page, &arguments.output.join("study.html"))?;
-    let figures = outcome.cases.iter().flat_map(|case| {
-        let columns = case.figures.iter().flatten();
-        columns.map(move |one| (format!("{}, {}", case.case.name(), one.column), one))
-    });
-    let pressures = figures.filter_map(|(name, one)| {
-        let to_pa = match one.unit.as_str() {
-            "Pa" => 1.0,
-            "MPa" => 1e6,
-            _ => return None,
-        };
-        let largest = match &one.value {
-            SelectedValue::Single(value) => *value,
-            SelectedValue::Series(figures) => figures.largest,
-        };
-        one.column
-            .contains("pressure")
-            .then_some((name, to_pa * largest))
-    });
-    excessive_pressure(pressures)
-        .into_iter()
-        .for_each(console::warning);
-    let failed = outcome
-        .cases
-        .iter()
-        .filter(|case| case.figures.is_err())
-        .count();
-    if arguments.json {
-        console::json(&study_figures(study, &outcome.cases));
+    let outcome = match failures {
+        Some(failures) => gather(&study, &a.output, &failures, &console::watch())?,
+        None => {
+            let stop = interrupt::on_demand();
+            let watch = Watch {
+                stop: &stop.asked,
+                ..console::watch()
+            };
+            run_study(&study, &a.output, &watch)?
+        }
+    };
+    if a.json {
+        console::json(&study_figures(&study, &outcome.cases));
     } else {
-        table(study, &outcome).into_iter().for_each(console::data);
+        table(&study, &outcome).into_iter().for_each(console::data);
     }
-    if failed > 0 {
-        let count = outcome.cases.len();
-        return Err(Failure::work(format!(
-            "{failed} of {count} cases failed; the table says why"
-        )));
+    let failed = outcome.cases.iter().filter(|case| case.figures.is_err());
+    match failed.count() {
+        0 => Ok(()),
+        failed => Err(Failure::work(format!(
+            "{failed} of {} cases failed; the table says why",
+            outcome.cases.len()
+        ))),
     }
-    Ok(())
 }
 
 /// The figures for people.

@@ -2,9 +2,8 @@
 
 use crate::arguments::StudyArguments;
 use crate::console;
-use crate::failure::Failure;
 use crate::interrupt;
-use crate::offline;
+use gearmesh_operations::Failure;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -16,7 +15,7 @@ pub fn run(
     arguments: &StudyArguments,
     scheduler: &str,
 ) -> Result<BTreeMap<String, String>, Failure> {
-    let python = offline::python()?;
+    let python = console::watch().python()?;
     let folder = tempfile::tempdir().map_err(Failure::work)?;
     let list = folder.path().join("failures.json");
     let mut command = python.command();
@@ -34,9 +33,9 @@ pub fn run(
     drop(stop);
     match status.code() {
         Some(0) => failures(&list),
-        Some(interrupt::EXIT_CODE) => {
-            console::error("interrupted; the same command goes on from here");
-            std::process::exit(interrupt::EXIT_CODE)
+        Some(code) if code == i32::from(interrupt::EXIT_CODE) => {
+            let words = "interrupted; the same command goes on from here";
+            Err(Failure::stopped(words))
         }
         Some(2) => Err(Failure::input(
             "the study was not run on the cluster, see above",

@@ -129,7 +129,7 @@ impl Node<'_> {
 /// # Errors
 /// [`RunError::Contact`] where a position has no solution.
 pub(super) fn find(
-    solver: &mut PositionSolver,
+    solver: &mut PositionSolver<'_>,
     even: &[Position],
     repeats: bool,
 ) -> Result<Found, RunError> {
@@ -199,7 +199,7 @@ fn spread(nodes: &[Node<'_>], value: fn(&Position) -> f64) -> f64 {
 /// Halves the step between two positions at which other pairs carry, and each half in which that is so, and keeps the
 /// positions in between.
 fn halve(
-    solver: &mut PositionSolver,
+    solver: &mut PositionSolver<'_>,
     [a, b]: [&Position; 2],
     halvings: usize,
     found: &mut Vec<Position>,
@@ -216,7 +216,7 @@ fn halve(
 
 /// Follows the highest peaks of a figure; returns how far the highest may still be off.
 fn follow(
-    solver: &mut PositionSolver,
+    solver: &mut PositionSolver<'_>,
     nodes: &mut Vec<Node<'_>>,
     value: fn(&Position) -> f64,
     scale: f64,

@@ -3,6 +3,7 @@
 use super::run::{LoadedScene, RunError};
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::{ContactPatch, Drive, StaticContact, TipGear};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What is found at a driver angle.
 pub(super) struct Position {
@@ -41,17 +42,23 @@ impl Position {
 }
 
 /// Solves positions, each begun from the one before.
-pub(super) struct PositionSolver {
+pub(super) struct PositionSolver<'a> {
     contact: StaticContact,
     torque_nm: f64,
     base_2_m: f64,
     base_pitch_m: f64,
     least_distance_m: f64,
     young_pa: f64,
+    stop: &'a AtomicBool,
 }
 
-impl PositionSolver {
-    pub fn new(loaded: &LoadedScene, contact: StaticContact, torque_nm: f64) -> Self {
+impl<'a> PositionSolver<'a> {
+    pub fn new(
+        loaded: &LoadedScene,
+        contact: StaticContact,
+        torque_nm: f64,
+        stop: &'a AtomicBool,
+    ) -> Self {
         let pair = &loaded.lines.pair;
         let distances = loaded.models.each_ref().map(|m| {
             let distances = m.opposite_distance_m.iter().copied();
@@ -64,14 +71,18 @@ impl PositionSolver {
             base_pitch_m: pair.pitch_1_rad() * pair.gear_1.base_radius_m,
             least_distance_m: distances[0].min(distances[1]),
             young_pa: loaded.models[0].young_pa.min(loaded.models[1].young_pa),
+            stop,
         }
     }
 
     /// The position at a driver angle.
     ///
     /// # Errors
-    /// [`RunError::Contact`] where it has no solution.
+    /// [`RunError::Contact`] where it has no solution; [`RunError::Stopped`].
     pub fn at(&mut self, angle_rad: f64) -> Result<Position, RunError> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(RunError::Stopped);
+        }
         let Self { contact, .. } = self;
         let state = contact.solve(angle_rad, Drive::Torque(self.torque_nm))?;
         let stiffness = MeshStiffness::of(&state, self.base_2_m);

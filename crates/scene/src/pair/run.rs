@@ -24,6 +24,7 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Why a scene could not be run.
@@ -41,12 +42,19 @@ pub enum RunError {
     /// No contact state.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// The user has asked to stop.
+    #[error("stopped on demand")]
+    Stopped,
 }
 
 impl RunError {
     /// True when the input is to blame, not the computation.
     pub fn is_input(&self) -> bool {
-        !matches!(self, Self::Contact(cause) if cause.is_computation())
+        match self {
+            Self::Contact(cause) => !cause.is_computation(),
+            Self::Stopped => false,
+            Self::Input(_) | Self::File(_) | Self::Model(_) => true,
+        }
     }
 }
 
@@ -281,6 +289,18 @@ pub fn run(
     loaded: &LoadedScene,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<SceneResult, RunError> {
+    run_until(loaded, progress, &AtomicBool::new(false))
+}
+
+/// The same; ends before the next position once `stop` is true.
+///
+/// # Errors
+/// As [`run`]; [`RunError::Stopped`].
+pub fn run_until(
+    loaded: &LoadedScene,
+    progress: &(dyn Fn(usize, usize) + Sync),
+    stop: &AtomicBool,
+) -> Result<SceneResult, RunError> {
     let scene = &loaded.scene;
     let angles = loaded.angles_rad();
     let clock = Instant::now();
@@ -291,7 +311,7 @@ pub fn run(
         .torques_nm
         .par_iter()
         .map(|&torque| {
-            let found = solve_torque(loaded, contact.clone(), &angles, torque)?;
+            let found = solve_torque(loaded, contact.clone(), (&angles, torque), stop)?;
             let finished = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
             progress(finished, scene.torques_nm.len());
             Ok(found)
@@ -398,10 +418,10 @@ impl TorquePositions {
 fn solve_torque(
     loaded: &LoadedScene,
     contact: StaticContact,
-    angles: &[f64],
-    torque: f64,
+    (angles, torque): (&[f64], f64),
+    stop: &AtomicBool,
 ) -> Result<TorquePositions, RunError> {
-    let mut solver = PositionSolver::new(loaded, contact, torque);
+    let mut solver = PositionSolver::new(loaded, contact, torque, stop);
     let even = angles.iter().map(|angle| solver.at(*angle));
     let even = even.collect::<Result<Vec<Position>, RunError>>()?;
     let coverage = loaded.contact_coverage();

@@ -3,7 +3,7 @@
 use super::outcome::{LineSpectrum, Outcome};
 use crate::arguments::BearingLineArguments;
 use crate::commands::bearing;
-use crate::failure::Failure;
+use gearmesh_operations::Failure;
 use gearmesh_signal::Spectrum;
 
 /// Multiples of each frequency that a page marks.

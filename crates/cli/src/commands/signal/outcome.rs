@@ -3,8 +3,8 @@
 use crate::arguments::SeriesArguments;
 use crate::commands::signal::series::Series;
 use crate::console;
-use crate::failure::Failure;
 use gearmesh_model::{csv_cell, write_text};
+use gearmesh_operations::Failure;
 use gearmesh_report::min_max;
 use gearmesh_report::page::{
     Align, Axis, AxisScale, LineChart, LineSeries, MapChart, Page, Section, Table,

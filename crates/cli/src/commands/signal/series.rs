@@ -3,7 +3,7 @@
 use crate::arguments::{AbscissaArguments, SeriesArguments, WindowKind};
 use crate::commands::signal::outcome::Curve;
 use crate::console;
-use crate::failure::Failure;
+use gearmesh_operations::Failure;
 use gearmesh_scene::system_run::{ResultKind, SystemResult};
 use gearmesh_signal::{AngleSamples, Resampler, Window};
 use std::f64::consts::TAU;

@@ -1,0 +1,143 @@
+//! What accuracy costs in time, for a scene of the user's own.
+
+use crate::failure::Failure;
+use crate::reduce::reduced_for_study;
+use crate::scratch::Scratch;
+use crate::watch::Watch;
+use crate::{output_name, overwriting, page_file};
+use gearmesh_report::accuracy_page::{accuracy_page, goal_in_words};
+use gearmesh_report::short;
+use gearmesh_scene::accuracy::{
+    Accuracy, Advice, Bench, BenchOptions, EffectFound, Goal, JudgedTime, Tried, accuracy as judge,
+    words,
+};
+use gearmesh_scene::study::{Effort, Wanted};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Short runs are repeated for so long \[s\].
+const REPEATED_FOR_S: f64 = 0.2;
+
+/// What is judged.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AccuracyRequest {
+    /// Scene file.
+    pub scene: PathBuf,
+    /// Columns as those of a study; of series COLUMN:FIGURE.
+    #[serde(deserialize_with = "crate::one_or_many::read")]
+    pub columns: Vec<String>,
+    /// Figures of multibody runs from this time on.
+    #[serde(default)]
+    pub from_s: f64,
+    /// Judge by the time of the processor, not of the wall.
+    #[serde(default)]
+    pub by_processor_time: bool,
+    /// Folder for models, where the gears' elements are varied, too.
+    pub elements: Option<PathBuf>,
+    /// Page with the picture.
+    pub output: Option<PathBuf>,
+}
+
+/// Runs the scene with each setting of its knobs, and writes the page where asked for.
+///
+/// # Errors
+/// [`Failure`] for a scene or column that is wrong, and a page that cannot be written.
+pub fn accuracy(a: &AccuracyRequest, watch: &Watch<'_>) -> Result<Accuracy, Failure> {
+    let outputs: Vec<PathBuf> = a.output.iter().cloned().collect();
+    overwriting::refuse(vec![a.scene.clone()], &outputs)?;
+    if let Some(path) = &a.output {
+        output_name::demand_page(path)?;
+    }
+    let scratch = Scratch::new()?;
+    let models = match &a.elements {
+        Some(folder) => folder.clone(),
+        None => scratch.path().to_owned(),
+    };
+    let options = BenchOptions {
+        wanted: a.columns.iter().map(|c| Wanted::of(c)).collect(),
+        from_s: a.from_s,
+        time: match a.by_processor_time {
+            false => JudgedTime::Wall,
+            true => JudgedTime::Processor,
+        },
+        repeated_for_s: REPEATED_FOR_S,
+        elements: a.elements.is_some(),
+        scratch: scratch.path(),
+        models: &models,
+        stop: watch.stop,
+        reduce: &|gear| reduced_for_study(gear, watch),
+    };
+    let bench = Bench::new(&a.scene, options)?;
+    let task = watch.listener.begin("settings");
+    let found = judge(&bench, &|done, count| {
+        task.advance(done as f64, count as f64);
+    });
+    drop(task);
+    watch.go_on()?;
+    let found = found?;
+    if let Some(path) = &a.output {
+        let scene = a.scene.display().to_string();
+        page_file::write(&accuracy_page(&scene, &found), path, watch)?;
+    }
+    Ok(found)
+}
+
+/// What was advised was run once more: it must keep its word.
+///
+/// # Errors
+/// [`Failure`] where it does not.
+pub fn demand_kept(found: &Accuracy) -> Result<(), Failure> {
+    for Advice { goal, tried, .. } in &found.advice {
+        if let Goal::Within(most) = goal
+            && tried.error() > *most
+        {
+            let (error, most) = (short(100.0 * tried.error()), 100.0 * most);
+            return Err(Failure::work(format!(
+                "the setting for {most} %, run once more, has an error of {error} %"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// For other programs.
+#[must_use]
+pub fn figures(found: &Accuracy) -> Value {
+    let by_column = |errors: &[f64]| {
+        let errors = found.columns.iter().zip(errors);
+        errors
+            .map(|(c, e)| (c.clone(), json!(e)))
+            .collect::<serde_json::Map<_, _>>()
+    };
+    let effort = |effort: &Effort| {
+        json!({
+            "wall_s": effort.wall_s, "cpu_s": effort.cpu_s, "states": effort.states,
+            "calls": effort.calls, "iterations": effort.iterations,
+        })
+    };
+    let setting = |one: &Tried| {
+        let mut value = effort(&one.effort);
+        value["setting"] = json!(words(&found.knobs, &one.rungs));
+        value["one_knob_alone"] = json!(one.alone.is_some());
+        value["errors"] = json!(by_column(&one.errors));
+        value["reduction_s"] = json!(one.reduction_s);
+        value
+    };
+    let effect = |one: &EffectFound| {
+        json!({
+            "effect": one.effect.name, "in_scene": one.effect.present, "changes": by_column(&one.changes),
+            "with": effort(&one.with), "without": effort(&one.without),
+        })
+    };
+    let advice = |one: &Advice| json!({"goal": goal_in_words(one.goal), "toml": one.toml, "run_again": setting(&one.tried)});
+    json!({
+        "tried": found.tried.iter().map(setting).collect::<Vec<_>>(),
+        "advice": found.advice.iter().map(advice).collect::<Vec<_>>(),
+        "effects": found.effects.iter().map(effect).collect::<Vec<_>>(),
+        "judged_by": found.time.words(),
+        "last_step_of_reference": found.unsettled().map(|(knob, error)| json!({"knob": knob.name, "change": error})),
+        "not_varied": found.left_out, "failed": found.failed,
+    })
+}

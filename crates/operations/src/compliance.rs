@@ -1,0 +1,134 @@
+//! Deflection along a flank of a reduced gear under a line load.
+
+use crate::failure::Failure;
+use gearmesh_contact::LocalContact;
+use gearmesh_contact::flank_deflection::{FlankDeflection, FlankLoad, flank_deflection};
+use gearmesh_geometry::{Flank, involute};
+use gearmesh_model::{ReductionChecks, read_reduced_gear};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Which load, and where the deflection is asked for.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ComplianceRequest {
+    /// Model file.
+    pub model: PathBuf,
+    /// Loaded tooth.
+    pub tooth: usize,
+    /// Loaded side.
+    #[serde(default)]
+    pub flank: Flank,
+    /// Radii of the load, one or several.
+    #[serde(deserialize_with = "crate::one_or_many::read")]
+    pub radius_mm: Vec<f64>,
+    /// Line load, uniform over the face width.
+    #[serde(rename = "line_load_N_per_mm")]
+    pub line_load_n_per_mm: f64,
+    /// Half width of the Hertz contact.
+    pub half_width_mm: f64,
+    /// Tooth at which the deflection is read; the loaded one where not given.
+    pub at_tooth: Option<usize>,
+    /// Local contact term.
+    #[serde(default)]
+    pub local: LocalContact,
+}
+
+/// Deflections that were found.
+#[derive(Debug)]
+pub struct FoundDeflections {
+    /// Name of the gear.
+    pub gear: String,
+    /// Loaded tooth.
+    pub tooth: usize,
+    /// Tooth at which they are read.
+    pub at_tooth: usize,
+    /// Slices over the face.
+    pub slices: usize,
+    /// Estimated relative error of the mesh.
+    pub mesh_error: Option<f64>,
+    /// Radius of the load \[mm\], deflection.
+    pub rows: Vec<(f64, FlankDeflection)>,
+}
+
+impl FoundDeflections {
+    /// For other programs.
+    #[must_use]
+    pub fn figures(&self) -> Value {
+        let rows = self.rows.iter().map(|(radius, d)| {
+            let (global, local) = d.means_m();
+            json!({"radius_mm": radius, "global_m": global, "local_m": local, "total_m": global + local,
+                   "global_per_slice_m": d.global_m, "local_per_slice_m": d.local_m})
+        });
+        json!({"gear": self.gear, "tooth": self.tooth, "at_tooth": self.at_tooth, "mesh_error_relative": self.mesh_error,
+               "rows": rows.collect::<Vec<_>>()})
+    }
+}
+
+/// Finds the deflection of a tooth along its flank's normal.
+///
+/// # Errors
+/// [`Failure`] for a file that is no model of a cylindrical gear, and for a place or load that it does not allow.
+pub fn compliance(a: &ComplianceRequest) -> Result<FoundDeflections, Failure> {
+    let model = read_reduced_gear(&a.model).map_err(Failure::input)?;
+    model.demand_cylindrical().map_err(Failure::input)?;
+    let at_tooth = a.at_tooth.unwrap_or(a.tooth);
+    for (name, tooth) in [("--tooth", a.tooth), ("--at-tooth", at_tooth)] {
+        if tooth >= model.teeth {
+            return Err(Failure::input(format!(
+                "{name}: found {tooth}, allowed is 0 to {}",
+                model.teeth - 1
+            )));
+        }
+    }
+    for (name, value) in [
+        ("--line-load-N-per-mm", a.line_load_n_per_mm),
+        ("--half-width-mm", a.half_width_mm),
+    ] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(Failure::input(format!(
+                "{name}: found {value}, allowed is more than 0"
+            )));
+        }
+    }
+    let radius_mm = |xi: f64| 1e3 * involute::radius_m(xi, model.base_radius_m);
+    let stations = &model.grid.roll_angles_rad;
+    let (low, high) = (
+        radius_mm(stations[0]),
+        radius_mm(stations[stations.len() - 1]),
+    );
+    let mut rows = Vec::new();
+    for &radius in &a.radius_mm {
+        if !(radius >= low - 1e-6 && radius <= high + 1e-6) {
+            return Err(Failure::input(format!(
+                "--radius-mm: found {radius}, allowed is {low:.4} to {high:.4}, the involute part of the flank"
+            )));
+        }
+        let load = FlankLoad {
+            tooth: a.tooth,
+            flank: a.flank,
+            radius_m: radius * 1e-3,
+            line_load_n_per_m: a.line_load_n_per_mm * 1e3,
+            half_width_m: a.half_width_mm * 1e-3,
+        };
+        rows.push((
+            radius,
+            flank_deflection(&model, &load, at_tooth, a.local).map_err(Failure::input)?,
+        ));
+    }
+    // Made for a load on tooth 0; on others the body below may differ.
+    let mesh_error = model.checks.further(if at_tooth == a.tooth {
+        ReductionChecks::LOADED_TOOTH_ERROR
+    } else {
+        ReductionChecks::OTHER_TEETH_ERROR
+    });
+    Ok(FoundDeflections {
+        gear: model.name,
+        tooth: a.tooth,
+        at_tooth,
+        slices: model.grid.slices,
+        mesh_error,
+        rows,
+    })
+}

@@ -1,0 +1,85 @@
+//! Displacement and stress of a cylindrical gear at one position of a pair's result, and the picture of its whole cross-section.
+
+use crate::failure::Failure;
+use gearmesh_geometry::GearDefinition;
+use gearmesh_recovery::grid_forces;
+use gearmesh_reduction::GearBody;
+use gearmesh_reduction::field::{Field, GridForce, fields};
+use gearmesh_report::scene_page::GearPicture;
+use gearmesh_scene::{LoadedScene, SceneResult};
+
+/// Said of pictures of whole cross-sections.
+pub const CROSS_SECTION: &str = "Element stresses of the finite element model. Directly under the load they are those of the model's own load patches, not of the Hertz contact; the colour scale is \
+     cut below them.";
+
+/// Which computed position a field is made for.
+#[derive(Debug, Clone, Copy)]
+pub struct FieldCase {
+    /// Gear 1 or 2.
+    pub gear: usize,
+    /// Index of the torque in the result.
+    pub torque: usize,
+    /// Index of the angle in the result.
+    pub angle: usize,
+}
+
+/// Displacement and stress of a gear at one position of a result.
+pub fn field_of(
+    loaded: &LoadedScene,
+    result: &SceneResult,
+    definition: &GearDefinition,
+    body: &GearBody,
+    case: FieldCase,
+) -> Result<Field, Failure> {
+    let model = &loaded.models[case.gear - 1];
+    let slices = loaded.patches_at(result.angle_rad[case.angle]);
+    let forces = result.position_forces(case.torque, case.angle);
+    let loads = loaded.loaded_slices(case.gear, &slices, forces);
+    let forces: Vec<GridForce> = grid_forces(&model.grid, &loaded.spreads[case.gear - 1], loads)
+        .into_iter()
+        .map(|f| GridForce {
+            tooth: f.tooth,
+            side: loaded.scene.flank,
+            load: f.load,
+            normal_n: f.normal_n,
+            tangential_n: f.tangential_n,
+        })
+        .collect();
+    let mut made = fields(definition, body, &[forces])?;
+    made.pop().ok_or_else(|| Failure::work("no field was made"))
+}
+
+/// A gear's von Mises stress at one position: the largest value over the width in each quad of the cross-section.
+pub fn picture(
+    loaded: &LoadedScene,
+    result: &SceneResult,
+    case: FieldCase,
+    (definition, body): (&GearDefinition, &GearBody),
+) -> Result<GearPicture, Failure> {
+    let field = field_of(loaded, result, definition, body, case)?;
+    let section = &body.mesh.section;
+    let values = (0..section.quads.len())
+        .map(|quad| {
+            let layers = 0..body.mesh.layers.count();
+            layers
+                .filter_map(|layer| body.mesh.element(quad, layer))
+                .map(|element| field.von_mises_pa[element as usize] * 1e-6)
+                .fold(0.0, f64::max)
+        })
+        .collect();
+    Ok(GearPicture {
+        title: format!(
+            "{}, {} N m, driver angle {:.2} deg: largest von Mises stress over the width",
+            definition.name,
+            result.torque_nm[case.torque],
+            result.angle_rad[case.angle].to_degrees()
+        ),
+        nodes_mm: section
+            .nodes
+            .iter()
+            .map(|p| [p[0] * 1e3, p[1] * 1e3])
+            .collect(),
+        quads: section.quads.iter().map(|q| q.map(|n| n as u32)).collect(),
+        von_mises_mpa: values,
+    })
+}

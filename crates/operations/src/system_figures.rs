@@ -1,0 +1,105 @@
+//! The figures of a multibody run for other programs.
+
+use std::f64::consts::TAU;
+
+use gearmesh_scene::system_run::{ResultKind, SystemResult, is_overdamped};
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+use crate::{losses, ratings, stages};
+
+/// All figures of a run.
+///
+/// # Errors
+/// [`Failure`] where the result's file cannot be read.
+pub fn figures(result: &SystemResult) -> Result<Value, Failure> {
+    let mut value = json!({"title": result.head.title, "kind": result.kind.to_string(), "notes": result.head.notes});
+    if let Some(record) = &result.record {
+        let entries = record
+            .entries()
+            .map(|(name, _, value)| (name.to_owned(), json!(value)));
+        let mut run = Value::Object(entries.collect());
+        run["real_time_factor"] = json!(record.real_time_factor());
+        run["relative_energy_error"] = json!(result.relative_energy_error());
+        run["problem"] = json!(result.problem());
+        value["run"] = run;
+    }
+    value["ratings"] = ratings::json(&result.ratings);
+    value["warnings"] = json!(result.warnings().map_err(Failure::work)?);
+    if let stages @ Value::Object(_) = stages::json(result)? {
+        value["stages"] = stages;
+    }
+    if let losses @ Value::Object(_) = losses::json(result)? {
+        value["losses"] = losses;
+    }
+    match result.kind {
+        ResultKind::Transient => {
+            let passings = result.mesh_passings().map_err(Failure::work)?;
+            let columns = result.summaries(|_| true).map_err(Failure::work)?;
+            let columns = columns.iter().map(|c| {
+                json!({
+                    "name": c.name, "unit": c.unit, "mean": c.figures.mean, "deviation": c.figures.deviation, "least": c.figures.least,
+                    "largest": c.figures.largest, "dominant_Hz": c.dominant_hz,
+                    "complete": !passings.iter().any(|mesh| mesh.leaves_incomplete(&c.name)),
+                })
+            });
+            value["rows"] = json!(result.rows.rows());
+            value["statistics_from_s"] = json!(result.statistics_from_s);
+            value["samples_per_row"] = json!(result.samples_per_row);
+            value["columns"] = columns.collect();
+            let meshes = passings.iter().map(|mesh| {
+                json!({
+                    "name": mesh.mesh.name, "mean_frequency_Hz": mesh.frequency_hz, "pitches": mesh.pitches(),
+                    "revolutions": mesh.revolutions,
+                })
+            });
+            value["meshes"] = meshes.collect();
+        }
+        ResultKind::SpeedSweep => {
+            if let Some(sweep) = &result.sweep {
+                let windows = sweep.windows.iter().zip(&sweep.figures);
+                let windows = windows.map(|(window, figures)| {
+                    json!({
+                        "speed_rpm": window.speed_rad_per_s * 60.0 / TAU, "up": window.up, "from_s": window.from_s, "to_s": window.to_s,
+                        "mean": figures.iter().map(|f| f.mean).collect::<Vec<_>>(),
+                        "deviation": figures.iter().map(|f| f.deviation).collect::<Vec<_>>(),
+                        "least": figures.iter().map(|f| f.least).collect::<Vec<_>>(),
+                        "largest": figures.iter().map(|f| f.largest).collect::<Vec<_>>(),
+                    })
+                });
+                value["windows"] = windows.collect();
+                let names = sweep.columns.iter().map(|column| &column.name);
+                value["columns"] = json!(names.collect::<Vec<_>>());
+                let units = sweep.columns.iter().map(|column| &column.unit);
+                value["units"] = json!(units.collect::<Vec<_>>());
+            }
+        }
+        ResultKind::Static => {
+            let read = |column: &gearmesh_model::Column| {
+                let values = result.rows.read(&column.name).map_err(Failure::work)?;
+                Ok((column.name.clone(), json!(values)))
+            };
+            let columns = result.rows.columns().iter().map(read);
+            value["columns"] = Value::Object(columns.collect::<Result<_, Failure>>()?);
+        }
+        ResultKind::Eigen => {
+            let points = result.eigen.iter().map(|found| {
+                let modes = found.modes.iter().zip(&found.participation);
+                let modes = modes.map(|(mode, shares)| {
+                    json!({
+                        "frequency_Hz": mode.frequency_hz(), "damping_ratio": mode.damping_ratio(), "growth_per_s": mode.growth_per_s,
+                        "overdamped": is_overdamped(mode),
+                        "participation": result.bodies.iter().zip(shares).map(|(b, s)| (b.clone(), json!(s))).collect::<serde_json::Map<_, _>>(),
+                    })
+                });
+                json!({
+                    "load_factor": found.point.load_factor,
+                    "speed_rpm": found.point.speed_rad_per_s.map(|speed| speed * 60.0 / TAU),
+                    "modes": modes.collect::<Vec<_>>(),
+                })
+            });
+            value["points"] = points.collect();
+        }
+    }
+    Ok(value)
+}

@@ -1,0 +1,243 @@
+//! Tooth contact analysis of a bevel pair: without load, under its loads, its page, the stress in its bodies.
+
+use crate::bevel_pair::{say, thickness_figures, thickness_words};
+use crate::bevel_stress::{self, BevelStressRequest};
+use crate::failure::Failure;
+use crate::tca_sides::{
+    NO_MEAN, Side, backlash_words, edge_words, figures, headline, moves, side, vh_rows,
+    worth_of_points,
+};
+use crate::watch::Watch;
+use crate::{loaded_bevel, output_name, overwriting, tca_page};
+use gearmesh_bevel::{AssembledPair, BevelError, FlankSide, PairFile, ToothContact};
+use gearmesh_geometry::input::InputDocument;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// What is analysed and written.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TcaRequest {
+    /// Bevel pair file.
+    pub pair: PathBuf,
+    /// Page with pictures.
+    pub report: Option<PathBuf>,
+    /// Add the stress in the bodies of both members to the page.
+    #[serde(default)]
+    pub stress: bool,
+    /// Member of which a whole field is written, 1 or 2.
+    pub field_gear: Option<u8>,
+    /// Turn of the pinion of the field.
+    pub field_angle_deg: Option<f64>,
+    /// Torque of the field.
+    #[serde(rename = "field_torque_Nm")]
+    pub field_torque_nm: Option<f64>,
+    /// Mesh file of the field.
+    pub field_output: Option<PathBuf>,
+}
+
+/// What was found.
+#[derive(Debug, Clone)]
+pub struct ContactAnalysis {
+    /// For other programs.
+    pub figures: Value,
+    /// For people.
+    pub lines: Vec<String>,
+}
+
+/// Analyses the contact of a pair file, under its loads where it names any; and makes the page and the field.
+///
+/// # Errors
+/// [`Failure`] for a pair that cannot be made or does not touch, and for files that cannot be read or written.
+pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<ContactAnalysis, Failure> {
+    let outputs: Vec<PathBuf> = a.report.iter().chain(&a.field_output).cloned().collect();
+    overwriting::refuse(vec![a.pair.clone()], &outputs)?;
+    if a.stress && a.report.is_none() {
+        return Err(Failure::input(
+            "--stress needs --report: its pictures are for the page",
+        ));
+    }
+    if let Some(path) = &a.report {
+        output_name::demand_report(path)?;
+    }
+    if let Some(path) = &a.field_output {
+        output_name::demand_mesh(path)?;
+    }
+    let document = InputDocument::read(&a.pair)?;
+    let file = PairFile::from_document(&document)?;
+    let (design, _) = file.checked_design(&document)?;
+    let fault = |error: BevelError| Failure::work(error.in_file(&document));
+    let pair = AssembledPair::new(&file, &design).map_err(fault)?;
+    pair.jam.iter().for_each(|words| watch.warning(words));
+    let backlash_m = pair.backlash_m;
+    let shown = |pinion: FlankSide, contact| side(&file, &design, (pinion, contact));
+    let mut sides = vec![shown(file.pinion_flank, pair.driving).map_err(fault)?];
+    let coast = pair.coast;
+    sides.extend(
+        coast
+            .and_then(|contact| shown(file.pinion_flank.mate(), contact))
+            .ok(),
+    );
+    for side in &sides {
+        let words = edge_words(side.flanks[0].side, side.contact.as_ref());
+        words.iter().for_each(|words| watch.warning(words));
+    }
+    let loaded = match &file.load {
+        Some(load) => Some(loaded_bevel::analyse(
+            (&file, &design),
+            load,
+            &a.pair,
+            watch,
+        )?),
+        None => None,
+    };
+    let request = BevelStressRequest {
+        stress: a.stress,
+        field_gear: a.field_gear,
+        field_angle_deg: a.field_angle_deg,
+        field_torque_nm: a.field_torque_nm,
+        field_output: a.field_output.clone(),
+    };
+    let (stress, stress_figures) = bevel_stress::asked(&request, loaded.as_ref(), watch)?.unzip();
+    let thicknesses = thickness_words(&design, &file);
+    if let Some(path) = &a.report {
+        let analysed = tca_page::Analysed {
+            file: &file,
+            sides: &sides,
+            backlash_m,
+            thicknesses: &thicknesses,
+            loaded: loaded.as_ref(),
+            stress,
+        };
+        watch.go_on()?;
+        tca_page::write(&analysed, &a.pair, path, watch)?;
+    }
+    let mut all = figures(&file, &sides[0]);
+    all["title"] = json!(file.title);
+    all["backlash_mm"] = json!(backlash_m.map(|m| 1e3 * m));
+    all["thickness"] = [0, 1]
+        .map(|i: usize| thickness_figures(&design.teeth[i], design.settings[i].as_ref(), &file))
+        .to_vec()
+        .into();
+    all["other_side"] = json!(sides.get(1).map(|side| figures(&file, side)));
+    let mut lines = Vec::new();
+    if let Some(loaded) = &loaded {
+        all["load"] = loaded_bevel::figures(loaded);
+        if let Some(figures) = stress_figures {
+            all["stress"] = figures.into();
+        }
+        lines = loaded_bevel::lines(&file, loaded);
+    }
+    lines.extend(table(&file, &sides, &thicknesses, backlash_m));
+    Ok(ContactAnalysis {
+        figures: all,
+        lines,
+    })
+}
+
+fn table(
+    file: &PairFile,
+    sides: &[Side<'_>],
+    thicknesses: &[String],
+    backlash_m: Option<f64>,
+) -> Vec<String> {
+    let mut all = Vec::new();
+    let lines = &mut all;
+    let side = &sides[0];
+    say(lines, format!("{}: {}", file.title, headline(side)));
+    worth_of_points(side.flanks)
+        .into_iter()
+        .for_each(|line| say(lines, line));
+    thicknesses.iter().for_each(|line| say(lines, line));
+    if let Some(found) = &side.contact {
+        path_table(file, found, lines);
+        match side.moved.as_ref() {
+            None => say(lines, NO_MEAN),
+            Some(moved) => {
+                say(
+                    lines,
+                    "mean contact moves on the gear by     along the tooth   up the flank",
+                );
+                for (name, [along, up]) in moves(moved) {
+                    say(lines, format!("{name:<37} {along:>15.4} {up:>14.4}"));
+                }
+            }
+        }
+    }
+    for side in sides {
+        if let Some(vh) = &side.vh {
+            say(
+                lines,
+                format!(
+                    "V/H check, {}: further errors that bring the mean contact to a quarter of the face from toe and heel, backlash kept by G",
+                    side.name()
+                ),
+            );
+            say(
+                lines,
+                "contact at            gear: L mm     h mm   offset E mm   pinion P mm   gear G mm   shaft angle mrad",
+            );
+            for (name, found) in vh_rows(vh) {
+                say(
+                    lines,
+                    match found {
+                        Ok([l, h, v, p, g, angle]) => format!(
+                            "{name:<20} {l:>11.4} {h:>8.4} {v:>13.4} {p:>13.4} {g:>11.4} {angle:>18.4}"
+                        ),
+                        Err(why) => format!("{name:<20} {why}"),
+                    },
+                );
+            }
+        }
+    }
+    if let Some(backlash_m) = backlash_m {
+        say(lines, backlash_words(backlash_m));
+    }
+    for other in &sides[1..] {
+        say(lines, format!("the other flanks: {}", headline(other)));
+    }
+    for side in sides {
+        say(
+            lines,
+            format!("ease-off of the pinion, {}: L mm, h mm, um", side.name()),
+        );
+        for ([cone, height], e) in &side.ease_off {
+            let gap = e.map_or_else(|| "-".to_owned(), |e| format!("{:.3}", 1e6 * e.gap_m));
+            say(
+                lines,
+                format!("{:>12.4} {:>9.4} {gap:>9}", 1e3 * cone, 1e3 * height),
+            );
+        }
+    }
+    all
+}
+
+fn path_table(file: &PairFile, found: &ToothContact, lines: &mut Vec<String>) {
+    say(
+        lines,
+        "pinion deg   TE urad  with constant   gear: L mm     h mm   ellipse mm: long  short   first   touches",
+    );
+    for p in &found.path {
+        let ellipse = p.ellipse.map_or_else(
+            || format!("{:>17} {:>6}", "", ""),
+            |e| {
+                let [a, b] = e.half_lengths_m(file.tca.marking_m).map(|x| 1e3 * x);
+                format!("{a:>17.3} {b:>6.3}")
+            },
+        );
+        say(
+            lines,
+            format!(
+                "{:>10.4} {:>9.3} {:>14.3} {:>12.4} {:>8.4} {ellipse}   {:<5}   {}",
+                p.pinion_turn_rad.to_degrees(),
+                1e6 * p.error_rad,
+                1e6 * p.lead_rad,
+                1e3 * p.places_m[1][0],
+                1e3 * p.places_m[1][1],
+                if p.leading { "yes" } else { "no" },
+                p.kind.words()
+            ),
+        );
+    }
+}
