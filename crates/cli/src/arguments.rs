@@ -1,18 +1,14 @@
 //! The command line. Each argument is described once, here or in the files of this folder; help follows from it.
 
 mod bearing;
-mod bevel;
-mod export;
 mod machine;
 mod offline;
 mod record;
 mod signal;
 
 pub use bearing::{BearingArguments, BearingFrequenciesArguments, ControlWord};
-pub use bevel::{BevelArguments, TcaArguments};
-pub use export::ExportArguments;
 pub use machine::{CompletionsArguments, DoctorArguments, InitArguments, InitKind, ManArguments};
-pub use offline::{ComplianceArguments, MeshArguments, ModesArguments, ReduceArguments};
+pub use offline::ReduceArguments;
 pub use record::RecordArguments;
 pub use signal::{
     AbscissaArguments, BearingLineArguments, SeriesArguments, SignalAnalysis, SignalArguments,
@@ -20,6 +16,15 @@ pub use signal::{
 };
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use gearmesh_operations::bevel_pair::BevelRequest;
+use gearmesh_operations::compliance::ComplianceRequest;
+use gearmesh_operations::export::ExportRequest;
+use gearmesh_operations::import::ImportRequest;
+use gearmesh_operations::mesh::MeshRequest;
+use gearmesh_operations::modes::ModesRequest;
+use gearmesh_operations::recover::RecoverRequest;
+use gearmesh_operations::report::ReportRequest;
+use gearmesh_operations::tca::TcaRequest;
 use std::path::PathBuf;
 
 /// Gear mesh stiffness from finite elements, once; contact and root strain from then on in microseconds.
@@ -35,25 +40,25 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Mesh a gear and write it for other programs: ParaView, gmsh, Abaqus, CalculiX, Nastran
-    Mesh(MeshArguments),
+    Mesh(Printed<MeshRequest>),
     /// Reduce a gear to its compliance at the flanks (the offline stage)
     Reduce(ReduceArguments),
     /// Find the natural frequencies and mode shapes of a gear, held at its bore
-    Modes(ModesArguments),
+    Modes(Printed<ModesRequest>),
     /// Print the deflection along a flank under a line load
-    Compliance(ComplianceArguments),
+    Compliance(Printed<ComplianceRequest>),
     /// Say what a scene will compute
     Plan(PlanArguments),
     /// Run a scene
     Run(RunArguments),
     /// Recover the strain of all gauges from a result, and whole fields on request
-    Recover(RecoverArguments),
+    Recover(Printed<RecoverRequest>),
     /// Compare a result with a reference record
     Compare(CompareArguments),
     /// Write a report page
-    Report(ReportArguments),
+    Report(Printed<ReportRequest>),
     /// Export a result as a table (CSV, Parquet, MATLAB, universal file) or as moving gears (ParaView), a gear as STEP
-    Export(ExportArguments),
+    Export(Printed<ExportRequest>),
     /// Make a reference record of measured curves: CSV with units, or a universal file
     Record(RecordArguments),
     /// Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
@@ -72,11 +77,11 @@ pub enum Command {
     /// Print the frequencies of a rolling bearing: cage, ball or roller, passing of the races
     BearingFrequencies(BearingFrequenciesArguments),
     /// Print blank, machine settings and checks of a bevel pair
-    Bevel(BevelArguments),
+    Bevel(Printed<BevelRequest>),
     /// Analyse the tooth contact of a bevel pair: path, transmission error, ellipses, ease-off, edges
-    Tca(TcaArguments),
+    Tca(Printed<TcaRequest>),
     /// Import a gearbox from a REXS file: gear files, scenes, bearing files, a list of what was taken and what not
-    Import(ImportArguments),
+    Import(Printed<ImportRequest>),
     /// Print the JSON Schema of scene, study, gear, bearing or bevel files
     Schema(SchemaArguments),
     /// Write commented files to start from: a gear, a pair, a gearbox, a bevel pair
@@ -89,6 +94,17 @@ pub enum Command {
     Man(ManArguments),
     /// Make gear pairs A and B from definition to report
     Demo(DemoArguments),
+}
+
+/// The request of an operation, and how its answer is printed.
+#[derive(Debug, Args)]
+pub struct Printed<R: Args> {
+    /// What the operation is asked for
+    #[command(flatten)]
+    pub request: R,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `gearmesh plan`.
@@ -144,32 +160,6 @@ fn head_and_column(text: &str) -> Result<(String, String), String> {
     }
 }
 
-/// `gearmesh recover`.
-#[derive(Debug, Args)]
-#[allow(non_snake_case)]
-pub struct RecoverArguments {
-    /// Result file
-    pub result: PathBuf,
-    /// Strain file
-    #[arg(short, long)]
-    pub output: PathBuf,
-    /// Write the displacement and von Mises field of this gear (1 or 2), too
-    #[arg(long, requires = "field_angle_deg", requires = "field_output")]
-    pub field_gear: Option<usize>,
-    /// Driver angle of the field: the nearest computed position is taken
-    #[arg(long)]
-    pub field_angle_deg: Option<f64>,
-    /// Torque of the field; the largest computed one where not given
-    #[arg(long = "field-torque-Nm")]
-    pub field_torque_Nm: Option<f64>,
-    /// Mesh file of the field (vtu, ...)
-    #[arg(long)]
-    pub field_output: Option<PathBuf>,
-    /// Print figures as JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
 /// `gearmesh compare`.
 #[derive(Debug, Args)]
 pub struct CompareArguments {
@@ -187,38 +177,6 @@ pub struct CompareArguments {
     #[arg(long, allow_negative_numbers = true)]
     pub start_angle_deg: Option<f64>,
     /// Print figures as JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// `gearmesh report`.
-#[derive(Debug, Args)]
-pub struct ReportArguments {
-    /// Result files, one section each
-    #[arg(required = true)]
-    pub results: Vec<PathBuf>,
-    /// HTML file
-    #[arg(short, long)]
-    pub output: PathBuf,
-    /// Add the stress of the gears: pictures of the loaded tooth and its neighbours at the moment of the largest root
-    /// stress, of a pair at its largest torque; meshes and solves each gear again
-    #[arg(long)]
-    pub stress: bool,
-    /// The stress at this time, the nearest row is taken [default: where the root stress is largest]
-    #[arg(long)]
-    pub stress_at_s: Option<f64>,
-    /// The stress of a pair at this angle of the driver, the nearest one is taken [default: where the root stress is
-    /// largest]
-    #[arg(long, allow_negative_numbers = true)]
-    pub stress_angle_deg: Option<f64>,
-    /// The stress of a multibody scene: folder that its file names are relative to [default: that of the result, else the
-    /// working folder]
-    #[arg(long)]
-    pub scene_folder: Option<PathBuf>,
-    /// Folder of a reference record for each result, in the same order
-    #[arg(long)]
-    pub reference: Vec<PathBuf>,
-    /// Print what was written as JSON
     #[arg(long)]
     pub json: bool,
 }
@@ -298,28 +256,6 @@ pub struct StudyArguments {
     #[arg(long, hide = true, conflicts_with = "scheduler")]
     pub gather: Option<PathBuf>,
     /// Print figures as JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// `gearmesh import`.
-#[derive(Debug, Args)]
-pub struct ImportArguments {
-    /// REXS file: XML (.rexs), JSON (.rexsj) or a zip file of one (.rexsz)
-    pub model: PathBuf,
-    /// Folder for the files that are made; files of the same names are replaced
-    #[arg(short, long)]
-    pub output: PathBuf,
-    /// Scenes of reduced gears (`hybrid` meshes) in place of the springs of ISO 6336: reduce the gear files first
-    #[arg(long)]
-    pub reduced: bool,
-    /// Scenes that run in time, driven at the speeds of the file, in place of scenes at rest
-    #[arg(long)]
-    pub transient: bool,
-    /// Write the files only: neither check them nor run the scenes at rest
-    #[arg(long)]
-    pub no_run: bool,
-    /// Print the figures at rest, and what was taken, assumed and not represented, as JSON
     #[arg(long)]
     pub json: bool,
 }

@@ -4,7 +4,6 @@
 mod arguments;
 mod commands;
 mod console;
-mod file_words;
 mod interrupt;
 mod overwriting;
 mod progress_lines;
@@ -25,13 +24,13 @@ fn main() -> ExitCode {
         Command::Reduce(a) => commands::reduce::run(a),
         Command::Modes(a) => commands::modes::run(a),
         Command::Compliance(a) => commands::compliance::run(a),
-        Command::Plan(a) => commands::plan::run(a),
+        Command::Plan(a) => commands::plan(a),
         Command::Run(a) => commands::run::run(a),
         Command::Recover(a) => commands::recover::run(a),
         Command::Compare(a) => commands::compare::run(a),
-        Command::Export(a) => commands::export::run(a),
+        Command::Export(a) => commands::export(a),
         Command::Record(a) => commands::record::run(a),
-        Command::Report(a) => commands::report::run(a),
+        Command::Report(a) => commands::report(a),
         Command::Signal(a) => commands::signal::run(a),
         Command::Check(a) => commands::check::run(a),
         Command::Accuracy(a) => commands::accuracy::run(a),
@@ -40,8 +39,8 @@ fn main() -> ExitCode {
         Command::Schema(a) => commands::schema::run(a),
         Command::Bearing(a) => commands::bearing::run(a),
         Command::BearingFrequencies(a) => commands::bearing_frequencies::run(a),
-        Command::Bevel(a) => commands::bevel::run(a),
-        Command::Tca(a) => commands::tca::run(a),
+        Command::Bevel(a) => commands::bevel(a),
+        Command::Tca(a) => commands::tca(a),
         Command::Import(a) => commands::import::run(a),
         Command::Init(a) => commands::init::run(a),
         Command::Doctor(a) => commands::doctor::run(a),

@@ -1,11 +1,10 @@
 //! Progress for programs that start this one: with `GEARMESH_PROGRESS=lines`, lines of JSON on standard error.
 
+use std::io::Write;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use serde_json::json;
-
-use crate::console;
 
 /// Wall time between two lines.
 const EVERY: Duration = Duration::from_millis(100);
@@ -40,7 +39,9 @@ impl ProgressLines {
         let is_due = told.is_none_or(|last| last.elapsed() >= EVERY);
         if is_due || done >= total {
             *told = Some(Instant::now());
-            console::note(json!({"progress": {"stage": stage, "done": done, "total": total}}));
+            let line = json!({"progress": {"stage": stage, "done": done, "total": total}});
+            // Nobody can be told that standard error is closed.
+            let _ = writeln!(std::io::stderr(), "{line}");
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A bevel pair as designed: blank, machine settings and checks of a bevel pair.
 
+use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::watch::Watch;
 use gearmesh_bevel::cut_thickness::{is_one_operation, normal_m, settings_of_thickness};
@@ -15,47 +16,46 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// Which pair, and where its nominal points go.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelRequest {
-    /// Bevel pair file.
+    /// Bevel pair file
     pub pair: PathBuf,
-    /// Folder for nominal points and normals of all four flanks.
+    /// Write nominal points and normals of all four flanks for a measuring machine into this folder: pinion-concave.csv
+    /// and so on
+    #[arg(long, value_name = "FOLDER")]
     pub grid: Option<PathBuf>,
-    /// Sectors along the face and heights up the flank of the nominal points.
+    /// Sectors along the face and heights up the flank of the nominal points
+    #[arg(long, num_args = 2, value_names = ["SECTORS", "HEIGHTS"], default_values_t = [9, 5], requires = "grid",
+        value_parser = clap::value_parser!(u16).range(3..=99))]
     #[serde(default = "usual_grid")]
-    pub grid_size: [u16; 2],
+    pub grid_size: Vec<u16>,
 }
 
-fn usual_grid() -> [u16; 2] {
-    [9, 5]
-}
-
-/// Blank, machine settings and checks of a pair.
-#[derive(Debug, Clone)]
-pub struct BevelDesign {
-    /// For other programs.
-    pub figures: Value,
-    /// For people: remarks and the settings as a file has them.
-    pub lines: Vec<String>,
+fn usual_grid() -> Vec<u16> {
+    vec![9, 5]
 }
 
 /// Designs the pair of a file, and writes nominal points where asked for.
 ///
 /// # Errors
 /// [`Failure`] for a pair that cannot be made, and points that cannot be written.
-pub fn design(a: &BevelRequest, watch: &Watch<'_>) -> Result<BevelDesign, Failure> {
+pub fn design(a: &BevelRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
     let document = InputDocument::read(&a.pair)?;
     let file = PairFile::from_document(&document)?;
     let (design, checks) = file.checked_design(&document)?;
     if let Some(folder) = &a.grid {
-        let written = write_grids(&design, folder, a.grid_size.map(usize::from), watch);
+        let [sectors, heights] = a.grid_size[..] else {
+            return Err(Failure::input("--grid-size: allowed are two numbers"));
+        };
+        let size = [sectors, heights].map(usize::from);
+        let written = write_grids(&design, folder, size, watch);
         written.map_err(|error| match error {
             Ok(fault) => fault.in_file(&document).into(),
             Err(problem) => Failure::work(problem),
         })?;
     }
-    Ok(BevelDesign {
+    Ok(Answer {
         figures: figures(&file, &design, &checks),
         lines: table(&file, &design, &checks),
     })

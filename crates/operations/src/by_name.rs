@@ -71,7 +71,7 @@ pub fn call(name: &str, request: Value, watch: &Watch<'_>) -> Result<Value, Fail
             &read(name, request)?,
             watch,
         )?)),
-        "report" => report::report(&read(name, request)?, watch),
+        "report" => Ok(report::report(&read(name, request)?, watch)?.figures),
         "tca" => Ok(tca::tca(&read(name, request)?, watch)?.figures),
         other => Err(Failure::input(format!("there is no operation `{other}`"))),
     }

@@ -10,27 +10,34 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Which load, and where the deflection is asked for.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
 pub struct ComplianceRequest {
-    /// Model file.
+    /// Model file
     pub model: PathBuf,
-    /// Loaded tooth.
+    /// Loaded tooth
+    #[arg(long)]
     pub tooth: usize,
-    /// Loaded side.
+    /// Loaded side
+    #[arg(long, value_parser = crate::file_words::flank_words(), default_value = Flank::Right.name())]
     #[serde(default)]
     pub flank: Flank,
-    /// Radii of the load, one or several.
+    /// Radius of the load; several, separated by commas, give a table
+    #[arg(long, value_delimiter = ',', required = true)]
     #[serde(deserialize_with = "crate::one_or_many::read")]
     pub radius_mm: Vec<f64>,
-    /// Line load, uniform over the face width.
-    #[serde(rename = "line_load_N_per_mm")]
-    pub line_load_n_per_mm: f64,
-    /// Half width of the Hertz contact.
+    /// Line load, uniform over the face width
+    #[arg(long = "line-load-N-per-mm")]
+    pub line_load_N_per_mm: f64,
+    /// Half width of the Hertz contact (for the local term)
+    #[arg(long)]
     pub half_width_mm: f64,
-    /// Tooth at which the deflection is read; the loaded one where not given.
+    /// Tooth at which the deflection is read, same radius and side; the loaded one where not given
+    #[arg(long)]
     pub at_tooth: Option<usize>,
-    /// Local contact term.
+    /// Local contact term
+    #[arg(long, value_parser = crate::file_words::local_words(), default_value = LocalContact::default().name())]
     #[serde(default)]
     pub local: LocalContact,
 }
@@ -83,7 +90,7 @@ pub fn compliance(a: &ComplianceRequest) -> Result<FoundDeflections, Failure> {
         }
     }
     for (name, value) in [
-        ("--line-load-N-per-mm", a.line_load_n_per_mm),
+        ("--line-load-N-per-mm", a.line_load_N_per_mm),
         ("--half-width-mm", a.half_width_mm),
     ] {
         if !(value > 0.0 && value.is_finite()) {
@@ -109,7 +116,7 @@ pub fn compliance(a: &ComplianceRequest) -> Result<FoundDeflections, Failure> {
             tooth: a.tooth,
             flank: a.flank,
             radius_m: radius * 1e-3,
-            line_load_n_per_m: a.line_load_n_per_mm * 1e3,
+            line_load_n_per_m: a.line_load_N_per_mm * 1e3,
             half_width_m: a.half_width_mm * 1e-3,
         };
         rows.push((

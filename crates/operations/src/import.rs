@@ -14,20 +14,24 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// What is imported, and what for.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportRequest {
-    /// REXS file.
+    /// REXS file: XML (.rexs), JSON (.rexsj) or a zip file of one (.rexsz)
     pub model: PathBuf,
-    /// Folder for the files.
+    /// Folder for the files that are made; files of the same names are replaced
+    #[arg(short, long)]
     pub output: PathBuf,
-    /// Scenes with hybrid meshes of reduced gears.
+    /// Scenes of reduced gears (`hybrid` meshes) in place of the springs of ISO 6336: reduce the gear files first
+    #[arg(long)]
     #[serde(default)]
     pub reduced: bool,
-    /// Scenes in time.
+    /// Scenes that run in time, driven at the speeds of the file, in place of scenes at rest
+    #[arg(long)]
     #[serde(default)]
     pub transient: bool,
-    /// Neither check the files nor run the scenes at rest.
+    /// Write the files only: neither check them nor run the scenes at rest
+    #[arg(long)]
     #[serde(default)]
     pub no_run: bool,
 }

@@ -16,6 +16,7 @@
 //! [`stressed_gear`] is a gear's body under forces, [`tooth_stress`] and [`result_stress`] are the pictures of it.
 
 pub mod accuracy;
+mod answer;
 mod bevel_gauges;
 pub mod bevel_pair;
 pub mod bevel_stress;
@@ -26,6 +27,7 @@ pub mod compliance;
 pub mod cross_section;
 pub mod export;
 mod failure;
+mod file_words;
 pub mod gear_file;
 pub mod import;
 pub mod import_trial;
@@ -64,6 +66,7 @@ pub mod tooth_stress;
 pub mod uff;
 mod watch;
 
+pub use answer::Answer;
 pub use failure::{Cause, Failure, Fault};
 pub use scratch::Scratch;
 pub use watch::{Listener, Silent, Task, Watch};

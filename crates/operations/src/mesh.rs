@@ -16,17 +16,21 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// What is meshed, and where the mesh goes.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeshRequest {
-    /// Gear file.
+    /// Gear file
     pub gear: PathBuf,
-    /// Mesh file; its ending names the format.
+    /// Mesh file; its extension names the format: .bdf .nas (Nastran), .inp (Abaqus, CalculiX), .msh (gmsh), .vtk .vtu
+    /// .xdmf .xmf (ParaView)
+    #[arg(short, long)]
     pub output: PathBuf,
-    /// Unit of the coordinates in the file.
+    /// Unit of the coordinates in the file
+    #[arg(long, value_parser = crate::file_words::length_words(), default_value = "m")]
     #[serde(default)]
     pub length_unit: LengthUnit,
-    /// Begin even where the estimate of the memory exceeds what is free.
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
     #[serde(default)]
     pub even_if_memory_is_short: bool,
 }

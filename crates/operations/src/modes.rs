@@ -14,19 +14,23 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Which modes of which gear.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
 pub struct ModesRequest {
-    /// Gear file with a density.
+    /// Gear file with material.density_kg_per_m3
     pub gear: PathBuf,
-    /// So many, the lowest; in place of what the gear file says.
+    /// So many modes, the lowest; instead of what the gear file says
+    #[arg(long, conflicts_with = "up_to_Hz")]
     pub count: Option<usize>,
-    /// All up to this frequency; in place of what the gear file says.
-    #[serde(rename = "up_to_Hz")]
-    pub up_to_hz: Option<f64>,
-    /// Mesh file for the shapes, a point field a mode.
+    /// All modes up to this frequency; instead of what the gear file says
+    #[arg(long = "up-to-Hz")]
+    pub up_to_Hz: Option<f64>,
+    /// Mesh file for the shapes, one point field a mode (.vtu, .msh, ...)
+    #[arg(long)]
     pub shapes: Option<PathBuf>,
-    /// Begin even where the estimate of the memory exceeds what is free.
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
     #[serde(default)]
     pub even_if_memory_is_short: bool,
 }
@@ -89,7 +93,7 @@ pub fn modes(a: &ModesRequest, watch: &Watch<'_>) -> Result<FoundModes, Failure>
 
 /// What is asked for, or else the gear file says.
 fn range(a: &ModesRequest, gear: &GearDefinition) -> Result<ModeRange, Failure> {
-    match (a.count, a.up_to_hz) {
+    match (a.count, a.up_to_Hz) {
         (Some(0), _) => Err(Failure::input("--count: found 0, allowed is 1 or more")),
         (Some(count), _) => Ok(ModeRange::Count(count)),
         (None, Some(hz)) if hz > 0.0 && hz.is_finite() => Ok(ModeRange::UpToHz(hz)),

@@ -1,26 +1,18 @@
 //! What a scene will compute.
 
+use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::watch::Watch;
 use gearmesh_scene::system::SystemPlan;
 use gearmesh_scene::system_run::{ResultSize, RunCost, RunJob};
 use gearmesh_scene::{SceneFile, load};
-use serde_json::{Value, json};
-
-/// What a run of a scene will be.
-#[derive(Debug, Clone)]
-pub struct Planned {
-    /// For people.
-    pub lines: Vec<String>,
-    /// For other programs.
-    pub figures: Value,
-}
+use serde_json::json;
 
 /// Says what a scene will compute.
 ///
 /// # Errors
 /// [`Failure`] for what a run would refuse.
-pub fn plan(scene: SceneFile, watch: &Watch<'_>) -> Result<Planned, Failure> {
+pub fn plan(scene: SceneFile, watch: &Watch<'_>) -> Result<Answer, Failure> {
     match scene {
         SceneFile::Pair(scene) => {
             let loaded = load(*scene)?;
@@ -30,7 +22,7 @@ pub fn plan(scene: SceneFile, watch: &Watch<'_>) -> Result<Planned, Failure> {
             let plan = loaded.plan();
             let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns, "proposal": plan.proposal,
                 "result_bytes": loaded.result_bytes()});
-            Ok(Planned {
+            Ok(Answer {
                 lines: plan.lines,
                 figures,
             })
@@ -52,7 +44,7 @@ pub fn plan(scene: SceneFile, watch: &Watch<'_>) -> Result<Planned, Failure> {
                 "mobility": plan.mobility, "highest_frequency_Hz": plan.highest_frequency_hz, "steps": plan.steps,
                 "step_cost_s": plan.step_cost_s, "result_bytes": size.map(|size| size.bytes()),
             });
-            Ok(Planned {
+            Ok(Answer {
                 lines: plan.lines,
                 figures,
             })

@@ -13,21 +13,26 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// What is recovered from which result.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
 pub struct RecoverRequest {
-    /// Result of a pair.
+    /// Result file
     pub result: PathBuf,
-    /// Result with the strain of all gauges.
+    /// Strain file
+    #[arg(short, long)]
     pub output: PathBuf,
-    /// Gear 1 or 2 of which a whole field is made, too.
+    /// Write the displacement and von Mises field of this gear (1 or 2), too
+    #[arg(long, requires = "field_angle_deg", requires = "field_output")]
     pub field_gear: Option<usize>,
-    /// Driver angle of the field; the nearest position is taken.
+    /// Driver angle of the field: the nearest computed position is taken
+    #[arg(long)]
     pub field_angle_deg: Option<f64>,
-    /// Torque of the field; the largest one where not given.
-    #[serde(rename = "field_torque_Nm")]
-    pub field_torque_nm: Option<f64>,
-    /// Mesh file of the field.
+    /// Torque of the field; the largest computed one where not given
+    #[arg(long = "field-torque-Nm")]
+    pub field_torque_Nm: Option<f64>,
+    /// Mesh file of the field (vtu, ...)
+    #[arg(long)]
     pub field_output: Option<PathBuf>,
 }
 
@@ -175,7 +180,7 @@ fn field_request<'a>(
         .min_by(|i, j| distance(*i).total_cmp(&distance(*j)))
         .unwrap_or(0);
     let torques = &result.torque_nm;
-    let torque = match a.field_torque_nm {
+    let torque = match a.field_torque_Nm {
         None => (0..torques.len()).max_by(|i, j| torques[*i].total_cmp(&torques[*j])),
         Some(wanted) => torques
             .iter()
@@ -184,7 +189,7 @@ fn field_request<'a>(
     let torque = torque.ok_or_else(|| {
         Failure::input(format!(
             "--field-torque-Nm: found {}, the result has {torques:?}",
-            a.field_torque_nm.unwrap_or_default()
+            a.field_torque_Nm.unwrap_or_default()
         ))
     })?;
     Ok(Some(FieldRequest {

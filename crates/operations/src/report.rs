@@ -1,5 +1,6 @@
 //! One HTML page for one or more results.
 
+use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::result_stress::{self, StressRequest};
 use crate::watch::Watch;
@@ -10,28 +11,38 @@ use gearmesh_report::page::Page;
 use gearmesh_report::scene_page::{SceneChapter, SystemChapter, scene_page};
 use gearmesh_scene::ResultFile;
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// What is reported.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReportRequest {
-    /// Result files, one section each.
+    /// Result files, one section each
+    #[arg(required = true)]
     #[serde(deserialize_with = "crate::one_or_many::read")]
     pub results: Vec<PathBuf>,
-    /// HTML file.
+    /// HTML file
+    #[arg(short, long)]
     pub output: PathBuf,
-    /// Add the stress of the gears, each meshed and solved again.
+    /// Add the stress of the gears: pictures of the loaded tooth and its neighbours at the moment of the largest root
+    /// stress, of a pair at its largest torque; meshes and solves each gear again
+    #[arg(long)]
     #[serde(default)]
     pub stress: bool,
-    /// The stress of a run in time at this time; where the root stress is largest if not given.
+    /// The stress at this time, the nearest row is taken [default: where the root stress is largest]
+    #[arg(long)]
     pub stress_at_s: Option<f64>,
-    /// The stress of a pair at this angle of the driver.
+    /// The stress of a pair at this angle of the driver, the nearest one is taken [default: where the root stress is
+    /// largest]
+    #[arg(long, allow_negative_numbers = true)]
     pub stress_angle_deg: Option<f64>,
-    /// Folder that file names of a multibody scene are relative to.
+    /// The stress of a multibody scene: folder that its file names are relative to [default: that of the result, else the
+    /// working folder]
+    #[arg(long)]
     pub scene_folder: Option<PathBuf>,
-    /// Folder of a reference record for each result, or none.
+    /// Folder of a reference record for each result, in the same order
+    #[arg(long)]
     #[serde(default, deserialize_with = "crate::one_or_many::read")]
     pub reference: Vec<PathBuf>,
 }
@@ -40,7 +51,7 @@ pub struct ReportRequest {
 ///
 /// # Errors
 /// [`Failure`] for files that cannot be read, options that do not belong to a result, and a page that cannot be written.
-pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Value, Failure> {
+pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
     let of_record = |folder: &PathBuf| ["record.toml", "data.csv"].map(|name| folder.join(name));
     let records = a.reference.iter().flat_map(of_record);
     let inputs = a.results.iter().cloned().chain(records).collect();
@@ -131,7 +142,10 @@ pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Value, Failure> {
     if a.stress {
         told["stress"] = figures.into();
     }
-    Ok(told)
+    Ok(Answer {
+        figures: told,
+        lines: Vec::new(),
+    })
 }
 
 /// Names of files as a chart tells them apart: bare, or as given where two are alike.

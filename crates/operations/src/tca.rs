@@ -1,5 +1,6 @@
 //! Tooth contact analysis of a bevel pair: without load, under its loads, its page, the stress in its bodies.
 
+use crate::answer::Answer;
 use crate::bevel_pair::{say, thickness_figures, thickness_words};
 use crate::bevel_stress::{self, BevelStressRequest};
 use crate::failure::Failure;
@@ -12,45 +13,46 @@ use crate::{loaded_bevel, output_name, overwriting, tca_page};
 use gearmesh_bevel::{AssembledPair, BevelError, FlankSide, PairFile, ToothContact};
 use gearmesh_geometry::input::InputDocument;
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::path::PathBuf;
 
 /// What is analysed and written.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
 pub struct TcaRequest {
-    /// Bevel pair file.
+    /// Bevel pair file
     pub pair: PathBuf,
-    /// Page with pictures.
+    /// Page with pictures: contact pattern, transmission error, ease-off
+    #[arg(long, value_name = "PAGE.html")]
     pub report: Option<PathBuf>,
-    /// Add the stress in the bodies of both members to the page.
+    /// Add the stress in the bodies of both members to the page, at the largest torque where their root stress is largest; needs load.models
+    #[arg(long, requires = "report")]
     #[serde(default)]
     pub stress: bool,
-    /// Member of which a whole field is written, 1 or 2.
+    /// Write the displacement and von Mises field of this member, too: 1 the pinion, 2 the gear
+    #[arg(long, requires = "field_output", value_parser = clap::value_parser!(u8).range(1..=2))]
     pub field_gear: Option<u8>,
-    /// Turn of the pinion of the field.
+    /// Turn of the pinion of the field, the nearest computed position is taken; where one pair of teeth carries most where not given
+    #[arg(long, allow_negative_numbers = true, requires = "field_gear")]
     pub field_angle_deg: Option<f64>,
-    /// Torque of the field.
-    #[serde(rename = "field_torque_Nm")]
-    pub field_torque_nm: Option<f64>,
-    /// Mesh file of the field.
+    /// Torque of the field; the largest computed one where not given
+    #[arg(
+        long = "field-torque-Nm",
+        allow_negative_numbers = true,
+        requires = "field_gear"
+    )]
+    pub field_torque_Nm: Option<f64>,
+    /// Mesh file of the field (vtu, ...)
+    #[arg(long, requires = "field_gear")]
     pub field_output: Option<PathBuf>,
-}
-
-/// What was found.
-#[derive(Debug, Clone)]
-pub struct ContactAnalysis {
-    /// For other programs.
-    pub figures: Value,
-    /// For people.
-    pub lines: Vec<String>,
 }
 
 /// Analyses the contact of a pair file, under its loads where it names any; and makes the page and the field.
 ///
 /// # Errors
 /// [`Failure`] for a pair that cannot be made or does not touch, and for files that cannot be read or written.
-pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<ContactAnalysis, Failure> {
+pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
     let outputs: Vec<PathBuf> = a.report.iter().chain(&a.field_output).cloned().collect();
     overwriting::refuse(vec![a.pair.clone()], &outputs)?;
     if a.stress && a.report.is_none() {
@@ -96,7 +98,7 @@ pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<ContactAnalysis, Failure
         stress: a.stress,
         field_gear: a.field_gear,
         field_angle_deg: a.field_angle_deg,
-        field_torque_nm: a.field_torque_nm,
+        field_torque_nm: a.field_torque_Nm,
         field_output: a.field_output.clone(),
     };
     let (stress, stress_figures) = bevel_stress::asked(&request, loaded.as_ref(), watch)?.unzip();
@@ -130,7 +132,7 @@ pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<ContactAnalysis, Failure
         lines = loaded_bevel::lines(&file, loaded);
     }
     lines.extend(table(&file, &sides, &thicknesses, backlash_m));
-    Ok(ContactAnalysis {
+    Ok(Answer {
         figures: all,
         lines,
     })

@@ -1,23 +1,14 @@
 //! `gearmesh compliance`: deflection along a flank.
 
-use crate::arguments::ComplianceArguments;
+use crate::arguments::Printed;
 use crate::console;
 use gearmesh_operations::Failure;
 use gearmesh_operations::compliance::{ComplianceRequest, compliance};
 use gearmesh_operations::reduce::mesh_error;
 
 /// Runs the command.
-pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
-    let found = compliance(&ComplianceRequest {
-        model: a.model.clone(),
-        tooth: a.tooth,
-        flank: a.flank,
-        radius_mm: a.radius_mm.clone(),
-        line_load_n_per_mm: a.line_load_N_per_mm,
-        half_width_mm: a.half_width_mm,
-        at_tooth: a.at_tooth,
-        local: a.local,
-    })?;
+pub fn run(a: &Printed<ComplianceRequest>) -> Result<(), Failure> {
+    let found = compliance(&a.request)?;
     if a.json {
         console::json(&found.figures());
         return Ok(());
@@ -25,7 +16,7 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
     let mesh_error = mesh_error(found.mesh_error);
     console::data(format!(
         "{}: deflection along the {} flank's inward normal at tooth {}, line load on tooth {}; mesh error {mesh_error}",
-        found.gear, a.flank, found.at_tooth, found.tooth
+        found.gear, a.request.flank, found.at_tooth, found.tooth
     ));
     let slices: Vec<String> = (0..found.slices)
         .map(|k| format!("{:>11}", format!("slice {k} um")))

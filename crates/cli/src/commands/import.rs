@@ -1,6 +1,6 @@
 //! `gearmesh import`: a gearbox from a REXS file.
 
-use crate::arguments::ImportArguments;
+use crate::arguments::Printed;
 use crate::console;
 use gearmesh_operations::Failure;
 use gearmesh_operations::import::{ImportRequest, import, line};
@@ -12,24 +12,23 @@ use gearmesh_rexs::{Entry, Import, Meshes, Weight, model_file};
 const MOST_LINES: usize = 20;
 
 /// Runs the command.
-pub fn run(a: &ImportArguments) -> Result<(), Failure> {
-    let request = ImportRequest {
-        model: a.model.clone(),
-        output: a.output.clone(),
-        reduced: a.reduced,
-        transient: a.transient,
-        no_run: a.no_run,
-    };
-    let found = import(&request, &console::watch())?;
+pub fn run(a: &Printed<ImportRequest>) -> Result<(), Failure> {
+    let found = import(&a.request, &console::watch())?;
     told(&found.alarms, |text| console::warning(text));
-    if let Some((others, first)) = found.refusal(&request) {
+    if let Some((others, first)) = found.refusal(&a.request) {
         told(&others, |text| console::error(text));
         return Err(first);
     }
     if a.json {
         console::json(&found.figures());
     } else {
-        table(&found.made, found.with, &found.alarms, &found.trial, a);
+        table(
+            &found.made,
+            found.with,
+            &found.alarms,
+            &found.trial,
+            &a.request,
+        );
     }
     Ok(())
 }
@@ -47,7 +46,7 @@ fn told(lines: &[String], say: impl Fn(&str)) {
     }
 }
 
-fn table(made: &Import, with: Meshes, alarms: &[String], trial: &Trial, a: &ImportArguments) {
+fn table(made: &Import, with: Meshes, alarms: &[String], trial: &Trial, a: &ImportRequest) {
     let folder = &a.output;
     let ledger = &made.ledger;
     if let Some(row) = trial.scenes.first() {
@@ -93,7 +92,7 @@ fn table(made: &Import, with: Meshes, alarms: &[String], trial: &Trial, a: &Impo
 }
 
 /// What works after this.
-fn next(made: &Import, trial: &Trial, a: &ImportArguments) {
+fn next(made: &Import, trial: &Trial, a: &ImportRequest) {
     let folder = &a.output;
     if a.reduced {
         for gear in made.gears.iter().filter(|gear| trial.works(gear)) {

@@ -1,18 +1,12 @@
 //! `gearmesh mesh`: a gear's mesh for other programs.
 
-use crate::arguments::MeshArguments;
+use crate::arguments::Printed;
 use crate::console;
 use gearmesh_operations::{Failure, mesh::MeshRequest, mesh::mesh};
 
 /// Runs the command.
-pub fn run(a: &MeshArguments) -> Result<(), Failure> {
-    let request = MeshRequest {
-        gear: a.gear.clone(),
-        output: a.output.clone(),
-        length_unit: a.length_unit,
-        even_if_memory_is_short: a.even_if_memory_is_short,
-    };
-    let found = mesh(&request, &console::watch())?;
+pub fn run(a: &Printed<MeshRequest>) -> Result<(), Failure> {
+    let found = mesh(&a.request, &console::watch())?;
     if a.json {
         console::json(&found.figures());
     } else {

@@ -1,20 +1,13 @@
 //! `gearmesh modes`: natural frequencies and shapes with the bore held.
 
-use crate::arguments::ModesArguments;
+use crate::arguments::Printed;
 use crate::console;
 use gearmesh_operations::Failure;
 use gearmesh_operations::modes::{FoundModes, ModesRequest, effective_shares, modes};
 
 /// Runs the command.
-pub fn run(a: &ModesArguments) -> Result<(), Failure> {
-    let request = ModesRequest {
-        gear: a.gear.clone(),
-        count: a.count,
-        up_to_hz: a.up_to_Hz,
-        shapes: a.shapes.clone(),
-        even_if_memory_is_short: a.even_if_memory_is_short,
-    };
-    let found = modes(&request, &console::watch())?;
+pub fn run(a: &Printed<ModesRequest>) -> Result<(), Failure> {
+    let found = modes(&a.request, &console::watch())?;
     if a.json {
         console::json(&found.figures());
     } else {

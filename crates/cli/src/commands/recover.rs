@@ -1,22 +1,14 @@
 //! `gearmesh recover`: strain of all gauges of both models; the whole field on request.
 
-use crate::arguments::RecoverArguments;
+use crate::arguments::Printed;
 use crate::console;
 use gearmesh_operations::recover::{RecoverRequest, figures, recover, strain_ranges};
 use gearmesh_operations::reduce::mesh_error;
 use gearmesh_operations::{Failure, periods};
 
 /// Runs the command.
-pub fn run(a: &RecoverArguments) -> Result<(), Failure> {
-    let request = RecoverRequest {
-        result: a.result.clone(),
-        output: a.output.clone(),
-        field_gear: a.field_gear,
-        field_angle_deg: a.field_angle_deg,
-        field_torque_nm: a.field_torque_Nm,
-        field_output: a.field_output.clone(),
-    };
-    let result = recover(&request, &console::watch())?;
+pub fn run(a: &Printed<RecoverRequest>) -> Result<(), Failure> {
+    let result = recover(&a.request, &console::watch())?;
     if a.json {
         console::json(&figures(&result));
         return Ok(());

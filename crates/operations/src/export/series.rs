@@ -1,6 +1,7 @@
 //! Gears that move: a .pvd file that names a .vtu file for each moment, in a folder beside it.
 
-use super::{ExportRequest, Exported};
+use super::ExportRequest;
+use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::recover::scene_of;
 use crate::stressed_gear::{StressedGear, forces_on};
@@ -18,11 +19,11 @@ use std::path::{Path, PathBuf};
 const MOMENTS: usize = 100;
 
 /// Writes the moments of a result.
-pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Exported, Failure> {
+pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
     match ResultFile::open(&a.result).map_err(Failure::input)? {
         ResultFile::Pair(result) => pair(a, &result, watch),
         ResultFile::System(result) => {
-            if a.torque_nm.is_some() {
+            if a.torque_Nm.is_some() {
                 return Err(Failure::input(
                     "--torque-Nm is for results of a [pair]; leave it out",
                 ));
@@ -55,7 +56,7 @@ pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Exported, Fa
     }
 }
 
-fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<Exported, Failure> {
+fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<Answer, Failure> {
     for (name, given) in [
         ("--from-s", a.from_s.is_some()),
         ("--to-s", a.to_s.is_some()),
@@ -67,7 +68,7 @@ fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<Ex
         }
     }
     let torques = &result.torque_nm;
-    let torque = match a.torque_nm {
+    let torque = match a.torque_Nm {
         None => (0..torques.len()).max_by(|i, j| torques[*i].abs().total_cmp(&torques[*j].abs())),
         Some(wanted) => {
             let near = |t: &f64| (t - wanted).abs() <= 1e-9 * wanted.abs();
@@ -77,7 +78,7 @@ fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<Ex
     let torque = torque.ok_or_else(|| {
         Failure::input(format!(
             "--torque-Nm: found {}, the result has {torques:?}",
-            a.torque_nm.unwrap_or_default()
+            a.torque_Nm.unwrap_or_default()
         ))
     })?;
     let loaded = scene_of(result, &a.result)?;
@@ -135,7 +136,7 @@ fn write_moments(
     unit: &str,
     count: usize,
     mut moment: impl FnMut(usize) -> Result<Moment, Failure>,
-) -> Result<Exported, Failure> {
+) -> Result<Answer, Failure> {
     let folder = frames_folder(&a.output)?;
     let name = folder
         .file_name()
@@ -173,9 +174,9 @@ fn write_moments(
     ));
     let at: Vec<f64> = files.iter().map(|(at, _)| *at).collect();
     let paths: Vec<&String> = files.iter().map(|(_, file)| file).collect();
-    Ok(Exported {
+    Ok(Answer {
         figures: json!({ "file": a.output, "moments": at, "unit": unit, "files": paths }),
-        line: None,
+        lines: Vec::new(),
     })
 }
 

@@ -1,6 +1,7 @@
 //! A gear's exact flanks as STEP, by gmsh's OCC kernel in a Python process.
 
-use super::{ExportRequest, Exported};
+use super::ExportRequest;
+use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::gear_file::{AnyGear, GearFile};
 use crate::watch::Watch;
@@ -23,7 +24,7 @@ const SECTION_TURN_RAD: f64 = 0.06;
 const CHECKED: [usize; 2] = [13, 7];
 
 /// Writes the solid of a gear file.
-pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Exported, Failure> {
+pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
     if a.result.extension().is_some_and(|e| e == "h5") {
         let shown = a.result.display();
         return Err(Failure::input(format!(
@@ -56,9 +57,9 @@ pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Exported, Fa
         a.output.display(),
         told["faces"]
     );
-    Ok(Exported {
+    Ok(Answer {
         figures: json!({ "file": a.output, "solid": told, "left_out": left_out }),
-        line: Some(line),
+        lines: vec![line],
     })
 }
 

@@ -1,6 +1,7 @@
 //! A result as a table of another program.
 
-use super::{ExportRequest, Exported};
+use super::ExportRequest;
+use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::uff;
 use crate::watch::Watch;
@@ -16,11 +17,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Writes the table that was asked for, or all in a .mat file.
-pub(super) fn write(
-    a: &ExportRequest,
-    ending: &str,
-    watch: &Watch<'_>,
-) -> Result<Exported, Failure> {
+pub(super) fn write(a: &ExportRequest, ending: &str, watch: &Watch<'_>) -> Result<Answer, Failure> {
     let opened = Opened::open(&a.result)?;
     let tables = opened.tables()?;
     let names: Vec<&str> = tables.iter().map(|table| &*table.name).collect();
@@ -75,9 +72,9 @@ pub(super) fn write(
             names[1..].join(" ")
         ));
     }
-    Ok(Exported {
+    Ok(Answer {
         figures,
-        line: None,
+        lines: Vec::new(),
     })
 }
 

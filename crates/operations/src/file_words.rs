@@ -1,12 +1,12 @@
 //! The words of files as values of arguments: sides of the teeth, local contact terms.
 
+use crate::mesh_file::LengthUnit;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use gearmesh_contact::LocalContact;
 use gearmesh_geometry::Flank;
-use gearmesh_operations::mesh_file::LengthUnit;
 
 /// `right` and `left`.
-pub fn flank_words() -> impl TypedValueParser<Value = Flank> {
+pub(crate) fn flank_words() -> impl TypedValueParser<Value = Flank> {
     words(&Flank::ALL, Flank::name, |flank| match flank {
         Flank::Right => "Faces clockwise",
         Flank::Left => "Faces counter-clockwise",
@@ -14,7 +14,7 @@ pub fn flank_words() -> impl TypedValueParser<Value = Flank> {
 }
 
 /// `m` and `mm`.
-pub fn length_words() -> impl TypedValueParser<Value = LengthUnit> {
+pub(crate) fn length_words() -> impl TypedValueParser<Value = LengthUnit> {
     words(&LengthUnit::ALL, LengthUnit::name, |unit| match unit {
         LengthUnit::M => "Metres",
         LengthUnit::Mm => "Millimetres",
@@ -22,7 +22,7 @@ pub fn length_words() -> impl TypedValueParser<Value = LengthUnit> {
 }
 
 /// The local contact terms.
-pub fn local_words() -> impl TypedValueParser<Value = LocalContact> {
+pub(crate) fn local_words() -> impl TypedValueParser<Value = LocalContact> {
     words(
         &LocalContact::ALL,
         LocalContact::name,

@@ -1,0 +1,74 @@
+//! A gear pair at rest: two gears are reduced, one after the other, and a scene in memory runs them under three torques.
+//!
+//! `cargo run --example pair_at_rest -- fe_models/first_pair target/first_pair`: folder of the gear files, folder for the models.
+
+use std::error::Error;
+use std::path::Path;
+use std::time::Duration;
+
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_operations::Watch;
+use gearmesh_operations::gear_file::GearFile;
+use gearmesh_operations::reduce::{Reduction, reduce_to};
+use gearmesh_operations::run::{RunHow, run_pair};
+use gearmesh_scene::{Scene, load};
+
+/// Files that it names lie in the folder of the models.
+const SCENE: &str = r#"
+title = "A pair in memory"
+
+[pair]
+gear_1 = "pinion.h5"
+gear_2 = "wheel.h5"
+centre_distance_mm = 94.6
+
+[mesh]
+model = { kind = "hybrid" }
+
+[run]
+torques_Nm = [50.0, 100.0, 200.0]
+pitches = 1
+points_per_pitch = 24
+"#;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().collect();
+    let [_, gears, models] = &arguments[..] else {
+        return Err("give the folder of the gear files and a folder for the models".into());
+    };
+    let (gears, models) = (Path::new(gears), Path::new(models));
+    std::fs::create_dir_all(models)?;
+    // Nobody listens and nothing stops it. A program of your own hands in a `Listener` and a flag.
+    let watch = Watch::unattended();
+    let how = Reduction {
+        estimate_error: false,
+        even_if_memory_is_short: false,
+    };
+    for name in ["pinion", "wheel"] {
+        let gear = GearFile::read(&gears.join(format!("{name}.toml")), &watch)?;
+        reduce_to(&gear, how, &models.join(format!("{name}.h5")), &watch)?;
+    }
+
+    let document = InputDocument::new("scene in memory", SCENE);
+    let loaded = load(Scene::from_document(document, models)?)?;
+    let how = RunHow {
+        output: None,
+        restart: false,
+        most_result_gb: None,
+        checkpoint_interval: Duration::MAX,
+    };
+    let result = run_pair(&loaded, &how, &watch)?;
+    let mut lines = vec!["torque N m  TE mean um  TE pk-pk um  p_H max MPa".to_owned()];
+    for k in 0..result.torque_nm.len() {
+        let f = result.figures(k);
+        lines.push(format!(
+            "{:>10.1} {:>11.4} {:>12.4} {:>12.1}",
+            f.torque_nm,
+            1e6 * f.te_mean_m,
+            1e6 * f.te_peak_to_peak_m,
+            1e-6 * f.pressure_largest_pa
+        ));
+    }
+    std::fs::write(models.join("pair.txt"), lines.join("\n") + "\n")?;
+    Ok(())
+}
