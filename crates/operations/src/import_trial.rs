@@ -2,7 +2,7 @@
 //! does, and the figures are held against those that follow by the ratios.
 
 use crate::check;
-use crate::failure::Failure;
+use crate::failure::{Failure, Fault};
 use crate::run::{RunHow, run_system};
 use crate::scratch::Scratch;
 use crate::watch::{Silent, Watch};
@@ -136,6 +136,7 @@ impl Trial {
                     judge(sheet, &row, &mut self.warnings);
                     self.scenes.push(row);
                 }
+                Err(cause) if cause.fault == Fault::Stopped => return Err(cause),
                 Err(cause) => self.refused.push((sheet.scene.clone(), cause)),
             }
         }
