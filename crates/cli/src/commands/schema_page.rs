@@ -164,6 +164,8 @@ impl<'a> Page<'a> {
             Some(&"string") => "text".to_owned(),
             Some(&"boolean") => "true or false".to_owned(),
             Some(&"object") => "table".to_owned(),
+            // Counts are not negative.
+            Some(&"integer") if found["maximum"].is_null() => "integer".to_owned(),
             Some(other) => format!("{other}{}", range(found, unit)),
             None => "any".to_owned(),
         }
