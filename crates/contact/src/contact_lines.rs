@@ -7,8 +7,10 @@
 use crate::contact_error::ContactError;
 use crate::contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
 use crate::contact_zone::{ContactZone, SliceLayout};
+use crate::slice_part::{LEAST_SHARE, SlicePart};
 use crate::tip_contact::{PathExtension, TipContact, TipGear};
-use gearmesh_geometry::{GearPair, Microgeometry, Misalignment};
+use gearmesh_geometry::{BaseCircles, GearPair, Microgeometry, Misalignment};
+use nalgebra::SVector;
 
 /// Coulomb friction between the flanks, regularised at the pitch point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,12 +56,6 @@ impl ContactLine {
         (self.tip.filter(|tip| tip.tip_gear.indices().0 == gear)).map_or(0.0, |tip| tip.tilt_rad)
     }
 }
-
-/// Share of a slice below which it counts as off the path.
-///
-/// No unit. The local compliance grows with one over the share, so that such a slice carries less than about a thousandth
-/// of a whole one.
-pub const LEAST_SHARE: f64 = 1e-3;
 
 /// Rigid kinematics of a pair with its microgeometry: contact lines and unloaded gaps.
 #[derive(Debug, Clone)]
@@ -179,6 +175,7 @@ impl ContactLines {
     ) -> ContactPatch {
         let ratio = friction.map_or(0.0, |f| f.ratio(section.path_m));
         let rolls = [section.roll_1_rad, section.roll_2_rad];
+        let (radius_m, radius_growth) = self.circles().relative_radius(rolls, self.helix_cos());
         ContactPatch {
             teeth: [section.tooth_1, section.tooth_2],
             line: number,
@@ -186,8 +183,8 @@ impl ContactLines {
             places: rolls.map(|u| FlankPlace { u, v: 0.0 }),
             share: 1.0,
             length_m: width_m / self.helix_cos(),
-            radius_m: self.pair.relative_radius_m(rolls[0], rolls[1]),
-            radius_growth: self.pair.relative_radius_growth(rolls),
+            radius_m,
+            radius_growth,
             length_growth: [0.0; 2],
             normal: self.normal(section),
             gap_m: 0.0,
@@ -219,13 +216,18 @@ impl ContactLines {
         if !self.pair.is_helical() {
             return Some((1.0, centre_m));
         }
+        let at_rest = |place_m: f64| (place_m, SVector::<f64, 0>::zeros());
+        let mut part = SlicePart {
+            low: at_rest(centre_m - 0.5 * width_m),
+            high: at_rest(centre_m + 0.5 * width_m),
+        };
         let slope = self.pair.roll_slope_1_rad_per_m();
-        let at = |roll: f64| (roll - line.roll_1_rad) / slope;
-        let (a, b) = (at(self.pair.roll_start_1_rad), at(self.pair.roll_end_1_rad));
-        let low = (centre_m - 0.5 * width_m).max(a.min(b));
-        let high = (centre_m + 0.5 * width_m).min(a.max(b));
-        let share = (high - low) / width_m;
-        (share > LEAST_SHARE).then_some((share.min(1.0), 0.5 * (low + high)))
+        let at = |roll: f64| at_rest((roll - line.roll_1_rad) / slope);
+        let towards_end = self.circles().sense(0) * slope > 0.0;
+        part.end_at(at(self.pair.roll_end_1_rad), towards_end);
+        part.end_at(at(self.pair.roll_start_1_rad), !towards_end);
+        let (share, _) = part.share(width_m);
+        (share > LEAST_SHARE).then_some((share.min(1.0), part.middle().0))
     }
 
     /// Direction of the normal force on gear 2, x along the line of centres from gear 1 to gear 2, z along gear 1's axis:
@@ -277,6 +279,10 @@ impl ContactLines {
             }
         };
         gap + line.tilt_rad(0).cos() * removed_1 + line.tilt_rad(1).cos() * removed_2 + misalignment
+    }
+
+    fn circles(&self) -> BaseCircles {
+        BaseCircles::new([&self.pair.gear_1, &self.pair.gear_2])
     }
 
     /// cos β_b: turns lengths along the normal into lengths in the transverse plane.
