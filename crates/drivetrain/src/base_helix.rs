@@ -47,7 +47,7 @@ impl BaseHelix {
         }
         let angle = gears[0].base_helix_angle_rad();
         let twist = gears[0].twist_rad_per_m();
-        let circles = BaseCircles::new([&gears[0], &gears[1]]);
+        let circles = BaseCircles::new(gears.each_ref());
         let [r1, r2] = circles.radii_m;
         Some(Self {
             cos: angle.cos(),

@@ -89,7 +89,7 @@ impl MeshKinematics {
         layout: SliceLayout,
         ends: PathEnds,
     ) -> Result<Self, DrivetrainError> {
-        let circles = BaseCircles::new([&gears[0], &gears[1]]);
+        let circles = BaseCircles::new(gears.each_ref());
         let [helix_1, helix_2] = [0, 1].map(|i: usize| gears[i].base_helix_angle_rad());
         let [signed_1, signed_2] = [circles.sense(0) * helix_1, circles.sense(1) * helix_2];
         if (signed_1 + signed_2).abs() > 1e-6 * helix_1.abs() {

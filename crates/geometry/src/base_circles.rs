@@ -27,7 +27,7 @@ impl BaseCircles {
     #[must_use]
     pub fn new([gear_1, gear_2]: [&ToothGeometry; 2]) -> Self {
         Self {
-            radii_m: [gear_1.base_radius_m, gear_2.base_radius_m],
+            radii_m: [gear_1, gear_2].map(|gear| gear.tip_direction() * gear.base_radius_m),
         }
     }
 

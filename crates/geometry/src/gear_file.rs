@@ -6,6 +6,7 @@
 mod blank_table;
 mod contour_table;
 mod crack_table;
+mod cutter_table;
 mod gauge_table;
 mod hub_table;
 mod material_table;
@@ -90,6 +91,12 @@ impl GearDefinition {
         let file: GearFile = document.parse()?;
         let tooth = file.tooth.check(document)?;
         let profile = ToothGeometry::new(&tooth).map_err(|e| document.error("tooth", e))?;
+        if profile.internal {
+            return Err(document.error(
+                "tooth.teeth",
+                "internal teeth have no body yet: rings are not meshed; give a positive number of teeth",
+            ));
+        }
         let blank = file.blank.check(document, &tooth, &profile)?;
         let material = file.material.check(document)?;
         let microgeometry = file.microgeometry.check(
