@@ -81,7 +81,7 @@ def test_a_slider_gives_the_numbers_of_run(browser, address, scene, tmp_path):
     assert float(shown.text_content()) == pytest.approx(1e6 * row["te_peak_to_peak_m"], rel=1e-4)
     # Beside the kept state.
     difference = it.page.locator("#figures .difference").first.text_content()
-    assert re.fullmatch(r"[+−][0-9.]+ %", difference)
+    assert re.fullmatch(r"[+−±][0-9.]+ %", difference)
     it.keep("changed")
 
     # What is saved gives the same.

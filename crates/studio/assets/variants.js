@@ -13,6 +13,12 @@ const ROWS = [
   ["Axial force on gear 1", "N", "axial_force_1_mean_N", 1],
 ];
 
+function difference(percent) {
+  const amount = Math.abs(percent).toFixed(1);
+  const sign = amount === "0.0" ? "±" : percent > 0 ? "+" : "−";
+  return `${sign}${amount} %`;
+}
+
 function element(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
   made.append(...children);
@@ -66,7 +72,7 @@ export class Variants {
         const other = pin.answer.figures.rows[torque]?.[key];
         const cell = element("td", {}, other === undefined ? "" : short(other * factor));
         // From the kept state to the present one.
-        if (other) cell.append(element("span", { className: "difference" }, `${now[key] >= other ? "+" : "−"}${Math.abs((100 * (now[key] - other)) / other).toFixed(1)} %`));
+        if (other) cell.append(element("span", { className: "difference" }, difference((100 * (now[key] - other)) / Math.abs(other))));
         row.append(cell);
       }
       body.append(row);
