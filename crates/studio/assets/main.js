@@ -82,6 +82,10 @@ async function showPair() {
   }
 
   let watching = null;
+  const ended = () => {
+    clearInterval(watching);
+    byId("stop").hidden = true;
+  };
   const calculator = new Calculator("/api/pair", {
     begun: () => {
       clearInterval(watching);
@@ -92,11 +96,12 @@ async function showPair() {
         byId("pair").classList.add("stale");
         const { solved } = await ask("/api/progress").catch(() => ({ solved: 0 }));
         if (!calculator.isBusy) return;
-        say(`${solved} positions solved; Escape stops`);
+        say(`${solved} positions solved`);
+        byId("stop").hidden = false;
       }, 200);
     },
     answered: (found, _, times) => {
-      clearInterval(watching);
+      ended();
       byId("pair").classList.remove("stale");
       answer = found;
       fail(null);
@@ -114,7 +119,7 @@ async function showPair() {
       });
     },
     failed: (problem) => {
-      clearInterval(watching);
+      ended();
       byId("pair").classList.add("stale");
       say("");
       fail(problem);
@@ -174,9 +179,10 @@ async function showPair() {
       event.preventDefault();
       if (event.key.toLowerCase() === "y" || event.shiftKey) state.redo();
       else state.undo();
-    } else if (event.key === "Escape" && calculator.isBusy) ask("/api/stop", {}).catch(fail);
+    } else if (event.key === "Escape" && calculator.isBusy) byId("stop").click();
     else if (event.key.toLowerCase() === "p" && !isText && !event.ctrlKey && !event.metaKey) byId("pin").click();
   });
+  byId("stop").addEventListener("click", () => ask("/api/stop", {}).catch(fail));
   calculator.want(state.change);
   buttons();
   return () => {
