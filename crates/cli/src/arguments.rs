@@ -5,6 +5,7 @@ mod machine;
 mod offline;
 mod record;
 mod signal;
+mod studio;
 
 pub use bearing::{BearingArguments, BearingFrequenciesArguments, ControlWord};
 pub use machine::{CompletionsArguments, DoctorArguments, InitArguments, InitKind, ManArguments};
@@ -14,6 +15,7 @@ pub use signal::{
     AbscissaArguments, BearingLineArguments, SeriesArguments, SignalAnalysis, SignalArguments,
     WindowKind,
 };
+pub use studio::StudioArguments;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use gearmesh_operations::bevel_pair::BevelRequest;
@@ -61,6 +63,8 @@ pub enum Command {
     Export(Printed<ExportRequest>),
     /// Make a reference record of measured curves: CSV with units, or a universal file
     Record(RecordArguments),
+    /// Open a gear pair or a result in the browser: change the pair, see its curves and flanks at once
+    Studio(StudioArguments),
     /// Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
     Signal(SignalArguments),
     /// Check a gear file, bearing file, scene, study, S-N table, record, model or result

@@ -25,6 +25,7 @@ pub mod run;
 pub mod schema;
 mod schema_page;
 pub mod signal;
+pub mod studio;
 pub mod study;
 mod study_elsewhere;
 

@@ -1,9 +1,8 @@
-//! Ratings of a run as lines and JSON.
+//! Ratings of a run as lines.
 
 use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::rating::RatingResult;
 use gearmesh_scene::system_run::stem;
-use serde_json::{Value, json};
 
 /// The figures for people.
 pub fn lines(ratings: &[RatingResult]) -> Vec<String> {
@@ -26,17 +25,4 @@ pub fn lines(ratings: &[RatingResult]) -> Vec<String> {
         }));
     }
     lines
-}
-
-/// The figures as JSON; an infinite life is null.
-pub fn json(ratings: &[RatingResult]) -> Value {
-    let all = ratings.iter().map(|rated| {
-        let figures = rated.figures.iter();
-        json!({
-            "name": rated.name, "method": rated.method, "problem": rated.problem,
-            "incomplete": rated.incomplete, "warnings": rated.warnings,
-            "figures": figures.map(|f| (f.name.to_owned(), json!(f.value))).collect::<serde_json::Map<_, _>>(),
-        })
-    });
-    all.collect()
 }

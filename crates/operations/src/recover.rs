@@ -4,9 +4,10 @@ use crate::cross_section::{FieldCase, field_of};
 use crate::failure::Failure;
 use crate::mesh_file::{LengthUnit, export_mesh};
 use crate::watch::Watch;
-use crate::{output_name, overwriting, periods};
+use crate::{output_name, overwriting};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_reduction::GearBody;
+use gearmesh_report::run_figures::coverage;
 use gearmesh_scene::{LoadedScene, Scene, SceneResult, load};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -76,7 +77,7 @@ pub fn figures(result: &SceneResult) -> Value {
         json!({"gear": series.gear, "gauge": series.name, "torque_Nm": row.torque_nm, "range_method_1": one, "range_method_2": two,
                "complete": series.coverage.has_extremes(), "mesh_error_relative": series.error_estimate()})
     });
-    json!({"rows": rows.collect::<Vec<_>>(), "coverage": periods::json(result), "seconds": result.seconds[1]})
+    json!({"rows": rows.collect::<Vec<_>>(), "coverage": coverage(result), "seconds": result.seconds[1]})
 }
 
 /// Reads all gauges of both models, and writes the result with their strain; and a field where one is asked for.

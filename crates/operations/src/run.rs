@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::watch::Watch;
 use crate::{pair_table, system_figures, system_table};
 use gearmesh_model::Named;
+use gearmesh_report::run_figures::pair_figures;
 use gearmesh_scene::pair::run::run_until;
 use gearmesh_scene::rating::RatingResult;
 use gearmesh_scene::system::LoadedSystem;
@@ -57,7 +58,7 @@ impl Ran {
     /// As [`Ran::lines`].
     pub fn figures(&self) -> Result<Value, Failure> {
         match self {
-            Self::Pair(result) => Ok(pair_table::figures(result)),
+            Self::Pair(result) => Ok(pair_figures(result)),
             Self::System(result) => system_figures::figures(result),
         }
     }

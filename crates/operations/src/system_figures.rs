@@ -6,7 +6,7 @@ use gearmesh_scene::system_run::{ResultKind, SystemResult, is_overdamped};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
-use crate::{losses, ratings, stages};
+use crate::{losses, stages};
 
 /// All figures of a run.
 ///
@@ -24,7 +24,7 @@ pub fn figures(result: &SystemResult) -> Result<Value, Failure> {
         run["problem"] = json!(result.problem());
         value["run"] = run;
     }
-    value["ratings"] = ratings::json(&result.ratings);
+    value["ratings"] = gearmesh_report::run_figures::ratings(&result.ratings);
     value["warnings"] = json!(result.warnings().map_err(Failure::work)?);
     if let stages @ Value::Object(_) = stages::json(result)? {
         value["stages"] = stages;

@@ -24,7 +24,7 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// Why a scene could not be run.
@@ -42,8 +42,8 @@ pub enum RunError {
     /// No contact state.
     #[error(transparent)]
     Contact(#[from] ContactError),
-    /// The user has asked to stop.
-    #[error("stopped on demand")]
+    /// [`PairWatch::stop`] was set.
+    #[error("stopped; nothing is kept")]
     Stopped,
 }
 
@@ -56,6 +56,15 @@ impl RunError {
             Self::Input(_) | Self::File(_) | Self::Model(_) => true,
         }
     }
+}
+
+/// How far a run is, and what ends it early: for who waits for it. Threads share it.
+#[derive(Debug, Default)]
+pub struct PairWatch {
+    /// Once true, the run ends with [`RunError::Stopped`] after the positions that are being solved.
+    pub stop: AtomicBool,
+    /// Positions of the even grid that are solved, of all torques together.
+    pub solved: AtomicUsize,
 }
 
 /// A scene with its models.
@@ -289,10 +298,22 @@ pub fn run(
     loaded: &LoadedScene,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<SceneResult, RunError> {
-    run_until(loaded, progress, &AtomicBool::new(false))
+    run_watched(loaded, progress, &PairWatch::default())
 }
 
-/// The same; ends before the next position once `stop` is true.
+/// The same, watched position by position.
+///
+/// # Errors
+/// As [`run`]; [`RunError::Stopped`].
+pub fn run_watched(
+    loaded: &LoadedScene,
+    progress: &(dyn Fn(usize, usize) + Sync),
+    watch: &PairWatch,
+) -> Result<SceneResult, RunError> {
+    solve(loaded, progress, (&watch.stop, &watch.solved))
+}
+
+/// The same with a flag of the caller's: ends before the next position once it is true.
 ///
 /// # Errors
 /// As [`run`]; [`RunError::Stopped`].
@@ -301,18 +322,26 @@ pub fn run_until(
     progress: &(dyn Fn(usize, usize) + Sync),
     stop: &AtomicBool,
 ) -> Result<SceneResult, RunError> {
+    solve(loaded, progress, (stop, &AtomicUsize::new(0)))
+}
+
+fn solve(
+    loaded: &LoadedScene,
+    progress: &(dyn Fn(usize, usize) + Sync),
+    watch: (&AtomicBool, &AtomicUsize),
+) -> Result<SceneResult, RunError> {
     let scene = &loaded.scene;
     let angles = loaded.angles_rad();
     let clock = Instant::now();
     let slots = loaded.line_slots(&angles);
-    let done = std::sync::atomic::AtomicUsize::new(0);
+    let done = AtomicUsize::new(0);
     let contact = loaded.contact()?;
     let found: Vec<TorquePositions> = scene
         .torques_nm
         .par_iter()
         .map(|&torque| {
-            let found = solve_torque(loaded, contact.clone(), (&angles, torque), stop)?;
-            let finished = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+            let found = solve_torque(loaded, contact.clone(), (&angles, torque), watch)?;
+            let finished = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress(finished, scene.torques_nm.len());
             Ok(found)
         })
@@ -419,10 +448,14 @@ fn solve_torque(
     loaded: &LoadedScene,
     contact: StaticContact,
     (angles, torque): (&[f64], f64),
-    stop: &AtomicBool,
+    (stop, solved): (&AtomicBool, &AtomicUsize),
 ) -> Result<TorquePositions, RunError> {
     let mut solver = PositionSolver::new(loaded, contact, torque, stop);
-    let even = angles.iter().map(|angle| solver.at(*angle));
+    let even = angles.iter().map(|angle| {
+        let position = solver.at(*angle)?;
+        solved.fetch_add(1, Ordering::Relaxed);
+        Ok(position)
+    });
     let even = even.collect::<Result<Vec<Position>, RunError>>()?;
     let coverage = loaded.contact_coverage();
     let pitches = coverage.period_pitches.min(loaded.scene.pitches);
