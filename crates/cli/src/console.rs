@@ -41,6 +41,18 @@ pub fn unit_slips(slips: Vec<gearmesh_geometry::InputError>) {
     slips.into_iter().for_each(warning);
 }
 
+/// Says what is wrong with the words of a command, or prints the help that was asked for; returns the exit code. What is
+/// wrong has no colours: the words may be names of files.
+pub fn usage(told: &clap::Error) -> u8 {
+    if told.use_stderr() {
+        note(told.to_string().trim_end());
+        return 2;
+    }
+    // A reader of the help that stops reading is no error.
+    let _ = told.print();
+    0
+}
+
 /// An error.
 pub fn error(text: impl std::fmt::Display) {
     note(format!("error: {text}"));
@@ -78,7 +90,7 @@ impl RunBar {
         }
         let now = Instant::now();
         Self {
-            title: title.to_owned(),
+            title: printable(title).into_owned(),
             bar,
             begun: now,
             state: Cell::new((None, now)),
@@ -158,7 +170,7 @@ impl StageBar {
     pub fn new(title: &str) -> Self {
         let now = Instant::now();
         Self {
-            title: title.to_string(),
+            title: printable(title).into_owned(),
             now: Mutex::new(Stage {
                 bar: ProgressBar::new_spinner(),
                 name: String::new(),
@@ -185,6 +197,7 @@ impl Progress for StageBar {
     fn stage(&self, name: &str) {
         self.with(|stage| {
             stage.bar.finish_and_clear();
+            let name = &*printable(name);
             stage.bar = ProgressBar::new_spinner().with_message(format!("{}: {name}", self.title));
             stage.bar.enable_steady_tick(Duration::from_millis(200));
             name.clone_into(&mut stage.name);

@@ -4,10 +4,11 @@
 mod common;
 
 use common::{
-    Answer, Desk, SOLID, argument, changed, gearmesh, names_in, refused, succeeds, workshop,
+    Answer, Desk, SOLID, argument, changed, gearmesh, names_in, program, refused, send, succeeds,
+    workshop,
 };
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::time::Duration;
 
 const OLD: &[u8] = b"the old file";
@@ -184,20 +185,13 @@ fn an_interrupted_reduction_leaves_nothing() {
     // The whole factorisation takes many times as long as one by symmetry.
     let gear = changed(&gear, "[reduction]", "[reduction]\nsymmetry = \"off\"");
     let gear = desk.file("gear.toml", gear);
-    let child = Command::new(env!("CARGO_BIN_EXE_gearmesh"))
-        .args(["reduce", argument(&gear), "-o"])
-        .arg(outputs.path("gear.h5"))
+    let output = outputs.path("gear.h5");
+    let child = program(&["reduce", argument(&gear), "-o", argument(&output)])
         .env("TMPDIR", scratch.path(""))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
         .spawn()
         .unwrap();
     std::thread::sleep(Duration::from_millis(1500));
-    let killed = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(killed.success());
+    send("-INT", child.id());
     let answer = Answer::from(child.wait_with_output().unwrap());
     refused(&answer, 130, &["interrupted"]);
     assert!(outputs.names().is_empty(), "{:?}", outputs.names());

@@ -6,6 +6,7 @@ use gearmesh_fe::FeError;
 use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_model::FileError;
 use gearmesh_reduction::ReductionError;
+use gearmesh_report::printable;
 use gearmesh_scene::RunError;
 use gearmesh_scene::system_run::SystemRunError;
 use pyo3::exceptions::{
@@ -27,9 +28,14 @@ pyo3::create_exception!(
     "The input was read, the work failed: no equilibrium, no mesh, a file that cannot be written."
 );
 
+/// A message as a terminal may show it: names of files are in it. The attributes of an `InputError` have them as they are.
+fn shown(error: &dyn std::fmt::Display) -> String {
+    printable(&error.to_string()).into_owned()
+}
+
 /// An `InputError` with its place as attributes.
 pub(crate) fn input_error(complaint: InputComplaint) -> PyErr {
-    let error = InputError::new_err(complaint.to_string());
+    let error = InputError::new_err(shown(&complaint));
     Python::attach(|py| {
         let value = error.value(py);
         // An exception takes any attribute; were it not so, the message would still say all.
@@ -43,7 +49,7 @@ pub(crate) fn input_error(complaint: InputComplaint) -> PyErr {
 
 /// `FileNotFoundError` or `OSError` where the system refused, `ValueError` where the content is wrong.
 pub(crate) fn file_error(error: FileError) -> PyErr {
-    let message = error.to_string();
+    let message = shown(&error);
     match error {
         FileError::Io { source, .. } if source.kind() == ErrorKind::NotFound => {
             PyFileNotFoundError::new_err(message)
@@ -55,7 +61,7 @@ pub(crate) fn file_error(error: FileError) -> PyErr {
 
 /// `MemoryError` where the factor does not fit, `ValueError` for all else: the mesh, the material or the supports.
 pub(crate) fn fe_error(error: FeError) -> PyErr {
-    let message = error.to_string();
+    let message = shown(&error);
     match error {
         FeError::OutOfMemory { .. } => PyMemoryError::new_err(message),
         _ => PyValueError::new_err(message),
@@ -90,8 +96,8 @@ pub(crate) fn reduction_error(error: ReductionError) -> PyErr {
 
 fn blamed(is_input: bool, error: &dyn std::fmt::Display) -> PyErr {
     if is_input {
-        InputError::new_err(error.to_string())
+        InputError::new_err(shown(error))
     } else {
-        WorkError::new_err(error.to_string())
+        WorkError::new_err(shown(error))
     }
 }

@@ -11,7 +11,8 @@ use gearmesh_scene::pair::Scene;
 use gearmesh_scene::study::RestCases;
 use gearmesh_scene::system::{HostFunctions, SystemPlan, SystemScene};
 use gearmesh_scene::system_run::{
-    Outcome, RunCost, RunJob, RunOptions, SystemResult, run as run_job,
+    Outcome, ResultSize, RunCost, RunJob, RunOptions, SystemResult, demand_result_size,
+    run as run_job,
 };
 use gearmesh_scene::{SceneFile, load, run as run_pair_scene};
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -52,11 +53,12 @@ pub(crate) fn plan(
             }
             SceneFile::System(scene) => {
                 let loaded = scene.load().map_err(input_error)?;
-                RunJob::from_scene(loaded.clone()).map_err(system_error)?;
+                let size =
+                    ResultSize::of(&RunJob::from_scene(loaded.clone()).map_err(system_error)?);
                 let built = loaded.build().map_err(input_error)?;
                 let plan = SystemPlan::new(&loaded.scene, built).map_err(input_error)?;
                 let cost = RunCost::timed(&loaded).map_err(input_error)?;
-                Ok(plan.with_cost(&loaded.scene, cost).lines)
+                Ok(plan.with_result(size).with_cost(&loaded.scene, cost).lines)
             }
         },
     );
@@ -72,7 +74,7 @@ pub(crate) fn plan(
 /// Third of what is returned: calls and seconds of each function. Raises InputError, WorkError (of a function that has
 /// raised, with its exception as the cause), OSError; KeyboardInterrupt after a checkpoint was written.
 #[pyfunction]
-#[pyo3(signature = (text, file, folder, output, restart, progress, functions = None, identity = String::new()))]
+#[pyo3(signature = (text, file, folder, output, restart, progress, functions = None, identity = String::new(), most_result_gb = 1.0))]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn run(
     py: Python<'_>,
@@ -84,6 +86,7 @@ pub(crate) fn run(
     progress: Option<Bound<'_, PyAny>>,
     functions: Option<Bound<'_, PyDict>>,
     identity: String,
+    most_result_gb: f64,
 ) -> PyResult<(NativeResult, Vec<String>, Cost)> {
     let functions = Functions::of(functions.as_ref())?;
     let host = functions.for_scene(identity);
@@ -92,12 +95,22 @@ pub(crate) fn run(
         SceneFile::Pair(_) if restart => Err(InputError::new_err(
             "restart: scenes of a gear pair are not resumed; leave it out",
         )),
-        SceneFile::Pair(scene) => run_pair(py, *scene, output, progress.as_ref()),
+        SceneFile::Pair(scene) => run_pair(
+            py,
+            *scene,
+            (output, 1e9 * most_result_gb),
+            progress.as_ref(),
+        ),
         SceneFile::System(scene) => {
             let output = output.ok_or_else(|| {
                 InputError::new_err("output: the result of a multibody scene is a file; name it")
             })?;
-            run_system(py, *scene, (output, restart), progress.as_ref())
+            run_system(
+                py,
+                *scene,
+                (output, restart, 1e9 * most_result_gb),
+                progress.as_ref(),
+            )
         }
     };
     let (result, notes) = functions.judge(outcome)?;
@@ -121,12 +134,15 @@ fn with_functions(scene: SceneFile, host: HostFunctions) -> PyResult<SceneFile> 
 fn run_pair(
     py: Python<'_>,
     scene: Scene,
-    output: Option<PathBuf>,
+    (output, most_bytes): (Option<PathBuf>, f64),
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(NativeResult, Vec<String>)> {
     let (result, notes) = watched(py, progress, OnInterrupt::Leave, move |watch| {
         let loaded = shelved_models(&scene).load(&scene).map_err(run_error)?;
         let notes = notes(&loaded.scene.notes, &loaded.unit_slips());
+        let place = (&loaded.scene.document, "run.pitches");
+        demand_result_size(place, ("the result", loaded.result_bytes()), most_bytes)
+            .map_err(input_error)?;
         let told = |done: usize, total: usize| {
             watch.advance("torques", done as f64, total as f64);
         };
@@ -179,13 +195,19 @@ fn shelved_models(scene: &Scene) -> Arc<RestCases> {
 fn run_system(
     py: Python<'_>,
     scene: SystemScene,
-    (output, restart): (PathBuf, bool),
+    (output, restart, most_bytes): (PathBuf, bool, f64),
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(NativeResult, Vec<String>)> {
     watched(py, progress, OnInterrupt::Wait, move |watch| {
         let loaded = scene.load().map_err(input_error)?;
         let mut notes = loaded.scene.notes.clone();
+        let document = loaded.scene.document.clone();
         let job = RunJob::from_scene(loaded).map_err(system_error)?;
+        if let Some(size) = ResultSize::of(&job) {
+            let place = (&document, "output.interval_s");
+            demand_result_size(place, ("the result", size.bytes()), most_bytes)
+                .map_err(input_error)?;
+        }
         notes.extend(job.head.notes.iter().cloned());
         let stage = job.kind.of_result().to_string();
         let options = RunOptions {

@@ -45,16 +45,17 @@ fn study_error(error: StudyError) -> PyErr {
 ///
 /// Raises InputError before the first case, OSError; KeyboardInterrupt after the cases at hand.
 #[pyfunction]
-#[pyo3(signature = (path, folder, interpreter, progress))]
+#[pyo3(signature = (path, folder, interpreter, progress, most_result_gb = 1.0))]
 pub(crate) fn study(
     py: Python<'_>,
     path: PathBuf,
     folder: PathBuf,
     interpreter: PathBuf,
     progress: Option<Bound<'_, PyAny>>,
+    most_result_gb: f64,
 ) -> PyResult<String> {
     watched(py, progress.as_ref(), OnInterrupt::Wait, move |watch| {
-        let study = Study::read(&path).map_err(input_error)?;
+        let study = study_at(&path, most_result_gb)?;
         let python = PythonEnvironment::at(interpreter);
         let options = StudyOptions {
             folder: &folder,
@@ -68,6 +69,13 @@ pub(crate) fn study(
         }
         told(&study, &outcome.cases, &folder)
     })
+}
+
+/// A study file whose results may have this size together.
+fn study_at(path: &Path, most_result_gb: f64) -> PyResult<Study> {
+    let mut study = Study::read(path).map_err(input_error)?;
+    study.most_result_bytes = 1e9 * most_result_gb;
+    Ok(study)
 }
 
 /// What `gearmesh study --json` prints; the page study.html is written beside the results.
@@ -120,13 +128,15 @@ pub(crate) fn gather_study(
 ///
 /// Raises InputError for a study, scene, key or column that is wrong.
 #[pyfunction]
+#[pyo3(signature = (path, folder, most_result_gb = 1.0))]
 pub(crate) fn study_gears(
     py: Python<'_>,
     path: PathBuf,
     folder: PathBuf,
+    most_result_gb: f64,
 ) -> PyResult<Vec<(PathBuf, String)>> {
     py.detach(|| {
-        let study = Study::read(&path).map_err(input_error)?;
+        let study = study_at(&path, most_result_gb)?;
         let cases = StudyCases::new(&study, &folder).map_err(study_error)?;
         let mut gears = Vec::new();
         for (path, made) in cases.missing() {
@@ -166,9 +176,15 @@ fn sent((file, identity, text, title, named, inputs): Sent) -> SentCase {
 
 /// The cases of a study, each scene once, when its gears are reduced.
 #[pyfunction]
-pub(crate) fn study_cases(py: Python<'_>, path: PathBuf, folder: PathBuf) -> PyResult<Vec<Sent>> {
+#[pyo3(signature = (path, folder, most_result_gb = 1.0))]
+pub(crate) fn study_cases(
+    py: Python<'_>,
+    path: PathBuf,
+    folder: PathBuf,
+    most_result_gb: f64,
+) -> PyResult<Vec<Sent>> {
     py.detach(|| {
-        let study = Study::read(&path).map_err(input_error)?;
+        let study = study_at(&path, most_result_gb)?;
         let cases = StudyCases::new(&study, &folder).map_err(study_error)?;
         let cases = cases.list().map_err(study_error)?.into_iter();
         let tuple = |case: SentCase| {

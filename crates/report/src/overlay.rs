@@ -5,6 +5,7 @@ use gearmesh_scene::SceneResult;
 use gearmesh_scene::system_run::{ResultKind, SystemResult, rank, stem};
 use gearmesh_signal::statistics::{mean, peak_to_peak};
 
+use crate::mesh_stiffness_unit::MeshStiffness;
 use crate::min_max;
 use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table, Text};
 use crate::short_number::{short, usual_unit};
@@ -23,10 +24,11 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
     };
     let last = |r: &SceneResult| r.torque_nm.len() - 1;
     let x: Vec<f64> = first.angle_rad.iter().map(|a| a.to_degrees()).collect();
-    let chart = |title: &str, y: Axis, factor: f64, of: fn(&SceneResult) -> &Vec<f64>| {
+    let units = MeshStiffness::of_all(results.iter().map(|(_, r)| *r));
+    let chart = |title: &str, y: Axis, factors: &[f64], of: fn(&SceneResult) -> &Vec<f64>| {
         let axis = Axis::new("driver angle", "deg");
         let mut chart = LineChart::new(title, axis, y).x_values(x.clone());
-        for (name, r) in results {
+        for ((name, r), factor) in results.iter().zip(factors) {
             let own: Vec<f64> = r.angle_rad.iter().map(|a| a.to_degrees()).collect();
             let values = interpolated(&own, r.curve(of(r), last(r)), &x);
             let values = values.into_iter().map(|v| factor * v).collect();
@@ -41,10 +43,10 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
         .column("torque N m", Align::Right)
         .column("TE mean µm", Align::Right)
         .column("TE pk-pk µm", Align::Right)
-        .column("tangent N/µm", Align::Right)
+        .column(format!("tangent {}", units[0].name), Align::Right)
         .column("p_H MPa", Align::Right)
         .column("K_Hbeta", Align::Right);
-    for (name, r) in results {
+    for ((name, r), unit) in results.iter().zip(&units) {
         let k = last(r);
         let te = r.curve(&r.te_m, k);
         let block = r.pressure_pa.len() / r.torque_nm.len();
@@ -55,7 +57,7 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
             format!("{}", r.torque_nm[k]),
             short(1e6 * mean(te).unwrap_or(f64::NAN)),
             short(1e6 * peak_to_peak(te).unwrap_or(f64::NAN)),
-            short(1e-6 * mean(r.curve(&r.tangent_n_per_m, k)).unwrap_or(f64::NAN)),
+            short(unit.factor * mean(r.curve(&r.tangent_n_per_m, k)).unwrap_or(f64::NAN)),
             short(1e-6 * pressure.fold(0.0, f64::max)),
             format!("{:.3}", r.k_h_beta[k]),
         ]);
@@ -66,13 +68,13 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
             .push(chart(
                 "Transmission error",
                 Axis::new("TE", "µm"),
-                1e6,
+                &vec![1e6; results.len()],
                 |r| &r.te_m,
             ))
             .push(chart(
                 "Tangent mesh stiffness",
-                Axis::new("stiffness", "N/µm"),
-                1e-6,
+                Axis::new("stiffness", units[0].name),
+                &units.iter().map(|unit| unit.factor).collect::<Vec<_>>(),
                 |r| &r.tangent_n_per_m,
             )),
     )

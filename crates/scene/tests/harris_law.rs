@@ -235,6 +235,18 @@ fn what_is_wrong_is_told_with_what_is_right() {
             "trials: found 3 in 1 searches, allowed are 20 and more",
         ),
         (
+            format!(
+                "{RANGE}[[variable]]\nname = \"relief\"\nkeys = [\"pair.deviation_mrad\"]\nfrom = 0.0\nto = 1.0\n"
+            ),
+            "variable.1.name: `relief` is the name of variable.0, too",
+        ),
+        (
+            format!(
+                "{RANGE}[[variable]]\nname = \"again\"\nkeys = [\"gear_2.microgeometry.tip_relief_um\"]\nfrom = 0.0\nto = 1.0\n"
+            ),
+            "is set by variable.0 already",
+        ),
+        (
             format!("scatter_samples = 3\n{RANGE}"),
             "scatter_samples: belongs to [[scatter]]",
         ),

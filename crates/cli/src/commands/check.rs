@@ -80,6 +80,7 @@ impl Finding {
             "kind": self.kind,
             "name": self.name,
             "sound": self.problem.is_none(),
+            "warnings": self.notes.iter().cloned().chain(self.slips.iter().map(ToString::to_string)).collect::<Vec<_>>(),
         });
         if let Value::Object(all) = &mut all {
             all.extend(self.facts.clone());

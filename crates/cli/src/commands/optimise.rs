@@ -17,7 +17,8 @@ const MOST_LINES: usize = 20;
 
 /// Runs the command.
 pub fn run(arguments: &OptimiseArguments) -> Result<(), Failure> {
-    let problem = Optimisation::read(&arguments.file)?;
+    let mut problem = Optimisation::read(&arguments.file)?;
+    problem.most_result_bytes = 1e9 * arguments.most_result_gb;
     let bar = Mutex::new(RunBar::new("search"));
     let progress = |done: usize, count: usize| {
         let bar = bar.lock().unwrap_or_else(PoisonError::into_inner);

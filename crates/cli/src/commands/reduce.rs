@@ -27,7 +27,14 @@ pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
         None => {
             offline::note_element(&gear);
             let even_if_short = arguments.even_if_memory_is_short;
-            memory::demand(&gear, &arguments.gear, OfflineJob::Reduction, even_if_short)?;
+            memory::demand(
+                &gear,
+                &arguments.gear,
+                OfflineJob::Reduction {
+                    estimate_error: !arguments.no_error_estimate,
+                },
+                even_if_short,
+            )?;
             offline::reduced(&gear, !arguments.no_error_estimate)?.0
         }
     };

@@ -5,13 +5,12 @@ use crate::commands::{periods, ratings, run_system};
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
-use gearmesh_contact::ContactZone;
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
+use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::pair::PairFigures;
-use gearmesh_scene::system_run::megabytes;
-use gearmesh_scene::{Scene, SceneFile, SceneResult, load, run as run_scene};
+use gearmesh_scene::system_run::{demand_result_size, megabytes};
+use gearmesh_scene::{SceneFile, SceneResult, load, run as run_scene};
 use serde_json::json;
-use std::path::Path;
 
 /// Results from this size on are announced \[bytes\].
 const WORTH_A_WORD: f64 = 50e6;
@@ -34,7 +33,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let loaded = load(*scene)?;
     loaded.scene.notes.iter().for_each(console::note);
     let told = |done, total| console::note(format!("torque {done} of {total} solved"));
-    demand_size(loaded.result_bytes(), "run.pitches", arguments)?;
+    let document = &loaded.scene.document;
+    demand_size((document, "run.pitches"), loaded.result_bytes(), arguments)?;
     // Slips of units are among the warnings of the result; what is refused may follow from them.
     let result =
         run_scene(&loaded, &told).inspect_err(|_| console::unit_slips(loaded.unit_slips()))?;
@@ -53,16 +53,12 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
 ///
 /// # Errors
 /// [`Failure`] naming the option that allows more.
-pub fn demand_size(bytes: f64, key: &str, a: &RunArguments) -> Result<(), Failure> {
-    if bytes > 1e9 * a.most_result_gb {
-        return Err(Failure::input(format!(
-            "{}: {key}: the result will have {}, allowed are {} GB; give --most-result-GB {:.0} to allow it",
-            a.scene.display(),
-            megabytes(bytes),
-            a.most_result_gb,
-            (1e-9 * bytes).ceil()
-        )));
-    }
+pub fn demand_size(
+    place: (&InputDocument, &str),
+    bytes: f64,
+    a: &RunArguments,
+) -> Result<(), Failure> {
+    demand_result_size(place, ("the result", bytes), 1e9 * a.most_result_gb)?;
     if bytes >= WORTH_A_WORD {
         console::note(format!("the result will have {}", megabytes(bytes)));
     }
@@ -74,12 +70,12 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
     let mut lines = vec![
         format!("{}: {} positions per torque", result.title, result.angles()),
         format!(
-            "{:>10} {:>12} {:>12} {:>14} {:>14} {:>8} {:>12} {:>12} {:>9}",
+            "{:>10} {:>12} {:>12} {:>16} {:>17} {:>8} {:>12} {:>12} {:>9}",
             "torque N m",
             "TE mean um",
             "TE pk-pk um",
-            "secant N/mm/um",
-            "tangent N/mm/um",
+            "secant N/(mm um)",
+            "tangent N/(mm um)",
             "K_Hbeta",
             "p_H max MPa",
             "balance",
@@ -87,14 +83,14 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
         ),
     ];
     let mark = periods::mark(&result.contact_coverage);
-    let width_mm = 1e3 * zone_width_m(result)?;
+    let width_mm = 1e3 * result.overlap_width_m()?;
     let figures: Vec<PairFigures> = (0..result.torque_nm.len())
         .map(|k| result.figures(k))
         .collect();
     for (k, f) in figures.iter().enumerate() {
         let per_width = |stiffness: f64| stiffness / width_mm * 1e-6;
         lines.push(format!(
-            "{:>10.1} {:>12.4} {:>12.4} {:>14.4} {:>15.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}{mark}",
+            "{:>10.1} {:>12.4} {:>12.4} {:>16.4} {:>17.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}{mark}",
             f.torque_nm,
             f.te_mean_m * 1e6,
             f.te_peak_to_peak_m * 1e6,
@@ -131,18 +127,6 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
     lines.extend(periods::lines(result));
     lines.extend(ratings::lines(&result.ratings));
     Ok(lines)
-}
-
-/// Width over which the faces overlap \[m\].
-fn zone_width_m(result: &SceneResult) -> Result<f64, Failure> {
-    use gearmesh_geometry::input::InputDocument;
-    let width_m = |gear: usize| -> Result<f64, Failure> {
-        let definition = result.gears[gear].definition_in("the result")?;
-        Ok(definition.tooth.face_width_m)
-    };
-    let scene = InputDocument::new("scene in result", &result.scene_toml);
-    let offset_m = Scene::from_document(scene, Path::new("."))?.axial_offset_m;
-    Ok(ContactZone::new([width_m(0)?, width_m(1)?], offset_m).width_m)
 }
 
 fn figures(result: &SceneResult) -> serde_json::Value {

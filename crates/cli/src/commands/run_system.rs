@@ -22,12 +22,13 @@ use std::time::Duration;
 pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure> {
     loaded.scene.notes.iter().for_each(console::note);
     let slips = loaded.unit_slips();
+    let document = loaded.scene.document.clone();
     // Slips are among the notes of the job; what is refused may follow from them.
     let job = RunJob::from_scene(loaded).inspect_err(|_| console::unit_slips(slips))?;
     let before = job.head.notes.len();
     job.head.notes.iter().for_each(console::note);
     if let Some(size) = ResultSize::of(&job) {
-        demand_size(size.bytes(), "output.interval_s", arguments)?;
+        demand_size((&document, "output.interval_s"), size.bytes(), arguments)?;
     }
     let resumes = job.kind.resumes();
     let bar = RunBar::new(job.kind.of_result().name_in_files());

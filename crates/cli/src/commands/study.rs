@@ -22,7 +22,8 @@ const MOST_LINES: usize = 50;
 
 /// Runs the command.
 pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
-    let study = Study::read(&arguments.study)?;
+    let mut study = Study::read(&arguments.study)?;
+    study.most_result_bytes = 1e9 * arguments.most_result_gb;
     match (&arguments.scheduler, &arguments.gather) {
         (None, None) => tell(&study, here(&study, arguments)?, arguments),
         (None, Some(failures)) => {

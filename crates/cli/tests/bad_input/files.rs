@@ -1,31 +1,18 @@
 //! What is given as a file: devices, pipes, folders, huge files, files that are no tables; outputs that are inputs.
 
-use crate::common::{Answer, Desk, argument, changed, refused, succeeds, workshop};
+use crate::common::{Answer, Desk, argument, changed, program, refused, succeeds, workshop};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
+use std::time::Duration;
 
 /// Time after which a command counts as one that never ends.
 const FOREVER: Duration = Duration::from_secs(30);
 
 /// Starts the program in a folder; it must end by itself.
 fn ends_in(folder: &Path, arguments: &[&str]) -> Answer {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_gearmesh"))
-        .args(arguments)
-        .current_dir(folder)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let begun = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        if begun.elapsed() > FOREVER {
-            child.kill().unwrap();
-            panic!("{arguments:?} does not end");
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    child.wait_with_output().unwrap().into()
+    let mut command = program(arguments);
+    command.current_dir(folder);
+    crate::common::ends(command, FOREVER)
 }
 
 fn ends(arguments: &[&str]) -> Answer {
