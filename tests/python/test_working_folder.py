@@ -18,7 +18,7 @@ def test_what_python_writes_follows_no_link(tmp_path):
 
 def test_messages_steer_no_terminal():
     with pytest.raises(gm.InputError) as told:
-        gm.Scene({"title": "t", "run": {"kind": "a\u202eb"}}).run()
+        gm.Scene("fe_models/scene_pendulum.toml").but({"run.kind": "a\u202eb"}).run()
     assert "\u202e" not in str(told.value) and "\\u202e" in str(told.value)
 
 
