@@ -3,7 +3,7 @@
 use crate::common::{Answer, ends, program};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Modules that the Python children of the program import.
 const TRAPS: [&str; 15] = [
@@ -286,12 +286,4 @@ pub fn toml_text(text: &str) -> String {
         _ => c.to_string(),
     };
     format!("\"{}\"", text.chars().map(escaped).collect::<String>())
-}
-
-/// How long something took, where a test prints it.
-pub fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
-    let begun = Instant::now();
-    let outcome = work();
-    println!("{what}: {:.1} s", begun.elapsed().as_secs_f64());
-    outcome
 }

@@ -4,7 +4,7 @@
 use crate::bench::{Bench, Names};
 use crate::common::{send, succeeds};
 use crate::links::{files, tidy};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -13,7 +13,7 @@ const KILLS: u32 = 6;
 
 /// What a command has made that is not hidden: whole HDF5 files by their names (they hold times), others by what is in
 /// them.
-fn made(bench: &Bench, before: &std::collections::BTreeSet<PathBuf>) -> BTreeMap<PathBuf, Vec<u8>> {
+fn made(bench: &Bench, before: &BTreeSet<PathBuf>) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
     for name in files(bench.folder()).difference(before) {
         let parts = || name.iter().map(|part| part.to_string_lossy());

@@ -1,7 +1,7 @@
 //! Every command among traps: it ends as it should, imports nothing of the working folder, and writes nothing through a
 //! link that lies where an output goes.
 
-use crate::bench::{Bench, Names, timed};
+use crate::bench::{Bench, Names};
 use crate::commands::CASES;
 use std::collections::BTreeSet;
 use std::os::unix::fs::symlink;
@@ -72,26 +72,24 @@ fn writes_through_no_link(bench: &Bench, words: &str, output: &Path, number: usi
 
 #[test]
 fn every_command_among_traps_and_links() {
-    let bench = timed("bench", || Bench::new(Names::Plain));
+    let bench = Bench::new(Names::Plain);
     let before = files(bench.folder());
     for case in CASES {
-        timed(case.words, || {
-            let answer = bench.run(case.words);
-            assert_eq!(answer.code, Some(case.code), "{}: {answer:#?}", case.words);
-            let made: Vec<PathBuf> = files(bench.folder()).difference(&before).cloned().collect();
+        let answer = bench.run(case.words);
+        assert_eq!(answer.code, Some(case.code), "{}: {answer:#?}", case.words);
+        let made: Vec<PathBuf> = files(bench.folder()).difference(&before).cloned().collect();
+        tidy(bench.folder(), &before);
+        // What a cluster writes beside the table takes seconds a try: its log alone is tried.
+        let is_log = |path: &&PathBuf| path.ends_with("cluster.log");
+        let own: Vec<&PathBuf> = (made.iter())
+            .filter(|path| !case.words.contains("--scheduler") || is_log(path))
+            .collect();
+        let chosen =
+            (own.iter().take(MOST_LINKS - 1)).chain(own.iter().skip(MOST_LINKS - 1).last());
+        for (number, output) in chosen.enumerate() {
+            writes_through_no_link(&bench, case.words, output, number);
             tidy(bench.folder(), &before);
-            // What a cluster writes beside the table takes seconds a try: its log alone is tried.
-            let is_log = |path: &&PathBuf| path.ends_with("cluster.log");
-            let own: Vec<&PathBuf> = (made.iter())
-                .filter(|path| !case.words.contains("--scheduler") || is_log(path))
-                .collect();
-            let chosen =
-                (own.iter().take(MOST_LINKS - 1)).chain(own.iter().skip(MOST_LINKS - 1).last());
-            for (number, output) in chosen.enumerate() {
-                writes_through_no_link(&bench, case.words, output, number);
-                tidy(bench.folder(), &before);
-            }
-        });
+        }
     }
     // The rows of a run that is not finished.
     let part = Path::new("o.h5.part/rows.log");
