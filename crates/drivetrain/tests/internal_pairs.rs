@@ -1,5 +1,7 @@
-//! A ring and the gear inside it, either driving: the gap against the least distance of the profiles, exchange of the gears, a rigid pair by hand,
-//! friction, and what is refused. What holds for all pairs alike is checked with external ones (`kinematics.rs`, `helical/`, `static_scene.rs`).
+//! A ring and the gear inside it, either driving: the gap against the least distance of the profiles, exchange of the
+//! gears, a rigid pair by hand,
+//! friction, and what is refused. What holds for all pairs alike is checked with external ones (`kinematics.rs`,
+//! `helical/`, `static_scene.rs`).
 #![allow(clippy::unwrap_used)]
 
 mod mesh_common;
@@ -41,7 +43,8 @@ fn least(mut low: f64, mut high: f64, f: &dyn Fn(f64) -> f64) -> f64 {
     f(0.5 * (low + high))
 }
 
-/// Two profiles 20 µm of base circle apart: the least distance of all pairs of their points, which knows no line of action.
+/// Two profiles 20 µm of base circle apart: the least distance of all pairs of their points, which knows no line of
+/// action.
 #[test]
 fn the_gap_is_the_least_distance_of_the_profiles() {
     let mut seen = 0;
@@ -122,8 +125,10 @@ fn exchanging_the_gears_changes_no_gap() {
     }
 }
 
-/// Bodies that give way at their surfaces only, one slice: 1/ρ = 1/ρ₁ − 1/ρ₂ with ρ₂ − ρ₁ = a sin α, Hertz's half width, and the deflection of a
-/// line load of finite length, k q [asinh(l/2ρ₀) + ln(ρ₀/ρ)] (half_spaces.rs), k = 2(1 − ν²)/(πE) of both bodies together halved.
+/// Bodies that give way at their surfaces only, one slice: 1/ρ = 1/ρ₁ − 1/ρ₂ with ρ₂ − ρ₁ = a sin α, Hertz's half
+/// width, and the deflection of a
+/// line load of finite length, k q [asinh(l/2ρ₀) + ln(ρ₀/ρ)] (half_spaces.rs), k = 2(1 − ν²)/(πE) of both bodies
+/// together halved.
 #[test]
 fn a_rigid_pair_with_hertz_is_that_by_hand() {
     let (young, nu) = (210e9, 0.3);
@@ -172,7 +177,8 @@ fn a_rigid_pair_with_hertz_is_that_by_hand() {
     }
 }
 
-/// At rest friction takes the power F μ |v|, v the speed of sliding that the pair's geometry states; in motion it points to the same side.
+/// At rest friction takes the power F μ |v|, v the speed of sliding that the pair's geometry states; in motion it
+/// points to the same side.
 #[test]
 fn friction_takes_power_and_turns_round_in_the_pitch_point() {
     for (ring_drives, helix_deg) in [(false, 0.0), (true, 0.0), (false, 15.0), (true, -15.0)] {
@@ -237,7 +243,8 @@ fn friction_takes_power_and_turns_round_in_the_pitch_point() {
     }
 }
 
-/// Beams for a ring's teeth and gears beside their axes at rest are refused by name, two external gears by [`GearPair::new`] only.
+/// Beams for a ring's teeth and gears beside their axes at rest are refused by name;
+/// [`GearPair::new`] takes external gears only.
 #[test]
 fn what_is_not_supported_with_a_ring_is_refused() {
     let pair = ring_pair(0.0, false);

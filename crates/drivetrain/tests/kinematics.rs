@@ -377,7 +377,8 @@ fn check_tip_edges(pair: &GearPair) {
             errors.push((gap / exact.gap_m - 1.0).abs());
         }
         assert!(errors[0] < 0.2, "{errors:?}");
-        // Of an edge in a ring the term of the first order all but vanishes, so that the next one shows: halved between twice and four times.
+        // Of an edge in a ring the term of the first order all but vanishes, so that the next one shows: halved between
+        // twice and four times.
         let most = if pair.has_ring() { 4.2 } else { 2.3 };
         for halved in errors.windows(2) {
             let ratio = halved[0] / halved[1];

@@ -40,7 +40,8 @@ pub fn pair(tooth_1: &ToothDefinition, tooth_2: &ToothDefinition) -> GearPair {
     .unwrap()
 }
 
-/// 24 teeth in a ring of 75, module 3 mm, both hands right where the angle is positive; the planet is gear 1, or the ring.
+/// 24 teeth in a ring of 75, module 3 mm, both hands right where the angle is positive; the planet is gear 1, or the
+/// ring.
 pub fn ring_pair(helix_deg: f64, ring_drives: bool) -> GearPair {
     use gearmesh_geometry::definition::{Gearing, InternalRoot, PinionCutter};
     let external = |teeth, profile_shift| ToothDefinition {

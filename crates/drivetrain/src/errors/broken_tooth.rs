@@ -16,10 +16,12 @@ pub struct BrokenTooth {
 }
 
 impl BrokenTooth {
-    /// The tooth, and the radius from which on towards the tip it is gone \[m\]; a radius below the flank takes the whole tooth.
+    /// The tooth, and the radius from which on towards the tip it is gone \[m\]; a radius below the flank takes the
+    /// whole tooth.
     ///
     /// # Errors
-    /// [`DrivetrainError::Tooth`], or [`DrivetrainError::Value`] for a radius not between 0 and the tip, of a ring not outside the tip.
+    /// [`DrivetrainError::Tooth`], or [`DrivetrainError::Value`] for a radius not between 0 and the tip, of a ring not
+    /// outside the tip.
     pub fn new(
         gear: &ToothGeometry,
         tooth: usize,

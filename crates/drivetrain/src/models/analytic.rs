@@ -64,7 +64,8 @@ impl BeamTeeth {
     /// Tabulates the teeth of two gears shared by `slices`; both sides of the teeth are alike. `cracks` are (tooth, crack) of each gear.
     ///
     /// # Errors
-    /// [`DrivetrainError::Tooth`] for a crack in a tooth that does not exist, [`DrivetrainError::Value`] for a crack off the fillet or too deep,
+    /// [`DrivetrainError::Tooth`] for a crack in a tooth that does not exist, [`DrivetrainError::Value`] for a crack
+    /// off the fillet or too deep,
     /// [`DrivetrainError::RingBeams`].
     pub fn new(
         gears: [BeamTooth<'_>; 2],

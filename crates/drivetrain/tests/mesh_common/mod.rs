@@ -263,7 +263,8 @@ pub fn mesh(name: &str, pair: &GearPair, kinematics: MeshKinematics) -> GearMesh
 }
 
 /// Gear 1 turned by θ₁ from pair 0 at the pitch point, its flanks of `side` leading, gear 2 behind by the transmission error; parallel
-/// axes at the pair's centre distance, gear 2 on +x of the world. A ring and the gear inside touch on the far side of that gear.
+/// axes at the pair's centre distance, gear 2 on +x of the world. A ring and the gear inside touch on the far side of
+/// that gear.
 pub fn angles(pair: &GearPair, side: Flank, theta_1: f64, te_m: f64) -> [f64; 2] {
     let alpha = pair.working_pressure_angle_rad;
     let inv = involute::involute_function(alpha);
