@@ -39,7 +39,8 @@ mod tip_sweep;
 pub mod tooth;
 
 pub use blank::{
-    Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, MeshedBody, Openings, Slots, Web,
+    Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, MeshedBody, Openings, Rim,
+    Slots, Web,
 };
 pub use definition::{
     CrackDefinition, Flank, GaugeDefinition, GearDefinition, Gearing, HubSupport, InternalRoot,

@@ -10,6 +10,7 @@ mod line_load;
 mod mesh_convergence;
 mod mesh_error_estimate;
 mod plane_strain_deflection;
+mod ring_deflection;
 mod slice_deflection;
 mod solid_pair_transmission_error;
 mod tetrahedra;
