@@ -19,9 +19,11 @@ mod tooth_table;
 mod topography_table;
 
 pub use hub_table::HubTable;
-pub use material_table::MaterialTable;
+pub use material_table::{MaterialTable, PoissonRatio};
+pub use mesh_table::{DEFAULT_LEAST_QUALITY, LeastQuality};
 pub use microgeometry_table::MicrogeometryTable;
 pub use modes_table::ModesTable;
+pub use reduction_table::loaded_flanks;
 
 use crate::definition::{GearDefinition, HubSupport};
 use crate::input::{InputDocument, InputError, TableKeys};
@@ -37,7 +39,7 @@ const UM: f64 = 1e-6;
 
 /// JSON Schema (draft 2020-12) of gear files. What depends on other keys is checked when the file is read.
 pub fn schema() -> schemars::Schema {
-    schemars::schema_for!(GearFile)
+    crate::input::file_schema::<GearFile>()
 }
 
 /// A gear file.
@@ -92,7 +94,7 @@ impl GearDefinition {
         let tooth = file.tooth.check(document)?;
         let profile = ToothGeometry::new(&tooth).map_err(|e| document.error("tooth", e))?;
         let blank = file.blank.check(document, &tooth, &profile)?;
-        let material = file.material.check(document)?;
+        let material = file.material.material();
         let microgeometry = file.microgeometry.check(
             (document, "microgeometry"),
             (&profile, tooth.face_width_m),

@@ -14,12 +14,14 @@
 //! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs`, `microgeometry/` |
 //! | material removed from single flanks: errors and faults | [`flank_error::FlankError`] | `flank_error.rs` |
 //! | two bodies that touch in a point, after Hertz | [`point_contact::PointContact`] | `point_contact.rs`, `elliptic.rs` |
+//! | the base circles of a pair: line of action, gap, curvature | [`BaseCircles`] | `base_circles.rs` |
 //! | two gears at a centre distance | [`GearPair`] | `pair.rs`, `tip_in_fillet.rs`, `tip_sweep.rs` |
 //!
 //! Everything is in SI units; millimetres, degrees and micrometres exist only in the gear file. Frames and signs:
 //! z is the gear axis and zero at mid-face, tooth 0 is centred on +x, teeth are numbered counter-clockwise seen
 //! from +z, the *right* flank of a tooth faces clockwise. Formulas are derived in docs/theory/geometry.md.
 
+pub mod base_circles;
 pub mod blank;
 pub mod body_outline;
 pub mod definition;
@@ -38,6 +40,7 @@ mod tip_in_fillet;
 mod tip_sweep;
 pub mod tooth;
 
+pub use base_circles::BaseCircles;
 pub use blank::{
     Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, MeshedBody, Openings, Rim,
     Slots, Web,

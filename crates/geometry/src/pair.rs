@@ -1,5 +1,6 @@
 //! Two gears at a centre distance: working pressure angle, path of contact, backlash, sliding, interference.
 
+use crate::base_circles::BaseCircles;
 use crate::definition::Flank;
 use crate::involute;
 use crate::tip_in_fillet;
@@ -143,11 +144,6 @@ pub enum PairError {
 /// Overlap of the teeth that counts as rounding of the numbers in files \[m\]: gears without backlash are let through.
 const ROUNDING_M: f64 = 1e-9;
 
-/// A length of a gear with the sign of ISO 21771: negative of a ring.
-fn signed(gear: &ToothGeometry, length_m: f64) -> f64 {
-    gear.tip_direction() * length_m
-}
-
 /// Small rotation of gear 2's axis against gear 1's, about mid-face.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Misalignment {
@@ -223,8 +219,8 @@ impl GearPair {
             });
         }
         let (h1, h2) = (gear_1.base_helix_angle_rad(), gear_2.base_helix_angle_rad());
-        let together = gear_1.tip_direction() * gear_2.tip_direction();
-        if (h1 + together * h2).abs() > 1e-6 * h1.abs() {
+        let [signed_1, signed_2] = [gear_1.tip_direction() * h1, gear_2.tip_direction() * h2];
+        if (signed_1 + signed_2).abs() > 1e-6 * h1.abs() {
             return Err(PairError::Helix {
                 helix_1_deg: h1.abs().to_degrees(),
                 hand_1: gear_1.hand(),
@@ -251,7 +247,7 @@ impl GearPair {
                 allowed: ring.teeth - 1,
             });
         }
-        let smallest = pair.signed_base_sum_m().abs();
+        let smallest = pair.circles().sum_m().abs();
         if centre_distance_m.is_nan() || centre_distance_m <= smallest {
             return Err(PairError::CentreDistance {
                 centre_distance_mm: centre_distance_m * 1e3,
@@ -306,23 +302,26 @@ impl GearPair {
     /// Whether one of the gears is a ring around the other.
     #[must_use]
     pub fn has_ring(&self) -> bool {
-        self.inside_and_ring().is_some()
+        self.circles().has_ring()
     }
 
     /// Clearance of tips and roots, and that tips touch involutes only.
     fn check_flanks(&self) -> Result<(), PairError> {
-        let a = self.signed_centre_distance_m();
-        let line = a * self.working_pressure_angle_rad.sin();
+        let circles = self.circles();
+        let (a, line) = (
+            circles.signed_distance_m(self.centre_distance_m),
+            self.line_of_action_m(),
+        );
         for (gear, tip, mate) in self.tips_and_mates() {
-            let clearance = a - signed(tip, tip.tip_radius_m) - signed(mate, mate.root_radius_m);
+            let tip_m = tip.tip_direction() * tip.tip_radius_m;
+            let clearance = a - tip_m - mate.tip_direction() * mate.root_radius_m;
             if clearance < 0.0 {
                 return Err(PairError::TipClearance {
                     gear,
                     clearance_mm: clearance * 1e3,
                 });
             }
-            let tip_rolled = signed(tip, tip.base_radius_m) * tip.flank_end_roll_rad;
-            let needed = (line - tip_rolled) / signed(mate, mate.base_radius_m);
+            let needed = circles.mate_roll_rad(line, (gear - 1, tip.flank_end_roll_rad));
             if tip.internal && needed < 0.0 {
                 return Err(PairError::InvoluteInterference {
                     gear: 3 - gear,
@@ -374,23 +373,23 @@ impl GearPair {
         })
     }
 
-    /// r_b1 + r_b2 with the sign of ISO 21771 \[m\]: negative with a ring.
-    fn signed_base_sum_m(&self) -> f64 {
-        signed(&self.gear_1, self.gear_1.base_radius_m)
-            + signed(&self.gear_2, self.gear_2.base_radius_m)
+    /// The base circles of both.
+    #[must_use]
+    pub fn circles(&self) -> BaseCircles {
+        BaseCircles::new([&self.gear_1, &self.gear_2])
     }
 
-    /// Centre distance with the sign of ISO 21771 \[m\]: negative with a ring.
+    /// Length of the line of action a sin α_w \[m\], negative with a ring ([`BaseCircles`]).
     #[must_use]
-    pub fn signed_centre_distance_m(&self) -> f64 {
-        self.centre_distance_m.copysign(self.signed_base_sum_m())
+    pub fn line_of_action_m(&self) -> f64 {
+        let distance_m = self.circles().signed_distance_m(self.centre_distance_m);
+        distance_m * self.working_pressure_angle_rad.sin()
     }
 
     /// Roll angle on gear 1 at which gear 2's tip touches it.
     fn roll_at_tip_of_2_rad(&self) -> f64 {
-        let line = self.signed_centre_distance_m() * self.working_pressure_angle_rad.sin();
-        let tip = signed(&self.gear_2, self.gear_2.base_radius_m) * self.gear_2.flank_end_roll_rad;
-        (line - tip) / signed(&self.gear_1, self.gear_1.base_radius_m)
+        let end = self.gear_2.flank_end_roll_rad;
+        (self.circles()).mate_roll_rad(self.line_of_action_m(), (1, end))
     }
 
     /// Puts the gears at another centre distance, above the sum of the base radii, with other axis errors: working
@@ -398,19 +397,14 @@ impl GearPair {
     pub fn move_to(&mut self, centre_distance_m: f64, misalignment: Misalignment) {
         self.centre_distance_m = centre_distance_m;
         self.misalignment = misalignment;
-        self.working_pressure_angle_rad =
-            (self.signed_base_sum_m().abs() / centre_distance_m).acos();
+        self.working_pressure_angle_rad = (self.circles().sum_m().abs() / centre_distance_m).acos();
         self.roll_start_1_rad = self.roll_at_tip_of_2_rad().max(0.0);
     }
 
     /// Side of the flanks in contact on gear 1 (0) or gear 2 (1): the same on external gears, opposite ones with a ring.
     #[must_use]
     pub fn flank_of(&self, gear: usize) -> Flank {
-        if gear == 1 && self.has_ring() {
-            self.flank.opposite()
-        } else {
-            self.flank
-        }
+        self.circles().side_of(gear, self.flank)
     }
 
     /// The same pair with contact on the flanks of the given side.
@@ -487,16 +481,13 @@ impl GearPair {
 
     /// Roll angle on gear 2 opposite to ξ₁: r_b2 ξ₂ = a sin α_w − r_b1 ξ₁, a and the ring's r_b negative.
     pub fn roll_2_rad(&self, roll_1_rad: f64) -> f64 {
-        (self.signed_centre_distance_m() * self.working_pressure_angle_rad.sin()
-            - signed(&self.gear_1, self.gear_1.base_radius_m) * roll_1_rad)
-            / signed(&self.gear_2, self.gear_2.base_radius_m)
+        (self.circles()).mate_roll_rad(self.line_of_action_m(), (0, roll_1_rad))
     }
 
     /// Signed distance \[m\] along the line of action from the pitch point, positive towards the end of contact
     /// (recess): the lever of the sliding velocity and of the friction moment.
     pub fn path_from_pitch_point_m(&self, roll_1_rad: f64) -> f64 {
-        signed(&self.gear_1, self.gear_1.base_radius_m)
-            * (roll_1_rad - self.working_pressure_angle_rad.tan())
+        self.circles().radii_m[0] * (roll_1_rad - self.working_pressure_angle_rad.tan())
     }
 
     /// Sliding velocity \[m/s\] of gear 1's flank over gear 2's, positive towards gear 1's *root* (and gear 2's tip):
@@ -504,8 +495,8 @@ impl GearPair {
     /// point; r_b1/r_b2 is negative with a ring. Zero at the pitch point, where it changes its sign. The contact runs
     /// towards the tip of gear 1, so the material below it moves towards the root.
     pub fn sliding_velocity_m_per_s(&self, roll_1_rad: f64, speed_1_rad_per_s: f64) -> f64 {
-        let ratio = signed(&self.gear_1, self.gear_1.base_radius_m)
-            / signed(&self.gear_2, self.gear_2.base_radius_m);
+        let [r1, r2] = self.circles().radii_m;
+        let ratio = r1 / r2;
         let rolled = roll_1_rad - self.working_pressure_angle_rad.tan();
         speed_1_rad_per_s * (1.0 + ratio) * self.gear_1.base_radius_m * rolled
     }
@@ -521,18 +512,10 @@ impl GearPair {
     /// Relative radius of curvature ρ \[m\] across the line of contact of two flanks that touch at the given roll
     /// angles: 1/ρ = cos β_b (1/(r_b1 ξ₁) + 1/(r_b2 ξ₂)), the ring's r_b negative: its flank is hollow.
     pub fn relative_radius_m(&self, roll_1_rad: f64, roll_2_rad: f64) -> f64 {
-        let a = signed(&self.gear_1, self.gear_1.base_radius_m) * roll_1_rad;
-        let b = signed(&self.gear_2, self.gear_2.base_radius_m) * roll_2_rad;
-        a * b / ((a + b) * self.base_helix_angle_rad().cos())
-    }
-
-    /// Growth of the relative radius, as a share of itself, per radian of roll on gear 1 and gear 2: (1 − ρ_i/(ρ₁ +
-    /// ρ₂))/ξ_i.
-    pub fn relative_radius_growth(&self, roll_rad: [f64; 2]) -> [f64; 2] {
-        let rho_1 = signed(&self.gear_1, self.gear_1.base_radius_m) * roll_rad[0];
-        let rho_2 = signed(&self.gear_2, self.gear_2.base_radius_m) * roll_rad[1];
-        let sum = rho_1 + rho_2;
-        [rho_2 / (sum * roll_rad[0]), rho_1 / (sum * roll_rad[1])]
+        let helix_cos = self.base_helix_angle_rad().cos();
+        (self.circles())
+            .relative_radius([roll_1_rad, roll_2_rad], helix_cos)
+            .0
     }
 
     /// Opening of the loaded flanks by misalignment, measured in the transverse plane, at axial position `z_m` and
@@ -544,7 +527,7 @@ impl GearPair {
     /// a helical flank also feels the axial one.
     pub fn misalignment_gap_m(&self, z_m: f64, path_m: f64) -> f64 {
         let (s, c) = self.working_pressure_angle_rad.sin_cos();
-        let opens = self.signed_base_sum_m().signum();
+        let opens = self.circles().sum_m().signum();
         let slope =
             opens * self.misalignment.inclination_rad * s + self.misalignment.deviation_rad * c;
         let axial = self.flank.mirror() * self.base_helix_angle_rad().tan();

@@ -329,7 +329,9 @@ fn a_planet_in_a_ring_runs_from_either_side() {
                 "{}",
                 pair.backlash_m()
             );
-            assert!((pair.signed_centre_distance_m() + centre).abs() < 1e-15);
+            assert!(
+                (pair.circles().signed_distance_m(pair.centre_distance_m) + centre).abs() < 1e-15
+            );
             let place = if ring_drives { centre } else { -centre };
             let (roll_start, roll_end) = (pair.roll_start_1_rad, pair.roll_end_1_rad);
             for k in 0..=10 {
