@@ -101,6 +101,14 @@ impl MeshTable {
                 return Err(keys.error("element", problem));
             }
         }
+        if blank.rim().is_some() && self.element == Some(Element::Tet10) {
+            let problem = "a ring is meshed in hexahedra; choose one of them";
+            return Err(keys.error("element", problem));
+        }
+        if self.plane_strain && blank.rim().is_some_and(|rim| rim.held_z_m.is_some()) {
+            let problem = "plane strain knows no band of the outside; remove blank.held_band_mm or set plane_strain = false";
+            return Err(keys.error("plane_strain", problem));
+        }
         if self.plane_strain && blank.web().is_some() {
             return Err(keys.error(
                 "plane_strain",

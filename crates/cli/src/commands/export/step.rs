@@ -88,6 +88,12 @@ impl Solid {
             });
         }
         let gear = offline::gear(path)?;
+        if gear.profile.internal {
+            return Err(Failure::input(format!(
+                "{}: a ring with internal teeth, of which no solid is made; `gearmesh mesh` writes its mesh",
+                path.display()
+            )));
+        }
         Ok(Self {
             description: description(&gear),
             left_out: left_out(&gear),
