@@ -465,6 +465,9 @@ impl Ball<'_> {
             orbit_rad_per_s: motion.map_or(0.0, |m| m.orbit_rad_per_s),
             spin_rad_per_s: motion.map_or(0.0, |m| m.spin_rad_per_s),
             controlled_by_inner: matches!(state.motion, Some((_, RaceControl::Inner))),
+            left_inner_ring: motion.is_some()
+                && row.free_angle_rad != 0.0
+                && !self.inner.reaches(state.inner.cosine, state.inner.sine),
             ..ElementLoad::default()
         }
     }

@@ -35,6 +35,9 @@ pub struct ElementLoad {
     pub spin_rad_per_s: f64,
     /// Whether a ball rolls without spin on the inner race; otherwise on the outer one.
     pub controlled_by_inner: bool,
+    /// Whether a ball of an angular-contact bearing at speed lies beyond the end of the inner groove: it then carries its
+    /// centrifugal force on the outer ring alone.
+    pub left_inner_ring: bool,
     /// Of a four-point contact bearing: the contacts on the side that bears less.
     pub other_side: Option<OtherSide>,
 }

@@ -182,8 +182,8 @@ impl LoadHistory {
                     cage_angle_rad: share * TAU / bearing.rows[0].elements() as f64,
                     ..Operation::default()
                 };
-                let pose = bearing.equilibrium(&load, &operation)?;
-                let (ring, elements) = bearing.loads(&pose, &operation)?;
+                let (pose, mut places) = bearing.equilibrium_with_places(&load, &operation)?;
+                let (ring, elements) = bearing.loads_from(&pose, &operation, &mut places)?;
                 let life = Life::of(definition, &elements, load.force_n, &operation, lubrication);
                 let judged = Judged {
                     definition,

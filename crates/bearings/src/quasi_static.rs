@@ -301,9 +301,21 @@ impl QuasiStaticBearing {
         pose: &RingPose,
         operation: &Operation,
     ) -> Result<(RingLoad, RowLoads), BearingError> {
+        self.loads_from(pose, operation, &mut ElementPlaces::unknown(&self.rows))
+    }
+
+    /// As [`Self::loads`], the search of each element beginning at its place, which is left where it ended.
+    ///
+    /// # Errors
+    /// As [`Self::evaluate`].
+    pub fn loads_from(
+        &self,
+        pose: &RingPose,
+        operation: &Operation,
+        places: &mut ElementPlaces,
+    ) -> Result<(RingLoad, RowLoads), BearingError> {
         let mut ring = RingLoad::default();
         let mut all = RowLoads::default();
-        let mut places = ElementPlaces::unknown(&self.rows);
         for (row, places) in self.rows.iter().zip(places.rows()) {
             let (mut elements, mut laminae) = (Vec::new(), Vec::new());
             let each = |element| elements.push(element);

@@ -1,4 +1,4 @@
-//! `gearmesh modes`: natural frequencies and shapes with the bore held.
+//! `gearmesh modes`: natural frequencies and shapes with the bore held, or the ends of the shaft's stubs.
 
 use crate::arguments::ModesArguments;
 use crate::console::StageBar;
@@ -86,6 +86,28 @@ fn shape(field: &[f64]) -> Field {
     }
 }
 
+/// Where the gear is held: the bore, or of a gear cut into its shaft the ends of the stubs that are meshed with it.
+fn held_words(gear: &GearDefinition) -> String {
+    let Some(shaft) = gear.blank.cut_into_shaft() else {
+        return "bore held".to_owned();
+    };
+    let [back, front] = shaft.stub_lengths_m().map(|length_m| 1e3 * length_m);
+    let ends = match (back > 0.0, front > 0.0) {
+        (true, true) => format!(
+            "both ends of the shaft held, {back:.3} mm behind the back face and {front:.3} mm before the front face"
+        ),
+        (true, false) => format!(
+            "the shaft's end at the back held, {back:.3} mm behind the face; the front face is free"
+        ),
+        (false, _) => format!(
+            "the shaft's end at the front held, {front:.3} mm before the face; the back face is free"
+        ),
+    };
+    format!(
+        "{ends} (a reduced gear's modes for scenes are those with the faces held, without the stubs' mass)"
+    )
+}
+
 /// Share of the body's mass or inertia that a mode carries along under each rigid motion.
 fn effective_shares(mode: &GearMode, rigid: &RigidBody) -> [f64; 6] {
     let mass = rigid.mass_matrix();
@@ -120,6 +142,7 @@ fn figures(gear: &GearDefinition, modes: &GearModes, rigid: &RigidBody) -> serde
         .collect();
     json!({
         "gear": gear.name,
+        "held": held_words(gear),
         "mass_kg": rigid.mass_kg,
         "centre_m": rigid.centre_m,
         "inertia_kg_m2": rigid.inertia_kg_m2,
@@ -132,10 +155,11 @@ fn figures(gear: &GearDefinition, modes: &GearModes, rigid: &RigidBody) -> serde
 
 fn table(gear: &GearDefinition, body: &GearBody, modes: &GearModes, rigid: &RigidBody) {
     console::data(format!(
-        "{}: {} modes up to {:.1} Hz, bore held, {} degrees of freedom; mass {:.4} kg, inertia about the axis {:.4e} kg m2",
+        "{}: {} modes up to {:.1} Hz, {}, {} degrees of freedom; mass {:.4} kg, inertia about the axis {:.4e} kg m2",
         gear.name,
         modes.modes.len(),
         modes.complete_to_hz,
+        held_words(gear),
         body.dofs.free_count(),
         rigid.mass_kg,
         rigid.inertia_kg_m2[2][2]

@@ -27,6 +27,7 @@ mod bounding_spheres;
 mod facets;
 mod hertz_stiffness;
 mod line_geometry;
+mod loaded_between;
 mod loaded_contact;
 mod nearby_sections;
 mod nearest_points;

@@ -16,10 +16,12 @@ mod gearbox;
 mod lost_meshes;
 #[path = "../made_up_gears/mod.rs"]
 mod made_up_gears;
+mod other_run_kinds;
 mod pair_stiffness;
 mod pairs_at_rest;
 mod power_losses;
 mod provenance;
+mod random_bevel_pairs;
 mod rolling_bearings;
 mod run_out;
 mod shafts;
