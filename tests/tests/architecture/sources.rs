@@ -123,6 +123,7 @@ fn children_are_started_where_they_are_isolated() {
         starters,
         [
             "crates/cli/src/commands/doctor.rs",
+            "crates/cli/src/commands/studio.rs",
             "crates/mesh/src/python.rs"
         ],
         "only these start programs: ask PythonEnvironment::command for a Python"

@@ -278,9 +278,7 @@ impl SceneMesh<'_> {
     ) -> Result<ReducedTeeth, InputError> {
         let models = self.models()?;
         let reference = REFERENCE_LINE_LOAD_N_PER_M * self.zone_width_m();
-        let nominal = model.nominal_force_N.unwrap_or(reference);
-        self.model_keys
-            .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
+        let nominal = model.nominal_force_N.map_or(reference, f64::from);
         let contact = (model.local.unwrap_or_default(), layout);
         ReducedTeeth::on_slices(self.pair, side, models, contact, nominal).map_err(|error| {
             let hint = match self.teeth.flanks {
@@ -300,7 +298,7 @@ impl SceneMesh<'_> {
         let Some(damping) = damping else {
             return Ok(Box::new(teeth));
         };
-        let damping = damping.check(&self.model_keys)?;
+        let damping = damping.damping();
         let damped =
             Damped::new(teeth, damping, slices).map_err(|e| self.model_keys.error("damping", e))?;
         Ok(Box::new(damped))
