@@ -455,7 +455,7 @@ mod tests {
         // Module 2.6 mm, face width 23 mm.
         assert_eq!(
             mesh,
-            "flank_mm = 1.5600\nfillet_mm = 0.4160\nbody_mm = 6.2400\naxial_mm = 11.5000\n"
+            "flank_mm = 1.5600\nfillet_mm = 0.2080\nbody_mm = 6.2400\naxial_mm = 11.5000\n"
         );
     }
 

@@ -96,20 +96,27 @@ fn at_rest_and_in_time(rest: &str, moving: &str) {
         ("[50.0, 100.0, 150.0, 200.0, 250.0, 300.0]", "[300.0]"),
     ];
     let (_, result) = pair(rest, &changes);
-    let te = result.figures(0);
     let step_rad = result.angle_rad[1] - result.angle_rad[0];
-    let shift_rad = -te.te_mean_m / BASE_RADIUS_M;
-    let mut pairs = vec![(
-        "TE",
-        // The whole turn has the period of the slots; the pitches that are looked at a part of it.
-        swing(&window(&result, &result.te_m)),
-        moved[0],
-        shifted(&result.te_m, step_rad, shift_rad),
-    )];
+    let shift_rad = -result.figures(0).te_mean_m / BASE_RADIUS_M;
+    // The transmission error has the events between the positions, too, of one period of the slots.
+    let mut te = window(&result, &result.te_m);
+    let period = result.contact_coverage.period_pitches as f64;
+    let passing = result.between.angle_rad.iter().map(|angle| {
+        let pitches = angle / (step_rad * result.points_per_pitch() as f64);
+        pitches
+            .rem_euclid(period)
+            .min(period - pitches.rem_euclid(period))
+            <= HALF_WINDOW
+    });
+    let between = result.between.te_m.iter().zip(passing);
+    te.extend(between.filter_map(|(te, passes)| passes.then_some(*te)));
+    let bound = shifted(&result.te_m, step_rad, shift_rad);
+    let mut pairs = vec![("TE", swing(&te), moved[0], bound)];
     for (gauge, moved) in GAUGES.iter().zip(&moved[1..]) {
         let series = result.strain.iter().find(|s| s.name == *gauge).unwrap();
         let micro: Vec<f64> = series.method_2.iter().map(|e| 1e6 * e).collect();
-        let bound = shifted(&micro, step_rad, shift_rad);
+        // A peak between two positions is missed by half of a step's change at most, at either end.
+        let bound = shifted(&micro, step_rad, shift_rad + 0.5 * step_rad);
         pairs.push((*gauge, swing(&window(&result, &micro)), *moved, bound));
     }
     for (what, rest, moved, bound) in pairs {
@@ -120,9 +127,12 @@ fn at_rest_and_in_time(rest: &str, moving: &str) {
     }
 }
 
-/// The even positions at which tooth 0 passes: two and a half pitches on either side of the start.
+/// Pitches on either side of the start in which tooth 0 passes.
+const HALF_WINDOW: f64 = 2.5;
+
+/// The even positions at which tooth 0 passes.
 fn window(result: &SceneResult, values: &[f64]) -> Vec<f64> {
-    let half = 5 * result.points_per_pitch() / 2;
+    let half = (HALF_WINDOW * result.points_per_pitch() as f64) as usize;
     [&values[values.len() - half..], &values[..=half]].concat()
 }
 
