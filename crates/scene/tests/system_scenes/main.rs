@@ -16,6 +16,7 @@ mod gearbox;
 mod lost_meshes;
 #[path = "../made_up_gears/mod.rs"]
 mod made_up_gears;
+mod node_surface;
 mod pair_stiffness;
 mod pairs_at_rest;
 mod power_losses;
@@ -31,6 +32,7 @@ mod static_pairs;
 mod system_runs;
 mod tables;
 mod tilted_shafts;
+mod tooth_pairs;
 
 use gearmesh_scene::system::BuiltSystem;
 
