@@ -26,7 +26,7 @@ mod vocabulary;
 const OFFLINE: [&str; 3] = ["mesh", "fe", "reduction"];
 
 /// The crates of the online side, which read a reduced model and never make one.
-const ONLINE: [&str; 9] = [
+const ONLINE: [&str; 10] = [
     "contact",
     "bearings",
     "dynamics",
@@ -36,10 +36,11 @@ const ONLINE: [&str; 9] = [
     "rating",
     "scene",
     "report",
+    "studio",
 ];
 
 /// What each crate may use, `gearmesh-` left out. Data walks one way, so a crate stands below all that it uses.
-const ALLOWED: [(&str, &[&str]); 20] = [
+const ALLOWED: [(&str, &[&str]); 21] = [
     ("elements", &[]),
     ("geometry", &["elements"]),
     ("mesh", &["bevel", "elements", "geometry"]),
@@ -75,7 +76,14 @@ const ALLOWED: [(&str, &[&str]); 20] = [
             "signal",
         ],
     ),
-    ("report", &["geometry", "model", "scene", "signal"]),
+    (
+        "report",
+        &["geometry", "model", "contact", "scene", "signal"],
+    ),
+    (
+        "studio",
+        &["geometry", "model", "scene", "signal", "report"],
+    ),
     (
         "cli",
         &[
@@ -93,6 +101,7 @@ const ALLOWED: [(&str, &[&str]); 20] = [
             "scene",
             "report",
             "rexs",
+            "studio",
         ],
     ),
     (

@@ -14,7 +14,11 @@ mod unused_keys;
 use std::path::Path;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::gear_file::PoissonRatio;
+use gearmesh_geometry::input::{
+    Bounded, Count, End, InputDocument, NotNegative, Positive, TableKeys, Within,
+};
+use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -33,7 +37,7 @@ const UM: f64 = 1e-6;
 
 /// JSON Schema (draft 2020-12) of bearing files. Which keys a kind uses is said in their descriptions and checked when the file is read.
 pub fn schema() -> schemars::Schema {
-    schemars::schema_for!(BearingFile)
+    gearmesh_geometry::input::file_schema::<BearingFile>()
 }
 
 /// A bearing file.
@@ -47,21 +51,21 @@ struct BearingFile {
     /// What it is, and which keys describe it.
     kind: Kind,
     /// Bore. "catalogue": needed without `designation`; otherwise only checked against the races.
-    bore_mm: Option<f64>,
+    bore_mm: Option<Bounded<Positive>>,
     /// Outside diameter, as `bore_mm`.
-    outside_diameter_mm: Option<f64>,
+    outside_diameter_mm: Option<Bounded<Positive>>,
     /// Width, as `bore_mm`.
-    width_mm: Option<f64>,
+    width_mm: Option<Bounded<Positive>>,
     /// Ball bearings: number of balls in a row. "catalogue": where it is known.
     balls: Option<usize>,
     /// Ball bearings: diameter of the balls. "catalogue": where it is known.
-    ball_diameter_mm: Option<f64>,
+    ball_diameter_mm: Option<Bounded<Positive>>,
     /// Diameter of the circle of the balls' or rollers' middles. "catalogue": where it is known; the middle between bore and outside diameter otherwise.
-    pitch_diameter_mm: Option<f64>,
+    pitch_diameter_mm: Option<Bounded<Positive>>,
     /// Ball bearings: radius of the inner groove over the ball's diameter, more than 0.5; of a thrust bearing that of the washer on the shaft.
-    inner_conformity: Option<f64>,
+    inner_conformity: Option<Bounded<Conformity>>,
     /// Ball bearings: radius of the outer groove over the ball's diameter, more than 0.5; of a thrust bearing that of the washer in the housing.
-    outer_conformity: Option<f64>,
+    outer_conformity: Option<Bounded<Conformity>>,
     /// "angular-contact": contact angle without load. "four-point": that of a ball that touches at all four points. "tapered-roller": angle of the outer race against the axis. "spherical-roller": of the load lines. "catalogue": of angular-contact, four-point and tapered roller bearings.
     contact_angle_deg: Option<f64>,
     /// "deep-groove", "four-point", "cylindrical-roller", "spherical-roller", "catalogue": play across the axis from one side to the other; negative: interference, as fits leave it; 0 where not given.
@@ -74,9 +78,9 @@ struct BearingFile {
     /// Roller bearings: number of rollers in a row. "catalogue": where it is known.
     rollers: Option<usize>,
     /// Roller bearings: diameter of the rollers, in their middle. "catalogue": where it is known.
-    roller_diameter_mm: Option<f64>,
+    roller_diameter_mm: Option<Bounded<Positive>>,
     /// Roller bearings: length of the rollers that carries. "catalogue": where it is known.
-    roller_length_mm: Option<f64>,
+    roller_length_mm: Option<Bounded<Positive>>,
     /// "spherical-roller": radius of the rollers' profile; 0.97 of the radius of the sphere inside the outer ring where not given.
     roller_profile_radius_mm: Option<f64>,
     /// "spherical-roller": radius of the profile of the inner ring's groove; that of the sphere inside the outer ring where not given.
@@ -84,9 +88,9 @@ struct BearingFile {
     /// "cylindrical-roller", "tapered-roller": end profile; logarithmic by ISO/TS 16281 where not given.
     profile: Option<ProfileTable>,
     /// Roller bearings: laminae of a roller; 40 where not given.
-    laminae: Option<usize>,
+    laminae: Option<Count<2, 1000>>,
     /// "tapered-roller": radius of the roller's spherical end over the distance of that end from the apex; 0.95 where not given.
-    end_radius_ratio: Option<f64>,
+    end_radius_ratio: Option<Bounded<EndRadiusRatio>>,
     /// "tapered-roller": height of the contact with the rib above the inner race's edge; a fifth of the roller's large radius where not given.
     rib_height_mm: Option<f64>,
     /// "catalogue": a designation such as "6205", "7010 C", "NU 204" or "30206": boundary dimensions by ISO 15 and ISO 355.
@@ -96,12 +100,12 @@ struct BearingFile {
     /// Two rows: "O" (back to back), "X" (face to face) or "tandem"; one row where not given. "catalogue" with two rows in its rings: "O" where not given.
     arrangement: Option<ArrangementWord>,
     /// Distance of the two rows. "catalogue" with two rows in its rings: half the width where not given.
-    row_distance_mm: Option<f64>,
+    row_distance_mm: Option<Bounded<Positive>>,
     /// "angular-contact", "thrust-ball", "tapered-roller": axial force that the rows of a pair bear at rest without load; of a single row that which its place without
     /// load stands for.
-    preload_N: Option<f64>,
+    preload_N: Option<Bounded<NotNegative>>,
     /// "angular-contact", "thrust-ball", "tapered-roller": axial displacement by which each row's inner ring is pressed in; negative for play.
-    preload_um: Option<f64>,
+    preload_um: Option<Bounded<Within<-1000, 1000>>>,
     /// Place of the first ball or roller, from x towards y; 0 where not given.
     first_angle_deg: Option<f64>,
     /// Material of balls or rollers; steel, 206 GPa, 0.3, 7850 kg/m³, where not given.
@@ -119,6 +123,16 @@ struct BearingFile {
     #[serde(default)]
     fault: Vec<FaultTable>,
 }
+
+number_range!(
+    /// Radius of a groove over the ball's diameter.
+    Conformity: End::Beyond(0.5), End::At(1.0), "0.5 is the ball's own radius"
+);
+
+number_range!(
+    /// Radius of a roller's end over its distance from the apex.
+    EndRadiusRatio: End::Beyond(0.2), End::Beyond(1.0), "at 1 the end fits the rib all over"
+);
 
 /// `kind`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -176,9 +190,9 @@ struct ProfileTable {
     /// Shape.
     kind: ProfileKind,
     /// "logarithmic": s in s ln(1/(1 − (2x/L)²)); 0.35 ‰ (tapered: 0.45 ‰) of the diameter where not given.
-    scale_um: Option<f64>,
+    scale_um: Option<Bounded<Within<0, 1000>>>,
     /// "crowned": radius of the crown.
-    radius_mm: Option<f64>,
+    radius_mm: Option<Bounded<Positive>>,
 }
 
 /// `profile.kind`.
@@ -199,11 +213,11 @@ enum ProfileKind {
 #[allow(non_snake_case)]
 struct MaterialTable {
     /// Young's modulus.
-    young_GPa: f64,
+    young_GPa: Bounded<Positive>,
     /// Poisson's ratio.
-    poisson: f64,
+    poisson: Bounded<PoissonRatio>,
     /// Density; of the elements only, for their centrifugal force. 7850 where not given.
-    density_kg_per_m3: Option<f64>,
+    density_kg_per_m3: Option<Bounded<Positive>>,
 }
 
 /// `[ratings]`: load ratings of the whole bearing.
@@ -212,11 +226,11 @@ struct MaterialTable {
 #[allow(non_snake_case)]
 struct RatingsTable {
     /// C, dynamic; by ISO 281 where not given.
-    dynamic_N: Option<f64>,
+    dynamic_N: Option<Bounded<Positive>>,
     /// C₀, static; by ISO 76 where not given.
-    static_N: Option<f64>,
+    static_N: Option<Bounded<Positive>>,
     /// C_u, fatigue load limit; from C₀ by ISO 281, annex B, where not given.
-    fatigue_N: Option<f64>,
+    fatigue_N: Option<Bounded<Positive>>,
 }
 
 /// What a bearing file holds.
@@ -266,7 +280,7 @@ impl BearingFromFile {
         let keys = TableKeys::new(document, "");
         unused_keys::by_kind(&file, &keys)?;
         let mut notes = Vec::new();
-        let stated = |mm: Option<f64>| mm.map(|value| MM * value);
+        let stated = |mm: Option<Bounded<Positive>>| mm.map(|value| MM * value);
         let mut boundary = (stated(file.bore_mm), stated(file.outside_diameter_mm));
         let (geometry, estimate, name, from_catalogue) = match file.kind {
             Kind::DeepGroove | Kind::AngularContact | Kind::FourPoint | Kind::ThrustBall => {
@@ -298,23 +312,13 @@ impl BearingFromFile {
             (None, None) => return Err(keys.error("name", "missing; give the bearing a name")),
         };
         let stated = file.ratings.clone().unwrap_or_default();
-        let table = TableKeys::new(document, "ratings");
-        for (key, value) in [
-            ("dynamic_N", stated.dynamic_N),
-            ("static_N", stated.static_N),
-            ("fatigue_N", stated.fatigue_N),
-        ] {
-            if let Some(value) = value {
-                table.require(key, value, value > 0.0, "more than 0")?;
-            }
-        }
         let fit = (file.fit.as_ref())
             .map(|table| fit_keys::fit(table, document, boundary, &geometry))
             .transpose()?;
         let stated = StatedRatings {
-            dynamic_n: stated.dynamic_N,
-            static_n: stated.static_N,
-            fatigue_n: stated.fatigue_N,
+            dynamic_n: stated.dynamic_N.map(f64::from),
+            static_n: stated.static_N.map(f64::from),
+            fatigue_n: stated.fatigue_N.map(f64::from),
         };
         let (arrangement, stated_ratings) = match from_catalogue {
             None => (arrangement_keys::arrangement(&file, &keys)?, stated),
@@ -363,22 +367,6 @@ fn material(
         return Ok(BearingMaterial::STEEL);
     };
     let keys = TableKeys::new(document, name);
-    let density = table
-        .density_kg_per_m3
-        .unwrap_or(BearingMaterial::STEEL.density_kg_per_m3);
-    keys.require(
-        "young_GPa",
-        table.young_GPa,
-        table.young_GPa > 0.0,
-        "more than 0",
-    )?;
-    keys.require(
-        "poisson",
-        table.poisson,
-        (0.0..0.5).contains(&table.poisson),
-        "0 up to, not including, 0.5",
-    )?;
-    keys.require("density_kg_per_m3", density, density > 0.0, "more than 0")?;
     if name == "ring_material" && table.density_kg_per_m3.is_some() {
         return Err(keys.error(
             "density_kg_per_m3",
@@ -387,8 +375,10 @@ fn material(
     }
     Ok(BearingMaterial {
         young_pa: 1e9 * table.young_GPa,
-        poisson: table.poisson,
-        density_kg_per_m3: density,
+        poisson: *table.poisson,
+        density_kg_per_m3: table
+            .density_kg_per_m3
+            .map_or(BearingMaterial::STEEL.density_kg_per_m3, f64::from),
     })
 }
 
@@ -412,16 +402,16 @@ fn check_boundary(
             g.pitch_diameter_m + g.diameter_m,
         ),
     };
-    if let Some(bore) = file.bore_mm {
+    if let Some(bore) = file.bore_mm.map(f64::from) {
         let most = inner_m / MM;
         keys.require(
             "bore_mm",
             bore,
-            bore > 0.0 && bore < most,
-            &format!("more than 0 and less than {most:.3}, the diameter of the inner race"),
+            bore < most,
+            &format!("less than {most:.3}, the diameter of the inner race"),
         )?;
     }
-    if let Some(outside) = file.outside_diameter_mm {
+    if let Some(outside) = file.outside_diameter_mm.map(f64::from) {
         let least = outer_m / MM;
         keys.require(
             "outside_diameter_mm",
@@ -429,9 +419,6 @@ fn check_boundary(
             outside > least,
             &format!("more than {least:.3}, the diameter of the outer race"),
         )?;
-    }
-    if let Some(width) = file.width_mm {
-        keys.require("width_mm", width, width > 0.0, "more than 0")?;
     }
     Ok(())
 }

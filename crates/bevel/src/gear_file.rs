@@ -20,7 +20,7 @@ const MM: f64 = 1e-3;
 
 /// JSON Schema (draft 2020-12) of bevel gear files.
 pub fn gear_schema() -> schemars::Schema {
-    schemars::schema_for!(BevelGearFile)
+    gearmesh_geometry::input::file_schema::<BevelGearFile>()
 }
 
 /// A bevel gear file.
@@ -149,7 +149,7 @@ impl BevelGear {
             let problem = "its blades have no edge radius, so that the root has a sharp corner: a body needs a fillet; give the member edge_radius_mm in the pair file";
             return Err(document.error("bevel_gear.member", problem));
         }
-        let material = file.material.check(document)?;
+        let material = file.material.material();
         let mate = pair.blank.members[1 - member].clone();
         let body = file.blank.check(document, &tooth)?;
         let reduction = file.reduction.check(document)?;

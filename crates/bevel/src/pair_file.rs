@@ -31,7 +31,7 @@ use member_table::MemberTable;
 
 /// JSON Schema (draft 2020-12) of bevel pair files.
 pub fn schema() -> schemars::Schema {
-    schemars::schema_for!(BevelFile)
+    gearmesh_geometry::input::file_schema::<BevelFile>()
 }
 
 /// A bevel pair file.
@@ -110,7 +110,7 @@ impl PairFile {
             file.pinion.request(document, "pinion", &blank)?,
             file.gear.request(document, "gear", &blank)?,
         ];
-        let (pinion_flank, tca) = file.tca.unwrap_or_default().request(document)?;
+        let (pinion_flank, tca) = file.tca.unwrap_or_default().request();
         let load = file.load.map(|table| table.request(document)).transpose()?;
         Ok(Self {
             title: file.title,

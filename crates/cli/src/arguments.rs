@@ -7,6 +7,7 @@ mod machine;
 mod offline;
 mod record;
 mod signal;
+mod studio;
 
 pub use bearing::{BearingArguments, BearingFrequenciesArguments, ControlWord};
 pub use bevel::{BevelArguments, TcaArguments};
@@ -18,6 +19,7 @@ pub use signal::{
     AbscissaArguments, BearingLineArguments, SeriesArguments, SignalAnalysis, SignalArguments,
     WindowKind,
 };
+pub use studio::StudioArguments;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -56,6 +58,8 @@ pub enum Command {
     Export(ExportArguments),
     /// Make a reference record of measured curves: CSV with units, or a universal file
     Record(RecordArguments),
+    /// Open a gear pair or a result in the browser: change the pair, see its curves and flanks at once
+    Studio(StudioArguments),
     /// Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
     Signal(SignalArguments),
     /// Check a gear file, bearing file, scene, study, S-N table, record, model or result

@@ -41,6 +41,7 @@ mod schema_page;
 pub mod signal;
 pub mod stages;
 mod stress_picture;
+pub mod studio;
 pub mod study;
 mod study_elsewhere;
 pub mod system_table;

@@ -39,6 +39,7 @@ fn main() -> ExitCode {
         Command::Export(a) => commands::export::run(a),
         Command::Record(a) => commands::record::run(a),
         Command::Report(a) => commands::report::run(a),
+        Command::Studio(a) => commands::studio::run(a),
         Command::Signal(a) => commands::signal::run(a),
         Command::Check(a) => commands::check::run(a),
         Command::Accuracy(a) => commands::accuracy::run(a),

@@ -104,6 +104,7 @@ fn files(command: &Command) -> (Vec<PathBuf>, Vec<PathBuf>) {
         | Command::Completions(_)
         | Command::Man(_)
         | Command::Schema(_)
+        | Command::Studio(_)
         | Command::Demo(_) => Default::default(),
     }
 }

@@ -7,8 +7,10 @@
 use crate::contact_error::ContactError;
 use crate::contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
 use crate::contact_zone::{ContactZone, SliceLayout};
+use crate::slice_part::{LEAST_SHARE, SlicePart};
 use crate::tip_contact::{PathExtension, TipContact, TipGear};
 use gearmesh_geometry::{GearPair, Microgeometry, Misalignment};
+use nalgebra::SVector;
 
 /// Coulomb friction between the flanks, regularised at the pitch point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,12 +57,6 @@ impl ContactLine {
     }
 }
 
-/// Share of a slice below which it counts as off the path.
-///
-/// No unit. The local compliance grows with one over the share, so that such a slice carries less than about a thousandth
-/// of a whole one.
-pub const LEAST_SHARE: f64 = 1e-3;
-
 /// Rigid kinematics of a pair with its microgeometry: contact lines and unloaded gaps.
 #[derive(Debug, Clone)]
 pub struct ContactLines {
@@ -93,7 +89,8 @@ impl ContactLines {
     pub fn at(&self, driver_angle_rad: f64, lines: &mut Vec<ContactLine>) {
         lines.clear();
         let (start, end) = self.range_1_rad();
-        let pitch = self.pair.pitch_1_rad();
+        // Along the path, against which the roll angle of a ring runs.
+        let pitch = self.pair.circles().sense(0) * self.pair.pitch_1_rad();
         let at_zero = self.pair.roll_1_rad(driver_angle_rad, 0);
         // A pair counts as long as any of its sections is within the range.
         let first = ((at_zero - end) / pitch).ceil() as i64;
@@ -117,7 +114,8 @@ impl ContactLines {
         if self.extension.is_none() {
             return line;
         }
-        if roll_1_rad > self.pair.roll_end_1_rad {
+        let sense = self.pair.circles().sense(0);
+        if sense * (roll_1_rad - self.pair.roll_end_1_rad) > 0.0 {
             let tip = TipContact::new(&self.pair, TipGear::One, roll_1_rad, roll_2_rad);
             ContactLine {
                 roll_1_rad: self.pair.gear_1.flank_end_roll_rad,
@@ -125,7 +123,7 @@ impl ContactLines {
                 tip: Some(tip),
                 ..line
             }
-        } else if roll_1_rad < self.pair.roll_start_1_rad {
+        } else if sense * (roll_1_rad - self.pair.roll_start_1_rad) < 0.0 {
             let tip = TipContact::new(&self.pair, TipGear::Two, roll_2_rad, roll_1_rad);
             ContactLine {
                 roll_1_rad: tip.foot_roll_rad,
@@ -179,6 +177,8 @@ impl ContactLines {
     ) -> ContactPatch {
         let ratio = friction.map_or(0.0, |f| f.ratio(section.path_m));
         let rolls = [section.roll_1_rad, section.roll_2_rad];
+        let (radius_m, radius_growth) =
+            self.pair.circles().relative_radius(rolls, self.helix_cos());
         ContactPatch {
             teeth: [section.tooth_1, section.tooth_2],
             line: number,
@@ -186,8 +186,8 @@ impl ContactLines {
             places: rolls.map(|u| FlankPlace { u, v: 0.0 }),
             share: 1.0,
             length_m: width_m / self.helix_cos(),
-            radius_m: self.pair.relative_radius_m(rolls[0], rolls[1]),
-            radius_growth: self.pair.relative_radius_growth(rolls),
+            radius_m,
+            radius_growth,
             length_growth: [0.0; 2],
             normal: self.normal(section),
             gap_m: 0.0,
@@ -219,25 +219,33 @@ impl ContactLines {
         if !self.pair.is_helical() {
             return Some((1.0, centre_m));
         }
+        let at_rest = |place_m: f64| (place_m, SVector::<f64, 0>::zeros());
+        let mut part = SlicePart {
+            low: at_rest(centre_m - 0.5 * width_m),
+            high: at_rest(centre_m + 0.5 * width_m),
+        };
         let slope = self.pair.roll_slope_1_rad_per_m();
-        let at = |roll: f64| (roll - line.roll_1_rad) / slope;
-        let (a, b) = (at(self.pair.roll_start_1_rad), at(self.pair.roll_end_1_rad));
-        let low = (centre_m - 0.5 * width_m).max(a.min(b));
-        let high = (centre_m + 0.5 * width_m).min(a.max(b));
-        let share = (high - low) / width_m;
-        (share > LEAST_SHARE).then_some((share.min(1.0), 0.5 * (low + high)))
+        let at = |roll: f64| at_rest((roll - line.roll_1_rad) / slope);
+        let towards_end = self.pair.circles().sense(0) * slope > 0.0;
+        part.end_at(at(self.pair.roll_end_1_rad), towards_end);
+        part.end_at(at(self.pair.roll_start_1_rad), !towards_end);
+        let (share, _) = part.share(width_m);
+        (share > LEAST_SHARE).then_some((share.min(1.0), part.middle().0))
     }
 
     /// Direction of the normal force on gear 2, x along the line of centres from gear 1 to gear 2, z along gear 1's axis:
     /// (cos β_b sin α, ∓cos β_b cos α, ±sin β_b), upper signs on right flanks; α: α_w or the angle of a tip edge's force.
+    /// A ring touches on the far side of its mate: there sin α is negative, and the upper sign of cos α that of the hand.
     fn normal(&self, line: &ContactLine) -> [f64; 3] {
         let angle_rad = (line.tip).map_or(self.pair.working_pressure_angle_rad, |tip| {
             tip.force_angle_rad
         });
         let (sin, cos) = angle_rad.sin_cos();
         let (sigma, helix) = (self.pair.flank.mirror(), self.pair.base_helix_angle_rad());
-        let along = helix.cos();
-        [along * sin, -sigma * along * cos, sigma * helix.sin()]
+        let circles = self.pair.circles();
+        let along = 1f64.copysign(circles.sum_m()) * helix.cos();
+        let hand = circles.hand(self.pair.flank);
+        [along * sin, -hand * along * cos, sigma * helix.sin()]
     }
 
     /// Roll angles on gear 1 at mid-face between which pairs are looked for.
@@ -246,14 +254,15 @@ impl ContactLines {
             (self.pair.roll_start_1_rad, self.pair.roll_end_1_rad),
             |e| (e.start_1_rad, e.end_1_rad),
         );
-        let slant = self.zone.reach_m() * self.pair.roll_slope_1_rad_per_m().abs();
+        let reach_m = self.pair.circles().sense(0) * self.zone.reach_m();
+        let slant = reach_m * self.pair.roll_slope_1_rad_per_m().abs();
         (start - slant, end + slant)
     }
 
     /// Largest number of lines at once.
     pub fn most_pairs(&self) -> usize {
         let (start, end) = self.range_1_rad();
-        ((end - start) / self.pair.pitch_1_rad()).floor() as usize + 1
+        ((end - start).abs() / self.pair.pitch_1_rad()).floor() as usize + 1
     }
 
     /// Unloaded separation \[m\] along the normal of a slice at zero transmission error, open positive: the gap of a tip
@@ -272,7 +281,9 @@ impl ContactLines {
             ),
             Some(tip) => {
                 let (sin, cos) = tip.force_angle_rad.sin_cos();
-                let slope = tilted_axes.inclination_rad * sin + tilted_axes.deviation_rad * cos;
+                let away = 1f64.copysign(self.pair.circles().sum_m());
+                let slope =
+                    away * tilted_axes.inclination_rad * sin + tilted_axes.deviation_rad * cos;
                 (tip.gap_m, z_m * slope)
             }
         };
@@ -321,9 +332,10 @@ impl ContactLines {
     /// The rounded tip edge against the flank; none on the path.
     pub fn edge(&self, line: &ContactLine) -> Option<PatchEdge> {
         let (tip, extension) = line.tip.zip(self.extension)?;
+        let [r1, r2] = self.pair.circles().radii_m;
         let flank = match tip.tip_gear {
-            TipGear::One => self.pair.gear_2.base_radius_m * line.roll_2_rad,
-            TipGear::Two => self.pair.gear_1.base_radius_m * line.roll_1_rad,
+            TipGear::One => r2 * line.roll_2_rad,
+            TipGear::Two => r1 * line.roll_1_rad,
         };
         let edge = extension.edge_radius_m;
         Some(PatchEdge {

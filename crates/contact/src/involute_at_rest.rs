@@ -62,7 +62,8 @@ impl InvoluteAtRest {
         let [arm_1, arm_2] = placement.arms_m.map(|arm| transverse * arm);
         let mut some_flank = false;
         for patch in patches {
-            let deviation = self.deviations.opening_m(patch, pair.flank);
+            let deviation =
+                (self.deviations).opening_m(patch, [0, 1].map(|gear| pair.flank_of(gear)));
             some_flank |= deviation.is_finite();
             let balance = &mut patch.balance;
             balance.closing += arm_2 / pair.gear_2.base_radius_m;

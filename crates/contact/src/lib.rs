@@ -21,7 +21,8 @@
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
 //! | bodies that give way at their surfaces only, as Hertz has it | [`HalfSpaces`] | `half_spaces.rs` |
 //! | which patches of an involute pair touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
-//! | errors and faults of single flanks | [`FlankDeviations`] | `flank_deviations.rs` |
+//! | which part of a helical slice is on the path | [`slice_part::SlicePart`] | `slice_part.rs` |
+//! | what is removed from the flanks | [`FlankDeviations`] | `flank_deviations.rs` |
 //! | gears that stand beside their axes | [`Runout`] | `runout.rs` |
 //! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
 //! | forces of patches at given gaps | [`SliceContact`] | `slice_contact.rs` |
@@ -64,6 +65,7 @@ pub mod profile_shares;
 pub mod runout;
 pub mod slice_compliance;
 pub mod slice_contact;
+pub mod slice_part;
 pub mod slice_spread;
 pub mod static_contact;
 pub mod station_blocks;

@@ -86,14 +86,14 @@ pub struct SliceContact {
 }
 
 impl SliceContact {
-    /// Prepares the contact of two reduced gears with so many teeth, loaded on flanks of one hand, on the slices of a
+    /// Prepares the contact of two reduced gears with so many teeth, loaded on flanks of these sides, on the slices of a
     /// layout; for up to `most_lines` contact lines at once.
     ///
     /// # Errors
     /// [`ContactError`] when the models do not fit the teeth or each other.
     pub fn of_gears(
         models: [&ReducedGear; 2],
-        (teeth, flank): ([usize; 2], Flank),
+        (teeth, flanks): ([usize; 2], [Flank; 2]),
         (local, layout): (LocalContact, SliceLayout),
         most_lines: usize,
     ) -> Result<Self, ContactError> {
@@ -111,7 +111,7 @@ impl SliceContact {
         layout.check()?;
         let condense = |gear: usize| {
             let spread = layout.spread(gear + 1, models[gear]);
-            SliceCompliance::on_slices(models[gear], flank, local, &spread)
+            SliceCompliance::on_slices(models[gear], flanks[gear], local, &spread)
         };
         let compliance = [condense(0)?, condense(1)?];
         Ok(Self::new(layout, compliance, local, most_lines))

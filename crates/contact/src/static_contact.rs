@@ -104,7 +104,7 @@ impl StaticContact {
     ) -> Result<SliceContact, ContactError> {
         lines.refuse_helical_edges()?;
         let teeth = [lines.pair.gear_1.teeth, lines.pair.gear_2.teeth];
-        let flanks = (teeth, lines.pair.flank);
+        let flanks = (teeth, [0, 1].map(|gear| lines.pair.flank_of(gear)));
         SliceContact::of_gears(models, flanks, (local, layout), most_lines(lines))
     }
 

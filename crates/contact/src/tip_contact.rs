@@ -4,7 +4,8 @@
 //! begins, and the driver's tip edge leaves the driven flank after it has ended. All points at one distance from an
 //! involute along its normals lie on another involute of the same base circle, so the gap of a point to a flank is
 //! r_b times the angle by which the flank must turn to reach it: exact, without iteration. Derivation in
-//! docs/theory/contact.md.
+//! docs/theory/involute_flanks.md. With a ring all lengths of the ring and of the pair count negative
+//! ([`gearmesh_geometry::BaseCircles`]); gaps, lever arms and roll angles stay positive.
 
 use gearmesh_geometry::GearPair;
 
@@ -54,14 +55,16 @@ impl TipContact {
     /// `tip_roll_rad` and the mating flank at `flank_roll_rad`: the roll angles at which each flank crosses the line of
     /// action. With TE = 0 they belong together by [`GearPair::roll_2_rad`].
     pub fn new(pair: &GearPair, tip_gear: TipGear, tip_roll_rad: f64, flank_roll_rad: f64) -> Self {
-        let (tip, mate) = match tip_gear {
-            TipGear::One => (&pair.gear_1, &pair.gear_2),
-            TipGear::Two => (&pair.gear_2, &pair.gear_1),
+        let tip = match tip_gear {
+            TipGear::One => &pair.gear_1,
+            TipGear::Two => &pair.gear_2,
         };
-        let (base, mate_base) = (tip.base_radius_m, mate.base_radius_m);
+        let (of_tip, of_mate) = tip_gear.indices();
+        let circles = pair.circles();
+        let (base, mate_base) = (circles.radii_m[of_tip], circles.radii_m[of_mate]);
         let alpha_w = pair.working_pressure_angle_rad;
         // Origin on the mating gear's axis, x along the line of action towards the tip gear's base circle.
-        let centre = [pair.centre_distance_m * alpha_w.sin(), mate_base + base];
+        let centre = [pair.line_of_action_m(), mate_base + base];
         let edge_roll = tip.flank_end_roll_rad;
         let turned = edge_roll - tip_roll_rad;
         let (sin, cos) = turned.sin_cos();
@@ -74,17 +77,20 @@ impl TipContact {
         // The involute of the mating base circle through the edge.
         let edge_radius = edge[0].hypot(edge[1]);
         let along = ((edge_radius / mate_base).powi(2) - 1.0).max(0.0).sqrt();
-        let normal_turned = edge[0].atan2(edge[1]) - along.atan();
+        let side = circles.sense(of_mate);
+        let normal_turned = (side * edge[0]).atan2(side * edge[1]) - along.atan();
         let open_rad = normal_turned + along - flank_roll_rad;
         let normal = [normal_turned.cos(), -normal_turned.sin()];
+        let outwards = circles.sense(of_tip);
         Self {
             tip_gear,
             gap_m: mate_base * open_rad,
             foot_roll_rad: along - open_rad,
             tilt_rad: turned + normal_turned,
             force_angle_rad: alpha_w - normal_turned,
-            tip_arm_m: from_centre[0] * normal[1] - from_centre[1] * normal[0],
-            tip_friction_arm_m: -(from_centre[0] * normal[0] + from_centre[1] * normal[1]),
+            tip_arm_m: outwards * (from_centre[0] * normal[1] - from_centre[1] * normal[0]),
+            tip_friction_arm_m: -outwards
+                * (from_centre[0] * normal[0] + from_centre[1] * normal[1]),
         }
     }
 }
@@ -116,12 +122,14 @@ impl PathExtension {
             pair.gear_1.flank_end_roll_rad,
             pair.gear_2.flank_end_roll_rad,
         ];
+        let circles = pair.circles();
         let reach = |tip_gear: TipGear| {
             let (mut near, mut far) = (0.0, 0.5 * pair.pitch_1_rad());
             let inside = |beyond: f64| {
                 let contact = tip_contact_beyond(pair, tip_gear, beyond);
-                contact.gap_m <= largest_gap
-                    && contact.foot_roll_rad <= flank_ends[tip_gear.indices().1]
+                let (_, mate) = tip_gear.indices();
+                let past_end = contact.foot_roll_rad - flank_ends[mate];
+                contact.gap_m <= largest_gap && circles.sense(mate) * past_end <= 0.0
             };
             if inside(far) {
                 return far;
@@ -138,25 +146,26 @@ impl PathExtension {
         };
         Self {
             edge_radius_m,
-            start_1_rad: pair.roll_start_1_rad - reach(TipGear::Two),
-            end_1_rad: pair.roll_end_1_rad + reach(TipGear::One),
+            start_1_rad: pair.roll_start_1_rad - circles.sense(0) * reach(TipGear::Two),
+            end_1_rad: pair.roll_end_1_rad + circles.sense(0) * reach(TipGear::One),
         }
     }
 }
 
-/// The tip edge at TE = 0, the pair `beyond_1_rad` of gear 1's roll angle outside the path.
+/// The tip edge at TE = 0, the pair `beyond_1_rad` of gear 1's turn outside the path.
 pub(crate) fn tip_contact_beyond(
     pair: &GearPair,
     tip_gear: TipGear,
     beyond_1_rad: f64,
 ) -> TipContact {
+    let towards_end = pair.circles().sense(0) * beyond_1_rad;
     match tip_gear {
         TipGear::One => {
-            let roll_1 = pair.roll_end_1_rad + beyond_1_rad;
+            let roll_1 = pair.roll_end_1_rad + towards_end;
             TipContact::new(pair, tip_gear, roll_1, pair.roll_2_rad(roll_1))
         }
         TipGear::Two => {
-            let roll_1 = pair.roll_start_1_rad - beyond_1_rad;
+            let roll_1 = pair.roll_start_1_rad - towards_end;
             TipContact::new(pair, tip_gear, pair.roll_2_rad(roll_1), roll_1)
         }
     }

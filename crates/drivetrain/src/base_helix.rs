@@ -11,7 +11,7 @@
 //!
 //! On parallel axes ∂g = (n, (P − u) × n) with n = cos β_b w + σ sin β_b e_z and P the point of contact: the wrench of the flanks' normal.
 
-use gearmesh_geometry::ToothGeometry;
+use gearmesh_geometry::{BaseCircles, ToothGeometry};
 use nalgebra::Vector3;
 
 use crate::mesh_frame::{MeshFrame, turn_of_spin_gradient};
@@ -19,14 +19,14 @@ use crate::pose::Vector6;
 use crate::slice_plane::{Matrix6, SlicePlane, on_turn};
 use crate::tooth_zero::ToothZero;
 
-/// The helix of a pair; β_b is gear 1's, positive for a right hand.
+/// The helix of a pair; β_b is gear 1's, positive for a right hand. The gears have opposite hands, a ring and the gear inside it equal ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BaseHelix {
     pub cos: f64,
     pub tan: f64,
     /// κ of gear 1 and gear 2 \[rad/m\].
     pub twist_rad_per_m: [f64; 2],
-    base_radii_m: [f64; 2],
+    circles: BaseCircles,
 }
 
 /// Roll angles and gap of ideal flanks in a slice plane, with their derivatives.
@@ -40,19 +40,20 @@ pub(crate) struct IdealFlanks {
 }
 
 impl BaseHelix {
-    /// None for spur gears. The gears have opposite hands.
+    /// None for spur gears.
     pub(crate) fn new(gears: &[ToothGeometry; 2]) -> Option<Self> {
         if gears[0].helix_angle_rad == 0.0 {
             return None;
         }
         let angle = gears[0].base_helix_angle_rad();
         let twist = gears[0].twist_rad_per_m();
-        let [r1, r2] = [0, 1].map(|i: usize| gears[i].base_radius_m);
+        let circles = BaseCircles::new(gears.each_ref());
+        let [r1, r2] = circles.radii_m;
         Some(Self {
             cos: angle.cos(),
             tan: r1 * twist,
             twist_rad_per_m: [twist, -twist * r1 / r2],
-            base_radii_m: [r1, r2],
+            circles,
         })
     }
 
@@ -79,7 +80,7 @@ impl BaseHelix {
         (plain_rad, sigma): ([f64; 2], f64),
         common: Option<f64>,
     ) -> IdealFlanks {
-        let [r1, r2] = self.base_radii_m;
+        let [r1, r2] = self.circles.radii_m;
         let [phi, psi] = plane.tilt;
         let turn = plane.turn(frame);
         let half = 0.5 * frame.axis_2;
@@ -140,7 +141,7 @@ impl BaseHelix {
         (roll_rad, sigma): ([f64; 2], f64),
         transverse: Matrix6,
     ) -> Matrix6 {
-        let [r1, r2] = self.base_radii_m;
+        let [r1, r2] = self.circles.radii_m;
         let (b, tan) = (frame.axis_2, self.tan);
         let turn = plane.turn(frame);
         let by_normal = on_turn(0.5 * b.cross(&plane.normal));

@@ -2,7 +2,7 @@
 //!
 //! | family | file |
 //! | --- | --- |
-//! | involute teeth, spur and helical, on parallel axes | `involute_mesh.rs`, with [`crate::MeshKinematics`] |
+//! | involute teeth, spur and helical, external or inside a ring, on parallel axes | `involute_mesh.rs`, with [`crate::MeshKinematics`] |
 //! | bevel gears, on axes that meet | `bevel/` |
 //! | crowned cylinders on crossed axes, the example of docs/extending.md | `tests/conformance/crowned_cylinders.rs` |
 //!
@@ -43,6 +43,16 @@ pub struct ContactPatch {
 pub trait FlankKinematics: Send {
     /// Slices along the teeth.
     fn layout(&self) -> &SliceLayout;
+
+    /// Side of the flanks of gear 0 or 1 that touch on a side, which is named by gear 1's: a ring and the gear inside it touch with opposite ones.
+    fn side_of(&self, _gear: usize, side: Flank) -> Flank {
+        side
+    }
+
+    /// σ = ±1 of a side: the tangent of [`Self::sliding`] points to the tip of gear 1 and from that of gear 2 where it is +1.
+    fn hand(&self, side: Flank) -> f64 {
+        side.mirror()
+    }
 
     /// Largest number of patches that can face each other at once, for sizing.
     fn capacity(&self) -> usize;
@@ -131,7 +141,7 @@ pub trait FlankKinematics: Send {
 
     /// The unit tangents of [`Self::sliding`] and [`Self::second_sliding`] as the flanks of gear 1 and gear 2 see them, `[gear][tangent]`: along the profile
     /// towards the tip, and along the tooth as the loads of a reduced gear count it. None of families that slide along the profile only, whose tangent
-    /// points to the tip of gear 1 and from that of gear 2 on right flanks.
+    /// is that of [`Self::hand`].
     fn tangents_on_flanks(&self, _contact: usize, _side: Flank) -> Option<[[[f64; 2]; 2]; 2]> {
         None
     }

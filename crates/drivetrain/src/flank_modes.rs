@@ -205,11 +205,11 @@ impl FlankModes {
         }
     }
 
-    /// Writes how fast vibration slides the flanks at all contacts on gear 0 or 1 of this side; `tangents`: as
+    /// Writes how fast vibration slides the flanks at all contacts on gear 0 or 1 of a side of this hand; `tangents`: as
     /// [`crate::FlankKinematics::tangents_on_flanks`] of this gear.
     pub(crate) fn lay_sliding(
         &self,
-        (gear, side): (usize, Flank),
+        (gear, hand): (usize, f64),
         tangents: impl Fn(usize) -> Option<[[f64; 2]; 2]>,
         found: &mut FlankContacts,
     ) {
@@ -236,7 +236,7 @@ impl FlankModes {
                 match tangents(number) {
                     None if in_plane => {}
                     // w⊥ points to the tip of gear 1 and from that of gear 2 on right flanks.
-                    None => add(0, 1, -side.mirror()),
+                    None => add(0, 1, -hand),
                     Some(both) => {
                         for (tangent, [to_tip, along]) in both.into_iter().enumerate() {
                             add(tangent, 1, moves * to_tip);

@@ -205,10 +205,9 @@ impl Friction {
 pub(crate) struct SlidingAt<'a> {
     pub frame: &'a MeshFrame,
     pub plane: &'a SlicePlane,
-    /// +1 for right flanks, −1 for left ones.
+    /// σ.
     pub sigma: f64,
-    /// Of gear 1, on whose flank the contact is taken.
-    pub base_radius_m: f64,
+    /// On gear 1, on whose flank the contact is taken.
     pub roll_rad: f64,
 }
 
@@ -217,7 +216,8 @@ impl SlidingAt<'_> {
     fn arm(&self) -> Vector3<f64> {
         let (frame, plane) = (self.frame, self.plane);
         let along = self.sigma * plane.across + self.roll_rad * plane.normal;
-        plane.axis_heights_m[0] * Vector3::z() - frame.displacement_m + self.base_radius_m * along
+        let [r1, _] = frame.circles.radii_m;
+        plane.axis_heights_m[0] * Vector3::z() - frame.displacement_m + r1 * along
     }
 
     /// k: load of a unit friction force on gear 2.

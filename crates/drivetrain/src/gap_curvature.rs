@@ -24,12 +24,11 @@ impl MeshKinematics {
         let Some(frame) = &at.frame else {
             return Matrix6::zeros();
         };
-        let base_radii_m = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
-        let transverse = plane.transverse_curvature(frame, side, base_radii_m);
+        let sigma = self.circles.hand(side);
+        let transverse = plane.transverse_curvature(frame, sigma);
         let Some(helix) = &self.helix else {
             return transverse;
         };
-        let at = (roll_rad, side.mirror());
-        helix.curvature((frame, plane), zero, at, transverse)
+        helix.curvature((frame, plane), zero, (roll_rad, sigma), transverse)
     }
 }

@@ -150,8 +150,9 @@ impl GearMesh {
             if !side.model.takes_modes() {
                 return Err(DrivetrainError::ModesWithoutReducedTeeth { gear });
             }
-            let slices = FlankSlices::new(self.kinematics.layout(), gear, model, side.flank)?;
-            let modes = FlankModes::new(model, side.flank, count, slices)?;
+            let flank = self.kinematics.side_of(gear - 1, side.flank);
+            let slices = FlankSlices::new(self.kinematics.layout(), gear, model, flank)?;
+            let modes = FlankModes::new(model, flank, count, slices)?;
             side.found.modal[gear - 1] = modes.rows_with_capacity(capacity);
             side.modes[gear - 1] = Some(modes);
         }
@@ -367,7 +368,11 @@ impl GearMesh {
                             let own = self.kinematics.tangents_on_flanks(contact, side.flank);
                             own.map(|own| own[gear])
                         };
-                        modes.lay_sliding((gear, side.flank), tangents, &mut side.found);
+                        modes.lay_sliding(
+                            (gear, self.kinematics.hand(side.flank)),
+                            tangents,
+                            &mut side.found,
+                        );
                     }
                 }
             }

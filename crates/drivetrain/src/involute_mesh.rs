@@ -44,8 +44,7 @@ impl InvoluteMesh {
         Some(SlidingAt {
             frame: self.at.frame.as_ref()?,
             plane: &self.planes(side).planes[contact.slice],
-            sigma: side.mirror(),
-            base_radius_m: self.kinematics.gears[0].base_radius_m,
+            sigma: self.hand(side),
             roll_rad: found.section(contact).touching_roll_rad[0],
         })
     }
@@ -58,6 +57,14 @@ impl FlankKinematics for InvoluteMesh {
 
     fn capacity(&self) -> usize {
         self.kinematics.capacity()
+    }
+
+    fn side_of(&self, gear: usize, side: Flank) -> Flank {
+        self.kinematics.circles.side_of(gear, side)
+    }
+
+    fn hand(&self, side: Flank) -> f64 {
+        self.kinematics.circles.hand(side)
     }
 
     /// Base pitch, in the transverse plane.

@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 use gearmesh_contact::ContactZone;
 use gearmesh_contact::SliceLayout;
 use gearmesh_contact::contact_zone::slice_place;
-use gearmesh_geometry::ToothGeometry;
+use gearmesh_geometry::BaseCircles;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::error::DrivetrainError;
@@ -27,8 +27,8 @@ use crate::slice_plane::{CentreLine, stacked};
 /// The frame at a pose; all vectors in gear 1's axes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MeshFrame {
-    /// r_b of gear 1 and gear 2 \[m\].
-    pub base_radii_m: [f64; 2],
+    /// r_b1 and r_b2.
+    pub circles: BaseCircles,
     /// u.
     pub displacement_m: Vector3<f64>,
     /// b.
@@ -59,7 +59,7 @@ pub(crate) struct MeshFrame {
 
 impl MeshFrame {
     /// The frame of two gears with faces `face_widths_m` wide at a pose.
-    pub(crate) fn new(gears: &[ToothGeometry; 2], face_widths_m: [f64; 2], pose: &Pose) -> Self {
+    pub(crate) fn new(circles: BaseCircles, face_widths_m: [f64; 2], pose: &Pose) -> Self {
         let (u, b) = (pose.displacement_m, pose.axis_2());
         let sum = Vector3::z() + b;
         let below = 1.0 + b[2];
@@ -77,10 +77,8 @@ impl MeshFrame {
         );
         let shift_m = half_tilt.dot(&u);
         let shift_gradient = stacked(half_tilt, 0.5 * b.cross(&u));
-        let [r1, r2] = [gears[0].base_radius_m, gears[1].base_radius_m];
-        let unequal = (r1 - r2) / (r1 + r2);
         Self {
-            base_radii_m: [r1, r2],
+            circles,
             displacement_m: u,
             axis_2: b,
             axis,
@@ -93,8 +91,8 @@ impl MeshFrame {
             displacement_along_gradient: along_gradient,
             shift_m,
             shift_gradient,
-            displacement_gradient: along_gradient - unequal * shift_gradient,
-            zone: ContactZone::new(face_widths_m, pose.face_displacement_m([r1, r2])),
+            displacement_gradient: along_gradient - circles.pitch_place() * shift_gradient,
+            zone: ContactZone::new(face_widths_m, pose.face_displacement_m(circles)),
         }
     }
 
@@ -161,16 +159,18 @@ impl PoseGeometry {
     /// [`DrivetrainError::CentreDistance`].
     pub(crate) fn locate(
         &mut self,
-        gears: &[ToothGeometry; 2],
+        circles: BaseCircles,
         layout: &SliceLayout,
         pose: &Pose,
     ) -> Result<(), DrivetrainError> {
         self.slices.clear();
         self.middle = None;
-        let frame = &*(self.frame).insert(MeshFrame::new(gears, layout.face_widths_m, pose));
-        let middle = CentreLine::new(gears, frame, frame.section(0.0))?;
+        let frame = &*(self.frame).insert(MeshFrame::new(circles, layout.face_widths_m, pose));
+        let middle = CentreLine::new(frame, frame.section(0.0))?;
         self.middle = Some(middle);
-        if frame.zone.width_m <= layout.reference.width_m * crate::path_ends::LEAST_SHARE {
+        if frame.zone.width_m
+            <= layout.reference.width_m * gearmesh_contact::slice_part::LEAST_SHARE
+        {
             return Ok(());
         }
         for slice in 0..layout.slices {
@@ -178,7 +178,7 @@ impl PoseGeometry {
             let mut line = if place == 0.0 {
                 middle
             } else {
-                CentreLine::new(gears, frame, frame.section(place))?
+                CentreLine::new(frame, frame.section(place))?
             };
             // Where gear 1 has turned by half a turn, those of some slices would be π, of others −π, and teeth that are counted in the middle would
             // be a whole turn off.

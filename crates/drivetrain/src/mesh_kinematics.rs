@@ -9,7 +9,8 @@
 //! g  = cos β_b (L − r_b1 ξ₁ − r_b2 ξ₂) + e₁(ξ₁, z₁) + e₂(ξ₂, z₂)                      gap, e: material removed
 //! ```
 //!
-//! for tooth k₁ against tooth k₂; κ turns helical sections, on tilted axes as base_helix.rs has it, and is zero on spur teeth. The gradient is in
+//! for tooth k₁ against tooth k₂, in lengths with the signs of [`BaseCircles`]: with a ring σ is its hand, β turns by half a turn, ψ_b of the ring is
+//! negative, and so half a turn changes sides (tooth_zero.rs). κ turns helical sections, on tilted axes as base_helix.rs has it, and is zero on spur teeth. The gradient is in
 //! closed form: with w the unit vector of the line of action (the transverse force on gear 2), w⊥ across it, t = ∂γ/∂ϑ and m the turn of the frame,
 //!
 //! ```text
@@ -21,9 +22,9 @@
 
 use std::f64::consts::TAU;
 
-use gearmesh_geometry::{Flank, ToothGeometry};
-
-use gearmesh_contact::SliceLayout;
+use gearmesh_contact::slice_part::LEAST_SHARE;
+use gearmesh_contact::{FlankDeviations, SliceLayout};
+use gearmesh_geometry::{BaseCircles, Flank, ToothGeometry};
 
 use crate::base_helix::{BaseHelix, IdealFlanks};
 use crate::error::DrivetrainError;
@@ -32,7 +33,7 @@ use crate::flank_contacts::{
 };
 use crate::flank_error::FlankPoint;
 use crate::mesh_frame::{MeshFrame, PoseGeometry};
-use crate::path_ends::{LEAST_SHARE, PathEnds, SlicePart, TipEdges, part_on_path};
+use crate::path_ends::{PathEnds, TipEdges, part_on_path};
 use crate::pose::{Pose, Vector6};
 use crate::slice_plane::{SidePlanes, SlicePlane, line_of_action};
 use crate::tooth_zero::ToothZero;
@@ -45,7 +46,8 @@ pub const LARGEST_MISALIGNMENT_RAD: f64 = 10e-3;
 #[derive(Clone)]
 pub struct MeshKinematics {
     pub(crate) gears: [ToothGeometry; 2],
-    errors: [FlankErrors; 2],
+    pub(crate) circles: BaseCircles,
+    deviations: FlankDeviations,
     layout: SliceLayout,
     ends: PathEnds,
     edges: TipEdges,
@@ -67,6 +69,8 @@ struct PlacedTeeth<'a> {
     frame: &'a MeshFrame,
     rates: &'a Vector6,
     side: Flank,
+    /// σ.
+    sigma: f64,
     /// Roll angles that it is behind tooth 0 \[rad\].
     behind_rad: [f64; 2],
     teeth: [usize; 2],
@@ -85,8 +89,10 @@ impl MeshKinematics {
         layout: SliceLayout,
         ends: PathEnds,
     ) -> Result<Self, DrivetrainError> {
+        let circles = BaseCircles::new(gears.each_ref());
         let [helix_1, helix_2] = [0, 1].map(|i: usize| gears[i].base_helix_angle_rad());
-        if (helix_1 + helix_2).abs() > 1e-6 * helix_1.abs() {
+        let [signed_1, signed_2] = [circles.sense(0) * helix_1, circles.sense(1) * helix_2];
+        if (signed_1 + signed_2).abs() > 1e-6 * helix_1.abs() {
             return Err(DrivetrainError::Helix {
                 helix_1_deg: helix_1.to_degrees(),
                 helix_2_deg: helix_2.to_degrees(),
@@ -106,29 +112,29 @@ impl MeshKinematics {
             let along_face = 0.5 * layout.face_widths_m[0] * h.twist_rad_per_m[0].abs();
             along_face + LARGEST_MISALIGNMENT_RAD * h.tan.abs()
         });
-        let (length, _) = line_of_action(&gears, centre_distance_m)?;
-        let [r1, r2] = [gears[0].base_radius_m, gears[1].base_radius_m];
-        let pitch_place_m = (r1 - r2) / (r1 + r2) * length;
+        let (length, _) = line_of_action(&circles, centre_distance_m)?;
         let edges = match ends {
             PathEnds::LineOfAction => TipEdges::default(),
-            PathEnds::Extended => TipEdges::new(&gears, length, helix.map_or(1.0, |h| h.cos)),
+            PathEnds::Extended => {
+                TipEdges::new(&gears, (&circles, length), helix.map_or(1.0, |h| h.cos))
+            }
         };
-        let ends_rad = [0, 1].map(|i: usize| gears[i].flank_end_roll_rad + edges.reach_rad[i]);
-        let most_added =
-            |errors: &FlankErrors| errors.iter().map(|one| one.most_added_m()).sum::<f64>();
-        let most_added_m = errors.iter().map(most_added).sum();
+        let ends_rad = [0, 1]
+            .map(|i: usize| gears[i].flank_end_roll_rad + circles.sense(i) * edges.reach_rad[i]);
+        let deviations = FlankDeviations::new(errors);
         Ok(Self {
             gears,
-            errors,
+            circles,
+            most_added_m: deviations.most_added_m(),
+            deviations,
             layout,
             ends,
             ends_rad,
             edges,
             helix,
             slant_1_rad,
-            pitch_place_m,
+            pitch_place_m: circles.pitch_place() * length,
             common_place_m: None,
-            most_added_m,
         })
     }
 
@@ -158,7 +164,7 @@ impl MeshKinematics {
     /// Whether the flanks of any gear deviate from the ideal.
     #[must_use]
     pub fn has_errors(&self) -> bool {
-        self.errors.iter().any(|errors| !errors.is_empty())
+        !self.deviations.is_empty()
     }
 
     /// Angle between two teeth \[rad\].
@@ -170,7 +176,9 @@ impl MeshKinematics {
     /// Largest number of slices that can face each other at once, for sizing.
     #[must_use]
     pub fn capacity(&self) -> usize {
-        let span = self.ends_rad[0] + 2.0 * self.slant_1_rad;
+        // From the base circle to the tip, of a ring from the root.
+        let farthest = self.ends_rad[0].max(self.gears[0].form_roll_rad);
+        let span = farthest + 2.0 * self.slant_1_rad;
         (span / self.pitch_rad(0)).ceil() as usize * self.layout.slices + self.layout.slices
     }
 
@@ -186,7 +194,7 @@ impl MeshKinematics {
                 allowed_mrad: LARGEST_MISALIGNMENT_RAD * 1e3,
             });
         }
-        at.locate(&self.gears, &self.layout, pose)
+        at.locate(self.circles, &self.layout, pose)
     }
 
     /// Finds all pairs of teeth that face each other with their flanks of one side; returns what both sides share at
@@ -226,9 +234,10 @@ impl MeshKinematics {
             moved_m: frame.zone.displacement_m - reference.displacement_m,
             share: frame.zone.width_m / reference.width_m,
         };
-        found.action_m_per_u = frame.base_radii_m;
-        planes.extend(at.slices.iter().map(|line| line.plane(frame, side)));
-        let zero = |plane: &SlicePlane| ToothZero::new(&self.gears, frame, side, plane);
+        let (circles, sigma) = (&self.circles, self.circles.hand(side));
+        found.action_m_per_u = circles.radii_m;
+        planes.extend(at.slices.iter().map(|line| line.plane(frame, sigma)));
+        let zero = |plane: &SlicePlane| ToothZero::new(&self.gears, frame, sigma, plane);
         zeros.extend(planes.iter().map(zero));
         let rates = pose.rates();
         // The middle of an odd number of slices has been placed already.
@@ -236,40 +245,43 @@ impl MeshKinematics {
         let middle = match at.middle_slice() {
             Some(slice) => (&planes[slice], &zeros[slice]),
             None => {
-                let plane = middle.plane(frame, side);
+                let plane = middle.plane(frame, sigma);
                 between = (plane, zero(&plane));
                 (&between.0, &between.1)
             }
         };
-        let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
         let [pitch_1, pitch_2] = [self.pitch_rad(0), self.pitch_rad(1)];
         let ends = self.ends_rad;
         let [zero_1, zero_2] = (self.helix.as_ref()).map_or(middle.1.roll_rad, |helix| {
-            helix.mid_face_rolls_rad(middle.0, middle.1, side.mirror())
+            helix.mid_face_rolls_rad(middle.0, middle.1, sigma)
         });
         let length_m = middle.0.length_m;
-        let start_1 = (length_m - r2 * ends[1]) / r1;
-        let first = ((zero_1 - ends[0] - self.slant_1_rad) / pitch_1).ceil() as i64;
-        let last = ((zero_1 - start_1 + self.slant_1_rad) / pitch_1).floor() as i64;
+        let start_1 = circles.mate_roll_rad(length_m, (1, ends[1]));
+        // Along the path, against which the roll angle of a ring runs.
+        let towards_tip = circles.sense(0);
+        let beyond_rad = |end: f64| towards_tip * (zero_1 - end);
+        let first = ((beyond_rad(ends[0]) - self.slant_1_rad) / pitch_1).ceil() as i64;
+        let last = ((beyond_rad(start_1) + self.slant_1_rad) / pitch_1).floor() as i64;
         // Flanks that stand open touch later: one more pair is looked at.
-        for count_1 in first..=last + 1 {
+        for count_1 in (first..=last + 1).map(|count| towards_tip as i64 * count) {
             let behind_1 = count_1 as f64 * pitch_1;
             // The mate is the tooth whose flank is nearest.
-            let touching = (length_m - r1 * (zero_1 - behind_1)) / r2;
+            let touching = circles.mate_roll_rad(length_m, (0, zero_1 - behind_1));
             let count_2 = ((zero_2 - touching) / pitch_2).round();
             let behind_2 = count_2 * pitch_2;
-            let on_flanks = zero_1 - behind_1 <= ends[0] && zero_2 - behind_2 <= ends[1];
-            if self.helix.is_none() && !on_flanks {
+            let rolls = [zero_1 - behind_1, zero_2 - behind_2];
+            if self.helix.is_none() && !self.are_on_flanks(&rolls) {
                 continue;
             }
             let counts = [count_1, count_2 as i64];
-            let sense = side.mirror() as i64;
+            let sense = sigma as i64;
             let teeth =
                 [0, 1].map(|i| (sense * counts[i]).rem_euclid(self.gears[i].teeth as i64) as usize);
             let placed = PlacedTeeth {
                 frame,
                 rates: &rates,
                 side,
+                sigma,
                 behind_rad: [behind_1, behind_2],
                 teeth,
             };
@@ -309,8 +321,15 @@ impl MeshKinematics {
             // What the whole mesh shares is the gap of ideal flanks.
             if self.common_place_m.is_none() {
                 for (gear, sense) in [(0, 0.5), (1, -0.5)] {
-                    let at = (placed.side, roll_rad[gear], plane.heights_m[gear]);
-                    let (depth, [by_roll, by_height]) = self.removed(gear, placed.teeth[gear], at);
+                    let (depth, [by_roll, by_height]) = self.removed(
+                        gear,
+                        FlankPoint {
+                            tooth: placed.teeth[gear],
+                            side: self.circles.side_of(gear, placed.side),
+                            roll_rad: roll_rad[gear],
+                            z_m: plane.heights_m[gear],
+                        },
+                    );
                     gap_m += depth;
                     gradient += by_roll * roll_gradient[gear];
                     if by_height != 0.0 {
@@ -365,14 +384,13 @@ impl MeshKinematics {
         plane: &SlicePlane,
         zero: &ToothZero,
     ) -> IdealFlanks {
-        let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
         let roll_rad = [0, 1].map(|i| zero.roll_rad[i] - placed.behind_rad[i]);
         if let Some(helix) = &self.helix {
-            let plain = (roll_rad, placed.side.mirror());
+            let plain = (roll_rad, placed.sigma);
             return helix.flanks((placed.frame, plane), zero, plain, self.common_place_m);
         }
         IdealFlanks {
-            gap_m: plane.length_m - r1 * roll_rad[0] - r2 * roll_rad[1],
+            gap_m: self.circles.gap_m(plane.length_m, roll_rad),
             roll_rad,
             roll_gradient: zero.roll_gradient,
             gradient: zero.gradient,
@@ -402,15 +420,16 @@ impl MeshKinematics {
     /// Makes of a section what follows from its roll angles and its share: where it touches, how long, how curved.
     fn touch(&self, section: &mut Section) {
         let rolls = [0, 1].map(|i: usize| {
-            let gear = &self.gears[i];
-            section.roll_rad[i].clamp(gear.form_roll_rad, gear.flank_end_roll_rad)
+            let (form, end) = (
+                self.gears[i].form_roll_rad,
+                self.gears[i].flank_end_roll_rad,
+            );
+            section.roll_rad[i].clamp(form.min(end), form.max(end))
         });
-        let rho = [0, 1].map(|i: usize| self.gears[i].base_radius_m * rolls[i]);
-        let (sum, helix_cos) = (rho[0] + rho[1], self.helix.map_or(1.0, |helix| helix.cos));
+        let helix_cos = self.helix.map_or(1.0, |helix| helix.cos);
         section.touching_roll_rad = rolls;
         section.length_m = section.share * self.layout.width_m() / helix_cos;
-        section.radius_m = rho[0] * rho[1] / (sum * helix_cos);
-        section.radius_growth = [rho[1] / (sum * rolls[0]), rho[0] / (sum * rolls[1])];
+        (section.radius_m, section.radius_growth) = self.circles.relative_radius(rolls, helix_cos);
     }
 
     /// The section of a helical slice in its middle, on the rigid path in the middle of the part that is on it; none off the path.
@@ -424,17 +443,13 @@ impl MeshKinematics {
         let touches = match self.ends {
             _ if self.common_place_m.is_some() => true,
             PathEnds::LineOfAction => {
-                let slopes = helix
-                    .twist_rad_per_m
-                    .map(|twist| -placed.side.mirror() * twist);
-                let part = SlicePart {
-                    slopes,
-                    ends: self.ends_rad,
-                    width_m: self.layout.width_m(),
-                };
-                part_on_path(&mut section, &part)
+                let flanks = [0, 1].map(|gear: usize| {
+                    let slope = -placed.sigma * helix.twist_rad_per_m[gear];
+                    (slope, self.ends_rad[gear], self.circles.sense(gear))
+                });
+                part_on_path(&mut section, flanks, self.layout.width_m())
             }
-            PathEnds::Extended => (0..2).all(|i| section.roll_rad[i] <= self.ends_rad[i]),
+            PathEnds::Extended => self.are_on_flanks(&section.roll_rad),
         };
         self.touch(&mut section);
         (touches && section.share > LEAST_SHARE).then_some(section)
@@ -442,33 +457,27 @@ impl MeshKinematics {
 
     /// Depth \[m\] and slopes along the profile \[m/rad\] and the axis of everything removed at a flank, the tip edge's gap beyond the flank's end
     /// included.
-    fn removed(
-        &self,
-        gear: usize,
-        tooth: usize,
-        (side, roll, z_m): (Flank, f64, f64),
-    ) -> (f64, [f64; 2]) {
+    fn removed(&self, gear: usize, at: FlankPoint) -> (f64, [f64; 2]) {
         let end = self.gears[gear].flank_end_roll_rad;
-        let beyond = roll - end;
-        let (mut depth, mut slope, mut along_axis) = (0.0, 0.0, 0.0);
-        if beyond > 0.0 {
-            let edge = self.edges.gap_m_per_rad2[gear];
-            depth += edge * beyond * beyond;
-            slope += 2.0 * edge * beyond;
+        let past_end = at.roll_rad - end;
+        if self.circles.sense(gear) * past_end <= 0.0 {
+            let removed = self.deviations.removed(gear, at);
+            let slopes = [removed.slope_m_per_rad, removed.slope_along_axis];
+            return (removed.depth_m, slopes);
         }
-        for error in &self.errors[gear] {
-            let removed = error.removed(FlankPoint {
-                tooth,
-                side,
-                roll_rad: roll.min(end),
-                z_m,
-            });
-            depth += removed.depth_m;
-            along_axis += removed.slope_along_axis;
-            if beyond <= 0.0 {
-                slope += removed.slope_m_per_rad;
-            }
-        }
-        (depth, [slope, along_axis])
+        let at_end = FlankPoint {
+            roll_rad: end,
+            ..at
+        };
+        let removed = self.deviations.removed(gear, at_end);
+        let edge = self.edges.gap_m_per_rad2[gear];
+        let depth = edge * past_end * past_end + removed.depth_m;
+        (depth, [2.0 * edge * past_end, removed.slope_along_axis])
+    }
+
+    /// Whether both roll angles lie before the ends of the flanks, tip edges included.
+    fn are_on_flanks(&self, roll_rad: &[f64; 2]) -> bool {
+        let past_end = |i: usize| self.circles.sense(i) * (roll_rad[i] - self.ends_rad[i]);
+        (0..2).all(|i| past_end(i) <= 0.0)
     }
 }

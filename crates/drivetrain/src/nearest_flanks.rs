@@ -7,11 +7,11 @@
 //! ```
 //!
 //! so that the gap goes on where no tooth reaches the mate: its flanks are then continued as involutes. Gears are apart from a = r_a1 + r_a2 on,
-//! a² = L² + (r_b1 + r_b2)².
+//! a² = L² + (r_b1 + r_b2)². With a ring a and its radii are negative.
 
 use std::f64::consts::TAU;
 
-use gearmesh_geometry::{Flank, ToothGeometry};
+use gearmesh_geometry::Flank;
 
 use crate::gear_mesh::GearMesh;
 use crate::mesh_frame::PoseGeometry;
@@ -33,23 +33,22 @@ impl MeshKinematics {
     pub(crate) fn open_gap_m(&self, at: &PoseGeometry, side: Flank) -> Option<f64> {
         let middle = at.middle.as_ref().filter(|_| self.helix.is_none())?;
         let frame = at.frame.as_ref()?;
-        let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
-        let rolls =
-            |plane: &SlicePlane| ToothZero::rolls_rad(&self.gears, frame.spin_rad, side, plane);
-        let plane = middle.plane(frame, side);
+        let (circles, sigma) = (&self.circles, self.circles.hand(side));
+        let rolls = |plane: &SlicePlane| ToothZero::rolls_rad(&self.gears, frame, sigma, plane);
+        let plane = middle.plane(frame, sigma);
         let [roll_1, roll_2] = rolls(&plane);
-        let touching = (plane.length_m - r1 * roll_1) / r2;
+        let touching = circles.mate_roll_rad(plane.length_m, (0, roll_1));
         let pitch_2 = self.pitch_rad(1);
         let ahead_2 = ((roll_2 - touching) / pitch_2).round() * pitch_2;
         let gap_m = |plane: &SlicePlane, [roll_1, roll_2]: [f64; 2]| {
-            plane.length_m - r1 * roll_1 - r2 * (roll_2 - ahead_2)
+            circles.gap_m(plane.length_m, [roll_1, roll_2 - ahead_2])
         };
         let middle_gap_m = gap_m(&plane, [roll_1, roll_2]);
         let is_open = |(slice, line): (usize, &CentreLine)| {
             if Some(slice) == at.middle_slice() {
                 return middle_gap_m > self.most_added_m;
             }
-            let plane = line.plane(frame, side);
+            let plane = line.plane(frame, sigma);
             gap_m(&plane, rolls(&plane)) > self.most_added_m
         };
         let mut slices = at.slices.iter().enumerate();
@@ -60,18 +59,17 @@ impl MeshKinematics {
     /// pitch open or overlapping. None at a pose that has not been located.
     pub(crate) fn nearest_gap_m(&self, at: &PoseGeometry, side: Flank) -> Option<f64> {
         let frame = at.frame.as_ref()?;
-        let plane = at.middle.as_ref()?.plane(frame, side);
-        let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
-        let zero = ToothZero::new(&self.gears, frame, side, &plane);
+        let (circles, sigma) = (&self.circles, self.circles.hand(side));
+        let plane = at.middle.as_ref()?.plane(frame, sigma);
+        let zero = ToothZero::new(&self.gears, frame, sigma, &plane);
         let pitch_m = self.base_pitch_m();
-        let gap_m = |rolls: [f64; 2]| plane.length_m - r1 * rolls[0] - r2 * rolls[1];
+        let gap_m = |rolls: [f64; 2]| circles.gap_m(plane.length_m, rolls);
         let mut nearest_m = gap_m(zero.roll_rad);
         if let Some(helix) = &self.helix {
-            let sigma = side.mirror();
             let [roll_1, roll_2] = zero.roll_rad;
             // The height of the contact is that of the nearest tooth of gear 2.
             let at_mid_face = gap_m(helix.mid_face_rolls_rad(&plane, &zero, sigma));
-            let behind_2 = (at_mid_face / pitch_m).round() * self.pitch_rad(1);
+            let behind_2 = (at_mid_face / pitch_m).round() * circles.sense(1) * self.pitch_rad(1);
             let plain = ([roll_1, roll_2 + behind_2], sigma);
             nearest_m = helix.flanks((frame, &plane), &zero, plain, None).gap_m / helix.cos;
         }
@@ -80,11 +78,11 @@ impl MeshKinematics {
 
     /// Whether no tooth reaches the mate at a located pose: the tip circles clear each other, or the faces no longer overlap.
     pub(crate) fn is_apart(&self, at: &PoseGeometry) -> bool {
-        let [base, tip] = [0, 1].map(|i: usize| {
-            let of = |gear: &ToothGeometry| [gear.base_radius_m, gear.tip_radius_m][i];
-            of(&self.gears[0]) + of(&self.gears[1])
-        });
-        let clear = |line: &CentreLine| line.length_m.hypot(base) >= tip;
+        let circles = &self.circles;
+        let tip = |gear: usize| circles.sense(gear) * self.gears[gear].tip_radius_m;
+        let distance_m = |line: &CentreLine| line.length_m.hypot(circles.sum_m());
+        let clear =
+            |line: &CentreLine| circles.signed_distance_m(distance_m(line)) >= tip(0) + tip(1);
         (at.middle.as_ref()).is_some_and(|line| at.slices.is_empty() || clear(line))
     }
 }

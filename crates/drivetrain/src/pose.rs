@@ -1,5 +1,6 @@
 //! Motion of gear 2 as seen in gear 1: all that a mesh depends on.
 
+use gearmesh_geometry::BaseCircles;
 use nalgebra::{Matrix3, SVector, Vector3};
 
 /// Six numbers on the relative motion: translation, then rotation, both along gear 1's axes.
@@ -71,11 +72,11 @@ impl Pose {
 
     /// D \[m\]: how far gear 2's mid-face stands from gear 1's along the axes, at the pitch point; see mesh_frame.rs.
     #[must_use]
-    pub fn face_displacement_m(&self, base_radii_m: [f64; 2]) -> f64 {
-        let (b, [r1, r2]) = (self.axis_2(), base_radii_m);
+    pub fn face_displacement_m(&self, circles: BaseCircles) -> f64 {
+        let b = self.axis_2();
         let along_m = self.spin_gradient().dot(&self.displacement_m);
         let shift_m = 0.5 * (b - Vector3::z()).dot(&self.displacement_m);
-        along_m - (r1 - r2) / (r1 + r2) * shift_m
+        along_m - circles.pitch_place() * shift_m
     }
 
     /// (u̇, ω).

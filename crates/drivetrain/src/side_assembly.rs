@@ -137,7 +137,7 @@ impl Assembly<'_> {
     /// The same as the flanks see it.
     fn on_flanks(&self, drag: &Drag, contact: usize) -> FlankFriction {
         // Of one tangent w⊥ the tip of either gear lies where friction −μ w⊥ on gear 2 and μ w⊥ on gear 1 point for μ σ > 0.
-        let of_profile = [self.flank.mirror() * drag.coefficient; 2];
+        let of_profile = [self.kinematics.hand(self.flank) * drag.coefficient; 2];
         let towards_tips = match self.kinematics.tangents_on_flanks(contact, self.flank) {
             None => of_profile,
             Some(tangents) => [0, 1].map(|gear: usize| {

@@ -6,7 +6,7 @@
 //! d = u − ½ D′ h + 2 (s + F/2) f,      v·∂d = (v, z₂ b × v) + 2 (f·v) ∂(s + F/2)
 //! ```
 
-use gearmesh_geometry::{Flank, ToothGeometry};
+use gearmesh_geometry::BaseCircles;
 use nalgebra::{SMatrix, Vector3};
 
 use crate::error::DrivetrainError;
@@ -28,11 +28,11 @@ pub struct SlicePlane {
     pub normal: Vector3<f64>,
     /// w⊥: across it in the plane, counter-clockwise.
     pub across: Vector3<f64>,
-    /// L: length of the line of action between the base circles \[m\].
+    /// L: length of the line of action between the base circles \[m\], with its sign ([`BaseCircles`]).
     pub length_m: f64,
     /// Working pressure angle α \[rad\].
     pub pressure_angle_rad: f64,
-    /// β: polar angle of gear 2's axis from gear 1's \[rad\].
+    /// β: polar angle of gear 2's axis from gear 1's \[rad\]; half a turn more where one is a ring.
     pub polar_rad: f64,
     /// Where the plane cuts the axes of gear 1 and gear 2, from their origins \[m\].
     pub(crate) axis_heights_m: [f64; 2],
@@ -56,7 +56,7 @@ pub struct SidePlanes {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CentreLine {
     at: ZoneSection,
-    /// e_r(β) and e_t(β).
+    /// e_r(β) and e_t(β), β the polar angle of a: against the way to gear 2 where one gear is a ring.
     radial: Vector3<f64>,
     tangential: Vector3<f64>,
     /// sin α and cos α.
@@ -68,18 +68,14 @@ pub(crate) struct CentreLine {
 
 /// Length L \[m\] of the line of action between the base circles, and working pressure angle \[rad\].
 pub(crate) fn line_of_action(
-    gears: &[ToothGeometry; 2],
+    circles: &BaseCircles,
     distance_m: f64,
 ) -> Result<(f64, f64), DrivetrainError> {
-    let sum = gears[0].base_radius_m + gears[1].base_radius_m;
-    if distance_m.is_nan() || distance_m <= sum {
-        return Err(DrivetrainError::CentreDistance {
-            found_mm: distance_m * 1e3,
-            smallest_mm: sum * 1e3,
-        });
-    }
-    let length = ((distance_m - sum) * (distance_m + sum)).sqrt();
-    Ok((length, length.atan2(sum)))
+    let line = circles.line_of_action(distance_m);
+    line.ok_or(DrivetrainError::CentreDistance {
+        found_mm: distance_m * 1e3,
+        smallest_mm: circles.sum_m().abs() * 1e3,
+    })
 }
 
 /// Two vectors one above the other.
@@ -94,18 +90,14 @@ pub(crate) fn on_turn(lower: Vector3<f64>) -> Vector6 {
 
 impl CentreLine {
     /// The centre line in a section.
-    pub(crate) fn new(
-        gears: &[ToothGeometry; 2],
-        frame: &MeshFrame,
-        at: ZoneSection,
-    ) -> Result<Self, DrivetrainError> {
+    pub(crate) fn new(frame: &MeshFrame, at: ZoneSection) -> Result<Self, DrivetrainError> {
         let [z_1, z_2] = at.axis_heights_m;
         // Of one magnitude: nothing is lost where the gears stand far along the axes.
         let d = frame.displacement_m + z_2 * frame.axis_2 - z_1 * Vector3::z();
         let d = d - d.dot(&frame.axis) * frame.axis;
-        let distance = d.norm();
-        let (length_m, pressure_angle_rad) = line_of_action(gears, distance)?;
-        let sum = gears[0].base_radius_m + gears[1].base_radius_m;
+        let circles = &frame.circles;
+        let (length_m, pressure_angle_rad) = line_of_action(circles, d.norm())?;
+        let (distance, sum) = (circles.signed_distance_m(d.norm()), circles.sum_m());
         let radial = d / distance;
         Ok(Self {
             at,
@@ -118,10 +110,9 @@ impl CentreLine {
         })
     }
 
-    /// The slice plane for flanks of one side.
-    pub(crate) fn plane(&self, frame: &MeshFrame, side: Flank) -> SlicePlane {
+    /// The slice plane for flanks of the hand σ.
+    pub(crate) fn plane(&self, frame: &MeshFrame, sigma: f64) -> SlicePlane {
         let (sin, cos) = self.pressure_angle;
-        let sigma = side.mirror();
         let normal = sin * self.radial - sigma * cos * self.tangential;
         let across = sin * self.tangential + sigma * cos * self.radial;
         SlicePlane {
@@ -163,12 +154,7 @@ impl SlicePlane {
     /// ```text
     /// ∂²g = L ∂ω ∂ωᵀ + p ∂z₂ᵀ + ∂(s + F/2) pᵀ − ½ (c, 0) pᵀ + [z₂ b wᵀ − (σ r_b2/2 + σ R/8) b×]
     /// ```
-    pub(crate) fn transverse_curvature(
-        &self,
-        frame: &MeshFrame,
-        side: Flank,
-        base_radii_m: [f64; 2],
-    ) -> Matrix6 {
+    pub(crate) fn transverse_curvature(&self, frame: &MeshFrame, sigma: f64) -> Matrix6 {
         let turn = self.turn(frame);
         let by_tilt = on_turn(frame.axis_2.cross(&self.normal));
         let height_2 = self.plane_gradient - 0.5 * frame.displacement_along_gradient;
@@ -176,10 +162,10 @@ impl SlicePlane {
         let mut h = self.length_m * turn * turn.transpose();
         h += by_tilt * height_2.transpose();
         h += (self.plane_gradient - upright) * by_tilt.transpose();
-        let [r1, r2] = base_radii_m;
+        let [r1, r2] = frame.circles.radii_m;
         let mut turns = h.fixed_view_mut::<3, 3>(3, 3);
         turns += self.axis_heights_m[1] * frame.axis_2 * self.normal.transpose();
-        turns += side.mirror() * (r2 + 0.25 * (r1 + r2)) * turn_of_spin_gradient();
+        turns += sigma * (r2 + 0.25 * (r1 + r2)) * turn_of_spin_gradient();
         h
     }
 }

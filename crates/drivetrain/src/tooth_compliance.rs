@@ -52,7 +52,7 @@ impl RootCrack {
     pub fn check(&self, tooth: &ToothGeometry) -> Result<(), DrivetrainError> {
         let owner = "root crack";
         positive(owner, "the depth in m", self.depth_m)?;
-        let end = tooth.trochoid.point_m(tooth.fillet_end_m);
+        let end = tooth.fillet.point_m(tooth.fillet_end);
         let fillet = tooth.root_radius_m..=end[0].hypot(end[1]);
         let out_of_range = |what, found, allowed| DrivetrainError::Value {
             owner,
@@ -139,7 +139,7 @@ pub struct BeamTooth<'a> {
 impl BeamTooth<'_> {
     /// Half the angle that the tooth covers where its fillet leaves the root circle \[rad\].
     fn root_half_angle_rad(&self) -> f64 {
-        let root = self.tooth.trochoid.point_m(0.0);
+        let root = self.tooth.fillet.point_m(0.0);
         -root[1].atan2(root[0])
     }
 
@@ -154,7 +154,7 @@ impl BeamTooth<'_> {
         let t = self.tooth;
         let fillet = (0..=SECTIONS).map(|k| {
             let share = k as f64 / SECTIONS as f64;
-            t.trochoid.point_m(t.fillet_end_m * share)
+            t.fillet.point_m(t.fillet_end * share)
         });
         let flank = (1..=SECTIONS).map(|k| {
             let share = k as f64 / SECTIONS as f64;

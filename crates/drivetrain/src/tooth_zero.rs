@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use gearmesh_geometry::{Flank, ToothGeometry};
+use gearmesh_geometry::ToothGeometry;
 
 use crate::mesh_frame::MeshFrame;
 use crate::pose::Vector6;
@@ -24,32 +24,35 @@ impl ToothZero {
     pub(crate) fn new(
         gears: &[ToothGeometry; 2],
         frame: &MeshFrame,
-        side: Flank,
+        sigma: f64,
         plane: &SlicePlane,
     ) -> Self {
-        let sigma = side.mirror();
         let frame_turn = on_turn(sigma * frame.frame_turn);
         let spin = on_turn(sigma * frame.spin_gradient);
         let of_1 = sigma * plane.turn(frame) - frame_turn;
-        let [r1, r2] = [gears[0].base_radius_m, gears[1].base_radius_m];
+        let [_, r2] = frame.circles.radii_m;
         Self {
-            roll_rad: Self::rolls_rad(gears, frame.spin_rad, side, plane),
+            roll_rad: Self::rolls_rad(gears, frame, sigma, plane),
             roll_gradient: [of_1, of_1 - spin],
-            gradient: plane.along_normal(frame) + r2 * spin + (r1 + r2) * frame_turn,
+            gradient: plane.along_normal(frame) + r2 * spin + frame.circles.sum_m() * frame_turn,
         }
     }
 
     /// The roll angles alone.
     pub(crate) fn rolls_rad(
         gears: &[ToothGeometry; 2],
-        spin_rad: f64,
-        side: Flank,
+        frame: &MeshFrame,
+        sigma: f64,
         plane: &SlicePlane,
     ) -> [f64; 2] {
-        let seen_from_mate = [-plane.polar_rad, spin_rad - plane.polar_rad - PI];
+        let turned = [0.0, frame.spin_rad];
         [0, 1].map(|i: usize| {
-            plane.pressure_angle_rad + gears[i].base_half_angle_rad
-                - side.mirror() * seen_from_mate[i]
+            let sense = frame.circles.sense(i);
+            // Gear 1 looks along a, gear 2 against it, but for the ring, whose radius points the other way.
+            let faces_away = (sense > 0.0) == (i == 1);
+            let ahead = if faces_away { PI } else { 0.0 };
+            let seen_from_mate = turned[i] - plane.polar_rad - ahead;
+            plane.pressure_angle_rad + sense * gears[i].base_half_angle_rad - sigma * seen_from_mate
         })
     }
 }

@@ -1,83 +1,54 @@
-//! The trochoidal root fillet that a rack with a rounded tip cuts.
+//! The root fillet of a tooth, by what makes it: one file a curve.
 //!
-//! The rack's pitch line rolls on the reference circle (radius r). The centre of the rounding (radius ρ) runs at
-//! depth H_c below that line; the normal of the cut curve passes through the instantaneous pitch point, hence, with
-//! the centre's distance t from the radial line through that point,
-//!
-//! C(t) = (r − H_c) e_r(φ) + t e_t(φ),  φ = c₀ + (E − t)/r,  P(t) = C + ρ sgn(H_c) (−H_c e_r + t e_t)/√(H_c² + t²).
-//!
-//! t = 0 is the deepest point (root circle), t = H_c / tan α the tangent transition to the involute.
-//!
-//! A helical gear's rack is rounded in its normal section; the transverse section stretches it by 1/cos β along the
-//! pitch line, and the arc becomes an ellipse with half axes ρ and ρ/cos β. With t still H_c times the tangent of the
-//! rounding's angle in the *normal* section and sin = t sgn(H_c)/√(H_c² + t²), the law of gearing gives, exactly,
-//!
-//! P(t) = (r − H_c − ρ cos) e_r(φ) + cos β (t + ρ sin) e_t(φ),  φ = c₀ + (E − t cos β + ρ sin · sin²β/cos β)/r.
-//! c₀ is the
-//! polar angle of the tooth space's centre, E the distance of the rounding's centre from the rack tooth's centre
-//! line. Derivation: docs/theory/geometry.md; the same construction is in ISO 6336-3 and Litvin.
+//! | made by | curve | file |
+//! | --- | --- | --- |
+//! | the rounded tip of a rack | trochoid | `fillet/rack.rs` |
+//! | the rounded tip of a pinion cutter, inside a ring | trochoid | `fillet/pinion_cutter.rs` |
+//! | a tool of the space's form with a full root radius | arc | `fillet/full_round.rs` |
 
-/// The curve cut by one rounded corner of the rack, for the right flank of the tooth centred on +x.
+pub mod full_round;
+pub mod pinion_cutter;
+pub mod rack;
+
+use full_round::FullRound;
+use pinion_cutter::CutterTrochoid;
+use rack::Trochoid;
+
+/// The root fillet of the right flank of the tooth centred on +x. Its parameter is zero on the root circle; where the
+/// involute begins it is `fillet_end` of the tooth, in metres for a rack and in radians for the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Trochoid {
-    /// Reference radius r \[m\].
-    pub reference_radius_m: f64,
-    /// Depth H_c of the rounding's centre below the rolling line \[m\]; negative above it, never zero.
-    pub centre_depth_m: f64,
-    /// Distance E of the rounding's centre from the rack tooth's centre line \[m\].
-    pub centre_offset_m: f64,
-    /// Radius ρ of the rounding \[m\].
-    pub tip_radius_m: f64,
-    /// cos β of the helix; one for spur teeth.
-    pub helix_cos: f64,
-    /// Polar angle c₀ of the tooth space's centre \[rad\].
-    pub space_angle_rad: f64,
+pub enum Fillet {
+    /// Cut by a rack.
+    Rack(Trochoid),
+    /// Cut by a pinion cutter.
+    Cutter(CutterTrochoid),
+    /// An arc over the whole space.
+    FullRound(FullRound),
 }
 
-impl Trochoid {
-    /// Keeps the depth of the rounding's centre away from zero, where the curve degenerates to an arc and its
-    /// parameter to a point: a billionth of the module moves no point of the gear by more than that.
-    pub fn regular_depth_m(depth_m: f64, module_m: f64) -> f64 {
-        let least = 1e-9 * module_m;
-        if depth_m.abs() < least {
-            least
-        } else {
-            depth_m
+impl Fillet {
+    /// Point \[x, y\] \[m\].
+    pub fn point_m(&self, parameter: f64) -> [f64; 2] {
+        match self {
+            Self::Rack(curve) => curve.point_m(parameter),
+            Self::Cutter(curve) => curve.point_m(parameter),
+            Self::FullRound(curve) => curve.point_m(parameter),
         }
     }
 
-    /// Sine of the angle on the rounding between its deepest point and the one that cuts, in the normal section.
-    fn rounding_sin(&self, t_m: f64) -> f64 {
-        t_m * self.centre_depth_m.signum() / self.centre_depth_m.hypot(t_m)
+    /// Angle τ \[rad\] between the tangent (towards the tip) and the tooth's centre line (from root to tip): about π/2
+    /// at the root circle, falling to about the pressure angle at the involute.
+    pub fn tangent_angle_rad(&self, parameter: f64) -> f64 {
+        match self {
+            Self::Rack(curve) => curve.tangent_angle_rad(parameter),
+            Self::Cutter(curve) => curve.tangent_angle_rad(parameter),
+            Self::FullRound(curve) => curve.tangent_angle_rad(parameter),
+        }
     }
 
-    fn contact_angle_rad(&self, t_m: f64) -> f64 {
-        let (cos, sin) = (self.helix_cos, self.rounding_sin(t_m));
-        let flattening = self.tip_radius_m * sin * (1.0 - cos * cos) / cos;
-        self.space_angle_rad
-            + (self.centre_offset_m - t_m * cos + flattening) / self.reference_radius_m
-    }
-
-    /// Point \[x, y\] \[m\] of the cut curve.
-    pub fn point_m(&self, t_m: f64) -> [f64; 2] {
-        let (s, c) = self.contact_angle_rad(t_m).sin_cos();
-        let scale =
-            1.0 + self.tip_radius_m * self.centre_depth_m.signum() / self.centre_depth_m.hypot(t_m);
-        let radial = self.reference_radius_m - self.centre_depth_m * scale;
-        let tangential = t_m * scale * self.helix_cos;
-        [radial * c - tangential * s, radial * s + tangential * c]
-    }
-
-    /// Angle τ \[rad\] between the tangent (towards the tip) and the tooth's centre line: about π/2 at the root
-    /// circle, falling to about the pressure angle at the involute.
-    pub fn tangent_angle_rad(&self, t_m: f64) -> f64 {
-        self.contact_angle_rad(t_m) + std::f64::consts::FRAC_PI_2
-            - (self.helix_cos * t_m / self.centre_depth_m).atan()
-    }
-
-    /// Parameter t \[m\] between 0 and `t_end_m` at which the tangent angle equals `tangent_rad`, if it is reached.
-    pub fn parameter_at_tangent(&self, tangent_rad: f64, t_end_m: f64) -> Option<f64> {
-        let (mut low, mut high) = (0.0, t_end_m);
+    /// Parameter between 0 and `end` at which the tangent angle equals `tangent_rad`, if it is reached.
+    pub fn parameter_at_tangent(&self, tangent_rad: f64, end: f64) -> Option<f64> {
+        let (mut low, mut high) = (0.0, end);
         if self.tangent_angle_rad(low) < tangent_rad || self.tangent_angle_rad(high) > tangent_rad {
             return None;
         }
@@ -90,5 +61,15 @@ impl Trochoid {
             }
         }
         Some(0.5 * (low + high))
+    }
+
+    /// Angle between the middle of the tooth space and the place where the fillet leaves the root circle \[rad\]: half of
+    /// the arc of the root circle; zero where there is none.
+    pub fn root_arc_rad(&self) -> f64 {
+        match self {
+            Self::Rack(curve) => curve.centre_offset_m / curve.reference_radius_m,
+            Self::Cutter(curve) => curve.root_arc_rad(),
+            Self::FullRound(_) => 0.0,
+        }
     }
 }

@@ -6,6 +6,7 @@
 mod blank_table;
 mod contour_table;
 mod crack_table;
+mod cutter_table;
 mod gauge_table;
 mod hub_table;
 mod material_table;
@@ -18,9 +19,11 @@ mod tooth_table;
 mod topography_table;
 
 pub use hub_table::HubTable;
-pub use material_table::MaterialTable;
+pub use material_table::{MaterialTable, PoissonRatio};
+pub use mesh_table::{DEFAULT_LEAST_QUALITY, LeastQuality};
 pub use microgeometry_table::MicrogeometryTable;
 pub use modes_table::ModesTable;
+pub use reduction_table::loaded_flanks;
 
 use crate::definition::{GearDefinition, HubSupport};
 use crate::input::{InputDocument, InputError, TableKeys};
@@ -36,7 +39,7 @@ const UM: f64 = 1e-6;
 
 /// JSON Schema (draft 2020-12) of gear files. What depends on other keys is checked when the file is read.
 pub fn schema() -> schemars::Schema {
-    schemars::schema_for!(GearFile)
+    crate::input::file_schema::<GearFile>()
 }
 
 /// A gear file.
@@ -90,8 +93,14 @@ impl GearDefinition {
         let file: GearFile = document.parse()?;
         let tooth = file.tooth.check(document)?;
         let profile = ToothGeometry::new(&tooth).map_err(|e| document.error("tooth", e))?;
+        if profile.internal {
+            return Err(document.error(
+                "tooth.teeth",
+                "internal teeth have no body yet: rings are not meshed; give a positive number of teeth",
+            ));
+        }
         let blank = file.blank.check(document, &tooth, &profile)?;
-        let material = file.material.check(document)?;
+        let material = file.material.material();
         let microgeometry = file.microgeometry.check(
             (document, "microgeometry"),
             (&profile, tooth.face_width_m),

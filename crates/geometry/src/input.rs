@@ -1,6 +1,8 @@
 //! Reading TOML for people: every complaint names file, line, key, what was found and what is allowed.
 
+mod bounded;
 mod csv_rows;
+mod file_schema;
 mod former_keys;
 mod given;
 mod kinds;
@@ -13,7 +15,9 @@ mod threads;
 mod unit_slips;
 mod wording;
 
+pub use bounded::{Bounded, Count, End, NotNegative, Positive, Range, UpTo, Within};
 pub use csv_rows::{CsvRows, separator_hint, shown_field};
+pub use file_schema::file_schema;
 use former_keys::Renewed;
 pub use former_keys::{FormerTable, Move};
 pub use kinds::{Kinds, read_kind};
@@ -159,10 +163,9 @@ impl InputDocument {
     /// type, an unknown name or a number out of its range. An unknown key that differs from a known one by its unit
     /// only is answered with the right key.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, InputError> {
-        let parsed = self.glance()?;
         let table: toml::Table = self.glance()?;
         match number_ranges::first_problem(&table) {
-            None => Ok(parsed),
+            None => self.glance(),
             Some((key, problem)) => Err(self.error(&key, problem)),
         }
     }

@@ -8,18 +8,20 @@
 //! | step | type | file |
 //! | --- | --- | --- |
 //! | read a gear file (TOML, units in the keys) | [`GearDefinition`] | `gear_file.rs`, `gear_file/`, `definition.rs`, `blank.rs` |
-//! | rack, involute and trochoid of one tooth | [`ToothGeometry`] | `tooth.rs`, `fillet.rs` |
+//! | tool, involute and fillet of one tooth | [`ToothGeometry`] | `tooth.rs`, `internal_tooth.rs`, `fillet/` |
 //! | that tooth's outline by arc length | [`ProfileCurve`] | `profile_curve.rs` |
 //! | the body's axial contour with fillets | [`body_outline`] | `body_outline.rs` |
 //! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs`, `microgeometry/` |
 //! | material removed from single flanks: errors and faults | [`flank_error::FlankError`] | `flank_error.rs` |
 //! | two bodies that touch in a point, after Hertz | [`point_contact::PointContact`] | `point_contact.rs`, `elliptic.rs` |
-//! | two gears at a centre distance | [`GearPair`] | `pair.rs`, `tip_in_fillet.rs` |
+//! | the base circles of a pair: line of action, gap, curvature | [`BaseCircles`] | `base_circles.rs` |
+//! | two gears at a centre distance | [`GearPair`] | `pair.rs`, `tip_in_fillet.rs`, `tip_sweep.rs` |
 //!
 //! Everything is in SI units; millimetres, degrees and micrometres exist only in the gear file. Frames and signs:
 //! z is the gear axis and zero at mid-face, tooth 0 is centred on +x, teeth are numbered counter-clockwise seen
 //! from +z, the *right* flank of a tooth faces clockwise. Formulas are derived in docs/theory/geometry.md.
 
+pub mod base_circles;
 pub mod blank;
 pub mod body_outline;
 pub mod definition;
@@ -28,20 +30,24 @@ pub mod fillet;
 pub mod flank_error;
 pub mod gear_file;
 pub mod input;
+mod internal_tooth;
 pub mod involute;
 pub mod microgeometry;
 pub mod pair;
 pub mod point_contact;
 pub mod profile_curve;
 mod tip_in_fillet;
+mod tip_sweep;
 pub mod tooth;
 
+pub use base_circles::BaseCircles;
 pub use blank::{
     Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, MeshedBody, Openings, Slots, Web,
 };
 pub use definition::{
-    CrackDefinition, Flank, GaugeDefinition, GearDefinition, HubSupport, Material, MeshSettings,
-    ModeRange, ReductionSettings, RootPosition, Symmetry, ToothDefinition,
+    CrackDefinition, Flank, GaugeDefinition, GearDefinition, Gearing, HubSupport, InternalRoot,
+    Material, MeshSettings, ModeRange, PinionCutter, ReductionSettings, RootPosition, Symmetry,
+    ToothDefinition,
 };
 pub use gearmesh_elements::Element;
 pub use input::InputError;

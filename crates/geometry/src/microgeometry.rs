@@ -122,9 +122,15 @@ impl Microgeometry {
     #[must_use]
     pub fn most_added_m(&self) -> f64 {
         let added = |amount_m: f64| (-amount_m).max(0.0);
+        // The far end of the flank: at the base circle, of a ring, whose tip has the smallest roll angle, at the form circle.
+        let far_roll = if self.form_roll_rad > self.tip_roll_rad {
+            self.form_roll_rad
+        } else {
+            0.0
+        };
         let profile = self.profile_crowning.map_or(0.0, |c| {
-            let at_base = c.centre_roll_rad / (self.tip_roll_rad - c.centre_roll_rad);
-            added(c.amount_m) * at_base.powi(2).max(1.0)
+            let far = (far_roll - c.centre_roll_rad) / (self.tip_roll_rad - c.centre_roll_rad);
+            added(c.amount_m) * far.powi(2).max(1.0)
         });
         let reliefs = self.tip_relief.map_or(0.0, |r| added(r.amount_m))
             + self.root_relief.map_or(0.0, |r| added(r.amount_m))
@@ -133,8 +139,7 @@ impl Microgeometry {
         let slope = self.profile_angle_m.abs() + 0.5 * self.twist_m.abs();
         let slopes = if slope > 0.0 {
             let span = self.tip_roll_rad - self.form_roll_rad;
-            // At the base circle, the lowest place of all.
-            slope * (self.form_roll_rad / span + 0.5)
+            slope * ((self.form_roll_rad - far_roll) / span + 0.5)
         } else {
             0.0
         };

@@ -1,8 +1,10 @@
 //! Two gears at a centre distance: working pressure angle, path of contact, backlash, sliding, interference.
 
+use crate::base_circles::BaseCircles;
 use crate::definition::Flank;
 use crate::involute;
 use crate::tip_in_fillet;
+use crate::tip_sweep::{self, RollingPinion};
 use crate::tooth::ToothGeometry;
 use std::f64::consts::TAU;
 
@@ -21,7 +23,7 @@ pub enum PairError {
     },
     /// The helices do not fit on parallel axes.
     #[error(
-        "the helices do not fit: base helix angles {helix_1_deg:.5} deg ({hand_1}) and {helix_2_deg:.5} deg ({hand_2}); external gears on parallel axes need equal angles of opposite hand"
+        "the helices do not fit: base helix angles {helix_1_deg:.5} deg ({hand_1}) and {helix_2_deg:.5} deg ({hand_2}); on parallel axes external gears need equal angles of opposite hand, a ring and the gear inside equal angles of the same hand"
     )]
     Helix {
         /// Base helix angle of gear 1 without its sign.
@@ -33,9 +35,54 @@ pub enum PairError {
         /// Hand of gear 2.
         hand_2: &'static str,
     },
+    /// Teeth inside a ring, where their contact is not computed.
+    #[error(
+        "gear {gear} is a ring with internal teeth: its contact with another gear is not supported; meshing, reduction and compliance of the ring alone are"
+    )]
+    Ring {
+        /// The ring.
+        gear: usize,
+    },
+    /// Two rings.
+    #[error("both gears have internal teeth; one of them must have external teeth")]
+    TwoRings,
+    /// The ring is not larger than the gear inside.
+    #[error(
+        "the ring has {ring_teeth} teeth and the gear inside {teeth}; at most {allowed} fit inside"
+    )]
+    RingTooSmall {
+        /// Teeth of the ring.
+        ring_teeth: usize,
+        /// Teeth of the gear inside.
+        teeth: usize,
+        /// Most teeth inside.
+        allowed: usize,
+    },
+    /// The base circle of the ring is reached inside the path of contact.
+    #[error(
+        "the tip of the ring reaches below the base circle of gear {gear} (involute interference): its tip diameter must be {least_mm:.4} mm or more"
+    )]
+    InvoluteInterference {
+        /// The gear inside.
+        gear: usize,
+        /// Smallest tip diameter of the ring.
+        least_mm: f64,
+    },
+    /// Tips collide away from the line of action.
+    #[error(
+        "the tips of both gears collide beside the line of action, {depth_um:.2} um deep (trochoidal interference): give the ring a tip diameter of {clear_tip_diameter_mm:.4} mm or more, or gear {gear} fewer teeth or a smaller tip diameter"
+    )]
+    TipsCollide {
+        /// The gear inside.
+        gear: usize,
+        /// Depth along the normal of the ring's flank.
+        depth_um: f64,
+        /// Tip diameter from which on the ring is clear.
+        clear_tip_diameter_mm: f64,
+    },
     /// The base circles overlap.
     #[error(
-        "a centre distance of {centre_distance_mm:.4} mm is below the sum of the base radii, {smallest_mm:.4} mm: no line of action"
+        "a centre distance of {centre_distance_mm:.4} mm is below the sum of the base radii (with a ring: their difference), {smallest_mm:.4} mm: no line of action"
     )]
     CentreDistance {
         /// Centre distance given.
@@ -106,7 +153,11 @@ pub struct Misalignment {
     pub deviation_rad: f64,
 }
 
-/// An external gear pair on parallel axes, spur or helical. Gear 1 drives; both are loaded on flanks of the same hand.
+/// A gear pair on parallel axes, spur or helical: two external gears, or one inside a ring. Gear 1 drives. External gears
+/// are loaded on flanks of the same hand, a ring and the gear inside on opposite ones.
+///
+/// The equations are those of external gears with the base radius of a ring, and with it the centre distance, negative
+/// (ISO 21771): docs/theory/internal_teeth.md.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearPair {
     /// Driving gear.
@@ -115,11 +166,11 @@ pub struct GearPair {
     pub gear_2: ToothGeometry,
     /// Centre distance a \[m\].
     pub centre_distance_m: f64,
-    /// Working pressure angle α_w: cos α_w = (r_b1 + r_b2)/a \[rad\].
+    /// Working pressure angle α_w: cos α_w = |r_b1 + r_b2|/a \[rad\].
     pub working_pressure_angle_rad: f64,
     /// Axis errors.
     pub misalignment: Misalignment,
-    /// Side of the flanks in contact, on both gears: right where gear 1 turns clockwise.
+    /// Side of the flanks in contact on gear 1: right where it turns clockwise. [`GearPair::flank_of`] has both.
     pub flank: Flank,
     /// Roll angle on gear 1 where contact starts (tip of gear 2).
     pub roll_start_1_rad: f64,
@@ -128,16 +179,37 @@ pub struct GearPair {
 }
 
 impl GearPair {
-    /// Checks that the gears run together and derives the path of contact, right flanks in contact.
+    /// Checks that two external gears run together and derives the path of contact, right flanks in contact.
     ///
     /// # Errors
-    /// [`PairError`] with the numbers that make it impossible.
+    /// [`PairError`] with the numbers that make it impossible; [`PairError::Ring`] for internal teeth.
     pub fn new(
         gear_1: ToothGeometry,
         gear_2: ToothGeometry,
         centre_distance_m: f64,
         misalignment: Misalignment,
     ) -> Result<Self, PairError> {
+        for (gear, tooth) in [(1, &gear_1), (2, &gear_2)] {
+            if tooth.internal {
+                return Err(PairError::Ring { gear });
+            }
+        }
+        Self::on_parallel_axes(gear_1, gear_2, centre_distance_m, misalignment)
+    }
+
+    /// As [`GearPair::new`], where either gear may be a ring around the other. The centre distance has no sign.
+    ///
+    /// # Errors
+    /// [`PairError`] with the numbers that make it impossible.
+    pub fn on_parallel_axes(
+        gear_1: ToothGeometry,
+        gear_2: ToothGeometry,
+        centre_distance_m: f64,
+        misalignment: Misalignment,
+    ) -> Result<Self, PairError> {
+        if gear_1.internal && gear_2.internal {
+            return Err(PairError::TwoRings);
+        }
         let base_pitch = |g: &ToothGeometry| TAU * g.base_radius_m / g.teeth as f64;
         let (p1, p2) = (base_pitch(&gear_1), base_pitch(&gear_2));
         if (p1 - p2).abs() > 1e-6 * p1 {
@@ -147,7 +219,8 @@ impl GearPair {
             });
         }
         let (h1, h2) = (gear_1.base_helix_angle_rad(), gear_2.base_helix_angle_rad());
-        if (h1 + h2).abs() > 1e-6 * h1.abs() {
+        let [signed_1, signed_2] = [gear_1.tip_direction() * h1, gear_2.tip_direction() * h2];
+        if (signed_1 + signed_2).abs() > 1e-6 * h1.abs() {
             return Err(PairError::Helix {
                 helix_1_deg: h1.abs().to_degrees(),
                 hand_1: gear_1.hand(),
@@ -155,7 +228,26 @@ impl GearPair {
                 hand_2: gear_2.hand(),
             });
         }
-        let smallest = gear_1.base_radius_m + gear_2.base_radius_m;
+        let mut pair = Self {
+            roll_start_1_rad: 0.0,
+            roll_end_1_rad: gear_1.flank_end_roll_rad,
+            gear_1,
+            gear_2,
+            centre_distance_m,
+            working_pressure_angle_rad: 0.0,
+            misalignment,
+            flank: Flank::Right,
+        };
+        if let Some((inside, ring)) = pair.inside_and_ring()
+            && inside.teeth >= ring.teeth
+        {
+            return Err(PairError::RingTooSmall {
+                ring_teeth: ring.teeth,
+                teeth: inside.teeth,
+                allowed: ring.teeth - 1,
+            });
+        }
+        let smallest = pair.circles().sum_m().abs();
         if centre_distance_m.is_nan() || centre_distance_m <= smallest {
             return Err(PairError::CentreDistance {
                 centre_distance_mm: centre_distance_m * 1e3,
@@ -163,31 +255,80 @@ impl GearPair {
             });
         }
         let alpha_w = (smallest / centre_distance_m).acos();
-        let line = centre_distance_m * alpha_w.sin();
-        let mut pair = Self {
-            roll_start_1_rad: (line - gear_2.base_radius_m * gear_2.flank_end_roll_rad)
-                / gear_1.base_radius_m,
-            roll_end_1_rad: gear_1.flank_end_roll_rad,
-            gear_1,
-            gear_2,
-            centre_distance_m,
-            working_pressure_angle_rad: alpha_w,
-            misalignment,
-            flank: Flank::Right,
-        };
-        for (gear, tip, mate) in [
-            (1, &pair.gear_1, &pair.gear_2),
-            (2, &pair.gear_2, &pair.gear_1),
-        ] {
-            let clearance = centre_distance_m - tip.tip_radius_m - mate.root_radius_m;
+        pair.working_pressure_angle_rad = alpha_w;
+        pair.roll_start_1_rad = pair.roll_at_tip_of_2_rad();
+        pair.check_flanks()?;
+        pair.roll_start_1_rad = pair.roll_start_1_rad.max(0.0);
+        if pair.backlash_m() < -ROUNDING_M {
+            return Err(PairError::NoBacklash {
+                backlash_mm: pair.backlash_m() * 1e3,
+            });
+        }
+        for (gear, tip, mate) in pair.tips_and_mates() {
+            let depth_m = tip_in_fillet::depth_m(tip, mate, centre_distance_m);
+            if depth_m > ROUNDING_M {
+                return Err(PairError::TipInFillet {
+                    gear,
+                    depth_um: depth_m * 1e6,
+                });
+            }
+        }
+        pair.check_passing_tips()?;
+        if pair.contact_ratio() < 1.0 {
+            return Err(PairError::ContactRatio {
+                contact_ratio: pair.contact_ratio(),
+            });
+        }
+        Ok(pair)
+    }
+
+    /// Each gear with its number, as the one whose tip is looked at, and its mate.
+    fn tips_and_mates(&self) -> [(usize, &ToothGeometry, &ToothGeometry); 2] {
+        [
+            (1, &self.gear_1, &self.gear_2),
+            (2, &self.gear_2, &self.gear_1),
+        ]
+    }
+
+    /// The gear inside and its ring, where one is a ring.
+    fn inside_and_ring(&self) -> Option<(&ToothGeometry, &ToothGeometry)> {
+        match (self.gear_1.internal, self.gear_2.internal) {
+            (false, true) => Some((&self.gear_1, &self.gear_2)),
+            (true, false) => Some((&self.gear_2, &self.gear_1)),
+            _ => None,
+        }
+    }
+
+    /// Whether one of the gears is a ring around the other.
+    #[must_use]
+    pub fn has_ring(&self) -> bool {
+        self.circles().has_ring()
+    }
+
+    /// Clearance of tips and roots, and that tips touch involutes only.
+    fn check_flanks(&self) -> Result<(), PairError> {
+        let circles = self.circles();
+        let (a, line) = (
+            circles.signed_distance_m(self.centre_distance_m),
+            self.line_of_action_m(),
+        );
+        for (gear, tip, mate) in self.tips_and_mates() {
+            let tip_m = tip.tip_direction() * tip.tip_radius_m;
+            let clearance = a - tip_m - mate.tip_direction() * mate.root_radius_m;
             if clearance < 0.0 {
                 return Err(PairError::TipClearance {
                     gear,
                     clearance_mm: clearance * 1e3,
                 });
             }
-            let needed = (line - tip.base_radius_m * tip.flank_end_roll_rad) / mate.base_radius_m;
-            if needed < mate.form_roll_rad - 1e-9 {
+            let needed = circles.mate_roll_rad(line, (gear - 1, tip.flank_end_roll_rad));
+            if tip.internal && needed < 0.0 {
+                return Err(PairError::InvoluteInterference {
+                    gear: 3 - gear,
+                    least_mm: 2e3 * tip.base_radius_m.hypot(line),
+                });
+            }
+            if mate.tip_direction() * (needed - mate.form_roll_rad) < -1e-9 {
                 let radius =
                     |roll: f64| involute::radius_m(roll.max(0.0), mate.base_radius_m) * 1e3;
                 return Err(PairError::FilletInterference {
@@ -197,43 +338,73 @@ impl GearPair {
                 });
             }
         }
-        pair.roll_start_1_rad = pair.roll_start_1_rad.max(0.0);
-        if pair.backlash_m() < -ROUNDING_M {
-            return Err(PairError::NoBacklash {
-                backlash_mm: pair.backlash_m() * 1e3,
-            });
+        Ok(())
+    }
+
+    /// That tips of a ring and of the gear inside pass each other away from the line of action.
+    fn check_passing_tips(&self) -> Result<(), PairError> {
+        let Some((inside, ring)) = self.inside_and_ring() else {
+            return Ok(());
+        };
+        let end = inside.flank_end_roll_rad;
+        let mut corners = vec![(inside.tip_radius_m, inside.tip_half_angle_rad())];
+        if inside.tip_chamfer_m > 0.0 {
+            let radius = involute::radius_m(end, inside.base_radius_m);
+            corners.push((radius, inside.half_angle_rad(end)));
         }
-        for (gear, tip, mate) in [
-            (1, &pair.gear_1, &pair.gear_2),
-            (2, &pair.gear_2, &pair.gear_1),
-        ] {
-            let depth_m = tip_in_fillet::depth_m(tip, mate, centre_distance_m);
-            if depth_m > ROUNDING_M {
-                return Err(PairError::TipInFillet {
-                    gear,
-                    depth_um: depth_m * 1e6,
-                });
-            }
+        let pitch_radius_m = inside.base_radius_m / self.working_pressure_angle_rad.cos();
+        let worst = tip_sweep::deepest(
+            ring,
+            &RollingPinion {
+                teeth: inside.teeth,
+                corners,
+                centre_distance_m: self.centre_distance_m,
+                // On one flank: half the backlash from the middle of the space.
+                turned_rad: 0.5 * self.backlash_m() / pitch_radius_m,
+            },
+        );
+        if worst.depth_m <= ROUNDING_M {
+            return Ok(());
         }
-        if pair.contact_ratio() < 1.0 {
-            return Err(PairError::ContactRatio {
-                contact_ratio: pair.contact_ratio(),
-            });
-        }
-        Ok(pair)
+        Err(PairError::TipsCollide {
+            gear: if self.gear_1.internal { 2 } else { 1 },
+            depth_um: worst.depth_m * 1e6,
+            clear_tip_diameter_mm: 2e3 * worst.clear_tip_radius_m,
+        })
+    }
+
+    /// The base circles of both.
+    #[must_use]
+    pub fn circles(&self) -> BaseCircles {
+        BaseCircles::new([&self.gear_1, &self.gear_2])
+    }
+
+    /// Length of the line of action a sin α_w \[m\], negative with a ring ([`BaseCircles`]).
+    #[must_use]
+    pub fn line_of_action_m(&self) -> f64 {
+        let distance_m = self.circles().signed_distance_m(self.centre_distance_m);
+        distance_m * self.working_pressure_angle_rad.sin()
+    }
+
+    /// Roll angle on gear 1 at which gear 2's tip touches it.
+    fn roll_at_tip_of_2_rad(&self) -> f64 {
+        let end = self.gear_2.flank_end_roll_rad;
+        (self.circles()).mate_roll_rad(self.line_of_action_m(), (1, end))
     }
 
     /// Puts the gears at another centre distance, above the sum of the base radii, with other axis errors: working
     /// pressure angle and start of the path follow.
     pub fn move_to(&mut self, centre_distance_m: f64, misalignment: Misalignment) {
-        let [base_1, base_2] = [self.gear_1.base_radius_m, self.gear_2.base_radius_m];
-        let sum = base_1 + base_2;
         self.centre_distance_m = centre_distance_m;
         self.misalignment = misalignment;
-        self.working_pressure_angle_rad = (sum / centre_distance_m).acos();
-        let line = sum * self.working_pressure_angle_rad.tan();
-        self.roll_start_1_rad =
-            ((line - base_2 * self.gear_2.flank_end_roll_rad) / base_1).max(0.0);
+        self.working_pressure_angle_rad = (self.circles().sum_m().abs() / centre_distance_m).acos();
+        self.roll_start_1_rad = self.roll_at_tip_of_2_rad().max(0.0);
+    }
+
+    /// Side of the flanks in contact on gear 1 (0) or gear 2 (1): the same on external gears, opposite ones with a ring.
+    #[must_use]
+    pub fn flank_of(&self, gear: usize) -> Flank {
+        self.circles().side_of(gear, self.flank)
     }
 
     /// The same pair with contact on the flanks of the given side.
@@ -241,7 +412,7 @@ impl GearPair {
         Self { flank, ..self }
     }
 
-    /// Base helix angle β_b of gear 1 \[rad\], positive for a right hand; gear 2 has the opposite.
+    /// Base helix angle β_b of gear 1 \[rad\], positive for a right hand; gear 2 has the opposite, with a ring the same.
     pub fn base_helix_angle_rad(&self) -> f64 {
         self.gear_1.base_helix_angle_rad()
     }
@@ -253,9 +424,9 @@ impl GearPair {
 
     /// How the roll angle on gear 1 of one pair changes along the axis \[rad/m\]. A right-hand helix turns the sections
     /// above mid-face counter-clockwise: where gear 1 turns clockwise (right flanks in contact) they lag behind,
-    /// ξ₁(z) = ξ₁(0) − z tan β₁/r₁; on left flanks they are ahead.
+    /// ξ₁(z) = ξ₁(0) − z tan β₁/r₁; on left flanks they are ahead. On a ring the roll falls as it turns: the signs swap.
     pub fn roll_slope_1_rad_per_m(&self) -> f64 {
-        -self.flank.mirror() * self.gear_1.twist_rad_per_m()
+        -self.flank.mirror() * self.gear_1.tip_direction() * self.gear_1.twist_rad_per_m()
     }
 
     /// Overlap ratio ε_β = b tan β_b/p_bt = b sin β/(π m_n) of teeth that touch over the width b.
@@ -275,7 +446,7 @@ impl GearPair {
 
     /// Transverse contact ratio ε_α.
     pub fn contact_ratio(&self) -> f64 {
-        (self.roll_end_1_rad - self.roll_start_1_rad) / self.pitch_1_rad()
+        (self.roll_end_1_rad - self.roll_start_1_rad).abs() / self.pitch_1_rad()
     }
 
     /// Circumferential backlash on the working pitch circles \[m\].
@@ -289,44 +460,45 @@ impl GearPair {
     }
 
     /// Roll angle on gear 1 at mid-face of pair `pair` (see [`GearPair::teeth_of`]) at driver angle θ₁:
-    /// ξ₁ = tan α_w + θ₁ − p 2π/z₁. Zero driver angle: pair 0 at the pitch point.
+    /// ξ₁ = tan α_w ± (θ₁ − p 2π/z₁), − where gear 1 is a ring. Zero driver angle: pair 0 at the pitch point.
     pub fn roll_1_rad(&self, driver_angle_rad: f64, pair: i64) -> f64 {
-        self.working_pressure_angle_rad.tan() + driver_angle_rad - pair as f64 * self.pitch_1_rad()
+        let turned = driver_angle_rad - pair as f64 * self.pitch_1_rad();
+        self.working_pressure_angle_rad.tan() + self.gear_1.tip_direction() * turned
     }
 
     /// Teeth of gear 1 and gear 2 that make pair p. A higher p comes later: on right flanks (gear 1 turns clockwise)
-    /// gear 1's tooth p with gear 2's tooth −p, on left flanks the mirror image, tooth −p with tooth p.
+    /// gear 1's tooth p with gear 2's tooth −p, on left flanks the mirror image, tooth −p with tooth p. With a ring both
+    /// turn the same way: tooth p with tooth p, on left flanks −p with −p.
     pub fn teeth_of(&self, pair: i64) -> [usize; 2] {
         let pair = match self.flank {
             Flank::Right => pair,
             Flank::Left => -pair,
         };
+        let of_2 = if self.has_ring() { pair } else { -pair };
         let wrap = |tooth: i64, teeth: usize| tooth.rem_euclid(teeth as i64) as usize;
-        [
-            wrap(pair, self.gear_1.teeth),
-            wrap(-pair, self.gear_2.teeth),
-        ]
+        [wrap(pair, self.gear_1.teeth), wrap(of_2, self.gear_2.teeth)]
     }
 
-    /// Roll angle on gear 2 opposite to ξ₁: r_b2 ξ₂ = a sin α_w − r_b1 ξ₁.
+    /// Roll angle on gear 2 opposite to ξ₁: r_b2 ξ₂ = a sin α_w − r_b1 ξ₁, a and the ring's r_b negative.
     pub fn roll_2_rad(&self, roll_1_rad: f64) -> f64 {
-        (self.centre_distance_m * self.working_pressure_angle_rad.sin()
-            - self.gear_1.base_radius_m * roll_1_rad)
-            / self.gear_2.base_radius_m
+        (self.circles()).mate_roll_rad(self.line_of_action_m(), (0, roll_1_rad))
     }
 
     /// Signed distance \[m\] along the line of action from the pitch point, positive towards the end of contact
     /// (recess): the lever of the sliding velocity and of the friction moment.
     pub fn path_from_pitch_point_m(&self, roll_1_rad: f64) -> f64 {
-        self.gear_1.base_radius_m * (roll_1_rad - self.working_pressure_angle_rad.tan())
+        self.circles().radii_m[0] * (roll_1_rad - self.working_pressure_angle_rad.tan())
     }
 
     /// Sliding velocity \[m/s\] of gear 1's flank over gear 2's, positive towards gear 1's *root* (and gear 2's tip):
-    /// (ω₁ + ω₂) s with s the distance from the pitch point. Zero at the pitch point, where it changes its sign. The
-    /// contact runs outwards over gear 1, so the material below it moves inwards.
+    /// ω₁ (1 + r_b1/r_b2) (ρ₁ − r_b1 tan α_w), which is (ω₁ + ω₂) s of external gears with s the distance from the pitch
+    /// point; r_b1/r_b2 is negative with a ring. Zero at the pitch point, where it changes its sign. The contact runs
+    /// towards the tip of gear 1, so the material below it moves towards the root.
     pub fn sliding_velocity_m_per_s(&self, roll_1_rad: f64, speed_1_rad_per_s: f64) -> f64 {
-        let ratio = self.gear_1.base_radius_m / self.gear_2.base_radius_m;
-        speed_1_rad_per_s * (1.0 + ratio) * self.path_from_pitch_point_m(roll_1_rad)
+        let [r1, r2] = self.circles().radii_m;
+        let ratio = r1 / r2;
+        let rolled = roll_1_rad - self.working_pressure_angle_rad.tan();
+        speed_1_rad_per_s * (1.0 + ratio) * self.gear_1.base_radius_m * rolled
     }
 
     /// Radii of curvature ρ₁ = r_b1 ξ₁ and ρ₂ = r_b2 ξ₂ of the touching flanks \[m\].
@@ -338,38 +510,34 @@ impl GearPair {
     }
 
     /// Relative radius of curvature ρ \[m\] across the line of contact of two flanks that touch at the given roll
-    /// angles: 1/ρ = cos β_b (1/(r_b1 ξ₁) + 1/(r_b2 ξ₂)).
+    /// angles: 1/ρ = cos β_b (1/(r_b1 ξ₁) + 1/(r_b2 ξ₂)), the ring's r_b negative: its flank is hollow.
     pub fn relative_radius_m(&self, roll_1_rad: f64, roll_2_rad: f64) -> f64 {
-        let a = self.gear_1.base_radius_m * roll_1_rad;
-        let b = self.gear_2.base_radius_m * roll_2_rad;
-        a * b / ((a + b) * self.base_helix_angle_rad().cos())
-    }
-
-    /// Growth of the relative radius, as a share of itself, per radian of roll on gear 1 and gear 2: (1 − ρ_i/(ρ₁ +
-    /// ρ₂))/ξ_i.
-    pub fn relative_radius_growth(&self, roll_rad: [f64; 2]) -> [f64; 2] {
-        let rho_1 = self.gear_1.base_radius_m * roll_rad[0];
-        let rho_2 = self.gear_2.base_radius_m * roll_rad[1];
-        let sum = rho_1 + rho_2;
-        [rho_2 / (sum * roll_rad[0]), rho_1 / (sum * roll_rad[1])]
+        let helix_cos = self.base_helix_angle_rad().cos();
+        (self.circles())
+            .relative_radius([roll_1_rad, roll_2_rad], helix_cos)
+            .0
     }
 
     /// Opening of the loaded flanks by misalignment, measured in the transverse plane, at axial position `z_m` and
     /// distance `path_m` from the pitch point along the line of action \[m\]:
     /// (z ∓ s tan β_b)(δ_inclination sin α_w + δ_deviation cos α_w), − on right flanks with a right-hand gear 1.
     ///
-    /// Gear 2 tilts about the pitch point at mid-face. Spur flanks feel the displacement along the line of action only;
+    /// An axis that moves away opens external flanks and closes those inside a ring: there the inclination counts
+    /// negative. Gear 2 tilts about the pitch point at mid-face. Spur flanks feel the displacement along the line of action only;
     /// a helical flank also feels the axial one.
     pub fn misalignment_gap_m(&self, z_m: f64, path_m: f64) -> f64 {
         let (s, c) = self.working_pressure_angle_rad.sin_cos();
-        let slope = self.misalignment.inclination_rad * s + self.misalignment.deviation_rad * c;
+        let opens = self.circles().sum_m().signum();
+        let slope =
+            opens * self.misalignment.inclination_rad * s + self.misalignment.deviation_rad * c;
         let axial = self.flank.mirror() * self.base_helix_angle_rad().tan();
         (z_m - axial * path_m) * slope
     }
 
     /// Pairs (numbers p) whose section at mid-face is on the path of contact at a driver angle.
     pub fn pairs_in_contact(&self, driver_angle_rad: f64) -> std::ops::RangeInclusive<i64> {
-        let pitch = self.pitch_1_rad();
+        // Along the path, whichever way the roll goes.
+        let pitch = self.gear_1.tip_direction() * self.pitch_1_rad();
         let at_zero = self.roll_1_rad(driver_angle_rad, 0);
         let first = ((at_zero - self.roll_end_1_rad) / pitch).ceil() as i64;
         let last = ((at_zero - self.roll_start_1_rad) / pitch).floor() as i64;

@@ -28,9 +28,9 @@ pub enum PositionError {
     Radius {
         /// Radius asked for.
         found_mm: f64,
-        /// Root radius.
+        /// Root radius, of a ring the end of the flank.
         low_mm: f64,
-        /// End of the flank.
+        /// End of the flank, of a ring the root radius.
         high_mm: f64,
     },
 }
@@ -61,13 +61,13 @@ pub struct ProfileCurve {
 impl ProfileCurve {
     /// Tabulates the arc length of a tooth's outline.
     pub fn new(tooth: &ToothGeometry) -> Self {
-        let space = tooth.trochoid.space_angle_rad;
-        let root_end = space + tooth.trochoid.centre_offset_m / tooth.reference_radius_m;
+        let space = tooth.space_angle_rad();
+        let root_end = space + tooth.fillet.root_arc_rad();
         let mut pieces = Vec::new();
         if root_end > space {
             pieces.push((Piece::RootArc, space, root_end));
         }
-        pieces.push((Piece::Fillet, 0.0, tooth.fillet_end_m));
+        pieces.push((Piece::Fillet, 0.0, tooth.fillet_end));
         pieces.push((Piece::Flank, tooth.form_roll_rad, tooth.flank_end_roll_rad));
         if tooth.tip_chamfer_m > 0.0 {
             pieces.push((Piece::Chamfer, 0.0, 1.0));
@@ -101,7 +101,7 @@ impl ProfileCurve {
         let on_circle = |r: f64| [r * parameter.cos(), r * parameter.sin()];
         match piece {
             Piece::RootArc => on_circle(t.root_radius_m),
-            Piece::Fillet => t.trochoid.point_m(parameter),
+            Piece::Fillet => t.fillet.point_m(parameter),
             Piece::Flank => t.flank_point_m(Flank::Right, parameter),
             Piece::Chamfer => {
                 let a = t.flank_point_m(Flank::Right, t.flank_end_roll_rad);
@@ -145,7 +145,7 @@ impl ProfileCurve {
             self.point_at(arc_length_m - step),
             self.point_at(arc_length_m + step),
         );
-        (b[1] - a[1]).atan2(b[0] - a[0])
+        (b[1] - a[1]).atan2(self.tooth.tip_direction() * (b[0] - a[0]))
     }
 
     /// Arc length \[m\] at which the root fillet begins; zero where there is no arc of the root circle.
@@ -183,9 +183,10 @@ impl ProfileCurve {
     pub fn arc_length_at_roll_m(&self, roll_rad: f64) -> f64 {
         // On an involute s = r_b ξ²/2, exactly.
         let t = &self.tooth;
-        let roll = roll_rad.clamp(t.form_roll_rad, t.flank_end_roll_rad);
+        let [low, high] = t.flank_rolls_rad();
+        let roll = roll_rad.clamp(low, high);
         self.flank_start_m()
-            + 0.5 * t.base_radius_m * (roll * roll - t.form_roll_rad * t.form_roll_rad)
+            + 0.5 * t.base_radius_m * (roll * roll - t.form_roll_rad * t.form_roll_rad).abs()
     }
 
     /// Arc length \[m\] of a position on the root fillet.
@@ -196,14 +197,14 @@ impl ProfileCurve {
         let t = &self.tooth;
         match position {
             RootPosition::TangentAngle(angle) => {
-                let end = t.fillet_end_m;
+                let end = t.fillet_end;
                 let parameter =
-                    t.trochoid
+                    t.fillet
                         .parameter_at_tangent(angle, end)
                         .ok_or(PositionError::Tangent {
                             found_deg: angle.to_degrees(),
-                            low_deg: t.trochoid.tangent_angle_rad(end).to_degrees(),
-                            high_deg: t.trochoid.tangent_angle_rad(0.0).to_degrees(),
+                            low_deg: t.fillet.tangent_angle_rad(end).to_degrees(),
+                            high_deg: t.fillet.tangent_angle_rad(0.0).to_degrees(),
                         })?;
                 Ok(self.interpolate(
                     |s| (s.piece == Piece::Fillet).then(|| s.parameter / end),
@@ -211,50 +212,53 @@ impl ProfileCurve {
                 ))
             }
             RootPosition::Radius(radius) => {
-                let high = involute::radius_m(t.flank_end_roll_rad, t.base_radius_m);
-                if !(radius > t.root_radius_m && radius < high) {
+                let end = involute::radius_m(t.flank_end_roll_rad, t.base_radius_m);
+                let (low, high) = (end.min(t.root_radius_m), end.max(t.root_radius_m));
+                if !(radius > low && radius < high) {
                     return Err(PositionError::Radius {
                         found_mm: radius * 1e3,
-                        low_mm: t.root_radius_m * 1e3,
+                        low_mm: low * 1e3,
                         high_mm: high * 1e3,
                     });
                 }
-                let radius_of = |s: &Sample| {
+                // Grows from root to tip.
+                let height_of = |s: &Sample| {
                     matches!(s.piece, Piece::Fillet | Piece::Flank).then(|| {
                         let p = self.point(s.piece, s.parameter);
-                        p[0].hypot(p[1])
+                        t.tip_direction() * p[0].hypot(p[1])
                     })
                 };
-                Ok(self.interpolate(radius_of, radius))
+                Ok(self.interpolate(height_of, t.tip_direction() * radius))
             }
         }
     }
 
     /// Arc length \[m\] of the point of the outline, below the tip land, that has the same radius as `point_m`, and the
     /// distance \[m\] of the two along their circle, positive towards the tooth's centre line. On the root arc, where
-    /// all points have one radius, the point at the same angle and the radial distance, positive outwards of the root
-    /// circle. The inverse of [`ProfileCurve::point_at`] on the outline itself.
+    /// all points have one radius, the point at the same angle and the radial distance, positive from the root circle
+    /// towards the tip. The inverse of [`ProfileCurve::point_at`] on the outline itself.
     pub fn place_of(&self, point_m: [f64; 2]) -> (f64, f64) {
         let t = &self.tooth;
         let (radius, angle) = (point_m[0].hypot(point_m[1]), point_m[1].atan2(point_m[0]));
         let arc_end = self.first_of(Piece::Fillet);
-        let space = t.trochoid.space_angle_rad;
+        let space = t.space_angle_rad();
         let from_space = (angle - space) * t.root_radius_m;
-        if from_space < arc_end && radius < t.root_radius_m * (1.0 + 1e-3) {
-            return (from_space.max(0.0), radius - t.root_radius_m);
+        let above_root = t.tip_direction() * (radius - t.root_radius_m);
+        if from_space < arc_end && above_root < 1e-3 * t.root_radius_m {
+            return (from_space.max(0.0), above_root);
         }
         let radius_at = |s: f64| {
             let p = self.point_at(s);
             p[0].hypot(p[1])
         };
-        // The radius grows from the fillet's start to the tip corner. Halving goes on to the last bit.
+        // From the fillet's start to the tip corner the radius goes one way. Halving goes on to the last bit.
         let (mut low, mut high) = (arc_end, self.tip_start_m());
         loop {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
                 break;
             }
-            if radius_at(middle) < radius {
+            if t.is_towards_tip(radius, radius_at(middle)) {
                 low = middle;
             } else {
                 high = middle;
@@ -285,8 +289,8 @@ impl ProfileCurve {
     /// Distance \[m\] along the inward normal from the right flank at `roll_rad` to the opposite side of the tooth.
     ///
     /// Low on the flank the normal leaves the tooth through its foot instead: then the distance to the root circle,
-    /// t = r_b ξ − √(r_f² − r_b²) (the normal is a tangent of the base circle), or to the point of tangency where the
-    /// root lies inside the base circle.
+    /// t = ±(r_b ξ − √(r_f² − r_b²)), − inside a ring (the normal is a tangent of the base circle), or to the point of
+    /// tangency where the root lies inside the base circle.
     pub fn opposite_distance_m(&self, roll_rad: f64) -> f64 {
         let p = self.tooth.flank_point_m(Flank::Right, roll_rad);
         let (n, _) = self.tooth.flank_frame(Flank::Right, roll_rad);
@@ -297,7 +301,7 @@ impl ProfileCurve {
         let t = &self.tooth;
         let below_base =
             (t.root_radius_m * t.root_radius_m - t.base_radius_m * t.base_radius_m).max(0.0);
-        let mut best = t.base_radius_m * roll_rad - below_base.sqrt();
+        let mut best = t.tip_direction() * (t.base_radius_m * roll_rad - below_base.sqrt());
         for w in self.samples.windows(2) {
             let (a, b) = (mirrored(&w[0]), mirrored(&w[1]));
             let e = [b[0] - a[0], b[1] - a[1]];

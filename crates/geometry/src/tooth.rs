@@ -1,7 +1,9 @@
 //! One tooth: root arc, trochoidal fillet, involute flank, chamfer and tip, as functions of simple parameters.
 
-use crate::definition::{Flank, ToothDefinition};
-use crate::fillet::Trochoid;
+use crate::definition::{Flank, Gearing, ToothDefinition};
+use crate::fillet::Fillet;
+use crate::fillet::rack::Trochoid;
+use crate::internal_tooth::internal_tooth;
 use crate::involute;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -52,6 +54,102 @@ pub enum GeometryError {
         /// Tip radius.
         tip_radius_mm: f64,
     },
+    /// A ring's tip circle inside its base circle, where there is no involute.
+    #[error(
+        "the tip of the ring, at radius {tip_radius_mm:.4} mm, must lie outside its base circle, at {base_radius_mm:.4} mm: no involute goes further; lower the addendum or the profile shift, or give a larger tip diameter"
+    )]
+    TipInsideBase {
+        /// Tip radius.
+        tip_radius_mm: f64,
+        /// Base radius.
+        base_radius_mm: f64,
+    },
+    /// A ring whose root or form circle is not outside its tip circle.
+    #[error(
+        "the radii of the ring are impossible: tip {tip_radius_mm:.4} mm, end of the involute {form_radius_mm:.4} mm, root {root_radius_mm:.4} mm; they must grow in this order"
+    )]
+    ImpossibleRing {
+        /// Root radius.
+        root_radius_mm: f64,
+        /// Radius at which fillet and involute meet.
+        form_radius_mm: f64,
+        /// Tip radius.
+        tip_radius_mm: f64,
+    },
+    /// No full root radius between the flanks of a ring.
+    #[error(
+        "no full root radius fits the root circle at {root_radius_mm:.4} mm, where the space is {width_mm:.4} mm wide; lower the dedendum or the profile shift"
+    )]
+    NoFullRound {
+        /// Root radius.
+        root_radius_mm: f64,
+        /// Width of the space between the involutes there; negative where they have crossed.
+        width_mm: f64,
+    },
+    /// The cutter has nearly as many teeth as its ring.
+    #[error(
+        "a cutter of {cutter_teeth} teeth is too large for the ring; at most {allowed} teeth are possible"
+    )]
+    CutterTooLarge {
+        /// Its number of teeth.
+        cutter_teeth: usize,
+        /// Largest number.
+        allowed: usize,
+    },
+    /// The rounding does not fit on the tip of the cutter.
+    #[error(
+        "a tip radius of {tip_radius} modules does not fit on the cutter's tooth; at most {allowed:.4} modules fit"
+    )]
+    CutterTipTooNarrow {
+        /// Rounding asked for, in modules.
+        tip_radius: f64,
+        /// Largest rounding that fits, in modules.
+        allowed: f64,
+    },
+    /// No centre distance of cutter and ring.
+    #[error(
+        "a cutter of {cutter_teeth} teeth cannot cut the ring: the profile shifts of both together must stay below {least_shift_sum:.4}; lower one of them or take a cutter with fewer teeth"
+    )]
+    NoCutting {
+        /// Number of teeth of the cutter.
+        cutter_teeth: usize,
+        /// Sum of the profile shifts at which the pressure angle of cutting vanishes.
+        least_shift_sum: f64,
+    },
+    /// The rounding of the cutter reaches down to its pitch circle.
+    #[error(
+        "the rounding of the cutter's tip has its centre at radius {centre_radius_mm:.4} mm, allowed is more than the pitch radius of cutting, {pitch_radius_mm:.4} mm; raise the cutter's addendum or lower its tip radius"
+    )]
+    CutterTooShort {
+        /// Radius of the rounding's centre.
+        centre_radius_mm: f64,
+        /// Pitch radius of the cutter in cutting.
+        pitch_radius_mm: f64,
+    },
+    /// The cutter's involute ends at its base circle, before the ring's tip.
+    #[error(
+        "a cutter of {cutter_teeth} teeth makes no involute at the ring's tip: its own ends at its base circle, which reaches the ring's diameter {reached_diameter_mm:.4} mm, and the ring's flank goes to {flank_end_diameter_mm:.4} mm; give a larger tip diameter or a cutter with more teeth"
+    )]
+    CutterMissesTip {
+        /// Number of teeth of the cutter.
+        cutter_teeth: usize,
+        /// Smallest diameter of the ring that it makes.
+        reached_diameter_mm: f64,
+        /// Where the ring's flank ends.
+        flank_end_diameter_mm: f64,
+    },
+    /// The cutter's corners cut into the ring's tips.
+    #[error(
+        "a cutter of {cutter_teeth} teeth cuts {depth_um:.2} um into the tips of the ring on its way out of the space; give a cutter with fewer teeth or a tip diameter of {clear_tip_diameter_mm:.4} mm or more"
+    )]
+    CutterTrimsTip {
+        /// Number of teeth of the cutter.
+        cutter_teeth: usize,
+        /// Depth along the normal of the ring's flank.
+        depth_um: f64,
+        /// Tip diameter from which on the ring is clear.
+        clear_tip_diameter_mm: f64,
+    },
     /// The chamfer takes away the flank or the tip land.
     #[error(
         "a tip chamfer of {chamfer_mm:.4} mm leaves no {lost}; at most {allowed_mm:.4} mm is possible"
@@ -70,8 +168,10 @@ pub enum GeometryError {
 /// radians.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToothGeometry {
-    /// Number of teeth.
+    /// Number of teeth, without sign.
     pub teeth: usize,
+    /// Whether the teeth stand on the inside of a ring and point to the axis.
+    pub internal: bool,
     /// Reference radius m z / (2 cos β).
     pub reference_radius_m: f64,
     /// Base radius.
@@ -80,7 +180,8 @@ pub struct ToothGeometry {
     pub tip_radius_m: f64,
     /// Root radius.
     pub root_radius_m: f64,
-    /// Half the angle that the tooth covers on the base circle: thickness/(2r) + inv α.
+    /// Half the angle that the tooth covers on the base circle: thickness/(2r) + inv α; of a ring's tooth, which ends
+    /// before that circle, thickness/(2r) − inv α.
     pub base_half_angle_rad: f64,
     /// Roll angle at which the fillet hands over to the involute.
     pub form_roll_rad: f64,
@@ -93,9 +194,9 @@ pub struct ToothGeometry {
     /// True when the fillet crosses the involute instead of touching it.
     pub undercut: bool,
     /// The fillet of the right flank.
-    pub trochoid: Trochoid,
+    pub fillet: Fillet,
     /// Fillet parameter at the hand-over to the involute.
-    pub fillet_end_m: f64,
+    pub fillet_end: f64,
     /// Helix angle β on the reference cylinder, positive for a right hand; zero for spur teeth.
     pub helix_angle_rad: f64,
 }
@@ -106,6 +207,13 @@ impl ToothGeometry {
     /// # Errors
     /// [`GeometryError`] when no tooth with these numbers exists; the reason carries the numbers.
     pub fn new(d: &ToothDefinition) -> Result<Self, GeometryError> {
+        match &d.gearing {
+            Gearing::External => Self::external(d),
+            Gearing::Internal(root) => internal_tooth(d, root),
+        }
+    }
+
+    fn external(d: &ToothDefinition) -> Result<Self, GeometryError> {
         // Heights and the rack's own lengths are those of the normal section; lengths along the pitch line stretch by
         // 1/cos β in the transverse section, and with them the tangent of the pressure angle.
         let helix_cos = d.helix_angle_rad.cos();
@@ -151,6 +259,7 @@ impl ToothGeometry {
         let tip_roll = involute::roll_angle_rad(tip, base);
         let mut tooth = Self {
             teeth: d.teeth,
+            internal: false,
             reference_radius_m: reference,
             base_radius_m: base,
             tip_radius_m: tip,
@@ -161,8 +270,8 @@ impl ToothGeometry {
             tip_roll_rad: tip_roll,
             tip_chamfer_m: d.tip_chamfer_m,
             undercut: false,
-            trochoid,
-            fillet_end_m: 0.0,
+            fillet: Fillet::Rack(trochoid),
+            fillet_end: 0.0,
             helix_angle_rad: d.helix_angle_rad,
         };
         let tip_half_angle = tooth.half_angle_rad(tip_roll);
@@ -184,13 +293,13 @@ impl ToothGeometry {
         let form_roll = (reference * sin - (trochoid.centre_depth_m + rho * sin_n) / sin) / base;
         if form_roll >= 0.0 {
             tooth.form_roll_rad = form_roll;
-            tooth.fillet_end_m = trochoid.centre_depth_m / tan_n;
+            tooth.fillet_end = trochoid.centre_depth_m / tan_n;
         } else {
             tooth.undercut = true;
-            tooth.fillet_end_m = tooth
-                .undercut_crossing()
+            tooth.fillet_end = tooth
+                .undercut_crossing(&trochoid)
                 .ok_or_else(|| undercut_error(tip_roll))?;
-            let p = trochoid.point_m(tooth.fillet_end_m);
+            let p = trochoid.point_m(tooth.fillet_end);
             tooth.form_roll_rad = involute::roll_angle_rad(p[0].hypot(p[1]), base);
         }
         if tooth.form_roll_rad >= tip_roll {
@@ -216,6 +325,29 @@ impl ToothGeometry {
             }
         }
         Ok(tooth)
+    }
+
+    /// Which way the tip lies from the root: +1 away from the axis, −1 towards it, inside a ring. ISO 21771 gives the
+    /// radii of a gear this sign.
+    pub fn tip_direction(&self) -> f64 {
+        if self.internal { -1.0 } else { 1.0 }
+    }
+
+    /// Whether the radius `a_m` lies nearer to the tip than `b_m`.
+    pub fn is_towards_tip(&self, a_m: f64, b_m: f64) -> bool {
+        (a_m - b_m) * self.tip_direction() > 0.0
+    }
+
+    /// The smallest and the largest roll angle of the flank \[rad\]: from form circle to flank end, of a ring from flank
+    /// end to form circle.
+    pub fn flank_rolls_rad(&self) -> [f64; 2] {
+        let ends = [self.form_roll_rad, self.flank_end_roll_rad];
+        [ends[0].min(ends[1]), ends[0].max(ends[1])]
+    }
+
+    /// Polar angle of the middle of the tooth space beside the right flank \[rad\].
+    pub fn space_angle_rad(&self) -> f64 {
+        -PI / self.teeth as f64
     }
 
     /// Turn of the section per metre of z \[rad/m\]: tan β/r = tan β_b/r_b, positive for a right hand.
@@ -261,9 +393,9 @@ impl ToothGeometry {
         [cos * x, cos * y, -side.mirror() * sin]
     }
 
-    /// Half the angle that the tooth covers at a roll angle: ψ = ψ_b − (ξ − atan ξ).
+    /// Half the angle that the tooth covers at a roll angle: ψ = ψ_b ∓ (ξ − atan ξ), + inside a ring.
     pub fn half_angle_rad(&self, roll_rad: f64) -> f64 {
-        self.base_half_angle_rad - involute::polar_angle_rad(roll_rad)
+        self.base_half_angle_rad - self.tip_direction() * involute::polar_angle_rad(roll_rad)
     }
 
     /// Half the angle of the tip land, after the chamfer.
@@ -284,30 +416,32 @@ impl ToothGeometry {
 
     /// Unit normal of a flank, into the material, and unit tangent towards the tip.
     ///
-    /// With φ = ξ − ψ_b the base tangent's polar angle on the right flank: normal e_t(φ), tangent e_r(φ).
+    /// With φ = ±ξ − ψ_b the base tangent's polar angle on the right flank: normal e_t(φ), tangent ±e_r(φ), − inside a
+    /// ring.
     pub fn flank_frame(&self, side: Flank, roll_rad: f64) -> ([f64; 2], [f64; 2]) {
-        let (s, c) = (roll_rad - self.base_half_angle_rad).sin_cos();
+        let tip = self.tip_direction();
+        let (s, c) = (tip * roll_rad - self.base_half_angle_rad).sin_cos();
         let mirror = side.mirror();
-        ([-s, mirror * c], [c, mirror * s])
+        ([-s, mirror * c], [tip * c, tip * mirror * s])
     }
 
     /// Fillet parameter at which an undercut trochoid crosses the involute.
-    fn undercut_crossing(&self) -> Option<f64> {
+    fn undercut_crossing(&self, trochoid: &Trochoid) -> Option<f64> {
         // From the root circle, which lies below the base circle here, the trochoid runs inside what would be the tooth
         // without undercut, and leaves it at the crossing.
         let is_inside = |t: f64| {
-            let p = self.trochoid.point_m(t);
+            let p = trochoid.point_m(t);
             let r = p[0].hypot(p[1]);
             let roll = involute::roll_angle_rad(r, self.base_radius_m);
             r < self.base_radius_m || p[1].atan2(p[0]) > -self.half_angle_rad(roll)
         };
         // The parameter grows from the root with the depth's own sign.
-        let end = 3.0 * self.reference_radius_m * self.trochoid.centre_depth_m.signum();
+        let end = 3.0 * self.reference_radius_m * trochoid.centre_depth_m.signum();
         let steps = 20_000;
         let mut low = 0.0;
         for k in 0..=steps {
             let t = end * k as f64 / steps as f64;
-            let p = self.trochoid.point_m(t);
+            let p = trochoid.point_m(t);
             if p[0].hypot(p[1]) > self.tip_radius_m {
                 break;
             }

@@ -13,6 +13,7 @@ const FACE_WIDTH_M: f64 = 30e-3;
 fn tooth(teeth: usize, helix_deg: f64, profile_shift: f64) -> ToothDefinition {
     ToothDefinition {
         teeth,
+        gearing: Default::default(),
         module_m: 3e-3,
         pressure_angle_rad: 20f64.to_radians(),
         profile_shift,
@@ -76,8 +77,8 @@ fn a_vanishing_helix_is_a_spur_gear() {
     assert_eq!(spur.hand(), "none");
     for k in 0..=20 {
         let share = f64::from(k) / 20.0;
-        let p = spur.trochoid.point_m(share * spur.fillet_end_m);
-        let q = almost.trochoid.point_m(share * almost.fillet_end_m);
+        let p = spur.fillet.point_m(share * spur.fillet_end);
+        let q = almost.fillet.point_m(share * almost.fillet_end);
         assert!((p[0] - q[0]).hypot(p[1] - q[1]) < 1e-16);
         let roll = spur.form_roll_rad + share * (spur.tip_roll_rad - spur.form_roll_rad);
         let p = spur.flank_point_m(Flank::Left, roll);
@@ -109,7 +110,7 @@ fn the_fillet_is_the_envelope_of_an_elliptic_rounding() {
         let offset = (at_end - rho * cos_n) / cos + 0.5 * 0.05e-3;
         let space = -PI / teeth as f64;
         for k in 1..20 {
-            let q = g.trochoid.point_m(g.fillet_end_m * f64::from(k) / 20.0);
+            let q = g.fillet.point_m(g.fillet_end * f64::from(k) / 20.0);
             let inside = |pitch_angle: f64| {
                 let [radial, tangential] = turned(q, -pitch_angle);
                 let along = tangential + r * (pitch_angle - space) - offset;
@@ -130,11 +131,11 @@ fn the_fillet_is_the_envelope_of_an_elliptic_rounding() {
             assert!(least.abs() < 1e-10, "{helix_deg} deg, point {k}: {least}");
         }
         // Common tangent with the involute.
-        let end = g.trochoid.point_m(g.fillet_end_m);
+        let end = g.fillet.point_m(g.fillet_end);
         let start = g.flank_point_m(Flank::Right, g.form_roll_rad);
         assert!((end[0] - start[0]).hypot(end[1] - start[1]) < 1e-12);
         let (_, t) = g.flank_frame(Flank::Right, g.form_roll_rad);
-        let angle = g.trochoid.tangent_angle_rad(g.fillet_end_m);
+        let angle = g.fillet.tangent_angle_rad(g.fillet_end);
         assert!((t[1].atan2(t[0]) - angle).abs() < 1e-12);
     }
 }
@@ -331,5 +332,5 @@ fn a_gear_file_states_angle_and_hand_together() {
     let text = GearDefinition::from_document(&InputDocument::new("g.toml", internal))
         .unwrap_err()
         .to_string();
-    assert!(text.contains("internal gears are not supported"), "{text}");
+    assert!(text.contains("internal teeth"), "{text}");
 }

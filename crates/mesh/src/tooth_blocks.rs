@@ -88,7 +88,7 @@ impl ToothBlocks {
         let tooth = &gear.profile;
         let curve = ProfileCurve::new(tooth);
         let (h_fillet, h_flank) = (gear.mesh.fillet_m, gear.mesh.flank_m);
-        let space = tooth.trochoid.space_angle_rad;
+        let space = tooth.space_angle_rad();
         let polar = |r: f64, angle: f64| [r * angle.cos(), r * angle.sin()];
 
         // Outline nodes of the right half by arc length; the cut starts at one of them.

@@ -16,6 +16,7 @@
 //!
 //! Lewis's factor is Y = s²/(6 h m), so that σ = F_t/(b m Y) for a tangential force F_t across the tooth.
 
+use gearmesh_geometry::fillet::{Fillet, rack::Trochoid};
 use gearmesh_geometry::{GearPair, GeometryError, ProfileCurve, ToothGeometry};
 use std::f64::consts::{FRAC_PI_6, TAU};
 
@@ -43,6 +44,11 @@ pub enum RootSectionError {
         /// Helix angle found.
         helix_angle_deg: f64,
     },
+    /// The section is that of external teeth.
+    #[error(
+        "internal teeth: the root section is that of external teeth; take the stress of a gauge or of the reduced ring"
+    )]
+    Internal,
     /// The load is not on the flank.
     #[error(
         "the load is at roll angle {found_rad:.6} rad; the flank goes from {low_rad:.6} to {high_rad:.6} rad"
@@ -110,6 +116,7 @@ impl RootSection {
         load_roll_rad: f64,
         construction: RootConstruction,
     ) -> Result<Self, RootSectionError> {
+        let trochoid = rack_trochoid(tooth)?;
         refuse_helical(tooth)?;
         let (low_rad, high_rad) = (tooth.form_roll_rad, tooth.flank_end_roll_rad);
         // Rolls computed from a pair's path meet the ends to rounding only.
@@ -123,18 +130,15 @@ impl RootSection {
         }
         let load_angle_rad = load_roll_rad - tooth.base_half_angle_rad;
         let vertex_m = tooth.base_radius_m / load_angle_rad.cos();
-        let tangent = (tooth.trochoid).parameter_at_tangent(FRAC_PI_6, tooth.fillet_end_m);
+        let tangent = (tooth.fillet).parameter_at_tangent(FRAC_PI_6, tooth.fillet_end);
         let point = match construction {
             RootConstruction::Parabola => weakest_section(tooth, load_roll_rad, vertex_m),
             RootConstruction::Tangent30 => tangent
-                .map(|t| tooth.trochoid.point_m(t))
+                .map(|t| trochoid.point_m(t))
                 .filter(|p| p[0] < vertex_m)
                 .ok_or_else(|| RootSectionError::NoTangent {
-                    low_deg: tooth
-                        .trochoid
-                        .tangent_angle_rad(tooth.fillet_end_m)
-                        .to_degrees(),
-                    high_deg: tooth.trochoid.tangent_angle_rad(0.0).to_degrees(),
+                    low_deg: trochoid.tangent_angle_rad(tooth.fillet_end).to_degrees(),
+                    high_deg: trochoid.tangent_angle_rad(0.0).to_degrees(),
                 })?,
         };
         Ok(Self {
@@ -142,7 +146,7 @@ impl RootSection {
             thickness_m: 2.0 * point[1].abs(),
             lever_m: vertex_m - point[0],
             load_angle_rad,
-            notch_radius_m: tangent.map_or(0.0, |t| fillet_radius_m(tooth, t)),
+            notch_radius_m: tangent.map_or(0.0, |t| fillet_radius_m(trochoid, t)),
         })
     }
 
@@ -230,12 +234,19 @@ pub fn highest_single_contact_rolls_rad(pair: &GearPair) -> Result<[f64; 2], Roo
 /// Radius of curvature \[m\] of a spur tooth's fillet at a parameter: that of the path of the rounding's centre, (H² +
 /// t²)^(3/2)/(H² + t² + r H), and the rounding's own. docs/theory/rating.md derives it; ISO 6336-3 has the same for the
 /// 30° tangent.
-fn fillet_radius_m(tooth: &ToothGeometry, t_m: f64) -> f64 {
-    let trochoid = &tooth.trochoid;
+fn fillet_radius_m(trochoid: &Trochoid, t_m: f64) -> f64 {
     let depth_m = trochoid.centre_depth_m;
     let squared = depth_m * depth_m + t_m * t_m;
     let of_path = squared.powf(1.5) / (squared + trochoid.reference_radius_m * depth_m);
     trochoid.tip_radius_m + of_path
+}
+
+/// The fillet of a tooth that a rack has cut.
+fn rack_trochoid(tooth: &ToothGeometry) -> Result<&Trochoid, RootSectionError> {
+    match &tooth.fillet {
+        Fillet::Rack(trochoid) => Ok(trochoid),
+        Fillet::Cutter(_) | Fillet::FullRound(_) => Err(RootSectionError::Internal),
+    }
 }
 
 fn refuse_helical(tooth: &ToothGeometry) -> Result<(), RootSectionError> {

@@ -8,7 +8,7 @@
 use crate::root_section::{
     LoadPoint, RootConstruction, RootSection, RootSectionError, highest_single_contact_roll_rad,
 };
-use gearmesh_geometry::{ToothDefinition, ToothGeometry};
+use gearmesh_geometry::{Gearing, ToothDefinition, ToothGeometry};
 
 /// The virtual spur gear of a tooth, spur or helical.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +27,9 @@ impl VirtualGear {
     /// # Errors
     /// [`RootSectionError::Virtual`] where no such spur gear can be cut.
     pub fn new(definition: &ToothDefinition) -> Result<Self, RootSectionError> {
+        if definition.gearing != Gearing::External {
+            return Err(RootSectionError::Internal);
+        }
         let spur = |teeth: usize, above_reference_m: f64| {
             let tip_radius_m = 0.5 * definition.module_m * teeth as f64 + above_reference_m;
             let definition = ToothDefinition {

@@ -58,7 +58,8 @@ pub(crate) fn readable(name: &str) -> String {
 
 /// A name in words, and its unit; empty where the name has none. `te_peak_to_peak_um` is the TE peak to peak in µm,
 /// `elements/mesh/force_N:largest` the force of `mesh` in N.
-pub(crate) fn words_and_unit(name: &str) -> (String, &'static str) {
+#[must_use]
+pub fn words_and_unit(name: &str) -> (String, &'static str) {
     // What stands behind a comma or a colon belongs to the words: "TE pk-pk um, weighted", COLUMN:FIGURE.
     let end = name.rfind([',', ':']).unwrap_or(name.len());
     let (name, behind) = name.split_at(end);

@@ -39,6 +39,7 @@ mod ratings;
 pub mod record;
 mod record_data;
 pub mod result_series;
+pub mod run_figures;
 pub mod scene_comparison;
 pub mod scene_page;
 mod short_number;
@@ -48,6 +49,7 @@ pub mod system_comparison;
 mod system_page;
 
 pub use column_width::column_width;
+pub use column_words::words_and_unit;
 pub use comparison::{
     ComparisonError, HarmonicComparison, RigView, SeriesComparison, compare, compare_with_column,
 };

@@ -11,8 +11,8 @@ mod gear_surface;
 mod pair_moments;
 mod vtu_text;
 
-pub use gear_surface::{FlankFace, GearSurface};
-pub use pair_moments::{pair_moment, pair_surfaces};
+pub use gear_surface::{FlankFace, GearSurface, tooth_outline};
+pub use pair_moments::{pair_moment, pair_surfaces, pair_turns};
 pub use vtu_text::{Series, series_text};
 
 use gearmesh_geometry::Flank;

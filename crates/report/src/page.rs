@@ -40,8 +40,10 @@ const CHART_SCRIPT: &str = include_str!("../assets/charts.js");
 const DOWNLOAD_SCRIPT: &str = include_str!("../assets/download.js");
 const FIELD_SCRIPT: &str = include_str!("../assets/field.js");
 const PAGE_SCRIPT: &str = include_str!("../assets/page.js");
-const UPLOT_SCRIPT: &str = include_str!("../assets/uPlot-1.6.32.iife.min.js");
-const UPLOT_STYLE: &str = include_str!("../assets/uPlot-1.6.32.min.css");
+/// uPlot, as published: for other pages than these.
+pub const UPLOT_SCRIPT: &str = include_str!("../assets/uPlot-1.6.32.iife.min.js");
+/// Its style.
+pub const UPLOT_STYLE: &str = include_str!("../assets/uPlot-1.6.32.min.css");
 const UPLOT_LICENCE: &str = include_str!("../assets/uPlot-LICENSE.txt");
 
 /// Something in a section.

@@ -447,11 +447,8 @@ fn root_strain(chapter: &SceneChapter) -> Section {
             let values = view.turned(&values);
             chart = chart.series(LineSeries::new("reference", values).style(LineStyle::Dashed));
         }
-        let (low, high) = view.range_deg(r);
-        if high - low > 60.0 {
-            let centre = view.peak_deg(r);
-            let from = (centre - 20.0).clamp(low, high - 40.0);
-            chart = chart.x_window(from, from + 40.0);
+        if let Some([from, to]) = view.window_deg(r) {
+            chart = chart.x_window(from, to);
         }
         section = section.push(
             chart

@@ -1,6 +1,7 @@
 //! JSON Schema of scene files and study files.
 
-use schemars::{JsonSchema, Schema, schema_for};
+use gearmesh_geometry::input::file_schema;
+use schemars::{JsonSchema, Schema};
 
 use crate::optimise::OptimiseTables;
 use crate::pair::scene_file::SceneTable;
@@ -21,15 +22,15 @@ enum SceneTables {
 /// JSON Schema (draft 2020-12) of scene files: of a pair, or of a multibody system. What depends on other keys, such as
 /// the keys of one mesh model, is said in the descriptions and checked when the scene is read.
 pub fn scene() -> Schema {
-    schema_for!(SceneTables)
+    file_schema::<SceneTables>()
 }
 
 /// JSON Schema of files for optimisations.
 pub fn optimise() -> Schema {
-    schema_for!(OptimiseTables)
+    file_schema::<OptimiseTables>()
 }
 
 /// JSON Schema of study files.
 pub fn study() -> Schema {
-    schema_for!(StudyTables)
+    file_schema::<StudyTables>()
 }

@@ -9,6 +9,7 @@ mod graded_tooth;
 mod line_load;
 mod mesh_convergence;
 mod mesh_error_estimate;
+mod pairs_a_and_b;
 mod plane_strain_deflection;
 mod slice_deflection;
 mod solid_pair_transmission_error;

@@ -88,7 +88,7 @@ pub fn test(
         ),
         ("Python tests", command(python_tests)),
     ];
-    system_libs::offer_calculix();
+    system_libs::offer_programs();
     say(&format!("prepared in {}", readable(start.elapsed())));
     for (name, step) in steps {
         say(&format!("\n== {name}"));

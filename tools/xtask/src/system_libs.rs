@@ -1,5 +1,5 @@
 //! What comes from the system: the shared libraries that gmsh's wheel links to and does not bring (OpenGL and X11, even without
-//! a window), and CalculiX for the tests that compute with exported decks.
+//! a window), CalculiX for the tests that compute with exported decks, Chromium for those of pages.
 
 use std::process::{Command, Stdio};
 
@@ -46,17 +46,54 @@ pub fn ensure(venv: &Venv) -> Result<(), XtaskError> {
     import_gmsh(venv)?.map_err(|message| XtaskError::GmshUnusable { message })
 }
 
-/// Installs CalculiX for the tests that need it, as root; without root, apt-get or a network says which tests are left out.
-pub fn offer_calculix() {
-    const PACKAGE: &str = "calculix-ccx";
-    // Without a deck it says how it is used.
-    let there = || Command::new("ccx").arg("-v").output().is_ok();
+/// A program that some tests need.
+struct Needed {
+    name: &'static str,
+    /// Its names on different systems, and an argument with which it ends by itself.
+    commands: &'static [&'static str],
+    argument: &'static str,
+    /// Debian's package.
+    package: &'static str,
+    tests: &'static str,
+}
+
+const NEEDED: [Needed; 2] = [
+    Needed {
+        name: "CalculiX",
+        commands: &["ccx"],
+        argument: "-v",
+        package: "calculix-ccx",
+        tests: "exported decks",
+    },
+    Needed {
+        name: "Chromium",
+        commands: &["chromium", "chromium-browser", "google-chrome"],
+        argument: "--version",
+        package: "chromium",
+        tests: "pages in a browser",
+    },
+];
+
+/// Installs the programs that some tests need, as root; without root, apt-get or a network says which tests are left out.
+pub fn offer_programs() {
+    NEEDED.iter().for_each(offer);
+}
+
+fn offer(needed: &Needed) {
+    let Needed {
+        name,
+        package,
+        tests,
+        ..
+    } = needed;
+    let answers = |command: &&str| Command::new(command).arg(needed.argument).output().is_ok();
+    let there = || needed.commands.iter().any(|command| answers(&command));
     if there() {
         return;
     }
     if is_root() && has_apt() {
-        console::say("installing CalculiX for the tests of exported decks");
-        let install = ["install", "-y", "-qq", "--no-install-recommends", PACKAGE];
+        console::say(&format!("installing {name} for the tests of {tests}"));
+        let install = ["install", "-y", "-qq", "--no-install-recommends", package];
         let done = run_checked(apt().args(["update", "-qq"]))
             .and_then(|()| run_checked(apt().args(install)));
         if done.is_ok() && there() {
@@ -64,7 +101,7 @@ pub fn offer_calculix() {
         }
     }
     console::say(&format!(
-        "CalculiX is not there: its tests are left out; `apt-get install -y {PACKAGE}` installs it"
+        "{name} is not there: the tests of {tests} are left out; `apt-get install -y {package}` installs it"
     ));
 }
 

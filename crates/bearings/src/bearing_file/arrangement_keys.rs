@@ -21,7 +21,6 @@ pub(super) fn arrangement(
         return Ok(Arrangement::Single);
     };
     let distance = keys.needed("row_distance_mm", file.row_distance_mm, "a pair of rows")?;
-    keys.require("row_distance_mm", distance, distance > 0.0, "more than 0")?;
     let distance_m = MM * distance;
     Ok(match word {
         ArrangementWord::O => Arrangement::O { distance_m },
@@ -54,17 +53,11 @@ pub(super) fn preload(file: &BearingFile, keys: &TableKeys<'_>) -> Result<Preloa
             "preload_um",
             "is given together with preload_N; remove one of the two",
         )),
-        (Some(force), None) => {
-            keys.require("preload_N", force, force >= 0.0, "0 or more")?;
-            Ok(if force > 0.0 {
-                Preload::Force(force)
-            } else {
-                Preload::None
-            })
-        }
-        (None, Some(shift)) => {
-            keys.require("preload_um", shift, shift.abs() <= 1000.0, "-1000 to 1000")?;
-            Ok(Preload::Displacement(UM * shift))
-        }
+        (Some(force), None) => Ok(if *force > 0.0 {
+            Preload::Force(*force)
+        } else {
+            Preload::None
+        }),
+        (None, Some(shift)) => Ok(Preload::Displacement(UM * shift)),
     }
 }

@@ -3,7 +3,7 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
-use super::element_keys::{Clearances, Elements, conformity, contact_angle_rad};
+use super::element_keys::{Clearances, Elements, contact_angle_rad};
 use super::{BearingFile, Kind, MM, UM};
 use crate::definition::{BallBearingKind, BallGeometry};
 
@@ -16,12 +16,8 @@ pub(super) fn geometry(
     let needed_by = format!("kind = \"{}\"", file.kind.word());
     let balls = Elements::balls(file, keys)?;
     let (ball, pitch) = (balls.diameter_mm, balls.pitch_mm);
-    let [inner, outer] = [
-        ("inner_conformity", file.inner_conformity),
-        ("outer_conformity", file.outer_conformity),
-    ]
-    .map(|(key, value)| conformity(keys, key, keys.needed(key, value, &needed_by)?));
-    let (inner, outer) = (inner?, outer?);
+    let inner = *keys.needed("inner_conformity", file.inner_conformity, &needed_by)?;
+    let outer = *keys.needed("outer_conformity", file.outer_conformity, &needed_by)?;
     let (kind, (free_angle_rad, interference_mm)) = match file.kind {
         Kind::FourPoint => four_point_angle(file, keys, (inner + outer - 1.0) * ball, ball)?,
         Kind::ThrustBall => (BallBearingKind::Thrust, (std::f64::consts::FRAC_PI_2, 0.0)),

@@ -31,7 +31,7 @@ pub(super) fn geometry(
     let clearance_m = Clearances::of_rollers(MM * diameter).stated_m(file, keys)?;
     let shape = shape(file, keys, angle, (diameter, length, pitch))?;
     Ok(barrels(
-        (rollers.number, laminae(file, keys)?),
+        (rollers.number, laminae(file)),
         (MM * diameter, MM * length, MM * pitch),
         shape,
         clearance_m,

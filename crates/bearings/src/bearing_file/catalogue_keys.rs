@@ -1,11 +1,11 @@
 //! Keys of a bearing that is known by its catalogue line only.
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::{Bounded, InputDocument, Positive, TableKeys};
 
 use super::ball_keys::{angle_of_clearance, four_point_kind, shoulder_heights_m};
 use super::barrel_keys::usual_shape;
-use super::element_keys::{Clearances, LAMINAE, conformity};
+use super::element_keys::{Clearances, LAMINAE};
 use super::roller_keys::usual_taper;
 use super::{BearingFile, MM, unused_keys};
 use crate::catalogue::{CatalogueLine, CatalogueType, KnownInside};
@@ -227,10 +227,8 @@ fn ball_geometry(
         CatalogueType::ThrustBall => [0.54; 2],
         _ => [0.52, 0.53],
     };
-    let known =
-        |key: &str, value: Option<f64>, usual: f64| conformity(keys, key, value.unwrap_or(usual));
-    let inner = known("inner_conformity", file.inner_conformity, usual[0])?;
-    let outer = known("outer_conformity", file.outer_conformity, usual[1])?;
+    let inner = file.inner_conformity.map_or(usual[0], f64::from);
+    let outer = file.outer_conformity.map_or(usual[1], f64::from);
     let (ball_m, distance_m) = (
         estimate.diameter_m,
         (inner + outer - 1.0) * estimate.diameter_m,
@@ -269,9 +267,8 @@ fn ball_geometry(
 fn line(file: &BearingFile, keys: &TableKeys<'_>) -> Result<CatalogueLine, InputError> {
     let needed_by = "a catalogue bearing without designation";
     let kind = keys.needed("type", file.r#type, needed_by)?;
-    let size = |key: &str, value: Option<f64>| {
+    let size = |key: &str, value: Option<Bounded<Positive>>| {
         let value = keys.needed(key, value, needed_by)?;
-        keys.require(key, value, value > 0.0, "more than 0")?;
         Ok::<_, InputError>(MM * value)
     };
     let bore_m = size("bore_mm", file.bore_mm)?;
@@ -311,10 +308,7 @@ fn read_ratings(
         if !has_designation {
             table.needed(key, value, "a catalogue bearing without designation")?;
         }
-        if let Some(value) = value {
-            table.require(key, value, value > 0.0, "more than 0")?;
-        }
-        *place = value;
+        *place = value.map(f64::from);
     }
     Ok(())
 }

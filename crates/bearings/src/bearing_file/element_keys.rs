@@ -3,7 +3,7 @@
 use std::fmt;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{Bounded, Count, Positive, TableKeys};
 
 use super::{BearingFile, UM};
 
@@ -40,15 +40,14 @@ impl Elements {
 
     fn checked(
         [word, number_key, diameter_key]: [&str; 3],
-        (number, diameter_mm): (Option<usize>, Option<f64>),
+        (number, diameter_mm): (Option<usize>, Option<Bounded<Positive>>),
         file: &BearingFile,
         keys: &TableKeys<'_>,
     ) -> Result<Self, InputError> {
         let needed_by = format!("kind = \"{}\"", file.kind.word());
         let number = keys.needed(number_key, number, &needed_by)?;
-        let diameter_mm = keys.needed(diameter_key, diameter_mm, &needed_by)?;
-        let pitch_mm = keys.needed("pitch_diameter_mm", file.pitch_diameter_mm, &needed_by)?;
-        keys.require(diameter_key, diameter_mm, diameter_mm > 0.0, "more than 0")?;
+        let diameter_mm = *keys.needed(diameter_key, diameter_mm, &needed_by)?;
+        let pitch_mm = *keys.needed("pitch_diameter_mm", file.pitch_diameter_mm, &needed_by)?;
         let allowed = format!("more than the {word}'s diameter, {diameter_mm}");
         keys.require(
             "pitch_diameter_mm",
@@ -81,20 +80,12 @@ pub(super) fn roller_length_mm(
 ) -> Result<f64, InputError> {
     let needed_by = format!("kind = \"{}\"", file.kind.word());
     let length = keys.needed("roller_length_mm", file.roller_length_mm, &needed_by)?;
-    keys.require("roller_length_mm", length, length > 0.0, "more than 0")?;
-    Ok(length)
+    Ok(*length)
 }
 
 /// Number of laminae.
-pub(super) fn laminae(file: &BearingFile, keys: &TableKeys<'_>) -> Result<usize, InputError> {
-    let laminae = file.laminae.unwrap_or(LAMINAE);
-    keys.require(
-        "laminae",
-        laminae as f64,
-        (2..=1000).contains(&laminae),
-        "2 to 1000; ISO/TS 16281 asks for 30 at least",
-    )?;
-    Ok(laminae)
+pub(super) fn laminae(file: &BearingFile) -> usize {
+    file.laminae.map_or(LAMINAE, Count::get)
 }
 
 /// A contact angle within \[deg\], in radians; more than the least one where that is 0.
@@ -114,13 +105,6 @@ pub(super) fn contact_angle_rad(
     let within = degrees > 0.0 && (least..=most).contains(&degrees);
     keys.require(key, degrees, within, &allowed)?;
     Ok(degrees.to_radians())
-}
-
-/// Radius of a groove over the ball's diameter.
-pub(super) fn conformity(keys: &TableKeys<'_>, key: &str, value: f64) -> Result<f64, InputError> {
-    let allowed = "more than 0.5, the ball's own radius, and at most 1";
-    keys.require(key, value, value > 0.5 && value <= 1.0, allowed)?;
-    Ok(value)
 }
 
 /// Radial clearances that a bearing can have: down to an interference of a hundredth of the diameter of its balls or

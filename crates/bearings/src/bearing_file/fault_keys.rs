@@ -1,8 +1,10 @@
 //! `[[fault]]`: what is wrong with a bearing.
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::kinds;
+use gearmesh_geometry::input::{
+    Bounded, Count, End, InputDocument, NotNegative, Positive, TableKeys, Within,
+};
+use gearmesh_geometry::{kinds, number_range};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -43,13 +45,13 @@ pub enum FaultTable {
         /// Its middle round the axis, from x towards y in the ring's own axes.
         angle_deg: f64,
         /// Its middle across the groove as a contact angle; the contact angle without load where not given.
-        contact_angle_deg: Option<f64>,
+        contact_angle_deg: Option<Bounded<ContactAngle>>,
         /// Along the way of the balls.
-        length_mm: f64,
+        length_mm: Bounded<Positive>,
         /// Across the groove; all of the groove where not given.
-        width_mm: Option<f64>,
+        width_mm: Option<Bounded<Positive>>,
         /// Depth. Between its rims a ball sinks no deeper than length and width let it.
-        depth_um: f64,
+        depth_um: Bounded<NotNegative>,
     },
     /// Material lost from a round patch of a ball; the bearing must be a `dynamic` one with traction.
     BallSpall {
@@ -60,11 +62,11 @@ pub enum FaultTable {
         /// Place along the track of the ball at the start: 0 faces the outer race, 180 the inner one; 0 where not given.
         angle_deg: Option<f64>,
         /// Place beside the track, towards +z; 0 where not given.
-        beside_deg: Option<f64>,
+        beside_deg: Option<Bounded<Within<-90, 90>>>,
         /// Diameter of the patch.
-        diameter_mm: f64,
+        diameter_mm: Bounded<Positive>,
         /// Depth. Between its rims a race sinks no deeper than the diameter lets it.
-        depth_um: f64,
+        depth_um: Bounded<NotNegative>,
     },
     /// A race that is not round.
     Waviness {
@@ -73,11 +75,11 @@ pub enum FaultTable {
         /// The row, from 1; 1 where not given.
         row: Option<usize>,
         /// Waves round the race.
-        order: u32,
+        order: Count<1, 1000>,
         /// Amplitude across the axis; 0 where not given.
-        radial_um: Option<f64>,
+        radial_um: Option<Bounded<Within<0, 500>>>,
         /// Amplitude along the axis; 0 where not given.
-        axial_um: Option<f64>,
+        axial_um: Option<Bounded<Within<0, 500>>>,
         /// Phase: the groove is displaced by amplitude times cos(order times angle + phase); 0 where not given.
         phase_deg: Option<f64>,
     },
@@ -102,13 +104,18 @@ pub enum FaultTable {
         /// The ring.
         ring: SideWord,
         /// Tilt of its axis about x and y; 0 where not given.
-        tilt_mrad: Option<[f64; 2]>,
+        tilt_mrad: Option<[Bounded<Within<-100, 100>>; 2]>,
         /// Displacement along x, y, z; 0 where not given.
-        offset_um: Option<[f64; 3]>,
+        offset_um: Option<[Bounded<Within<-1000, 1000>>; 3]>,
     },
 }
 
 kinds!(FaultTable, "kind");
+
+number_range!(
+    /// Contact angles of a groove, from one side to the other.
+    pub ContactAngle: End::Beyond(-90.0), End::Beyond(90.0)
+);
 
 /// The faults of a list of tables `fault`, in SI units; what the bearing cannot have is refused.
 pub(super) fn faults(
@@ -211,22 +218,6 @@ impl FaultTable {
                 tilt_mrad,
                 offset_um,
             } => {
-                let tilt = tilt_mrad.unwrap_or_default();
-                let offset = offset_um.unwrap_or_default();
-                let within = |values: &[f64], most: f64| values.iter().all(|v| v.abs() <= most);
-                let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-                keys.require(
-                    "tilt_mrad",
-                    largest(&tilt),
-                    within(&tilt, 100.0),
-                    "at most 100 to each side",
-                )?;
-                keys.require(
-                    "offset_um",
-                    largest(&offset),
-                    within(&offset, 1000.0),
-                    "at most 1000 to each side",
-                )?;
                 if tilt_mrad.is_none() && offset_um.is_none() {
                     return Err(
                         keys.error("", "says neither tilt_mrad nor offset_um; give one of them")
@@ -235,8 +226,8 @@ impl FaultTable {
                 Ok(Fault::MisalignedRing {
                     side: ring.side(),
                     place: MisalignedRing {
-                        tilt_rad: tilt.map(|t| 1e-3 * t),
-                        offset_m: offset.map(|d| UM * d),
+                        tilt_rad: tilt_mrad.map_or([0.0; 2], |tilt| tilt.map(|t| 1e-3 * t)),
+                        offset_m: offset_um.map_or([0.0; 3], |offset| offset.map(|d| UM * d)),
                     },
                 })
             }
@@ -265,30 +256,22 @@ impl FaultTable {
         // Longer than the way between two balls it would be another race.
         let most = std::f64::consts::PI * g.pitch_diameter_m / MM;
         let within = |key: &str, value: f64, most: f64| {
-            let allowed = format!("more than 0 and at most {most:.3}");
-            keys.require(key, value, value > 0.0 && value <= most, &allowed)
+            keys.require(key, value, value <= most, &format!("at most {most:.3}"))
         };
-        within("length_mm", *length_mm, 0.5 * most)?;
+        within("length_mm", **length_mm, 0.5 * most)?;
         if let Some(width) = width_mm {
-            within("width_mm", *width, 2.0 * g.ball_diameter_m / MM)?;
+            within("width_mm", **width, 2.0 * g.ball_diameter_m / MM)?;
         }
-        depth(keys, *depth_um, g)?;
-        let angle = contact_angle_deg.unwrap_or(0.0);
-        keys.require(
-            "contact_angle_deg",
-            angle,
-            angle.abs() < 90.0,
-            "between -90 and 90",
-        )?;
+        depth(keys, **depth_um, g)?;
         Ok(Fault::RaceSpall {
             side: race.side(),
             row,
             spall: RaceSpall {
                 angle_rad: angle_deg.to_radians(),
-                contact_angle_rad: contact_angle_deg.map(f64::to_radians),
-                length_m: MM * length_mm,
+                contact_angle_rad: contact_angle_deg.map(|angle| angle.to_radians()),
+                length_m: MM * *length_mm,
                 width_m: width_mm.map(|w| MM * w),
-                depth_m: UM * depth_um,
+                depth_m: UM * *depth_um,
             },
         })
     }
@@ -312,20 +295,22 @@ impl FaultTable {
         };
         let (row, ball) = place(keys, (*row, rows), Some((*ball, g.balls)))?;
         let most = g.ball_diameter_m / MM;
-        let sound = *diameter_mm > 0.0 && *diameter_mm <= most;
-        let allowed = format!("more than 0 and at most {most:.3}, the ball's diameter");
-        keys.require("diameter_mm", *diameter_mm, sound, &allowed)?;
-        depth(keys, *depth_um, g)?;
-        let beside = beside_deg.unwrap_or(0.0);
-        keys.require("beside_deg", beside, beside.abs() <= 90.0, "-90 to 90")?;
+        let allowed = format!("at most {most:.3}, the ball's diameter");
+        keys.require(
+            "diameter_mm",
+            **diameter_mm,
+            **diameter_mm <= most,
+            &allowed,
+        )?;
+        depth(keys, **depth_um, g)?;
         Ok(Fault::BallSpall {
             row,
             ball,
             spall: BallSpall {
                 angle_rad: angle_deg.unwrap_or(0.0).to_radians(),
-                beside_rad: beside.to_radians(),
-                diameter_m: MM * diameter_mm,
-                depth_m: UM * depth_um,
+                beside_rad: beside_deg.map_or(0.0, |beside| beside.to_radians()),
+                diameter_m: MM * *diameter_mm,
+                depth_m: UM * *depth_um,
             },
         })
     }
@@ -343,27 +328,16 @@ impl FaultTable {
             return Err(keys.error("kind", "is no waviness"));
         };
         let (row, _) = place(keys, (*row, rows), None)?;
-        let found = f64::from(*order);
-        keys.require(
-            "order",
-            found,
-            (1..=1000).contains(order),
-            "1 to 1000 waves round the race",
-        )?;
         if radial_um.is_none() && axial_um.is_none() {
             return Err(keys.error("", "says neither radial_um nor axial_um; give one of them"));
-        }
-        for (key, value) in [("radial_um", radial_um), ("axial_um", axial_um)] {
-            let value = value.unwrap_or(0.0);
-            keys.require(key, value, (0.0..=500.0).contains(&value), "0 to 500")?;
         }
         Ok(Fault::Waviness {
             side: race.side(),
             row,
             waves: Waviness {
-                order: *order,
-                radial_m: UM * radial_um.unwrap_or(0.0),
-                axial_m: UM * axial_um.unwrap_or(0.0),
+                order: order.get() as u32,
+                radial_m: radial_um.map_or(0.0, |amplitude| UM * amplitude),
+                axial_m: axial_um.map_or(0.0, |amplitude| UM * amplitude),
                 phase_rad: phase_deg.unwrap_or(0.0).to_radians(),
             },
         })
@@ -433,7 +407,7 @@ fn depth(keys: &TableKeys<'_>, depth_um: f64, g: &BallGeometry) -> Result<(), In
     keys.require(
         "depth_um",
         depth_um,
-        (0.0..=most).contains(&depth_um),
-        &format!("0 to {most:.0}, a tenth of the ball's diameter"),
+        depth_um <= most,
+        &format!("at most {most:.0}, a tenth of the ball's diameter"),
     )
 }

@@ -1,6 +1,7 @@
 //! Keys of `[fit]`: how the rings are seated and how warm everything is.
 
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::gear_file::PoissonRatio;
+use gearmesh_geometry::input::{Bounded, InputDocument, NotNegative, TableKeys, Within};
 use gearmesh_geometry::{InputError, given};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,6 +20,12 @@ const STEEL_EXPANSION: f64 = 12.0;
 /// Micrometres a metre and kelvin in 1/K.
 const PER_K: f64 = 1e-6;
 
+/// Temperatures of machines \[°C\].
+type Temperature = Bounded<Within<-200, 500>>;
+
+/// Thermal expansions of solids \[µm/(m K)\].
+type Expansion = Bounded<Within<-5, 100>>;
+
 /// `[fit]`: fits and temperatures, from which the clearance in operation follows.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -28,7 +35,7 @@ pub(super) struct FitTable {
     /// press the ring, whatever the temperatures.
     shaft_interference_um: Option<f64>,
     /// Bore of a hollow shaft; 0, solid, where not given.
-    shaft_bore_mm: Option<f64>,
+    shaft_bore_mm: Option<Bounded<NotNegative>>,
     /// Material of the shaft; steel where not given.
     shaft_material: Option<SeatMaterial>,
     /// Outside diameter of the outer ring less the housing's bore at 20 °C, smoothing taken off; negative: loose. Not given: the housing does not press the
@@ -39,19 +46,19 @@ pub(super) struct FitTable {
     /// Material of the housing; steel where not given.
     housing_material: Option<SeatMaterial>,
     /// Temperature of the inner ring in operation; 20 where neither ring has one.
-    inner_ring_temperature_C: Option<f64>,
+    inner_ring_temperature_C: Option<Temperature>,
     /// Temperature of the outer ring; needed with that of the inner one.
-    outer_ring_temperature_C: Option<f64>,
+    outer_ring_temperature_C: Option<Temperature>,
     /// Temperature of balls or rollers; the mean of the rings where not given.
-    element_temperature_C: Option<f64>,
+    element_temperature_C: Option<Temperature>,
     /// Temperature of the shaft; that of the inner ring where not given.
-    shaft_temperature_C: Option<f64>,
+    shaft_temperature_C: Option<Temperature>,
     /// Temperature of the housing; that of the outer ring where not given.
-    housing_temperature_C: Option<f64>,
+    housing_temperature_C: Option<Temperature>,
     /// Thermal expansion of the rings; 12, steel, where not given.
-    ring_expansion_um_per_m_K: Option<f64>,
+    ring_expansion_um_per_m_K: Option<Expansion>,
     /// Thermal expansion of balls or rollers; that of the rings where not given.
-    element_expansion_um_per_m_K: Option<f64>,
+    element_expansion_um_per_m_K: Option<Expansion>,
 }
 
 /// `[fit.shaft_material]`, `[fit.housing_material]`: linear elastic, isotropic.
@@ -60,11 +67,11 @@ pub(super) struct FitTable {
 #[allow(non_snake_case)]
 struct SeatMaterial {
     /// Young's modulus.
-    young_GPa: f64,
+    young_GPa: Bounded<Within<1, 1000>>,
     /// Poisson's ratio.
-    poisson: f64,
+    poisson: Bounded<PoissonRatio>,
     /// Thermal expansion; 12, steel, where not given.
-    expansion_um_per_m_K: Option<f64>,
+    expansion_um_per_m_K: Option<Expansion>,
 }
 
 /// Checks the table.
@@ -99,41 +106,27 @@ pub(super) fn fit(
         ));
     }
     let rises = Rises::of(table, &keys)?;
-    let expansion = |key: &str, value: Option<f64>, usual: f64| {
-        let value = value.unwrap_or(usual);
-        keys.require(key, value, (-5.0..=100.0).contains(&value), "-5 to 100")?;
-        Ok::<_, InputError>(value)
-    };
-    let ring = expansion(
-        "ring_expansion_um_per_m_K",
-        table.ring_expansion_um_per_m_K,
-        STEEL_EXPANSION,
-    )?;
-    let element = expansion(
-        "element_expansion_um_per_m_K",
-        table.element_expansion_um_per_m_K,
-        ring,
-    )?;
+    let ring = (table.ring_expansion_um_per_m_K).map_or(STEEL_EXPANSION, f64::from);
+    let element = table.element_expansion_um_per_m_K.map_or(ring, f64::from);
     let shaft = Seated {
-        names: ["shaft_interference_um", "fit.shaft_material"],
+        key: "shaft_interference_um",
         interference_um: table.shaft_interference_um,
         material: &table.shaft_material,
         diameter_m: bore_m,
         rise_k: rises.shaft,
     };
     let housing = Seated {
-        names: ["housing_interference_um", "fit.housing_material"],
+        key: "housing_interference_um",
         interference_um: table.housing_interference_um,
         material: &table.housing_material,
         diameter_m: outside_m,
         rise_k: rises.housing,
     };
     let shaft = shaft.seat(document, || {
-        let bore = table.shaft_bore_mm.unwrap_or(0.0);
+        let bore = table.shaft_bore_mm.map_or(0.0, f64::from);
         let most = bore_m / MM;
         let allowed = format!("0 (solid) up to, not including, {most}, the bore of the bearing");
-        let within = (0.0..most).contains(&bore);
-        keys.require("shaft_bore_mm", bore, within, &allowed)?;
+        keys.require("shaft_bore_mm", bore, bore < most, &allowed)?;
         Ok(bore)
     })?;
     let housing = housing.seat(document, || {
@@ -191,10 +184,7 @@ struct Rises {
 
 impl Rises {
     fn of(table: &FitTable, keys: &TableKeys<'_>) -> Result<Self, InputError> {
-        let rise = |key: &str, value: f64| {
-            keys.require(key, value, (-200.0..=500.0).contains(&value), "-200 to 500")?;
-            Ok::<_, InputError>(value - COLD_C)
-        };
+        let rise = |value: Temperature| *value - COLD_C;
         let (inner, outer) = (
             table.inner_ring_temperature_C,
             table.outer_ring_temperature_C,
@@ -218,27 +208,24 @@ impl Rises {
                 let by = "a bearing with temperatures";
                 let inner = keys.needed("inner_ring_temperature_C", inner, by)?;
                 let outer = keys.needed("outer_ring_temperature_C", outer, by)?;
-                (
-                    rise("inner_ring_temperature_C", inner)?,
-                    rise("outer_ring_temperature_C", outer)?,
-                )
+                (rise(inner), rise(outer))
             }
         };
-        let [element, shaft, housing] = others.map(|(key, value)| value.map(|v| rise(key, v)));
+        let [element, shaft, housing] = others.map(|(_, value)| value.map(rise));
         Ok(Self {
             inner,
             outer,
-            element: element.transpose()?.unwrap_or(0.5 * (inner + outer)),
-            shaft: shaft.transpose()?.unwrap_or(inner),
-            housing: housing.transpose()?.unwrap_or(outer),
+            element: element.unwrap_or(0.5 * (inner + outer)),
+            shaft: shaft.unwrap_or(inner),
+            housing: housing.unwrap_or(outer),
         })
     }
 }
 
 /// A shaft or housing on its seat, as the file states it.
 struct Seated<'a> {
-    /// Key of the interference, and path of the material.
-    names: [&'static str; 2],
+    /// Key of the interference.
+    key: &'static str,
     interference_um: Option<f64>,
     material: &'a Option<SeatMaterial>,
     /// Of the seat \[m\].
@@ -257,41 +244,23 @@ impl Seated<'_> {
         let Some(interference_um) = self.interference_um else {
             return Ok(None);
         };
-        let [key, path] = self.names;
+        let key = self.key;
         let most = 0.01 * self.diameter_m / UM;
         let allowed = format!("-{most:.0} to {most:.0}, a hundredth of the seat's diameter");
         let within = interference_um.abs() <= most;
         TableKeys::new(document, "fit").require(key, interference_um, within, &allowed)?;
         let far_diameter_m = MM * far_mm()?;
-        let keys = TableKeys::new(document, path);
+        let steel = BearingMaterial::STEEL;
         let (young_pa, poisson, expansion) = match self.material {
-            None => (
-                BearingMaterial::STEEL.young_pa,
-                BearingMaterial::STEEL.poisson,
-                STEEL_EXPANSION,
-            ),
-            Some(m) => {
-                let expansion = m.expansion_um_per_m_K.unwrap_or(STEEL_EXPANSION);
-                let is_metal = (1.0..=1000.0).contains(&m.young_GPa);
-                keys.require("young_GPa", m.young_GPa, is_metal, "1 to 1000")?;
-                let allowed = "0 up to, not including, 0.5";
-                keys.require(
-                    "poisson",
-                    m.poisson,
-                    (0.0..0.5).contains(&m.poisson),
-                    allowed,
-                )?;
-                let within = (-5.0..=100.0).contains(&expansion);
-                keys.require("expansion_um_per_m_K", expansion, within, "-5 to 100")?;
-                (1e9 * m.young_GPa, m.poisson, expansion)
-            }
+            None => (steel.young_pa, steel.poisson, None),
+            Some(m) => (1e9 * m.young_GPa, *m.poisson, m.expansion_um_per_m_K),
         };
         Ok(Some(Seat {
             interference_m: UM * interference_um,
             far_diameter_m,
             young_pa,
             poisson,
-            expansion_per_k: PER_K * expansion,
+            expansion_per_k: PER_K * expansion.map_or(STEEL_EXPANSION, f64::from),
             rise_k: self.rise_k,
         }))
     }

@@ -1,7 +1,8 @@
 //! Keys of `[friction]`.
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::{Bounded, End, InputDocument, TableKeys, UpTo, Within};
+use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -14,16 +15,21 @@ use crate::friction::{Friction, LoadFactor, usual_factors};
 #[allow(non_snake_case)]
 pub(super) struct FrictionTable {
     /// Viscosity of the lubricant at the bearing's temperature; of a grease that of its base oil.
-    viscosity_mm2_per_s: f64,
+    viscosity_mm2_per_s: Bounded<UpTo<100_000>>,
     /// f0 of the part without load, for a row; where not given that of the type in an oil bath: deep groove 2, angular contact 3.3, cylindrical rollers 3,
     /// tapered rollers 6. Oil mist and little grease half of it, oil jets and vertical shafts twice.
-    f0: Option<f64>,
+    f0: Option<Bounded<Within<0, 100>>>,
     /// f1 of the part by the load; where not given that of the type: deep groove 0.0005 (P0/C0)^0.55, angular contact 0.001 (P0/C0)^0.33, cylindrical rollers
     /// 0.0003, tapered rollers 0.0004.
-    f1: Option<f64>,
+    f1: Option<Bounded<LoadFactors>>,
     /// Torque of all seals, as their maker states it; 0 where not given.
-    seal_torque_Nm: Option<f64>,
+    seal_torque_Nm: Option<Bounded<Within<0, 10_000>>>,
 }
+
+number_range!(
+    /// Palmgren's f1: a hundred times that of any type.
+    LoadFactors: End::At(0.0), End::At(0.1)
+);
 
 /// Checks the table.
 pub(super) fn friction(
@@ -38,34 +44,11 @@ pub(super) fn friction(
             "Palmgren's factors of four-point, thrust and spherical roller bearings are not built in; remove the table",
         ));
     }
-    let within = |key: &str, value: f64, most: f64| {
-        let allowed = format!("0 to {most}");
-        keys.require(key, value, (0.0..=most).contains(&value), &allowed)
-    };
-    let viscosity = table.viscosity_mm2_per_s;
-    let is_oil = viscosity > 0.0 && viscosity <= 1e5;
-    keys.require(
-        "viscosity_mm2_per_s",
-        viscosity,
-        is_oil,
-        "more than 0 and at most 100000",
-    )?;
     let (viscous_factor, load_factor) = usual_factors(geometry);
-    let viscous_factor = table.f0.unwrap_or(viscous_factor);
-    within("f0", viscous_factor, 100.0)?;
-    let load_factor = match table.f1 {
-        None => load_factor,
-        Some(f1) => {
-            within("f1", f1, 0.1)?;
-            LoadFactor::Stated(f1)
-        }
-    };
-    let seals_nm = table.seal_torque_Nm.unwrap_or(0.0);
-    within("seal_torque_Nm", seals_nm, 1e4)?;
     Ok(Friction {
-        viscosity_mm2_per_s: viscosity,
-        viscous_factor,
-        load_factor,
-        seals_nm,
+        viscosity_mm2_per_s: *table.viscosity_mm2_per_s,
+        viscous_factor: table.f0.map_or(viscous_factor, f64::from),
+        load_factor: table.f1.map_or(load_factor, |f1| LoadFactor::Stated(*f1)),
+        seals_nm: table.seal_torque_Nm.map_or(0.0, f64::from),
     })
 }

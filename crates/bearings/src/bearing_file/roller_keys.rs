@@ -29,7 +29,7 @@ pub(super) fn geometry(
         taper,
         barrel: None,
         profile: profile(file, document, diameter)?,
-        laminae: laminae(file, keys)?,
+        laminae: laminae(file),
     })
 }
 
@@ -59,13 +59,6 @@ fn taper(
     (diameter, length, pitch): (f64, f64, f64),
 ) -> Result<Taper, InputError> {
     let angle = contact_angle_rad(file, keys, [5.0, 45.0])?;
-    let end = file.end_radius_ratio.unwrap_or(END_RADIUS_RATIO);
-    keys.require(
-        "end_radius_ratio",
-        end,
-        end > 0.2 && end < 1.0,
-        "more than 0.2 and less than 1, at which the end fits the rib all over",
-    )?;
     let ratio = diameter / pitch;
     let half_taper = half_taper_of(ratio, angle);
     let apex = 0.5 * pitch / (angle - half_taper).sin();
@@ -85,7 +78,7 @@ fn taper(
     )?;
     Ok(Taper {
         contact_angle_rad: angle,
-        end_radius_ratio: end,
+        end_radius_ratio: file.end_radius_ratio.map_or(END_RADIUS_RATIO, f64::from),
         rib_height_m: MM * height,
     })
 }
@@ -123,21 +116,12 @@ fn profile(
         ProfileKind::Straight => Ok(RollerProfile::Straight),
         ProfileKind::Logarithmic => match table.scale_um {
             None => Ok(usual),
-            Some(scale) => {
-                keys.require(
-                    "scale_um",
-                    scale,
-                    (0.0..=1000.0).contains(&scale),
-                    "0 to 1000",
-                )?;
-                Ok(RollerProfile::Logarithmic {
-                    scale_m: UM * scale,
-                })
-            }
+            Some(scale) => Ok(RollerProfile::Logarithmic {
+                scale_m: UM * scale,
+            }),
         },
         ProfileKind::Crowned => {
             let radius = keys.needed("radius_mm", table.radius_mm, "a crowned profile")?;
-            keys.require("radius_mm", radius, radius > 0.0, "more than 0")?;
             Ok(RollerProfile::Crowned {
                 radius_m: MM * radius,
             })

@@ -305,7 +305,11 @@ fn bad_faults_are_refused() {
         ),
         (
             fault(&spall.replace("depth_um = 5.0", "depth_um = -1.0")),
-            vec!["fault.0.depth_um", "found -1", "794"],
+            vec!["fault.0.depth_um", "found -1", "0 or more"],
+        ),
+        (
+            fault(&spall.replace("depth_um = 5.0", "depth_um = 800.0")),
+            vec!["fault.0.depth_um", "found 800", "794"],
         ),
         (
             fault(&spall.replace("depth_um = 5.0", "depth_um = nan")),

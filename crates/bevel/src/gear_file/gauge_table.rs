@@ -1,6 +1,7 @@
 //! `[[gauge]]`: strain gauges in the tooth roots.
 
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{Bounded, End, TableKeys};
+use gearmesh_geometry::number_range;
 use gearmesh_geometry::{Flank, InputError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,7 +20,7 @@ pub(super) struct GaugeTable {
     /// Side of the tooth: "right" faces clockwise about the axis from apex to heel.
     side: Flank,
     /// Angle between the fillet's tangent and the tooth's centre line, in the section normal to the tooth; 30 where not given.
-    tangent_deg: Option<f64>,
+    tangent_deg: Option<Bounded<RootTangent>>,
     /// Length along the profile.
     length_mm: f64,
     /// Middle along the pitch cone from mid-face towards the heel; 0 where not given.
@@ -28,6 +29,11 @@ pub(super) struct GaugeTable {
     /// Width along the tooth.
     width_mm: f64,
 }
+
+number_range!(
+    /// Tangents of a fillet: from along the tooth's centre line to straight across.
+    RootTangent: End::Beyond(0.0), End::Beyond(90.0)
+);
 
 impl GaugeTable {
     /// The gauge, in SI units; `gear` has those above it in the file.
@@ -66,13 +72,7 @@ impl GaugeTable {
             self.length_mm > 0.0 && self.length_mm <= module_mm,
             &format!("more than 0 and at most {module_mm:.4}, the mean module"),
         )?;
-        let tangent = self.tangent_deg.unwrap_or(30.0);
-        keys.require(
-            "tangent_deg",
-            tangent,
-            tangent > 0.0 && tangent < 90.0,
-            "more than 0 and less than 90",
-        )?;
+        let tangent = self.tangent_deg.map_or(30.0, f64::from);
         Ok(BevelGauge {
             name: self.name,
             tooth: self.tooth,

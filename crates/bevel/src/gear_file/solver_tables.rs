@@ -1,6 +1,7 @@
 //! `[mesh]` and `[reduction]` of a bevel gear file.
 
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::gear_file::{DEFAULT_LEAST_QUALITY, LeastQuality, loaded_flanks};
+use gearmesh_geometry::input::{Bounded, Count, InputDocument, TableKeys};
 use gearmesh_geometry::{Element, Flank, InputError, MeshSettings, ReductionSettings, Symmetry};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -23,7 +24,7 @@ pub(super) struct MeshTable {
     /// Element length along the pitch cone, at most a slice, two of quadratic elements; where not given three quarters of that, at most a twelfth of the face.
     along_mm: Option<f64>,
     /// Smallest scaled Jacobian that is accepted; 0.2 where not given.
-    min_scaled_jacobian: Option<f64>,
+    min_scaled_jacobian: Option<Bounded<LeastQuality>>,
 }
 
 impl MeshTable {
@@ -55,10 +56,6 @@ impl MeshTable {
         let per_slice = if element == Element::Hex20 { 2.0 } else { 1.0 };
         let longest_mm = (per_slice * width_mm / slices as f64).max(least_mm);
         let along_mm = (0.75 * longest_mm).min(width_mm / 12.0).max(least_mm);
-        let quality = self.min_scaled_jacobian.unwrap_or(0.2);
-        let fits = quality > 0.0 && quality <= 0.9;
-        let allowed = "more than 0, at most 0.9";
-        keys.require("min_scaled_jacobian", quality, fits, allowed)?;
         Ok(MeshSettings {
             element,
             chosen_because: None,
@@ -76,7 +73,9 @@ impl MeshTable {
                 along_mm,
                 longest_mm.min(width_mm),
             )?,
-            min_scaled_jacobian: quality,
+            min_scaled_jacobian: self
+                .min_scaled_jacobian
+                .map_or(DEFAULT_LEAST_QUALITY, f64::from),
             plane_strain: false,
         })
     }
@@ -87,9 +86,9 @@ impl MeshTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct ReductionTable {
     /// Stations of the flank grid up the profile; 9 where not given.
-    profile_stations: Option<usize>,
+    profile_stations: Option<Count<3, 65>>,
     /// Slices along the face; 15 where not given.
-    slices: Option<usize>,
+    slices: Option<Count<1, 100>>,
     /// Flanks that carry loads; both where not given.
     flanks: Option<Vec<Flank>>,
     /// "auto" uses that the gear repeats, "off" factorises all of it for comparison; "auto" where not given.
@@ -100,23 +99,11 @@ pub(super) struct ReductionTable {
 impl ReductionTable {
     pub(super) fn check(self, document: &InputDocument) -> Result<ReductionSettings, InputError> {
         let keys = TableKeys::new(document, "reduction");
-        let stations = self.profile_stations.unwrap_or(9);
-        let fits = (3..=65).contains(&stations);
-        keys.require("profile_stations", stations as f64, fits, "3 to 65")?;
-        let slices = self.slices.unwrap_or(15);
-        let fits = (1..=100).contains(&slices);
-        keys.require("slices", slices as f64, fits, "1 to 100")?;
-        let flanks = self.flanks.unwrap_or(vec![Flank::Right, Flank::Left]);
-        if flanks.is_empty() || flanks.len() > 2 || (flanks.len() == 2 && flanks[0] == flanks[1]) {
-            let problem =
-                "name each loaded flank once: [\"right\"], [\"left\"] or [\"right\", \"left\"]";
-            return Err(keys.error("flanks", problem));
-        }
         Ok(ReductionSettings {
             symmetry: self.symmetry,
-            roll_stations: stations,
-            slices,
-            flanks,
+            roll_stations: self.profile_stations.map_or(9, Count::get),
+            slices: self.slices.map_or(15, Count::get),
+            flanks: loaded_flanks(self.flanks, &keys)?,
         })
     }
 }

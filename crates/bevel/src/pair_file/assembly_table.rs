@@ -1,7 +1,7 @@
 //! `[tca]`: what a contact analysis is asked, and the assembly.
 
-use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::{Bounded, Count, End, Within};
+use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,59 +16,45 @@ pub(super) struct AssemblyTable {
     /// Flank of the pinion that drives; "concave" where not given.
     pinion_flank: Option<FlankSide>,
     /// Marking thickness of the ellipses; 6.35 where not given.
-    marking_um: Option<f64>,
+    marking_um: Option<Bounded<MarkingThickness>>,
     /// Positions a pitch; 48 where not given.
-    positions_per_pitch: Option<usize>,
+    positions_per_pitch: Option<Count<8, 1000>>,
     /// Offset of the pinion along +y of the fixed frame; 0 where not given.
-    offset_um: Option<f64>,
+    offset_um: Option<Bounded<Within<-5000, 5000>>>,
     /// Pinion moved away from the apex along its axis; 0 where not given.
-    pinion_axial_um: Option<f64>,
+    pinion_axial_um: Option<Bounded<Within<-5000, 5000>>>,
     /// Gear moved away from the apex along its axis; 0 where not given.
-    gear_axial_um: Option<f64>,
+    gear_axial_um: Option<Bounded<Within<-5000, 5000>>>,
     /// How much larger the shaft angle is; 0 where not given.
-    shaft_angle_mrad: Option<f64>,
+    shaft_angle_mrad: Option<Bounded<Within<-50, 50>>>,
 }
 
+number_range!(
+    /// Thicknesses of marking compound.
+    pub(super) MarkingThickness: End::At(0.1), End::At(100.0)
+);
+
+/// The usual thickness of marking compound \[µm\].
+pub(super) const DEFAULT_MARKING_UM: f64 = 6.35;
+
 impl AssemblyTable {
-    pub(super) fn request(
-        &self,
-        document: &InputDocument,
-    ) -> Result<(FlankSide, TcaRequest), InputError> {
-        let keys = TableKeys::new(document, "tca");
+    pub(super) fn request(&self) -> (FlankSide, TcaRequest) {
         let default = TcaRequest::default();
-        let marking = self.marking_um.unwrap_or(6.35);
-        keys.require(
-            "marking_um",
-            marking,
-            (0.1..=100.0).contains(&marking),
-            "0.1 to 100",
-        )?;
-        let per_pitch = self.positions_per_pitch.unwrap_or(default.per_pitch);
-        if !(8..=1000).contains(&per_pitch) {
-            return Err(keys.error(
-                "positions_per_pitch",
-                format!("found {per_pitch}, allowed is 8 to 1000"),
-            ));
-        }
-        let micrometres = |key: &str, value: Option<f64>| -> Result<f64, InputError> {
-            let value = value.unwrap_or(0.0);
-            keys.require(key, value, value.abs() <= 5000.0, "-5000 to 5000")?;
-            Ok(1e-6 * value)
-        };
-        let tilt = self.shaft_angle_mrad.unwrap_or(0.0);
-        keys.require("shaft_angle_mrad", tilt, tilt.abs() <= 50.0, "-50 to 50")?;
-        let error = AssemblyError {
-            offset_m: micrometres("offset_um", self.offset_um)?,
-            pinion_axial_m: micrometres("pinion_axial_um", self.pinion_axial_um)?,
-            gear_axial_m: micrometres("gear_axial_um", self.gear_axial_um)?,
-            shaft_angle_rad: 1e-3 * tilt,
-        };
+        let micrometres =
+            |value: Option<Bounded<Within<-5000, 5000>>>| 1e-6 * value.map_or(0.0, f64::from);
         let request = TcaRequest {
-            error,
-            marking_m: 1e-6 * marking,
-            per_pitch,
+            error: AssemblyError {
+                offset_m: micrometres(self.offset_um),
+                pinion_axial_m: micrometres(self.pinion_axial_um),
+                gear_axial_m: micrometres(self.gear_axial_um),
+                shaft_angle_rad: 1e-3 * self.shaft_angle_mrad.map_or(0.0, f64::from),
+            },
+            marking_m: 1e-6 * self.marking_um.map_or(DEFAULT_MARKING_UM, f64::from),
+            per_pitch: self
+                .positions_per_pitch
+                .map_or(default.per_pitch, Count::get),
             ..default
         };
-        Ok((self.pinion_flank.unwrap_or(FlankSide::Concave), request))
+        (self.pinion_flank.unwrap_or(FlankSide::Concave), request)
     }
 }

@@ -1,7 +1,10 @@
 //! `[bevel]`: teeth and blank of a pair.
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::{
+    Bounded, Count, End, InputDocument, NotNegative, Positive, TableKeys, UpTo, Within,
+};
+use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,29 +19,34 @@ pub(super) struct BlankTable {
     /// Form of the teeth; "spiral" where not given.
     form: Option<ToothForm>,
     /// Numbers of teeth.
-    teeth: [usize; 2],
+    teeth: [Count<5, 1000>; 2],
     /// Transverse module at the heel.
-    outer_module_mm: f64,
+    outer_module_mm: Bounded<Positive>,
     /// Face widths, both from the same outer cone distance inwards.
-    face_width_mm: [f64; 2],
+    face_width_mm: [Bounded<Positive>; 2],
     /// "spiral": mean spiral angle.
-    spiral_angle_deg: Option<f64>,
+    spiral_angle_deg: Option<Bounded<UpTo<50>>>,
     /// Normal pressure angle; 20 where not given.
-    pressure_angle_deg: Option<f64>,
+    pressure_angle_deg: Option<Bounded<Within<10, 30>>>,
     /// Angle between the axes, both from apex to heel; 90 where not given.
-    shaft_angle_deg: Option<f64>,
+    shaft_angle_deg: Option<Bounded<Within<10, 170>>>,
     /// "spiral", "zerol": hand of the pinion; the gear has the other.
     pinion_hand: Option<Hand>,
     /// Depth along the face; "standard" where not given.
     taper: Option<Taper>,
     /// "spiral", "zerol": nominal radius of the face mill.
-    cutter_radius_mm: Option<f64>,
+    cutter_radius_mm: Option<Bounded<Positive>>,
     /// By how much of a module the pinion's outer tooth is thicker, and the gear's thinner, than by the balance of
     /// addenda; 0 where not given.
-    thickness_shift: Option<f64>,
+    thickness_shift: Option<Bounded<ThicknessShift>>,
     /// Normal backlash at the mean point; 0 where not given.
-    backlash_mm: Option<f64>,
+    backlash_mm: Option<Bounded<NotNegative>>,
 }
+
+number_range!(
+    /// Shares of a module that a tooth can be thicker by: about a third of the tooth.
+    ThicknessShift: End::At(-0.5), End::At(0.5)
+);
 
 impl BlankTable {
     pub(super) fn blank(&self, document: &InputDocument) -> Result<PairBlank, InputError> {
@@ -62,43 +70,12 @@ impl BlankTable {
                 ("cutter_radius_mm", self.cutter_radius_mm.is_some(), MILLED),
             ],
         )?;
-        for (i, &teeth) in self.teeth.iter().enumerate() {
-            if !(5..=1000).contains(&teeth) {
-                return Err(keys.error(
-                    &format!("teeth.{i}"),
-                    format!("found {teeth}, allowed is 5 to 1000"),
-                ));
-            }
-        }
-        keys.require(
-            "outer_module_mm",
-            self.outer_module_mm,
-            self.outer_module_mm > 0.0,
-            "more than 0",
-        )?;
-        for (i, &width) in self.face_width_mm.iter().enumerate() {
-            keys.require(
-                &format!("face_width_mm.{i}"),
-                width,
-                width > 0.0,
-                "more than 0",
-            )?;
-        }
         let spiral = match form {
-            ToothForm::Spiral => {
-                let angle = keys.needed(
-                    "spiral_angle_deg",
-                    self.spiral_angle_deg,
-                    "form = \"spiral\"",
-                )?;
-                keys.require(
-                    "spiral_angle_deg",
-                    angle,
-                    angle > 0.0 && angle <= 50.0,
-                    "more than 0, at most 50",
-                )?;
-                angle
-            }
+            ToothForm::Spiral => *keys.needed(
+                "spiral_angle_deg",
+                self.spiral_angle_deg,
+                "form = \"spiral\"",
+            )?,
             ToothForm::Zerol | ToothForm::Straight => 0.0,
         };
         let hand = match form {
@@ -107,51 +84,30 @@ impl BlankTable {
         };
         let radius = match form {
             ToothForm::Straight => 0.0,
-            _ => {
-                let radius = keys.needed(
-                    "cutter_radius_mm",
-                    self.cutter_radius_mm,
-                    "a face-milled pair",
-                )?;
-                keys.require("cutter_radius_mm", radius, radius > 0.0, "more than 0")?;
-                radius
-            }
+            _ => *keys.needed(
+                "cutter_radius_mm",
+                self.cutter_radius_mm,
+                "a face-milled pair",
+            )?,
         };
-        let pressure = self.pressure_angle_deg.unwrap_or(20.0);
-        keys.require(
-            "pressure_angle_deg",
-            pressure,
-            (10.0..=30.0).contains(&pressure),
-            "10 to 30",
-        )?;
-        let shaft = self.shaft_angle_deg.unwrap_or(90.0);
-        keys.require(
-            "shaft_angle_deg",
-            shaft,
-            (10.0..=170.0).contains(&shaft),
-            "10 to 170",
-        )?;
-        let shift = self.thickness_shift.unwrap_or(0.0);
-        keys.require("thickness_shift", shift, shift.abs() <= 0.5, "-0.5 to 0.5")?;
-        let backlash = self.backlash_mm.unwrap_or(0.0);
-        keys.require(
-            "backlash_mm",
-            backlash,
-            (0.0..self.outer_module_mm).contains(&backlash),
-            "0 up to a module",
-        )?;
+        let pressure = self.pressure_angle_deg.map_or(20.0, f64::from);
+        let shaft = self.shaft_angle_deg.map_or(90.0, f64::from);
+        let module = *self.outer_module_mm;
+        let backlash = self.backlash_mm.map_or(0.0, f64::from);
+        let ok = backlash < module;
+        keys.require("backlash_mm", backlash, ok, "0 up to a module")?;
         let data = PairData {
             form,
-            teeth: self.teeth,
-            outer_module_m: 1e-3 * self.outer_module_mm,
-            face_width_m: self.face_width_mm.map(|b| 1e-3 * b),
+            teeth: self.teeth.map(Count::get),
+            outer_module_m: 1e-3 * module,
+            face_width_m: self.face_width_mm.map(|b| 1e-3 * *b),
             spiral_angle_rad: spiral.to_radians(),
             pressure_angle_rad: pressure.to_radians(),
             shaft_angle_rad: shaft.to_radians(),
             pinion_hand: hand,
             taper: self.taper.unwrap_or(Taper::Standard),
             cutter_radius_m: 1e-3 * radius,
-            thickness_shift: shift,
+            thickness_shift: self.thickness_shift.map_or(0.0, f64::from),
             backlash_m: 1e-3 * backlash,
         };
         PairBlank::new(&data).map_err(|cause| match cause {

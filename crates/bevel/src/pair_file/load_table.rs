@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::gear_file::PoissonRatio;
+use gearmesh_geometry::input::{Bounded, Count, End, InputDocument, Positive, TableKeys, Within};
+use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,21 +15,21 @@ use serde::Deserialize;
 #[allow(non_snake_case)]
 pub(super) struct LoadTable {
     /// Torques on the gear, one to 20 of them.
-    torques_Nm: Vec<f64>,
+    torques_Nm: Vec<Bounded<DrivingTorque>>,
     /// Slices along the face. Where not given those of the coarser model, more are not allowed; without models 31, and
     /// up to 100 where a light load touches few of them.
-    slices: Option<usize>,
+    slices: Option<Count<3, 100>>,
     /// Positions over a pitch, 24 where not given.
-    positions_per_pitch: Option<usize>,
+    positions_per_pitch: Option<Count<4, 500>>,
     /// Reduced models (.h5) of pinion and gear, relative to this file. Where not given, the gears are rigid, and their surfaces
     /// give way as half spaces do.
     models: Option<[PathBuf; 2]>,
     /// Coefficient of friction of the teeth, for the efficiency; none printed where not given.
-    friction: Option<f64>,
+    friction: Option<Bounded<Within<0, 1>>>,
     /// Without models: Young's modulus of both gears, 206 where not given (steel).
-    young_GPa: Option<f64>,
+    young_GPa: Option<Bounded<Positive>>,
     /// Without models: Poisson's ratio of both gears, 0.3 where not given.
-    poisson: Option<f64>,
+    poisson: Option<Bounded<PoissonRatio>>,
 }
 
 /// What a loaded contact analysis is asked.
@@ -47,6 +49,11 @@ pub struct LoadRequest {
     pub material: (f64, f64),
 }
 
+number_range!(
+    /// Torques of a stated direction.
+    DrivingTorque: End::Beyond(0.0), End::Open, "`pinion_flank` says which flank drives"
+);
+
 impl LoadTable {
     pub(super) fn request(&self, document: &InputDocument) -> Result<LoadRequest, InputError> {
         let keys = TableKeys::new(document, "load");
@@ -55,46 +62,25 @@ impl LoadTable {
             let problem = format!("found {count} torques, allowed are 1 to 20");
             return Err(keys.error("torques_Nm", problem));
         }
-        for (i, torque) in self.torques_Nm.iter().enumerate() {
-            let ok = *torque > 0.0 && torque.is_finite();
-            let key = format!("torques_Nm.{i}");
-            keys.require(
-                &key,
-                *torque,
-                ok,
-                "more than 0; `pinion_flank` says which flank drives",
-            )?;
-        }
-        if let Some(slices) = self.slices {
-            let ok = (3..=100).contains(&slices);
-            keys.require("slices", slices as f64, ok, "3 to 100")?;
-        }
-        let positions = self.positions_per_pitch.unwrap_or(24);
-        let ok = (4..=500).contains(&positions);
-        keys.require("positions_per_pitch", positions as f64, ok, "4 to 500")?;
-        if let Some(friction) = self.friction {
-            let ok = (0.0..=1.0).contains(&friction);
-            keys.require("friction", friction, ok, "0 to 1")?;
-        }
         if self.models.is_some() {
-            let given = [("young_GPa", self.young_GPa), ("poisson", self.poisson)];
-            if let Some((key, _)) = given.into_iter().find(|(_, value)| value.is_some()) {
+            let given = [
+                ("young_GPa", self.young_GPa.is_some()),
+                ("poisson", self.poisson.is_some()),
+            ];
+            if let Some((key, _)) = given.into_iter().find(|(_, given)| *given) {
                 return Err(keys.error(
                     key,
                     "is not used with `models`, which have their own; remove it",
                 ));
             }
         }
-        let (young, poisson) = (self.young_GPa.unwrap_or(206.0), self.poisson.unwrap_or(0.3));
-        let ok = young > 0.0 && young.is_finite();
-        keys.require("young_GPa", young, ok, "more than 0")?;
-        let ok = (0.0..0.5).contains(&poisson);
-        keys.require("poisson", poisson, ok, "0 up to, not including, 0.5")?;
+        let young = self.young_GPa.map_or(206.0, f64::from);
+        let poisson = self.poisson.map_or(0.3, f64::from);
         Ok(LoadRequest {
-            torques_nm: self.torques_Nm.clone(),
-            slices: self.slices,
-            positions,
-            friction: self.friction,
+            torques_nm: self.torques_Nm.iter().map(|torque| **torque).collect(),
+            slices: self.slices.map(Count::get),
+            positions: self.positions_per_pitch.map_or(24, Count::get),
+            friction: self.friction.map(f64::from),
             models: self.models.clone(),
             material: (young * 1e9, poisson),
         })

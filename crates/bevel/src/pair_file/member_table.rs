@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::{Bounded, InputDocument, Positive, TableKeys, Within};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::assembly_table::{DEFAULT_MARKING_UM, MarkingThickness};
 use super::given_check;
 use super::settings_table::SettingsTable;
 use crate::basic_settings::Process;
@@ -18,6 +19,9 @@ use crate::local_synthesis::Synthesis;
 use crate::pair_design::Cutting;
 use crate::settings_search::AskedEaseOff;
 
+/// Material left away on the concave and the convex flank.
+type Amounts = [Bounded<Within<-1000, 1000>>; 2];
+
 /// How a member is cut. Lists of two: concave, convex flank.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -25,11 +29,11 @@ pub(super) struct MemberTable {
     /// Where the settings come from.
     settings: SettingsWord,
     /// Radius of the blade's edge; "given": stated with each flank.
-    edge_radius_mm: Option<f64>,
+    edge_radius_mm: Option<Bounded<Within<0, 1000>>>,
     /// Width of the blade's point, to check that it fits into the slot.
-    point_width_mm: Option<f64>,
+    point_width_mm: Option<Bounded<Within<0, 1000>>>,
     /// Least thickness of the top land; 0 where not given.
-    least_top_land_mm: Option<f64>,
+    least_top_land_mm: Option<Bounded<Within<0, 1000>>>,
     /// "local-synthesis": mean contact point on the gear along the tooth, from the middle of the face towards the
     /// heel; 0 where not given.
     mean_point_along_mm: Option<[f64; 2]>,
@@ -37,20 +41,20 @@ pub(super) struct MemberTable {
     mean_point_height_mm: Option<[f64; 2]>,
     /// "local-synthesis": direction of the path on the gear's flank, from along the tooth towards the heel to up the
     /// profile.
-    path_angle_deg: Option<[f64; 2]>,
+    path_angle_deg: Option<[Bounded<Within<1, 179>>; 2]>,
     /// "local-synthesis": half length of the contact ellipse.
-    ellipse_half_length_mm: Option<[f64; 2]>,
+    ellipse_half_length_mm: Option<[Bounded<Positive>; 2]>,
     /// "local-synthesis": marking thickness of that ellipse; 6.35 where not given.
-    marking_um: Option<f64>,
+    marking_um: Option<Bounded<MarkingThickness>>,
     /// "local-synthesis": second derivative of the gear's lead by the pinion's turn; negative where the gear stays
     /// behind.
-    transmission_curvature: Option<[f64; 2]>,
+    transmission_curvature: Option<[Bounded<Within<-1, 1>>; 2]>,
     /// "ease-off": material left away at toe and heel.
-    lengthwise_um: Option<[f64; 2]>,
+    lengthwise_um: Option<Amounts>,
     /// "ease-off": at the tip and the lower end of the working depth.
-    profile_um: Option<[f64; 2]>,
+    profile_um: Option<Amounts>,
     /// "ease-off": twist, at the tip of the heel; its negative at the tip of the toe. 0 where not given.
-    bias_um: Option<[f64; 2]>,
+    bias_um: Option<Amounts>,
     /// "points": table of the concave flank's points, beside this file or with its folder: columns sector, height, x_mm, y_mm,
     /// z_mm, nx, ny, nz (all three of these may be missing: the points make the normals); with deviation_um the points are nominal and
     /// the flank is off them by so much added material.
@@ -58,7 +62,7 @@ pub(super) struct MemberTable {
     /// "points": table of the convex flank's points.
     convex_points: Option<String>,
     /// "points": place of the tables' origin on the member's axis, from the pitch apex towards the heel; 0 where not given.
-    points_origin_mm: Option<f64>,
+    points_origin_mm: Option<Bounded<Within<-10_000, 10_000>>>,
     /// "given": settings of the concave flank.
     concave: Option<SettingsTable>,
     /// "given": settings of the convex flank.
@@ -150,23 +154,18 @@ impl MemberTable {
                 "found \"formate\", which is for the gear: a pinion must be generated",
             ));
         }
-        let not_negative = |key: &str, value: Option<f64>| -> Result<f64, InputError> {
-            let value = value.unwrap_or(0.0);
-            keys.require(key, value, (0.0..=1e3).contains(&value), "0 to 1000")?;
-            Ok(1e-3 * value)
-        };
+        let metres = |value: Option<Bounded<Within<0, 1000>>>| 1e-3 * value.map_or(0.0, f64::from);
         if straight && self.edge_radius_mm.is_some() {
             return Err(keys.error(
                 "edge_radius_mm",
                 "is not used by straight teeth: their tool has no edge radius; remove it",
             ));
         }
-        let edge_radius_m = not_negative("edge_radius_mm", self.edge_radius_mm)?;
         Ok(MemberRequest {
             cutting: self.cutting(document, &keys, name, blank)?,
-            edge_radius_m,
-            point_width_m: not_negative("point_width_mm", self.point_width_mm)?,
-            least_top_land_m: not_negative("least_top_land_mm", self.least_top_land_mm)?,
+            edge_radius_m: metres(self.edge_radius_mm),
+            point_width_m: metres(self.point_width_mm),
+            least_top_land_m: metres(self.least_top_land_mm),
         })
     }
 
@@ -240,25 +239,10 @@ impl MemberTable {
                 let by = "settings = \"ease-off\"";
                 let lengthwise = keys.needed("lengthwise_um", self.lengthwise_um, by)?;
                 let profile = keys.needed("profile_um", self.profile_um, by)?;
-                let bias = self.bias_um.unwrap_or_default();
-                for (key, pair) in [
-                    ("lengthwise_um", lengthwise),
-                    ("profile_um", profile),
-                    ("bias_um", bias),
-                ] {
-                    for (i, value) in pair.into_iter().enumerate() {
-                        keys.require(
-                            &format!("{key}.{i}"),
-                            value,
-                            value.abs() <= 1000.0,
-                            "-1000 to 1000",
-                        )?;
-                    }
-                }
                 Cutting::EaseOff([0, 1].map(|i| AskedEaseOff {
-                    lengthwise_m: 1e-6 * lengthwise[i],
-                    profile_m: 1e-6 * profile[i],
-                    bias_m: 1e-6 * bias[i],
+                    lengthwise_m: 1e-6 * *lengthwise[i],
+                    profile_m: 1e-6 * *profile[i],
+                    bias_m: 1e-6 * self.bias_um.map_or(0.0, |bias| *bias[i]),
                 }))
             }
             SettingsWord::Points => {
@@ -287,10 +271,7 @@ impl MemberTable {
         member: &MemberBlank,
     ) -> Result<[GridSurface; 2], InputError> {
         let by = "settings = \"points\"";
-        let origin = self.points_origin_mm.unwrap_or(0.0);
-        let most = 1e4;
-        let ok = origin.abs() <= most;
-        keys.require("points_origin_mm", origin, ok, "-10000 to 10000")?;
+        let origin = self.points_origin_mm.map_or(0.0, f64::from);
         let folder = Path::new(&document.file).parent();
         let read = |key: &str, name: &Option<String>, side: FlankSide| {
             let name = keys.needed(key, name.as_ref(), by)?;
@@ -314,13 +295,7 @@ impl MemberTable {
         let curvature = keys.needed("transmission_curvature", self.transmission_curvature, by)?;
         let along = self.mean_point_along_mm.unwrap_or_default();
         let height = self.mean_point_height_mm.unwrap_or_default();
-        let marking = self.marking_um.unwrap_or(6.35);
-        keys.require(
-            "marking_um",
-            marking,
-            (0.1..=100.0).contains(&marking),
-            "0.1 to 100",
-        )?;
+        let marking = self.marking_um.map_or(DEFAULT_MARKING_UM, f64::from);
         let gear = &blank.members[1];
         let half = 500.0 * blank.data.face_width_m[0].min(blank.data.face_width_m[1]);
         let (low, high) = (
@@ -342,30 +317,18 @@ impl MemberTable {
                 &format!("above {low:.4}, below {high:.4}"),
             )?;
             keys.require(
-                &key("path_angle_deg"),
-                angle[i],
-                (1.0..=179.0).contains(&angle[i]),
-                "1 to 179",
-            )?;
-            keys.require(
                 &key("ellipse_half_length_mm"),
-                ellipse[i],
-                ellipse[i] > 0.0 && ellipse[i] <= 20.0 * half,
-                &format!("more than 0, at most ten face widths, {}", 20.0 * half),
-            )?;
-            keys.require(
-                &key("transmission_curvature"),
-                curvature[i],
-                curvature[i].abs() <= 1.0,
-                "-1 to 1",
+                *ellipse[i],
+                *ellipse[i] <= 20.0 * half,
+                &format!("at most ten face widths, {}", 20.0 * half),
             )?;
         }
         Ok([0, 1].map(|i| Synthesis {
             mean_point_m: [1e-3 * along[i], 1e-3 * height[i]],
             path_angle_rad: angle[i].to_radians(),
-            ellipse_half_length_m: 1e-3 * ellipse[i],
+            ellipse_half_length_m: 1e-3 * *ellipse[i],
             marking_m: 1e-6 * marking,
-            transmission_curvature: curvature[i],
+            transmission_curvature: *curvature[i],
         }))
     }
 }

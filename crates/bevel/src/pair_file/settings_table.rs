@@ -3,7 +3,10 @@
 use std::fmt::Write as _;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::{
+    Bounded, End, InputDocument, NotNegative, Positive, TableKeys, UpTo, Within,
+};
+use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -14,17 +17,17 @@ use crate::settings::{FaceMill, MachineSettings, Roll, Tool};
 #[serde(deny_unknown_fields)]
 pub(super) struct SettingsTable {
     /// Radius of the blade's point.
-    point_radius_mm: f64,
+    point_radius_mm: Bounded<Positive>,
     /// Angle of the blade.
-    blade_angle_deg: f64,
+    blade_angle_deg: Bounded<Within<0, 45>>,
     /// Radius of the blade's edge.
-    edge_radius_mm: f64,
+    edge_radius_mm: Bounded<NotNegative>,
     /// Radial distance of the cutter from the cradle's axis.
-    radial_distance_mm: f64,
+    radial_distance_mm: Bounded<Positive>,
     /// Cradle angle; positive for a right hand.
-    cradle_angle_deg: f64,
+    cradle_angle_deg: Bounded<Within<-180, 180>>,
     /// Machine root angle.
-    machine_root_angle_deg: f64,
+    machine_root_angle_deg: Bounded<RootAngle>,
     /// Sliding base; away from the cradle is positive. 0 where not given.
     sliding_base_mm: Option<f64>,
     /// Offset of the work along +y of the machine; 0 where not given.
@@ -32,10 +35,15 @@ pub(super) struct SettingsTable {
     /// Machine centre to back, towards the heel; 0 where not given.
     work_offset_mm: Option<f64>,
     /// Ratio of roll, work over cradle; not given for a formate member.
-    ratio_of_roll: Option<f64>,
+    ratio_of_roll: Option<Bounded<UpTo<100>>>,
     /// Modified roll c2, c3, c4; 0 where not given.
     modified_roll: Option<[f64; 3]>,
 }
+
+number_range!(
+    /// Machine root angles: from a rack to a crown gear.
+    RootAngle: End::Beyond(0.0), End::Beyond(90.0)
+);
 
 impl SettingsTable {
     pub(super) fn settings(
@@ -44,65 +52,26 @@ impl SettingsTable {
         table: &str,
     ) -> Result<MachineSettings, InputError> {
         let keys = TableKeys::new(document, table);
-        for (key, value) in [
-            ("point_radius_mm", self.point_radius_mm),
-            ("radial_distance_mm", self.radial_distance_mm),
-        ] {
-            keys.require(key, value, value > 0.0, "more than 0")?;
-        }
-        keys.require(
-            "blade_angle_deg",
-            self.blade_angle_deg,
-            (0.0..=45.0).contains(&self.blade_angle_deg),
-            "0 to 45",
-        )?;
-        keys.require(
-            "edge_radius_mm",
-            self.edge_radius_mm,
-            self.edge_radius_mm >= 0.0,
-            "0 or more",
-        )?;
-        let root = self.machine_root_angle_deg;
-        keys.require(
-            "machine_root_angle_deg",
-            root,
-            root > 0.0 && root < 90.0,
-            "more than 0, less than 90",
-        )?;
-        keys.require(
-            "cradle_angle_deg",
-            self.cradle_angle_deg,
-            self.cradle_angle_deg.abs() <= 180.0,
-            "-180 to 180",
-        )?;
         if self.ratio_of_roll.is_none() && self.modified_roll.is_some() {
             return Err(keys.error(
                 "modified_roll",
                 "is not used without ratio_of_roll: the work is held; remove it",
             ));
         }
-        if let Some(ratio) = self.ratio_of_roll {
-            keys.require(
-                "ratio_of_roll",
-                ratio,
-                ratio > 0.0 && ratio <= 100.0,
-                "more than 0, at most 100",
-            )?;
-        }
         Ok(MachineSettings {
             tool: Tool::FaceMill(FaceMill {
-                point_radius_m: 1e-3 * self.point_radius_mm,
+                point_radius_m: 1e-3 * *self.point_radius_mm,
                 blade_angle_rad: self.blade_angle_deg.to_radians(),
-                edge_radius_m: 1e-3 * self.edge_radius_mm,
-                radial_m: 1e-3 * self.radial_distance_mm,
+                edge_radius_m: 1e-3 * *self.edge_radius_mm,
+                radial_m: 1e-3 * *self.radial_distance_mm,
                 cradle_angle_rad: self.cradle_angle_deg.to_radians(),
             }),
-            root_angle_rad: root.to_radians(),
+            root_angle_rad: self.machine_root_angle_deg.to_radians(),
             sliding_base_m: 1e-3 * self.sliding_base_mm.unwrap_or(0.0),
             offset_m: 1e-3 * self.offset_mm.unwrap_or(0.0),
             work_offset_m: 1e-3 * self.work_offset_mm.unwrap_or(0.0),
             roll: self.ratio_of_roll.map(|ratio| Roll {
-                ratio,
+                ratio: *ratio,
                 modified: self.modified_roll.unwrap_or_default(),
             }),
         })

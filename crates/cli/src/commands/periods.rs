@@ -1,9 +1,7 @@
-//! What a run of a pair has seen of each period, as marks, lines and JSON.
+//! What a run of a pair has seen of each period, as marks and lines.
 
-use gearmesh_model::Named;
 use gearmesh_scene::SceneResult;
 use gearmesh_scene::periods::Coverage;
-use serde_json::{Value, json};
 
 /// What stands behind a line whose figures a longer run may change.
 pub const MARK: &str = "  incomplete";
@@ -25,14 +23,4 @@ pub fn lines(result: &SceneResult) -> Vec<String> {
         lines.push(format!("to cover it: {}", result.proposal));
     }
     lines
-}
-
-/// Each quantity with its period; `extent` is "whole", "passage" (one passage of the gauged tooth: peak and range) or
-/// "part".
-pub fn json(result: &SceneResult) -> Value {
-    let quantities = result.coverages().into_iter().map(|(name, c)| {
-        json!({"quantity": name, "period_pitches": c.period_pitches, "run_pitches": c.run_pitches, "extent": c.extent.name_in_files()})
-    });
-    let proposal = (!result.proposal.is_empty()).then_some(&result.proposal);
-    json!({"quantities": quantities.collect::<Value>(), "proposal": proposal})
 }

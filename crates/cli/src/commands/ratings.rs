@@ -1,10 +1,9 @@
-//! Ratings of a run as warnings, lines and JSON.
+//! Ratings of a run as warnings and lines.
 
 use crate::console;
 use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::rating::RatingResult;
 use gearmesh_scene::system_run::stem;
-use serde_json::{Value, json};
 
 /// Warns of what could not be judged, and of loads beyond a limit.
 pub fn warn(ratings: &[RatingResult]) {
@@ -33,17 +32,4 @@ pub fn lines(ratings: &[RatingResult]) -> Vec<String> {
         }));
     }
     lines
-}
-
-/// The figures as JSON; an infinite life is null.
-pub fn json(ratings: &[RatingResult]) -> Value {
-    let all = ratings.iter().map(|rated| {
-        let figures = rated.figures.iter();
-        json!({
-            "name": rated.name, "method": rated.method, "problem": rated.problem,
-            "incomplete": rated.incomplete, "warnings": rated.warnings,
-            "figures": figures.map(|f| (f.name.to_owned(), json!(f.value))).collect::<serde_json::Map<_, _>>(),
-        })
-    });
-    all.collect()
 }

@@ -98,7 +98,7 @@ fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
             })
             .collect();
         console::json(
-            &json!({"rows": list, "coverage": periods::json(result), "seconds": result.seconds[1]}),
+            &json!({"rows": list, "coverage": gearmesh_report::run_figures::coverage(result), "seconds": result.seconds[1]}),
         );
         return Ok(());
     }

@@ -6,11 +6,10 @@ use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
 use gearmesh_contact::ContactZone;
-use gearmesh_contact::mesh_stiffness::mesh_harmonics;
+use gearmesh_report::run_figures::pair_figures;
 use gearmesh_scene::pair::PairFigures;
 use gearmesh_scene::system_run::megabytes;
 use gearmesh_scene::{Scene, SceneFile, SceneResult, load, run as run_scene};
-use serde_json::json;
 use std::path::Path;
 
 /// Results from this size on are announced \[bytes\].
@@ -42,7 +41,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     result.warnings.iter().for_each(console::warning);
     ratings::warn(&result.ratings);
     if arguments.json {
-        console::json(&figures(&result));
+        console::json(&pair_figures(&result));
     } else {
         table(&result)?.into_iter().for_each(console::data);
     }
@@ -143,31 +142,4 @@ fn zone_width_m(result: &SceneResult) -> Result<f64, Failure> {
     let scene = InputDocument::new("scene in result", &result.scene_toml);
     let offset_m = Scene::from_document(scene, Path::new("."))?.axial_offset_m;
     Ok(ContactZone::new([width_m(0)?, width_m(1)?], offset_m).width_m)
-}
-
-fn figures(result: &SceneResult) -> serde_json::Value {
-    let rows = (0..result.torque_nm.len())
-        .map(|k| {
-            let f = result.figures(k);
-            let curve = result.averaged(&result.tangent_n_per_m, k);
-            let pitches = result.contact_coverage.averaged_pitches();
-            let (_, harmonics) = mesh_harmonics(curve, pitches, 5);
-            json!({
-                "torque_Nm": f.torque_nm, "te_mean_m": f.te_mean_m, "te_peak_to_peak_m": f.te_peak_to_peak_m,
-                "tangent_stiffness_mean_N_per_m": f.tangent_mean_n_per_m,
-                "secant_stiffness_mean_N_per_m": f.secant_mean_n_per_m,
-                "tangent_stiffness_fourier": harmonics.iter().map(|(a, p)| json!({"amplitude_N_per_m": a, "phase_rad": p})).collect::<Vec<_>>(),
-                "axial_force_1_mean_N": f.axial_force_1_mean_n, "pressure_largest_Pa": f.pressure_largest_pa,
-                "k_h_beta": f.k_h_beta, "torque_balance": result.torque_balance[k],
-                "residual": result.residual[k], "iterations": result.iterations[k],
-                "complete": result.contact_coverage.is_whole(), "mean_over_pitches": pitches,
-                "errors": {
-                    "positions_te_peak_to_peak": f.errors.te_positions, "positions_pressure": f.errors.pressure_positions,
-                    "positions_k_h_beta": f.errors.k_h_beta_positions,
-                    "slices_k_h_beta": f.errors.slices, "mesh_strain": f.errors.mesh_strain,
-                },
-            })
-        })
-        .collect::<Vec<_>>();
-    json!({"title": result.title, "rows": rows, "means": result.means_over(), "errors": result.errors_in_words(), "coverage": periods::json(result), "ratings": ratings::json(&result.ratings), "warnings": result.warnings, "seconds": result.seconds})
 }

@@ -4,7 +4,7 @@
 
 use crate::arguments::RunArguments;
 use crate::commands::run::demand_size;
-use crate::commands::{losses, ratings, stages, system_table};
+use crate::commands::{losses, stages, system_table};
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -92,7 +92,7 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
         run["problem"] = json!(result.problem());
         value["run"] = run;
     }
-    value["ratings"] = ratings::json(&result.ratings);
+    value["ratings"] = gearmesh_report::run_figures::ratings(&result.ratings);
     value["warnings"] = json!(result.warnings().map_err(Failure::work)?);
     if let stages @ Value::Object(_) = stages::json(result)? {
         value["stages"] = stages;

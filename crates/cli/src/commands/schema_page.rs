@@ -1,5 +1,6 @@
 //! A JSON Schema as a page of Markdown: `gearmesh schema KIND --markdown`, the pages in docs/reference.
 
+use gearmesh_geometry::input::NumberRange;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -92,7 +93,7 @@ impl<'a> Page<'a> {
                 } else {
                     meaning
                 };
-                let kind = self.kind(value);
+                let kind = self.kind(value, NumberRange::of(key));
                 let _ = writeln!(self.text, "| {shown} | {kind} | {} |", cell(&meaning));
                 let element = match target["items"] {
                     Value::Null => (target, name, false),
@@ -126,8 +127,8 @@ impl<'a> Page<'a> {
         }
     }
 
-    /// What a value is, in words.
-    fn kind(&self, schema: &'a Value) -> String {
+    /// What a value is, in words; a range where it is narrower than that of all numbers of the unit.
+    fn kind(&self, schema: &'a Value, unit: NumberRange) -> String {
         let (found, _) = self.resolved(schema);
         if let Some(word) = found["const"].as_str() {
             return format!("`\"{word}\"`");
@@ -142,7 +143,8 @@ impl<'a> Page<'a> {
         }
         for list in ["oneOf", "anyOf"] {
             if let Some(parts) = found[list].as_array() {
-                let mut kinds: Vec<String> = parts.iter().map(|part| self.kind(part)).collect();
+                let mut kinds: Vec<String> =
+                    parts.iter().map(|part| self.kind(part, unit)).collect();
                 kinds.dedup();
                 return kinds.join(", ");
             }
@@ -153,7 +155,7 @@ impl<'a> Page<'a> {
         };
         match types.iter().find(|kind| **kind != "null") {
             Some(&"array") => {
-                let of = self.kind(&found["items"]);
+                let of = self.kind(&found["items"], unit);
                 match found["maxItems"].as_u64() {
                     Some(count) => format!("{count} × {of}"),
                     None => format!("list: {of}"),
@@ -162,9 +164,30 @@ impl<'a> Page<'a> {
             Some(&"string") => "text".to_owned(),
             Some(&"boolean") => "true or false".to_owned(),
             Some(&"object") => "table".to_owned(),
-            Some(other) => (*other).to_owned(),
+            // Counts are not negative.
+            Some(&"integer") if found["maximum"].is_null() => "integer".to_owned(),
+            Some(other) => format!("{other}{}", range(found, unit)),
             None => "any".to_owned(),
         }
+    }
+}
+
+/// The ends of a number's range, as in " > 0, ≤ 1".
+fn range(schema: &Value, unit: NumberRange) -> String {
+    let ends = [
+        ("exclusiveMinimum", ">"),
+        ("minimum", "≥"),
+        ("exclusiveMaximum", "<"),
+        ("maximum", "≤"),
+    ];
+    let ends = ends.iter().filter_map(|(end, sign)| {
+        let value = schema[*end].as_f64()?;
+        (value.abs() < unit.largest()).then(|| format!("{sign} {value}"))
+    });
+    let ends: Vec<String> = ends.collect();
+    match ends.is_empty() {
+        true => String::new(),
+        false => format!(" {}", ends.join(", ")),
     }
 }
 

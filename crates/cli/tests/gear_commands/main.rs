@@ -36,6 +36,8 @@ fn help_names_all_commands() {
                            moving gears (ParaView), a gear as STEP
       record               Make a reference record of measured curves: CSV with units, or a universal
                            file
+      studio               Open a gear pair or a result in the browser: change the pair, see its curves
+                           and flanks at once
       signal               Analyse a column of a multibody result: spectra, orders, sidebands, envelope,
                            averages
       check                Check a gear file, bearing file, scene, study, S-N table, record, model or
@@ -86,6 +88,7 @@ fn help_names_all_commands() {
         "export",
         "bevel",
         "tca",
+        "studio",
     ] {
         let help = succeeds(&[command, "--help"]).stdout;
         assert!(

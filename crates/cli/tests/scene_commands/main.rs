@@ -31,6 +31,7 @@ mod report;
 mod run;
 mod schema;
 mod shipped_gearboxes;
+mod studio;
 mod unequal_pair;
 
 use common::{Desk, argument, succeeds, workshop};

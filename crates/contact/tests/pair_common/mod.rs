@@ -11,6 +11,7 @@ use gearmesh_model::{FlankGrid, ReducedGear};
 pub fn tooth(teeth: usize, profile_shift: f64, tip_chamfer_m: f64) -> ToothDefinition {
     ToothDefinition {
         teeth,
+        gearing: Default::default(),
         module_m: 3e-3,
         pressure_angle_rad: 20f64.to_radians(),
         profile_shift,

@@ -9,6 +9,7 @@ use std::cell::Cell;
 
 use gearmesh_bevel::{PairBlank, PairDesign};
 use gearmesh_contact::SliceLayout;
+use gearmesh_contact::slice_part::LEAST_SHARE;
 use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Vector3};
 
@@ -32,8 +33,6 @@ use crate::slice_plane::Matrix6;
 const MARGIN_M: f64 = 3e-6;
 /// Sections that stand open by more than this many times the deepest overlap do not touch, see `OUT_OF_REACH` of the hybrid model.
 const REACH: f64 = 3.0;
-/// Shares below this do not count: the slice stands beside gear 2.
-const LEAST_SHARE: f64 = 1e-4;
 /// Part of a slice over which the end of gear 2's face is rounded.
 const ROUNDING: f64 = 0.1;
 /// Slices along the teeth.

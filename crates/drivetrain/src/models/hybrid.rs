@@ -128,7 +128,8 @@ impl ReducedTeeth {
         // Tip edges add up to half a pitch at either end, and gears may stand closer together than the pair.
         let most_lines = lines.most_pairs() + 2;
         let teeth = [pair.gear_1.teeth, pair.gear_2.teeth];
-        let flanks = (teeth, side);
+        let sides = [0, 1].map(|gear| pair.circles().side_of(gear, side));
+        let flanks = (teeth, sides);
         let slices = SliceContact::of_gears(models, flanks, (local, layout), most_lines)?;
         Self::of_flanks(slices, nominal_force_n)
     }

@@ -7,7 +7,7 @@ use super::{MM, TableKeys};
 use crate::definition::{
     CrackDefinition, Flank, GearDefinition, ReductionSettings, ToothDefinition,
 };
-use crate::input::{InputDocument, InputError};
+use crate::input::{Bounded, InputDocument, InputError, Within};
 use crate::profile_curve::ProfileCurve;
 use crate::tooth::ToothGeometry;
 use schemars::JsonSchema;
@@ -26,7 +26,7 @@ pub(super) struct CrackTable {
     depth_mm: f64,
     /// Direction against the tooth's centre line: 0 towards the centre of the gear, 90 straight across; at right angles
     /// to the profile where not given.
-    angle_deg: Option<f64>,
+    angle_deg: Option<Bounded<Within<0, 90>>>,
     /// Place of the mouth: angle of the profile's tangent with the tooth's centre line. This or radius_mm; 30 where
     /// neither is given.
     tangent_deg: Option<f64>,
@@ -82,15 +82,7 @@ impl CrackTable {
         )?;
         let angle_rad = match self.angle_deg {
             None => FRAC_PI_2 - curve.tangent_angle_at_rad(mouth_arc_m),
-            Some(angle) => {
-                keys.require(
-                    "angle_deg",
-                    angle,
-                    (0.0..=90.0).contains(&angle),
-                    "0 (towards the gear's centre) to 90 (straight across)",
-                )?;
-                angle.to_radians()
-            }
+            Some(angle) => angle.to_radians(),
         };
         Ok(CrackDefinition {
             tooth: self.tooth,

@@ -1,8 +1,8 @@
 //! `[material]`: linear elastic, isotropic.
 
-use super::TableKeys;
 use crate::definition::Material;
-use crate::input::{InputDocument, InputError};
+use crate::input::{Bounded, End, InputDocument, InputError, Positive};
+use crate::number_range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -12,40 +12,26 @@ use serde::Deserialize;
 #[allow(non_snake_case)]
 pub struct MaterialTable {
     /// Young's modulus.
-    young_GPa: f64,
+    young_GPa: Bounded<Positive>,
     /// Poisson's ratio.
-    poisson: f64,
+    poisson: Bounded<PoissonRatio>,
     /// Density; needed by natural modes and by a body that moves.
-    density_kg_per_m3: Option<f64>,
+    density_kg_per_m3: Option<Bounded<Positive>>,
 }
+
+number_range!(
+    /// Poisson's ratios of elastic metals; one of 0.5 keeps its volume, and its stiffness has no inverse.
+    pub PoissonRatio: End::At(0.0), End::Beyond(0.5)
+);
 
 impl MaterialTable {
     /// The material, in SI units.
-    ///
-    /// # Errors
-    /// [`InputError`] for a constant that no elastic material has.
-    pub fn check(self, document: &InputDocument) -> Result<Material, InputError> {
-        let keys = TableKeys::new(document, "material");
-        keys.require(
-            "young_GPa",
-            self.young_GPa,
-            self.young_GPa > 0.0,
-            "more than 0",
-        )?;
-        keys.require(
-            "poisson",
-            self.poisson,
-            (0.0..0.5).contains(&self.poisson),
-            "0 up to, not including, 0.5",
-        )?;
-        if let Some(density) = self.density_kg_per_m3 {
-            keys.require("density_kg_per_m3", density, density > 0.0, "more than 0")?;
+    pub fn material(&self) -> Material {
+        Material {
+            young_pa: *self.young_GPa * 1e9,
+            poisson: *self.poisson,
+            density_kg_per_m3: self.density_kg_per_m3.map(f64::from),
         }
-        Ok(Material {
-            young_pa: self.young_GPa * 1e9,
-            poisson: self.poisson,
-            density_kg_per_m3: self.density_kg_per_m3,
-        })
     }
 }
 

@@ -4,7 +4,8 @@ use super::{MM, TableKeys};
 use crate::blank::Blank;
 use crate::body_outline::beyond_layers;
 use crate::definition::{MeshSettings, ToothDefinition};
-use crate::input::{InputDocument, InputError};
+use crate::input::{Bounded, End, InputDocument, InputError};
+use crate::number_range;
 use gearmesh_elements::Element;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -17,18 +18,26 @@ pub(super) struct MeshTable {
     element: Option<Element>,
     /// Element length along the flank; 0.3 modules where not given, twice that in tetrahedra.
     flank_mm: Option<f64>,
-    /// Element length along the root fillet; 0.08 modules where not given, twice that in tetrahedra.
+    /// Element length along the root fillet; 0.04 modules where not given, 0.08 of quadratic bricks (`hex20`), 0.16 of tetrahedra.
     fillet_mm: Option<f64>,
     /// Largest element length in the body; 1.2 modules where not given, twice that in tetrahedra.
     body_mm: Option<f64>,
     /// Element length along the axis; a tenth of the face where not given, a fifth in tetrahedra.
     axial_mm: Option<f64>,
     /// Smallest scaled Jacobian that is accepted; 0.2 where not given.
-    min_scaled_jacobian: Option<f64>,
+    min_scaled_jacobian: Option<Bounded<LeastQuality>>,
     /// The cross-section only, one layer that does not move along the axis; false where not given.
     #[serde(default)]
     plane_strain: bool,
 }
+
+number_range!(
+    /// Scaled Jacobians that can be asked for: no element of a tooth is a cube.
+    pub LeastQuality: End::Beyond(0.0), End::At(0.9)
+);
+
+/// Smallest scaled Jacobian where a file asks for none.
+pub const DEFAULT_LEAST_QUALITY: f64 = 0.2;
 
 impl MeshTable {
     /// The mesh settings, in SI units.
@@ -101,13 +110,6 @@ impl MeshTable {
         let (element, chosen_because) = self.check_element(&keys, tooth, blank)?;
         let [flank_mm, fillet_mm, body_mm, axial_mm] =
             MeshSettings::default_lengths(element, module_mm, width_mm);
-        let quality = self.min_scaled_jacobian.unwrap_or(0.2);
-        keys.require(
-            "min_scaled_jacobian",
-            quality,
-            quality > 0.0 && quality <= 0.9,
-            "more than 0, at most 0.9",
-        )?;
         Ok(MeshSettings {
             element,
             chosen_because,
@@ -115,7 +117,9 @@ impl MeshTable {
             fillet_m: size_m("fillet_mm", self.fillet_mm, fillet_mm, 0.5 * module_mm)?,
             body_m: size_m("body_mm", self.body_mm, body_mm, 10.0 * module_mm)?,
             axial_m: size_m("axial_mm", self.axial_mm, axial_mm, width_mm)?,
-            min_scaled_jacobian: quality,
+            min_scaled_jacobian: self
+                .min_scaled_jacobian
+                .map_or(DEFAULT_LEAST_QUALITY, f64::from),
             plane_strain: self.plane_strain,
         })
     }

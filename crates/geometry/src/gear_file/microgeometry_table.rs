@@ -331,8 +331,7 @@ impl FlankTable<'_> {
         let Some((amount_m, diameter_mm)) = self.of.profile_crowning()? else {
             return Ok(None);
         };
-        let (low, high) = self.involute_mm();
-        let ok = diameter_mm >= low && diameter_mm < high;
+        let ok = self.is_on_involute(diameter_mm, false);
         self.require_on_involute(diameter, diameter_mm, ok)?;
         Ok(Some(ProfileCrowning {
             amount_m,
@@ -347,11 +346,11 @@ impl FlankTable<'_> {
         let Some((amount_m, diameter_mm)) = self.of.tip_relief()? else {
             return Ok(None);
         };
-        let (low, high) = self.involute_mm();
-        let ok = diameter_mm >= low && diameter_mm < high;
+        let ok = self.is_on_involute(diameter_mm, false);
         self.require_on_involute(start, diameter_mm, ok)?;
         let start_roll_rad = self.roll_rad(diameter_mm);
-        let length_m = self.profile.base_radius_m * (self.profile.tip_roll_rad - start_roll_rad);
+        let rolled_rad = (self.profile.tip_roll_rad - start_roll_rad).abs();
+        let length_m = self.profile.base_radius_m * rolled_rad;
         Ok(Some(TipRelief {
             amount_m,
             start_roll_rad,
@@ -366,11 +365,11 @@ impl FlankTable<'_> {
         let Some((amount_m, diameter_mm)) = self.of.root_relief()? else {
             return Ok(None);
         };
-        let (low, high) = self.involute_mm();
-        let ok = diameter_mm > low && diameter_mm <= high;
+        let ok = self.is_on_involute(diameter_mm, true);
         self.require_on_involute(start, diameter_mm, ok)?;
         let start_roll_rad = self.roll_rad(diameter_mm);
-        let length_m = self.profile.base_radius_m * (start_roll_rad - self.profile.form_roll_rad);
+        let rolled_rad = (start_roll_rad - self.profile.form_roll_rad).abs();
+        let length_m = self.profile.base_radius_m * rolled_rad;
         Ok(Some(RootRelief {
             amount_m,
             start_roll_rad,
@@ -429,13 +428,25 @@ impl FlankTable<'_> {
         (2.0 * form_m / MM, 2.0 * self.profile.tip_radius_m / MM)
     }
 
+    /// Whether a diameter lies between form and tip circle: with the form circle, and without the tip circle, or, of
+    /// what reaches to the root, the other way round.
+    fn is_on_involute(&self, diameter_mm: f64, to_root: bool) -> bool {
+        let (form, tip) = self.involute_mm();
+        let open = if to_root { form } else { tip };
+        let (low, high) = (form.min(tip), form.max(tip));
+        (low..=high).contains(&diameter_mm) && diameter_mm != open
+    }
+
     fn require_on_involute(&self, key: &str, value: f64, ok: bool) -> Result<(), InputError> {
-        let (low, high) = self.involute_mm();
-        let allowed = if key.starts_with("root") {
-            format!("above {low:.3} to {high:.3}: the involute part of the flank")
-        } else {
-            format!("{low:.3} to below {high:.3}: the involute part of the flank")
+        let (form, tip) = self.involute_mm();
+        let to_root = key.starts_with("root");
+        let allowed = match (to_root, form < tip) {
+            (true, true) => format!("above {form:.3} to {tip:.3}"),
+            (false, true) => format!("{form:.3} to below {tip:.3}"),
+            (true, false) => format!("{tip:.3} to below {form:.3}"),
+            (false, false) => format!("above {tip:.3} to {form:.3}"),
         };
+        let allowed = format!("{allowed}: the involute part of the flank");
         self.of.require(key, value, ok, &allowed)
     }
 

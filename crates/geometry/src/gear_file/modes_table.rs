@@ -3,7 +3,7 @@
 use super::TableKeys;
 use super::material_table::needs_density;
 use crate::definition::{Material, ModeRange};
-use crate::input::{InputDocument, InputError};
+use crate::input::{Bounded, Count, InputDocument, InputError, Positive};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,9 +13,9 @@ use serde::Deserialize;
 #[allow(non_snake_case)]
 pub struct ModesTable {
     /// So many, the lowest. This or up_to_Hz.
-    count: Option<usize>,
+    count: Option<Count<1, 1000>>,
     /// All up to this frequency.
-    up_to_Hz: Option<f64>,
+    up_to_Hz: Option<Bounded<Positive>>,
 }
 
 impl ModesTable {
@@ -38,15 +38,8 @@ impl ModesTable {
             ));
         }
         match (self.count, self.up_to_Hz) {
-            (Some(count), None) => {
-                let ok = (1..=1000).contains(&count);
-                keys.require("count", count as f64, ok, "1 to 1000")?;
-                Ok(ModeRange::Count(count))
-            }
-            (None, Some(hz)) => {
-                keys.require("up_to_Hz", hz, hz > 0.0, "more than 0")?;
-                Ok(ModeRange::UpToHz(hz))
-            }
+            (Some(count), None) => Ok(ModeRange::Count(count.get())),
+            (None, Some(hz)) => Ok(ModeRange::UpToHz(*hz)),
             (Some(_), Some(_)) => Err(keys.error(
                 "count",
                 "count and up_to_Hz exclude each other; keep one of them",

@@ -2,7 +2,7 @@
 
 use super::TableKeys;
 use crate::definition::{Flank, ReductionSettings, Symmetry};
-use crate::input::{InputDocument, InputError};
+use crate::input::{Count, InputDocument, InputError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,9 +11,9 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub(super) struct ReductionTable {
     /// Stations of the flank grid along the profile; 9 where not given.
-    roll_stations: Option<usize>,
+    roll_stations: Option<Count<3, 65>>,
     /// Slices over the face width; 5 where not given, 1 in plane strain.
-    slices: Option<usize>,
+    slices: Option<Count<1, 100>>,
     /// Flanks that carry loads; both where not given.
     flanks: Option<Vec<Flank>>,
     /// "auto" uses that the gear repeats, "off" factorises all of it for comparison; "auto" where not given.
@@ -29,39 +29,32 @@ impl ReductionTable {
         plane_strain: bool,
     ) -> Result<ReductionSettings, InputError> {
         let keys = TableKeys::new(document, "reduction");
-        let roll_stations = self.roll_stations.unwrap_or(9);
-        let (default, most, allowed) = if plane_strain {
-            (1, 1, "1 in plane strain")
-        } else {
-            (5, 100, "1 to 100")
-        };
-        let slices = self.slices.unwrap_or(default);
-        keys.require(
-            "roll_stations",
-            roll_stations as f64,
-            (3..=65).contains(&roll_stations),
-            "3 to 65",
-        )?;
-        keys.require(
-            "slices",
-            slices as f64,
-            (1..=most).contains(&slices),
-            allowed,
-        )?;
-        let flanks = self
-            .flanks
-            .unwrap_or_else(|| vec![Flank::Right, Flank::Left]);
-        if flanks.is_empty() || (flanks.len() == 2 && flanks[0] == flanks[1]) || flanks.len() > 2 {
-            return Err(keys.error(
-                "flanks",
-                "name each loaded flank once: [\"right\"], [\"left\"] or [\"right\", \"left\"]",
-            ));
-        }
+        let default = if plane_strain { 1 } else { 5 };
+        let slices = self.slices.map_or(default, Count::get);
+        let ok = slices == 1 || !plane_strain;
+        keys.require("slices", slices as f64, ok, "1 in plane strain")?;
         Ok(ReductionSettings {
             symmetry: self.symmetry,
-            roll_stations,
+            roll_stations: self.roll_stations.map_or(9, Count::get),
             slices,
-            flanks,
+            flanks: loaded_flanks(self.flanks, &keys)?,
         })
     }
+}
+
+/// `flanks` of a reduction: those that carry loads, both where not given.
+///
+/// # Errors
+/// [`InputError`] where it names none, or one twice.
+pub fn loaded_flanks(
+    flanks: Option<Vec<Flank>>,
+    keys: &TableKeys<'_>,
+) -> Result<Vec<Flank>, InputError> {
+    let flanks = flanks.unwrap_or_else(|| vec![Flank::Right, Flank::Left]);
+    if flanks.is_empty() || (flanks.len() == 2 && flanks[0] == flanks[1]) || flanks.len() > 2 {
+        let problem =
+            "name each loaded flank once: [\"right\"], [\"left\"] or [\"right\", \"left\"]";
+        return Err(keys.error("flanks", problem));
+    }
+    Ok(flanks)
 }

@@ -1,7 +1,8 @@
-//! `[tooth]`: the teeth and the rack that cuts them.
+//! `[tooth]`: the teeth and the tool that cuts them.
 
+use super::cutter_table::CutterTable;
 use super::{MM, TableKeys};
-use crate::definition::ToothDefinition;
+use crate::definition::{Gearing, InternalRoot, ToothDefinition};
 use crate::input::{InputDocument, InputError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -11,25 +12,28 @@ use std::f64::consts::PI;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ToothTable {
-    /// Number of teeth.
+    /// Number of teeth; negative for a ring with internal teeth.
     teeth: i64,
     /// Module; of helical teeth in the normal section.
     module_mm: f64,
     /// Pressure angle of the rack, of helical teeth in the normal section; 20 where not given.
     #[serde(default = "default_pressure_angle")]
     pressure_angle_deg: f64,
-    /// Profile shift coefficient x in modules; 0 where not given.
+    /// Profile shift coefficient x in modules, positive towards the tip; 0 where not given.
     #[serde(default)]
     profile_shift: f64,
     /// Addendum of the tip in modules; 1 where not given. Not with tip_diameter_mm.
     addendum: Option<f64>,
-    /// Dedendum in modules: addendum of the cutting rack; 1.25 where not given.
-    #[serde(default = "default_dedendum")]
-    dedendum: f64,
-    /// Tip radius of the cutting rack in modules; 0.38 where not given.
-    #[serde(default = "default_rack_tip_radius")]
-    rack_tip_radius: f64,
-    /// Tip diameter where it is not reference diameter + 2 m (addendum + x).
+    /// Dedendum in modules: addendum of the cutting rack; 1.25 where not given. Not where a pinion cutter makes the root
+    /// of internal teeth.
+    dedendum: Option<f64>,
+    /// Tip radius of the cutting rack in modules; 0.38 where not given. External teeth only.
+    rack_tip_radius: Option<f64>,
+    /// What makes the root of internal teeth, "cutter" or "full-round"; "cutter" where not given.
+    root: Option<RootWord>,
+    /// The pinion cutter of internal teeth; one that suits them where not given.
+    cutter: Option<CutterTable>,
+    /// Tip diameter where it is not reference diameter + 2 m (addendum + x), of internal teeth − 2 m (addendum + x).
     tip_diameter_mm: Option<f64>,
     /// Reduction of the tooth thickness on the reference circle, for backlash; 0 where not given.
     #[serde(default)]
@@ -54,34 +58,31 @@ enum Hand {
     Left,
 }
 
+/// What makes the root of internal teeth.
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Default)]
+#[serde(rename_all = "kebab-case")]
+enum RootWord {
+    /// A pinion cutter.
+    #[default]
+    Cutter,
+    /// A tool with a full root radius, such as a broach.
+    FullRound,
+}
+
 fn default_pressure_angle() -> f64 {
     20.0
-}
-fn default_dedendum() -> f64 {
-    1.25
-}
-fn default_rack_tip_radius() -> f64 {
-    0.38
 }
 
 impl ToothTable {
     /// The teeth, in SI units. Whether they can exist together is [`crate::ToothGeometry`]'s to say.
     pub(super) fn check(self, document: &InputDocument) -> Result<ToothDefinition, InputError> {
         let keys = TableKeys::new(document, "tooth");
-        if self.teeth < 0 {
-            return Err(keys.error(
-                "teeth",
-                format!(
-                    "found {}: a negative number of teeth stands for an internal gear, and internal gears are not supported; allowed is 5 to 1000",
-                    self.teeth
-                ),
-            ));
-        }
+        let internal = self.teeth < 0;
         keys.require(
             "teeth",
             self.teeth as f64,
-            (5..=1000).contains(&self.teeth),
-            "5 to 1000",
+            (5..=1000).contains(&self.teeth) || (-1000..=-12).contains(&self.teeth),
+            "5 to 1000, or -1000 to -12 for internal teeth",
         )?;
         keys.require(
             "module_mm",
@@ -101,18 +102,21 @@ impl ToothTable {
             self.profile_shift.abs() <= 2.0,
             "-2 to 2",
         )?;
+        let dedendum = self.dedendum.unwrap_or(1.25);
         keys.require(
             "dedendum",
-            self.dedendum,
-            self.dedendum > 0.0,
+            dedendum,
+            dedendum > 0.0,
             "more than 0 (multiples of the module)",
         )?;
+        let rack_tip_radius = self.rack_tip_radius.unwrap_or(0.38);
         keys.require(
             "rack_tip_radius",
-            self.rack_tip_radius,
-            self.rack_tip_radius >= 0.0,
+            rack_tip_radius,
+            rack_tip_radius >= 0.0,
             "0 or more (multiples of the module)",
         )?;
+        self.refuse_other_tools(&keys, internal)?;
         keys.require(
             "face_width_mm",
             self.face_width_mm,
@@ -140,20 +144,68 @@ impl ToothTable {
                 "addendum and tip_diameter_mm both set the tip circle; give one of them",
             ));
         }
-        Ok(ToothDefinition {
-            teeth: self.teeth as usize,
+        let mut tooth = ToothDefinition {
+            teeth: self.teeth.unsigned_abs() as usize,
+            gearing: Gearing::External,
             module_m: self.module_mm * MM,
             pressure_angle_rad: self.pressure_angle_deg.to_radians(),
             profile_shift: self.profile_shift,
             addendum: self.addendum.unwrap_or(1.0),
-            dedendum: self.dedendum,
-            rack_tip_radius: self.rack_tip_radius,
+            dedendum,
+            rack_tip_radius,
             tip_diameter_m: self.tip_diameter_mm.map(|v| v * MM),
             thickness_allowance_m: self.thickness_allowance_mm * MM,
             tip_chamfer_m: self.tip_chamfer_mm * MM,
             face_width_m: self.face_width_mm * MM,
             helix_angle_rad,
-        })
+        };
+        if internal {
+            tooth.gearing = Gearing::Internal(match self.root.unwrap_or_default() {
+                RootWord::FullRound => InternalRoot::FullRound,
+                RootWord::Cutter => {
+                    let cutter = self.cutter.unwrap_or_default();
+                    InternalRoot::Cutter(cutter.check(document, &tooth)?)
+                }
+            });
+        }
+        Ok(tooth)
+    }
+
+    /// Refuses the keys of tools that do not cut these teeth.
+    fn refuse_other_tools(&self, keys: &TableKeys, internal: bool) -> Result<(), InputError> {
+        let full_round = self.root == Some(RootWord::FullRound);
+        for (key, given, why) in [
+            (
+                "root",
+                !internal && self.root.is_some(),
+                "is used by internal teeth only, teeth = -99; remove it",
+            ),
+            (
+                "cutter",
+                !internal && self.cutter.is_some(),
+                "is used by internal teeth only, teeth = -99; remove it",
+            ),
+            (
+                "cutter",
+                internal && full_round && self.cutter.is_some(),
+                "is not used by root = \"full-round\"; remove it",
+            ),
+            (
+                "rack_tip_radius",
+                internal && self.rack_tip_radius.is_some(),
+                "is not used by internal teeth, which no rack can cut; remove it, and give cutter.tip_radius or root = \"full-round\"",
+            ),
+            (
+                "dedendum",
+                internal && !full_round && self.dedendum.is_some(),
+                "is not used by internal teeth whose root a pinion cutter makes; remove it and give cutter.addendum",
+            ),
+        ] {
+            if given {
+                return Err(keys.error(key, why));
+            }
+        }
+        Ok(())
     }
 
     /// The signed helix angle \[rad\], positive for a right hand.

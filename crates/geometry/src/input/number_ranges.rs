@@ -74,6 +74,16 @@ impl NumberRange {
         Self::of_unit(key).or(wide).unwrap_or(PLAIN)
     }
 
+    /// The unit, empty for a key without one.
+    pub fn unit(self) -> &'static str {
+        self.unit
+    }
+
+    /// The largest magnitude, in the unit.
+    pub fn largest(self) -> f64 {
+        self.largest
+    }
+
     /// The range of a key within the value of another: its own, or that of the value where it has no unit, as in
     /// `torque_Nm = { step = { from = 0.0, … } }`.
     fn within(self, key: &str) -> Self {

@@ -3,6 +3,15 @@
 use super::{InputDocument, InputError};
 use std::fmt::Display;
 
+/// A number in a complaint: hundreds of zeros say less than an exponent.
+pub(super) fn found_number(value: f64) -> String {
+    if value.is_finite() && value != 0.0 && !(1e-9..1e15).contains(&value.abs()) {
+        format!("{value:e}")
+    } else {
+        value.to_string()
+    }
+}
+
 /// A table of a document.
 #[derive(Debug, Clone, Copy)]
 pub struct TableKeys<'a> {
@@ -41,13 +50,7 @@ impl<'a> TableKeys<'a> {
         if ok && value.is_finite() {
             Ok(())
         } else {
-            // Hundreds of zeros say less than an exponent.
-            let size = value.abs();
-            let found = if value.is_finite() && value != 0.0 && !(1e-9..1e15).contains(&size) {
-                format!("{value:e}")
-            } else {
-                value.to_string()
-            };
+            let found = found_number(value);
             Err(self.error(key, format!("found {found}, allowed is {allowed}")))
         }
     }

@@ -77,13 +77,13 @@ fn pair_a_has_the_stated_numbers() {
 #[test]
 fn the_profile_is_continuous_and_smooth_where_it_must_be() {
     let g = model("gear1.toml").profile;
-    let fillet_end = g.trochoid.point_m(g.fillet_end_m);
+    let fillet_end = g.fillet.point_m(g.fillet_end);
     let flank_start = g.flank_point_m(Flank::Right, g.form_roll_rad);
     assert!((fillet_end[0] - flank_start[0]).hypot(fillet_end[1] - flank_start[1]) < 1e-12);
     let (_, tangent) = g.flank_frame(Flank::Right, g.form_roll_rad);
-    let angle = g.trochoid.tangent_angle_rad(g.fillet_end_m);
+    let angle = g.fillet.tangent_angle_rad(g.fillet_end);
     assert!((tangent[1].atan2(tangent[0]) - angle).abs() < 1e-12);
-    let deepest = g.trochoid.point_m(0.0);
+    let deepest = g.fillet.point_m(0.0);
     assert!((deepest[0].hypot(deepest[1]) - g.root_radius_m).abs() < 1e-15);
     let curve = ProfileCurve::new(&g);
     let n = 5000;
@@ -122,7 +122,7 @@ fn a_pinion_with_few_teeth_is_undercut_and_a_hopeless_one_refused() {
     assert!(!free.undercut);
     let cut = pinion(12, 0.0).unwrap().profile;
     assert!(cut.undercut);
-    let at = cut.trochoid.point_m(cut.fillet_end_m);
+    let at = cut.fillet.point_m(cut.fillet_end);
     let flank = cut.flank_point_m(Flank::Right, cut.form_roll_rad);
     assert!(
         (at[0] - flank[0]).hypot(at[1] - flank[1]) < 1e-9,
@@ -239,6 +239,7 @@ fn a_tip_that_cuts_into_the_fillet_is_refused() {
     let gear = |teeth, profile_shift| {
         ToothGeometry::new(&ToothDefinition {
             teeth,
+            gearing: Default::default(),
             module_m: 0.2e-3,
             pressure_angle_rad: 0.26128296931528644,
             profile_shift,

@@ -9,6 +9,7 @@ pub const MODULE_M: f64 = 1e-3;
 pub fn standard(teeth: usize) -> ToothDefinition {
     ToothDefinition {
         teeth,
+        gearing: Default::default(),
         module_m: MODULE_M,
         pressure_angle_rad: 20f64.to_radians(),
         profile_shift: 0.0,

@@ -74,9 +74,7 @@ impl GearSurface {
         heights.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * half_width);
         let (right, before_flank) = half_outline(tooth);
         let half = right.len() - 1;
-        // From the middle of one tooth space to the next; its last point is the first of the next tooth.
-        let left = right[1..half].iter().rev().map(|p| [p[0], -p[1]]);
-        let whole: Vec<[f64; 2]> = right.iter().copied().chain(left).collect();
+        let whole = mirrored(&right);
         let columns = whole.len() * tooth.teeth;
         let (mut points, mut quads, mut teeth) = (Vec::new(), Vec::new(), Vec::new());
         for &z in &heights {
@@ -207,6 +205,20 @@ pub fn flank_directions(
     let turned = |v: [f64; 3]| [c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]];
     let (_, [x, y]) = t.flank_frame(side, roll_rad);
     [turned(t.flank_normal(side, roll_rad)), turned([x, y, 0.0])]
+}
+
+/// The outline of tooth 0 from the middle of one tooth space to the next \[m\]; its last point is left to the next tooth, whose first
+/// one it is.
+#[must_use]
+pub fn tooth_outline(tooth: &ToothGeometry) -> Vec<[f64; 2]> {
+    mirrored(&half_outline(tooth).0)
+}
+
+/// The outline of a tooth from its right half.
+fn mirrored(right: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let inner = &right[1..right.len() - 1];
+    let left = inner.iter().rev().map(|p| [p[0], -p[1]]);
+    right.iter().copied().chain(left).collect()
 }
 
 /// The right half of a tooth's outline from the middle of the space to that of the tip land, and how many quadrilaterals lie before the flank.

@@ -28,6 +28,25 @@ pub fn pair_surfaces(loaded: &LoadedScene, gears: [&GearDefinition; 2]) -> [Gear
     })
 }
 
+/// Angles by which both gears are turned about z at a torque and driver angle \[rad\], gear 2 beside gear 1 on +x: at zero the
+/// flanks of both teeth 0 touch at the pitch point.
+#[must_use]
+pub fn pair_turns(
+    loaded: &LoadedScene,
+    result: &SceneResult,
+    (torque, angle): (usize, usize),
+) -> [f64; 2] {
+    let pair = &loaded.lines.pair;
+    let [base_1, base_2] = [&pair.gear_1, &pair.gear_2].map(|gear| gear.base_radius_m);
+    let turn_1 = result.angle_rad[angle];
+    let turn_2 = (result.curve(&result.te_m, torque)[angle] + base_1 * turn_1) / base_2;
+    let roll = pair.working_pressure_angle_rad.tan();
+    let half_1 = pair.gear_1.half_angle_rad(roll);
+    let half_2 = pair.gear_2.half_angle_rad(pair.roll_2_rad(roll));
+    let sense = pair.flank.mirror();
+    [sense * (half_1 - turn_1), PI + sense * (half_2 + turn_2)]
+}
+
 /// Gear 1 stands at the origin, gear 2 beside it on +x; both turn about z as the transmission error says. Misalignment and axes beside the bores
 /// are too small to be seen and left out.
 #[must_use]
@@ -38,22 +57,16 @@ pub fn pair_moment(
     (torque, angle): (usize, usize),
 ) -> Moment {
     let pair = &loaded.lines.pair;
-    let [base_1, base_2] = [&pair.gear_1, &pair.gear_2].map(|gear| gear.base_radius_m);
-    let turn_1 = result.angle_rad[angle];
-    let turn_2 = (result.curve(&result.te_m, torque)[angle] + base_1 * turn_1) / base_2;
-    // At zero the flanks of both teeth 0 touch at the pitch point.
-    let roll = pair.working_pressure_angle_rad.tan();
-    let half_1 = pair.gear_1.half_angle_rad(roll);
-    let half_2 = pair.gear_2.half_angle_rad(pair.roll_2_rad(roll));
-    let sense = pair.flank.mirror();
+    let [turn_1, turn_2] = pair_turns(loaded, result, (torque, angle));
     let placements = vec![
-        Placement::turned(sense * (half_1 - turn_1), [0.0; 3]),
+        Placement::turned(turn_1, [0.0; 3]),
         Placement::turned(
-            PI + sense * (half_2 + turn_2),
+            turn_2,
             [pair.centre_distance_m, 0.0, loaded.scene.axial_offset_m],
         ),
     ];
-    let patches = loaded.patches_at(turn_1);
+    let driver_rad = result.angle_rad[angle];
+    let patches = loaded.patches_at(driver_rad);
     let forces = result.position_forces(torque, angle);
     let pressures = {
         let size = result.slots * result.slices;
@@ -87,7 +100,7 @@ pub fn pair_moment(
         }
     }
     Moment {
-        at: turn_1.to_degrees(),
+        at: driver_rad.to_degrees(),
         placements,
         loads,
         von_mises_pa: Vec::new(),

@@ -24,6 +24,7 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// Why a scene could not be run.
@@ -41,13 +42,29 @@ pub enum RunError {
     /// No contact state.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// [`PairWatch::stop`] was set.
+    #[error("stopped; nothing is kept")]
+    Stopped,
 }
 
 impl RunError {
     /// True when the input is to blame, not the computation.
     pub fn is_input(&self) -> bool {
-        !matches!(self, Self::Contact(cause) if cause.is_computation())
+        match self {
+            Self::Contact(cause) => !cause.is_computation(),
+            Self::Stopped => false,
+            Self::Input(_) | Self::File(_) | Self::Model(_) => true,
+        }
     }
+}
+
+/// How far a run is, and what ends it early: for who waits for it. Threads share it.
+#[derive(Debug, Default)]
+pub struct PairWatch {
+    /// Once true, the run ends with [`RunError::Stopped`] after the positions that are being solved.
+    pub stop: AtomicBool,
+    /// Positions of the even grid that are solved, of all torques together.
+    pub solved: AtomicUsize,
 }
 
 /// A scene with its models.
@@ -281,18 +298,30 @@ pub fn run(
     loaded: &LoadedScene,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<SceneResult, RunError> {
+    run_watched(loaded, progress, &PairWatch::default())
+}
+
+/// The same, watched position by position.
+///
+/// # Errors
+/// As [`run`]; [`RunError::Stopped`].
+pub fn run_watched(
+    loaded: &LoadedScene,
+    progress: &(dyn Fn(usize, usize) + Sync),
+    watch: &PairWatch,
+) -> Result<SceneResult, RunError> {
     let scene = &loaded.scene;
     let angles = loaded.angles_rad();
     let clock = Instant::now();
     let slots = loaded.line_slots(&angles);
-    let done = std::sync::atomic::AtomicUsize::new(0);
+    let done = AtomicUsize::new(0);
     let contact = loaded.contact()?;
     let found: Vec<TorquePositions> = scene
         .torques_nm
         .par_iter()
         .map(|&torque| {
-            let found = solve_torque(loaded, contact.clone(), &angles, torque)?;
-            let finished = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+            let found = solve_torque(loaded, contact.clone(), (&angles, torque), watch)?;
+            let finished = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress(finished, scene.torques_nm.len());
             Ok(found)
         })
@@ -398,11 +427,18 @@ impl TorquePositions {
 fn solve_torque(
     loaded: &LoadedScene,
     contact: StaticContact,
-    angles: &[f64],
-    torque: f64,
+    (angles, torque): (&[f64], f64),
+    watch: &PairWatch,
 ) -> Result<TorquePositions, RunError> {
     let mut solver = PositionSolver::new(loaded, contact, torque);
-    let even = angles.iter().map(|angle| solver.at(*angle));
+    let even = angles.iter().map(|angle| {
+        if watch.stop.load(Ordering::Relaxed) {
+            return Err(RunError::Stopped);
+        }
+        let position = solver.at(*angle)?;
+        watch.solved.fetch_add(1, Ordering::Relaxed);
+        Ok(position)
+    });
     let even = even.collect::<Result<Vec<Position>, RunError>>()?;
     let coverage = loaded.contact_coverage();
     let pitches = coverage.period_pitches.min(loaded.scene.pitches);

@@ -8,8 +8,8 @@ use crate::system::tables::friction::PairFrictionTable;
 use crate::system::tables::gear_mesh::{EccentricityTable, PathWord};
 use gearmesh_contact::{ContactOptions, LocalContact};
 use gearmesh_geometry::gear_file::MicrogeometryTable;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{Flank, InputError, Misalignment, kinds};
+use gearmesh_geometry::input::{Bounded, Count, End, InputDocument, Positive, Within};
+use gearmesh_geometry::{Flank, InputError, Misalignment, kinds, number_range};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -47,20 +47,29 @@ struct PairTable {
     /// Reduced model of the driven gear.
     gear_2: PathBuf,
     /// Centre distance.
-    centre_distance_mm: f64,
+    centre_distance_mm: Bounded<Positive>,
     /// Hand of the flanks in contact; "right" (gear 1 turns clockwise) where not given.
     #[serde(default = "default_flank")]
     flank: Flank,
     /// Mid-face of gear 2 from that of gear 1 along the axes; 0 where not given.
-    #[serde(default)]
-    axial_offset_mm: f64,
+    axial_offset_mm: Option<Bounded<Within<-10_000, 10_000>>>,
     /// Axis error in the plane of the axes; 0 where not given.
-    inclination_mrad: Option<f64>,
+    inclination_mrad: Option<Bounded<SmallAngle>>,
     /// Axis error across the plane of the axes; 0 where not given.
-    deviation_mrad: Option<f64>,
+    deviation_mrad: Option<Bounded<SmallAngle>>,
     /// Axis errors as a static run of the gearbox has found them, instead of the two.
     misalignment_from: Option<MisalignmentFrom>,
 }
+
+number_range!(
+    /// Angles between axes.
+    SmallAngle: End::At(-10.0), End::At(10.0), "the misalignment is treated as small"
+);
+
+number_range!(
+    /// Torques under which a pair rests.
+    ClosingTorque: End::Beyond(0.0), End::Open, "the static solution needs a load that closes the contact"
+);
 
 /// `[gear_1]` and `[gear_2]`.
 #[derive(Deserialize, JsonSchema, Default)]
@@ -111,7 +120,7 @@ struct PairTeethTable {
     /// not modelled at rest.
     path: Option<PathWord>,
     /// With path = "extended": radius of the tip edges; 100 where not given.
-    edge_radius_um: Option<f64>,
+    edge_radius_um: Option<Bounded<Within<1, 1000>>>,
     /// Tooth friction; none where not given.
     friction: Option<PairFrictionTable>,
     /// Errors and faults of gear 1.
@@ -132,14 +141,13 @@ const DEFAULT_EDGE_RADIUS_UM: f64 = 100.0;
 #[allow(non_snake_case)]
 struct RunTable {
     /// Torques on gear 2.
-    torques_Nm: Vec<f64>,
+    torques_Nm: Vec<Bounded<ClosingTorque>>,
     /// First driver angle; 0 where not given.
-    #[serde(default)]
-    start_deg: f64,
+    start_deg: Option<Bounded<Within<-36_000, 36_000>>>,
     /// Pitches of gear 1 to run through.
-    pitches: usize,
+    pitches: Count<1, 100_000>,
     /// Positions per pitch.
-    points_per_pitch: usize,
+    points_per_pitch: Count<4, 100_000>,
 }
 
 #[derive(Deserialize, JsonSchema, Default)]
@@ -225,26 +233,7 @@ impl Scene {
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let document = document.with_former(PAIR);
         let table: SceneTable = document.parse()?;
-        let require = |key: &str, value: f64, ok: bool, allowed: &str| {
-            if ok && value.is_finite() {
-                Ok(())
-            } else {
-                Err(document.error(key, format!("found {value}, allowed is {allowed}")))
-            }
-        };
         let pair = &table.pair;
-        require(
-            "pair.centre_distance_mm",
-            pair.centre_distance_mm,
-            pair.centre_distance_mm > 0.0,
-            "more than 0",
-        )?;
-        require(
-            "pair.axial_offset_mm",
-            pair.axial_offset_mm,
-            pair.axial_offset_mm.abs() <= 10_000.0,
-            "-10000 to 10000",
-        )?;
         for (key, value) in [
             ("pair.inclination_mrad", pair.inclination_mrad),
             ("pair.deviation_mrad", pair.deviation_mrad),
@@ -255,13 +244,6 @@ impl Scene {
                     "is stated and taken from a result (misalignment_from); remove one of the two",
                 ));
             }
-            let value = value.unwrap_or(0.0);
-            require(
-                key,
-                value,
-                value.abs() <= 10.0,
-                "-10 to 10: the misalignment is treated as small",
-            )?;
         }
         if table.run.torques_Nm.is_empty() {
             return Err(document.error(
@@ -269,47 +251,11 @@ impl Scene {
                 "is empty; name at least one torque on gear 2",
             ));
         }
-        for (i, &torque) in table.run.torques_Nm.iter().enumerate() {
-            require(
-                &format!("run.torques_Nm.{i}"),
-                torque,
-                torque > 0.0,
-                "more than 0: the static solution needs a load that closes the contact",
-            )?;
-        }
-        require(
-            "run.start_deg",
-            table.run.start_deg,
-            table.run.start_deg.abs() <= 36_000.0,
-            "-36000 to 36000",
-        )?;
-        require(
-            "run.pitches",
-            table.run.pitches as f64,
-            (1..=100_000).contains(&table.run.pitches),
-            "1 to 100000",
-        )?;
-        let points = table.run.points_per_pitch;
-        require(
-            "run.points_per_pitch",
-            points as f64,
-            (4..=100_000).contains(&points),
-            "4 to 100000",
-        )?;
         let teeth = table.mesh.teeth;
-        let keys = TableKeys::new(&document, "mesh.teeth");
-        let friction = teeth.friction.as_ref();
-        let friction = friction.map(|table| table.check(&keys)).transpose()?;
+        let friction = teeth.friction.as_ref().map(PairFrictionTable::friction);
         let edge_radius_m = match (teeth.path, teeth.edge_radius_um) {
             (Some(PathWord::Extended) | None, radius) => {
-                let radius = radius.unwrap_or(DEFAULT_EDGE_RADIUS_UM);
-                require(
-                    "mesh.teeth.edge_radius_um",
-                    radius,
-                    (1.0..=1000.0).contains(&radius),
-                    "1 to 1000",
-                )?;
-                Some(radius * 1e-6)
+                Some(1e-6 * radius.map_or(DEFAULT_EDGE_RADIUS_UM, f64::from))
             }
             (Some(PathWord::LineOfAction), Some(_)) => {
                 return Err(document.error(
@@ -332,12 +278,12 @@ impl Scene {
             title: table.title,
             gear_1: folder.join(&pair.gear_1),
             gear_2: folder.join(&pair.gear_2),
-            centre_distance_m: pair.centre_distance_mm * 1e-3,
-            axial_offset_m: pair.axial_offset_mm * 1e-3,
+            centre_distance_m: *pair.centre_distance_mm * 1e-3,
+            axial_offset_m: pair.axial_offset_mm.map_or(0.0, f64::from) * 1e-3,
             flank: pair.flank,
             misalignment: Misalignment {
-                inclination_rad: pair.inclination_mrad.unwrap_or(0.0) * 1e-3,
-                deviation_rad: pair.deviation_mrad.unwrap_or(0.0) * 1e-3,
+                inclination_rad: pair.inclination_mrad.map_or(0.0, f64::from) * 1e-3,
+                deviation_rad: pair.deviation_mrad.map_or(0.0, f64::from) * 1e-3,
             },
             misalignment_from: pair.misalignment_from.clone(),
             microgeometry: [table.gear_1.microgeometry, table.gear_2.microgeometry],
@@ -347,10 +293,10 @@ impl Scene {
             contact: ContactOptions { local, friction },
             edge_radius_m,
             path_by_default: teeth.path.is_none() && teeth.edge_radius_um.is_none(),
-            torques_nm: table.run.torques_Nm,
-            start_rad: table.run.start_deg.to_radians(),
-            pitches: table.run.pitches,
-            points_per_pitch: points,
+            torques_nm: table.run.torques_Nm.iter().map(|torque| **torque).collect(),
+            start_rad: table.run.start_deg.map_or(0.0, f64::from).to_radians(),
+            pitches: table.run.pitches.get(),
+            points_per_pitch: table.run.points_per_pitch.get(),
             gauges_1: table.gauges.gear_1,
             gauges_2: table.gauges.gear_2,
             ratings: table.rating,

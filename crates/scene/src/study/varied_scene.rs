@@ -71,8 +71,20 @@ impl BaseScene {
         keys: impl Iterator<Item = &'a str>,
         operation: Option<&OperationTable>,
     ) -> Result<Self, InputError> {
-        let mut document = InputDocument::read(path)?;
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::from_document(InputDocument::read(path)?, folder, keys, operation)
+    }
+
+    /// The same of a scene that is already in memory; files are relative to `folder`.
+    ///
+    /// # Errors
+    /// As [`BaseScene::read`].
+    pub fn from_document<'a>(
+        mut document: InputDocument,
+        folder: &Path,
+        keys: impl Iterator<Item = &'a str>,
+        operation: Option<&OperationTable>,
+    ) -> Result<Self, InputError> {
         if let Some(operation) = operation {
             if !is_bearing(&document)? {
                 let problem = "is no bearing file; `operation` belongs to bearings, remove it";
@@ -82,7 +94,7 @@ impl BaseScene {
             let text = format!("{}\n[{OPERATION}]\n{table}", document.text);
             document = InputDocument::new(document.file, text);
         }
-        let document = match Subject::from_document(document.clone(), &folder)? {
+        let document = match Subject::from_document(document.clone(), folder)? {
             Subject::Pair(_) => document.with_former(PAIR),
             Subject::System(_) => document.with_former(SYSTEM),
             Subject::Bevel(_) | Subject::Bearing(_) => document,
@@ -90,11 +102,11 @@ impl BaseScene {
         let given: toml::Value = document.glance()?;
         let mut begun = given.clone();
         for key in keys {
-            begin_microgeometry(&mut begun, key, &folder)?;
+            begin_microgeometry(&mut begun, key, folder)?;
         }
         Ok(Self {
             document,
-            folder,
+            folder: folder.to_owned(),
             given,
             begun,
         })

@@ -242,6 +242,7 @@ fn turn_and_torque_reverse() {
     }
 }
 
+/// Axes at 60 degrees: the mean normal force is that of statics at the mean radius within 5 %.
 #[test]
 fn axes_at_60_degrees() {
     let pair = changed(

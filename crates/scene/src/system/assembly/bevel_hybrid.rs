@@ -85,9 +85,8 @@ impl SceneBevel<'_> {
     ) -> Result<GearMesh, InputError> {
         let face_width_m =
             gearmesh_drivetrain::FlankKinematics::layout(&kinematics).face_widths_m[0];
-        let nominal = (model.nominal_force_N).unwrap_or(REFERENCE_LINE_LOAD_N_PER_M * face_width_m);
-        self.model_keys
-            .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
+        let nominal =
+            (model.nominal_force_N).map_or(REFERENCE_LINE_LOAD_N_PER_M * face_width_m, f64::from);
         let fault = |error| self.keys.error("", error);
         let teeth = |side: Flank| -> Result<Box<dyn TeethModel>, InputError> {
             let teeth = match (models, &model.half_space) {
@@ -103,7 +102,7 @@ impl SceneBevel<'_> {
                     made.map_err(|e| self.keys.error(key, e))?
                 }
                 (_, stated) => {
-                    let material = material(stated.as_ref(), &self.model_keys, "half_space")?;
+                    let material = material(stated.as_ref());
                     let contact = kinematics.surface_contact([material; 2]);
                     ReducedTeeth::of_flanks(contact, nominal).map_err(fault)?
                 }
@@ -111,7 +110,7 @@ impl SceneBevel<'_> {
             let Some(damping) = &model.damping else {
                 return Ok(Box::new(teeth));
             };
-            let damping = damping.check(&self.model_keys)?;
+            let damping = damping.damping();
             let slices = gearmesh_drivetrain::FlankKinematics::layout(&kinematics).slices;
             let damped = Damped::new(teeth, damping, slices);
             Ok(Box::new(

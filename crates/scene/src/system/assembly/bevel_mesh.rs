@@ -299,13 +299,13 @@ impl SceneBevel<'_> {
             return Ok(None);
         };
         let MeshModel::Hybrid(model) = &self.table.model else {
-            let contact_modulus_pa = contact_modulus(table, &self.keys, "tooth_pairs")?;
+            let contact_modulus_pa = contact_modulus(table);
             return Ok(Some(ToothPairs::Points { contact_modulus_pa }));
         };
         refuse_material(table, &self.keys)?;
         let materials = match models {
             Some(models) => [0, 1].map(|gear: usize| (models[gear].young_pa, models[gear].poisson)),
-            None => [material(model.half_space.as_ref(), &self.model_keys, "half_space")?; 2],
+            None => [material(model.half_space.as_ref()); 2],
         };
         Ok(Some(ToothPairs::Slices {
             pressure: SlicePressure::Line(contact_modulus_pa(materials[0], materials[1])),
@@ -330,7 +330,7 @@ impl SceneBevel<'_> {
                 return Err(keys.error(key, problem));
             }
         }
-        contact_modulus(table, keys, "hertz").map(Some)
+        Ok(Some(contact_modulus(table)))
     }
 
     /// What is computed, in words for the plan.
@@ -357,7 +357,7 @@ impl SceneBevel<'_> {
             MeshModel::NodeToSurface(model) => {
                 let what = format!(
                     "nodes of the pinion against patches of the gear, edges up to {:.0} um along the face and {:.0} um up the flank",
-                    model.along_um, model.up_um
+                    *model.along_um, *model.up_um
                 );
                 parts.effect(name("flanks"), Some(what));
                 let damping = model.damping_N_s_per_mm;
@@ -413,24 +413,18 @@ fn words(surface: BevelSurfaceTable) -> String {
     format!("{kind}, edges up to {along:.0} um along the face and {up:.0} um up the flank")
 }
 
-/// E* of both gears of a material \[Pa\], of the table at a key.
-fn contact_modulus(table: &HertzTable, keys: &TableKeys<'_>, key: &str) -> Result<f64, InputError> {
-    let both = material(Some(table), keys, key)?;
-    Ok(contact_modulus_pa(both, both))
+/// E* of both gears of a material \[Pa\].
+fn contact_modulus(table: &HertzTable) -> f64 {
+    let both = material(Some(table));
+    contact_modulus_pa(both, both)
 }
 
-/// Young's modulus \[Pa\] and Poisson's ratio of the table at a key, steel where it says nothing.
-pub(super) fn material(
-    table: Option<&HertzTable>,
-    keys: &TableKeys<'_>,
-    key: &str,
-) -> Result<(f64, f64), InputError> {
-    let young = table.and_then(|table| table.young_GPa).unwrap_or(206.0);
-    let poisson = table.and_then(|table| table.poisson).unwrap_or(0.3);
-    let positive = young > 0.0 && young.is_finite();
-    keys.require(&format!("{key}.young_GPa"), young, positive, "more than 0")?;
-    let ok = (0.0..0.5).contains(&poisson);
-    let allowed = "0 up to, not including, 0.5";
-    keys.require(&format!("{key}.poisson"), poisson, ok, allowed)?;
-    Ok((young * 1e9, poisson))
+/// Young's modulus \[Pa\] and Poisson's ratio of a table, steel where it says nothing.
+pub(super) fn material(table: Option<&HertzTable>) -> (f64, f64) {
+    let young = table.and_then(|table| table.young_GPa);
+    let poisson = table.and_then(|table| table.poisson);
+    (
+        1e9 * young.map_or(206.0, f64::from),
+        poisson.map_or(0.3, f64::from),
+    )
 }

@@ -7,7 +7,7 @@ use gearmesh_drivetrain::errors::eccentricity::Eccentricity;
 use gearmesh_drivetrain::{GearMesh, MeshElement, ModalPart, Pose, ToothPairs, kinematic_mesh};
 use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{Flank, GearPair, InputError, Misalignment};
+use gearmesh_geometry::{BaseCircles, Flank, GearPair, InputError, Misalignment};
 use gearmesh_model::ReducedGear;
 
 use super::bevel_hybrid::BevelModels;
@@ -149,7 +149,7 @@ impl PreparedMesh {
             gears,
             pair: &pair,
             displacement_m: at_start
-                .face_displacement_m(gears.map(|gear| gear.definition.profile.base_radius_m)),
+                .face_displacement_m(BaseCircles::new(gears.map(|gear| &gear.definition.profile))),
             curve: None,
         };
         scene.curve = scene.static_curve(prepared.sides[0])?;
@@ -344,8 +344,8 @@ pub(super) fn fitting_pair(
         return Err(keys.error("gear_2", problem));
     }
     let widths = 0.5 * (first.tooth.face_width_m + second.tooth.face_width_m);
-    let radii = [first, second].map(|gear| gear.profile.base_radius_m);
-    let offset = pose.face_displacement_m(radii).abs();
+    let circles = BaseCircles::new([&first.profile, &second.profile]);
+    let offset = pose.face_displacement_m(circles).abs();
     if offset >= widths {
         let problem = format!(
             "the gears stand side by side: {:.3} mm apart along the axis, their faces overlap below {:.3} mm",

@@ -287,9 +287,7 @@ impl SceneMesh<'_> {
     ) -> Result<ReducedTeeth, InputError> {
         let models = self.models()?;
         let reference = REFERENCE_LINE_LOAD_N_PER_M * self.zone_width_m();
-        let nominal = model.nominal_force_N.unwrap_or(reference);
-        self.model_keys
-            .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
+        let nominal = model.nominal_force_N.map_or(reference, f64::from);
         let contact = (model.local.unwrap_or_default(), layout);
         ReducedTeeth::on_slices(self.pair, side, models, contact, nominal).map_err(|error| {
             let hint = match self.teeth.flanks {
@@ -309,7 +307,7 @@ impl SceneMesh<'_> {
         let Some(damping) = damping else {
             return Ok(Box::new(teeth));
         };
-        let damping = damping.check(&self.model_keys)?;
+        let damping = damping.damping();
         let damped =
             Damped::new(teeth, damping, slices).map_err(|e| self.model_keys.error("damping", e))?;
         Ok(Box::new(damped))
@@ -349,10 +347,10 @@ impl SceneMesh<'_> {
 /// A material in `tooth_pairs` of gears that have their own.
 pub(super) fn refuse_material(table: &HertzTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
     let stated = [
-        ("tooth_pairs.young_GPa", table.young_GPa),
-        ("tooth_pairs.poisson", table.poisson),
+        ("tooth_pairs.young_GPa", table.young_GPa.is_some()),
+        ("tooth_pairs.poisson", table.poisson.is_some()),
     ];
-    let Some((key, _)) = stated.into_iter().find(|(_, value)| value.is_some()) else {
+    let Some((key, _)) = stated.into_iter().find(|(_, is_stated)| *is_stated) else {
         return Ok(());
     };
     let problem = "is not used: pressures follow from the materials that the model or the gears have; remove it";

@@ -32,25 +32,18 @@ fn stated(table: &NodeSurfaceTable, keys: &TableKeys<'_>) -> Result<Stated, Inpu
     let reference = match &table.weights {
         NodeWeights::None {} => None,
         NodeWeights::Area { nominal_force_N } => {
-            let force = *nominal_force_N;
-            let key = "weights.nominal_force_N";
-            keys.require(key, force, force > 0.0, "more than 0")?;
-            let approach_m = MM * (force / k).powf(1.0 / exponent);
+            let approach_m = MM * (**nominal_force_N / k).powf(1.0 / exponent);
             Some(ReferenceApproach {
                 approach_m,
                 exponent,
             })
         }
     };
-    let edges = [("along_um", table.along_um), ("up_um", table.up_um)];
-    for (key, edge) in edges {
-        keys.require(key, edge, edge > 0.0, "more than 0")?;
-    }
     Ok(Stated {
         law: law.on_modes(),
         size: PatchSize {
-            along_m: UM * table.along_um,
-            up_m: UM * table.up_um,
+            along_m: UM * *table.along_um,
+            up_m: UM * *table.up_um,
         },
         reference,
     })

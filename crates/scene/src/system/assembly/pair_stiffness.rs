@@ -9,7 +9,7 @@ use gearmesh_contact::{
     mesh_stiffness::MeshStiffness,
 };
 use gearmesh_drivetrain::{PairCurve, PairSamples};
-use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::input::{Count, InputDocument};
 use gearmesh_geometry::{Flank, GearDefinition, InputError};
 
 use super::mesh_model::SceneMesh;
@@ -20,9 +20,7 @@ use crate::system::tables::{MM, UM};
 
 /// Harmonics of the mesh cycle where a scene says nothing.
 const HARMONICS: usize = 20;
-/// Most harmonics.
-const MOST_HARMONICS: usize = 50;
-/// Positions a pitch of a curve that is computed: enough for the most harmonics.
+/// Positions a pitch of a curve that is computed: enough for the most harmonics, 50.
 const POINTS_PER_PITCH: usize = 120;
 /// Radius of the tip edges of a curve that is computed, as in `[pair]` scenes that state none \[m\].
 const EDGE_RADIUS_M: f64 = 100e-6;
@@ -46,11 +44,8 @@ impl SceneMesh<'_> {
             return Ok(None);
         };
         let keys = &self.model_keys;
-        let torque = table.torque_Nm;
-        keys.require("stiffness.torque_Nm", torque, torque > 0.0, "more than 0")?;
-        let harmonics = table.harmonics.unwrap_or(HARMONICS);
-        let ok = harmonics <= MOST_HARMONICS;
-        keys.require("stiffness.harmonics", harmonics as f64, ok, "0 to 50")?;
+        let torque = *table.torque_Nm;
+        let harmonics = table.harmonics.map_or(HARMONICS, Count::get);
         let curves = match (&table.from, table.local) {
             (Some(file), None) => self.stored(&self.folder.join(file), table)?,
             (Some(_), Some(_)) => {
@@ -111,7 +106,7 @@ impl SceneMesh<'_> {
             );
             return Err(fault(problem));
         }
-        let close = |torque: &f64| (torque / table.torque_Nm - 1.0).abs() < 1e-6;
+        let close = |torque: &f64| (torque / *table.torque_Nm - 1.0).abs() < 1e-6;
         let Some(index) = result.torque_nm.iter().position(close) else {
             let known: Vec<String> = result.torque_nm.iter().map(f64::to_string).collect();
             let problem = format!(
@@ -177,7 +172,7 @@ impl SceneMesh<'_> {
         };
         for k in 0..POINTS_PER_PITCH {
             let state = contact
-                .solve(k as f64 * step, Drive::Torque(table.torque_Nm))
+                .solve(k as f64 * step, Drive::Torque(*table.torque_Nm))
                 .map_err(fault)?;
             let stiffness = MeshStiffness::of(&state, base_2);
             curves.te_m.push(state.transmission_error_m);

@@ -57,12 +57,6 @@ impl PlacedShaft {
         let axes = axes_along(&axis);
         let z = stations(table, &keys)?;
         let radii = radii(table, &keys, z.len() - 1)?;
-        keys.require(
-            "density_kg_per_m3",
-            table.density_kg_per_m3,
-            table.density_kg_per_m3 > 0.0,
-            "more than 0",
-        )?;
         let omega = match table.speed_rpm {
             None => None,
             Some(rpm) => {
@@ -171,7 +165,7 @@ impl PlacedShaft {
             axes,
             points_m,
             spans_m,
-            sections: sections(table.model, &keys, &radii)?,
+            sections: sections(table.model, &radii),
             stations,
             seated,
             key,
@@ -265,30 +259,21 @@ fn radii(
     keys: &TableKeys<'_>,
     count: usize,
 ) -> Result<Vec<[f64; 2]>, InputError> {
-    let solid = vec![0.0; count];
-    let inner = table.inner_diameters_mm.as_ref().unwrap_or(&solid);
-    for (key, values) in [
-        ("outer_diameters_mm", &table.outer_diameters_mm),
-        ("inner_diameters_mm", inner),
+    let inner = table.inner_diameters_mm.as_ref();
+    for (key, found) in [
+        ("outer_diameters_mm", table.outer_diameters_mm.len()),
+        ("inner_diameters_mm", inner.map_or(count, Vec::len)),
     ] {
-        if values.len() != count {
-            return Err(keys.error(
-                key,
-                format!(
-                    "found {} diameters, {count} are needed: one between each station and the next",
-                    values.len()
-                ),
-            ));
+        if found != count {
+            let problem = format!(
+                "found {found} diameters, {count} are needed: one between each station and the next"
+            );
+            return Err(keys.error(key, problem));
         }
     }
     let mut radii = Vec::new();
-    for (i, (&inner, &outer)) in inner.iter().zip(&table.outer_diameters_mm).enumerate() {
-        keys.require(
-            &format!("inner_diameters_mm.{i}"),
-            inner,
-            inner >= 0.0,
-            "0 or more",
-        )?;
+    for (i, &outer) in table.outer_diameters_mm.iter().enumerate() {
+        let inner = inner.map_or(0.0, |inner| *inner[i]);
         keys.require(
             &format!("outer_diameters_mm.{i}"),
             outer,
@@ -301,28 +286,20 @@ fn radii(
 }
 
 /// Sections of the beams; none of a rigid shaft.
-fn sections(
-    model: ShaftModel,
-    keys: &TableKeys<'_>,
-    radii: &[[f64; 2]],
-) -> Result<Vec<BeamSection>, InputError> {
+fn sections(model: ShaftModel, radii: &[[f64; 2]]) -> Vec<BeamSection> {
     let ShaftModel::Beam {
         young_GPa: young,
         poisson,
         damping_s,
     } = model
     else {
-        return Ok(Vec::new());
+        return Vec::new();
     };
-    keys.require("model.young_GPa", young, young > 0.0, "more than 0")?;
-    let ok = (0.0..0.5).contains(&poisson);
-    keys.require("model.poisson", poisson, ok, "0 to below 0.5")?;
-    keys.require("model.damping_s", damping_s, damping_s >= 0.0, "0 or more")?;
     let round = |[inner, outer]: &[f64; 2]| BeamSection {
-        damping_s,
-        ..BeamSection::round(*outer, *inner, 1e9 * young, poisson)
+        damping_s: damping_s.map_or(0.0, f64::from),
+        ..BeamSection::round(*outer, *inner, 1e9 * young, *poisson)
     };
-    Ok(radii.iter().map(round).collect())
+    radii.iter().map(round).collect()
 }
 
 /// Ends of each section from the station before it \[m\]: the stations, and the faces of gears that are cut into the shaft.
@@ -379,7 +356,7 @@ fn lumps(
     let mut parts: Vec<Vec<Lump>> = vec![Vec::new(); z.len()];
     for (i, (radii, [from, to])) in radii.iter().zip(spans_m).enumerate() {
         let (middle, whole) = (0.5 * (from + to), z[i + 1] - z[i]);
-        let tube = |ends: [f64; 2]| Lump::tube(*radii, table.density_kg_per_m3, ends);
+        let tube = |ends: [f64; 2]| Lump::tube(*radii, *table.density_kg_per_m3, ends);
         parts[i].push(tube([*from, middle]));
         parts[i + 1].push(tube([middle - whole, to - whole]));
     }
@@ -395,21 +372,9 @@ fn lumps(
                 ),
             ));
         }
-        keys.require(
-            &key("mass_kg"),
-            part.mass_kg,
-            part.mass_kg > 0.0,
-            "more than 0",
-        )?;
-        let inertia = vector(keys, &key("inertia_kg_m2"), part.inertia_kg_m2, 1.0)?;
-        keys.require(
-            &key("inertia_kg_m2"),
-            inertia.min(),
-            inertia.min() >= 0.0,
-            "0 or more",
-        )?;
+        let inertia = Vector3::from(part.inertia_kg_m2.map(f64::from));
         parts[part.station].push(Lump {
-            mass_kg: part.mass_kg,
+            mass_kg: *part.mass_kg,
             centre_m: Vector3::zeros(),
             inertia_kg_m2: Matrix3::from_diagonal(&inertia),
         });

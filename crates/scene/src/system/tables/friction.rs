@@ -4,7 +4,7 @@
 use gearmesh_contact::Friction as PathFriction;
 use gearmesh_drivetrain::Friction as SpeedFriction;
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{Bounded, Positive, TableKeys, Within};
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -25,13 +25,13 @@ pub enum FrictionTable {
     /// Coulomb, regularised.
     Coulomb {
         /// Coefficient from `dynamic_speed_mm_per_s` on.
-        dynamic_coefficient: f64,
+        dynamic_coefficient: Bounded<Within<0, 5>>,
         /// Coefficient at `static_speed_mm_per_s`; the dynamic one where not given.
-        static_coefficient: Option<f64>,
+        static_coefficient: Option<Bounded<Within<0, 5>>>,
         /// Sliding speed of the static coefficient; 10 where not given.
-        static_speed_mm_per_s: Option<f64>,
+        static_speed_mm_per_s: Option<Bounded<Positive>>,
         /// Sliding speed from which the dynamic coefficient holds; ten times the static one where not given.
-        dynamic_speed_mm_per_s: Option<f64>,
+        dynamic_speed_mm_per_s: Option<Bounded<Positive>>,
     },
 }
 
@@ -45,9 +45,9 @@ pub enum PairFrictionTable {
     /// Coulomb, regularised.
     Coulomb {
         /// Coefficient of sliding.
-        dynamic_coefficient: f64,
+        dynamic_coefficient: Bounded<Within<0, 1>>,
         /// Distance from the pitch point within which friction turns round; 20 where not given.
-        reversal_um: Option<f64>,
+        reversal_um: Option<Bounded<Positive>>,
     },
 }
 
@@ -65,25 +65,19 @@ impl FrictionTable {
             static_speed_mm_per_s,
             dynamic_speed_mm_per_s,
         } = *self;
-        let resting = static_coefficient.unwrap_or(sliding);
-        let slow = static_speed_mm_per_s.unwrap_or(DEFAULT_STATIC_SPEED_MM_PER_S);
-        let fast = dynamic_speed_mm_per_s.unwrap_or(10.0 * slow);
+        let resting = *static_coefficient.unwrap_or(sliding);
+        let sliding = *sliding;
+        let slow = static_speed_mm_per_s.map_or(DEFAULT_STATIC_SPEED_MM_PER_S, f64::from);
+        let fast = dynamic_speed_mm_per_s.map_or(10.0 * slow, f64::from);
         let require = |key: &str, value: f64, ok: bool, allowed: &str| {
             keys.require(&format!("friction.{key}"), value, ok, allowed)
         };
         require(
-            "dynamic_coefficient",
-            sliding,
-            (0.0..=5.0).contains(&sliding),
-            "0 to 5",
-        )?;
-        require(
             "static_coefficient",
             resting,
-            (sliding..=5.0).contains(&resting),
+            resting >= sliding,
             &format!("at least dynamic_coefficient, {sliding}, and at most 5"),
         )?;
-        require("static_speed_mm_per_s", slow, slow > 0.0, "more than 0")?;
         require(
             "dynamic_speed_mm_per_s",
             fast,
@@ -96,23 +90,15 @@ impl FrictionTable {
 }
 
 impl PairFrictionTable {
-    /// The friction in SI units; `keys` are those of the table around it.
-    ///
-    /// # Errors
-    /// [`InputError`] for a number out of its range.
-    pub(crate) fn check(&self, keys: &TableKeys<'_>) -> Result<PathFriction, InputError> {
+    /// The friction in SI units.
+    pub(crate) fn friction(&self) -> PathFriction {
         let Self::Coulomb {
-            dynamic_coefficient: sliding,
+            dynamic_coefficient,
             reversal_um,
         } = *self;
-        let ok = (0.0..=1.0).contains(&sliding);
-        keys.require("friction.dynamic_coefficient", sliding, ok, "0 to 1")?;
-        let reversal = reversal_um.unwrap_or(DEFAULT_REVERSAL_UM);
-        let ok = reversal > 0.0;
-        keys.require("friction.reversal_um", reversal, ok, "more than 0")?;
-        Ok(PathFriction {
-            coefficient: sliding,
-            reversal_m: UM * reversal,
-        })
+        PathFriction {
+            coefficient: *dynamic_coefficient,
+            reversal_m: UM * reversal_um.map_or(DEFAULT_REVERSAL_UM, f64::from),
+        }
     }
 }

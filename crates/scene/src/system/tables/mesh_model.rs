@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use gearmesh_contact::LocalContact;
 use gearmesh_drivetrain::Damping;
-use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::kinds;
+use gearmesh_geometry::gear_file::PoissonRatio;
+use gearmesh_geometry::input::{Bounded, Count, End, NotNegative, Positive, Within};
+use gearmesh_geometry::{kinds, number_range};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -114,23 +114,28 @@ impl MeshModel {
     }
 }
 
+number_range!(
+    /// Shares that stay below the whole.
+    pub BelowOne: End::At(0.0), End::Beyond(1.0)
+);
+
 /// Keys of `kind = "impact"`.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[allow(non_snake_case)]
 pub struct ImpactTable {
     /// K of F = K (δ/mm)^e; its unit is N/mm^e with the exponent below.
-    pub stiffness_N_per_mm_e: Option<f64>,
+    pub stiffness_N_per_mm_e: Option<Bounded<Positive>>,
     /// e, at least 1; with `stiffness` that of the pair's curve where not given.
-    pub exponent: Option<f64>,
+    pub exponent: Option<Bounded<Within<1, 5>>>,
     /// Instead of a stated one: the stiffness of the pair itself, from its static curve at one torque.
     pub stiffness: Option<PairStiffnessTable>,
     /// Instead of a stated one, bevel pairs: K and e = 1.5 after Hertz from both flanks' curvatures at each contact.
     pub hertz: Option<HertzTable>,
     /// Largest damping, none where not given.
-    pub damping_N_s_per_mm: Option<f64>,
+    pub damping_N_s_per_mm: Option<Bounded<NotNegative>>,
     /// With damping: depth from which it acts in full.
-    pub full_damping_depth_um: Option<f64>,
+    pub full_damping_depth_um: Option<Bounded<Positive>>,
     /// Slices across the face width, 1 where not given.
     pub slices: Option<usize>,
 }
@@ -141,17 +146,17 @@ pub struct ImpactTable {
 #[allow(non_snake_case)]
 pub struct NodeSurfaceTable {
     /// K of F = K (δ/mm)^e of a pair of teeth; its unit is N/mm^e with the exponent below.
-    pub stiffness_N_per_mm_e: f64,
+    pub stiffness_N_per_mm_e: Bounded<Positive>,
     /// e, at least 1.
-    pub exponent: f64,
+    pub exponent: Bounded<Within<1, 5>>,
     /// Largest damping of a pair, shared by its nodes as K is; none where not given.
-    pub damping_N_s_per_mm: Option<f64>,
+    pub damping_N_s_per_mm: Option<Bounded<NotNegative>>,
     /// With damping: depth from which it acts in full.
-    pub full_damping_depth_um: Option<f64>,
+    pub full_damping_depth_um: Option<Bounded<Positive>>,
     /// Longest edge of a patch along the face.
-    pub along_um: f64,
+    pub along_um: Bounded<Positive>,
     /// Longest edge of a patch up the flank.
-    pub up_um: f64,
+    pub up_um: Bounded<Positive>,
     /// What of K a node has.
     pub weights: NodeWeights,
 }
@@ -178,7 +183,7 @@ pub enum NodeWeights {
     /// The share of its area in that over which the whole contact gives K δ^e at the approach of a stated force.
     Area {
         /// That force of a pair of teeth.
-        nominal_force_N: f64,
+        nominal_force_N: Bounded<Positive>,
     },
     /// The whole K at every node: the force grows with their number.
     None {},
@@ -192,9 +197,9 @@ kinds!(NodeWeights, "kind");
 #[allow(non_snake_case)]
 pub struct HertzTable {
     /// Young's modulus, 206 where not given (steel).
-    pub young_GPa: Option<f64>,
+    pub young_GPa: Option<Bounded<Positive>>,
     /// Poisson's ratio, 0.3 where not given.
-    pub poisson: Option<f64>,
+    pub poisson: Option<Bounded<PoissonRatio>>,
 }
 
 /// Keys of `kind = "iso6336"`.
@@ -203,11 +208,11 @@ pub struct HertzTable {
 #[allow(non_snake_case)]
 pub struct Iso6336Table {
     /// Mesh stiffness c_γα; after ISO 6336-1 method B from the gears' data where neither this nor `stiffness` is given.
-    pub stiffness_N_per_mm_um: Option<f64>,
+    pub stiffness_N_per_mm_um: Option<Bounded<Positive>>,
     /// Without a stated stiffness: line load F_t K_A/b, below 100 N/mm the stiffness falls; 100 where not given.
-    pub line_load_N_per_mm: Option<f64>,
+    pub line_load_N_per_mm: Option<Bounded<Positive>>,
     /// Amplitude of the stiffness over the mesh cycle, over its mean, below 1; constant where not given.
-    pub stiffness_amplitude: Option<f64>,
+    pub stiffness_amplitude: Option<Bounded<BelowOne>>,
     /// Instead of these: the stiffness of the pair itself, from its static curve at one torque.
     pub stiffness: Option<PairStiffnessTable>,
     /// Damping; none where not given.
@@ -243,7 +248,7 @@ pub struct HybridTable {
     pub slices: Option<usize>,
     /// Normal force to which the floor of the local law's logarithm belongs (a millionth of its mean slice force); 100
     /// N/mm times the face width where not given.
-    pub nominal_force_N: Option<f64>,
+    pub nominal_force_N: Option<Bounded<Positive>>,
     /// Damping; none where not given.
     pub damping: Option<DampingTable>,
 }
@@ -258,9 +263,9 @@ pub struct PairStiffnessTable {
     pub from: Option<PathBuf>,
     /// Torque on gear 2 at which stiffness and transmission error are taken, without sign; with `from` one of that
     /// scene's torques.
-    pub torque_Nm: f64,
+    pub torque_Nm: Bounded<Positive>,
     /// `iso6336`: harmonics of the mesh cycle, 20 where not given; 0 for the means alone.
-    pub harmonics: Option<usize>,
+    pub harmonics: Option<Count<0, 50>>,
     /// Without `from`: local contact of the curve; "calibrated" where not given.
     pub local: Option<LocalContact>,
 }
@@ -274,16 +279,16 @@ pub enum DampingTable {
     /// The teeth feel the gap g + τ ġ.
     StiffnessProportional {
         /// τ: damping over stiffness.
-        time_s: f64,
+        time_s: Bounded<NotNegative>,
         /// Depth from which it acts in full.
-        full_depth_um: f64,
+        full_depth_um: Bounded<Positive>,
     },
     /// c for each pair of teeth.
     Viscous {
         /// c.
-        damping_N_s_per_mm: f64,
+        damping_N_s_per_mm: Bounded<NotNegative>,
         /// Depth from which it acts in full.
-        full_depth_um: f64,
+        full_depth_um: Bounded<Positive>,
     },
 }
 
@@ -298,34 +303,23 @@ impl DampingTable {
         }
     }
 
-    /// The damping in SI units; `keys` are those of the model.
-    ///
-    /// # Errors
-    /// [`InputError`] for a number out of its range.
-    pub(crate) fn check(&self, keys: &TableKeys<'_>) -> Result<Damping, InputError> {
-        let (name, value, depth) = match self {
+    /// The damping in SI units.
+    pub(crate) fn damping(&self) -> Damping {
+        match *self {
             Self::StiffnessProportional {
                 time_s,
                 full_depth_um,
-            } => ("time_s", *time_s, *full_depth_um),
+            } => Damping::StiffnessProportional {
+                time_s: *time_s,
+                full_depth_m: UM * full_depth_um,
+            },
             Self::Viscous {
                 damping_N_s_per_mm,
                 full_depth_um,
-            } => ("damping_N_s_per_mm", *damping_N_s_per_mm, *full_depth_um),
-        };
-        let at = |name: &str| format!("damping.{name}");
-        keys.require(&at(name), value, value >= 0.0, "0 or more")?;
-        keys.require(&at("full_depth_um"), depth, depth > 0.0, "more than 0")?;
-        let full_depth_m = UM * depth;
-        Ok(match self {
-            Self::StiffnessProportional { time_s, .. } => Damping::StiffnessProportional {
-                time_s: *time_s,
-                full_depth_m,
+            } => Damping::Viscous {
+                coefficient_n_s_per_m: *damping_N_s_per_mm / MM,
+                full_depth_m: UM * full_depth_um,
             },
-            Self::Viscous { .. } => Damping::Viscous {
-                coefficient_n_s_per_m: value / MM,
-                full_depth_m,
-            },
-        })
+        }
     }
 }

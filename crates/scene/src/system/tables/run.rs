@@ -10,7 +10,7 @@
 use std::f64::consts::TAU;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::{Bounded, Count, InputDocument, Positive, TableKeys};
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -23,7 +23,7 @@ pub enum RunTable {
     /// Motion in time.
     Transient {
         /// End of the run.
-        end_s: f64,
+        end_s: Bounded<Positive>,
     },
     /// Static equilibria.
     Static(StaticTable),
@@ -59,9 +59,9 @@ pub struct EigenTable {
     /// Speeds of the motion.
     pub speeds_rpm: Option<Vec<f64>>,
     /// The operating point is where the motion stands after this time; the static equilibrium where not given.
-    pub settle_s: Option<f64>,
+    pub settle_s: Option<Bounded<Positive>>,
     /// Highest frequency that is listed.
-    pub most_frequency_Hz: Option<f64>,
+    pub most_frequency_Hz: Option<Bounded<Positive>>,
 }
 
 /// Keys of `kind = "speed-sweep"`: stepped with `speeds`, `settle_s` and `measure_s`, ramped with `ramp_s`.
@@ -78,13 +78,13 @@ pub struct SpeedSweepTable {
     #[serde(default)]
     pub direction: Direction,
     /// Stepped: number of speeds.
-    pub speeds: Option<usize>,
+    pub speeds: Option<Count<2, 100_000>>,
     /// Stepped: time at each speed before it is measured.
-    pub settle_s: Option<f64>,
+    pub settle_s: Option<Bounded<Positive>>,
     /// Stepped: time over which each speed is measured.
-    pub measure_s: Option<f64>,
+    pub measure_s: Option<Bounded<Positive>>,
     /// Ramped: time of each ramp.
-    pub ramp_s: Option<f64>,
+    pub ramp_s: Option<Bounded<Positive>>,
 }
 
 /// `run.kind`.
@@ -315,12 +315,8 @@ impl RunTable {
     /// [`InputError`] naming the key.
     pub fn check(&self, document: &InputDocument) -> Result<Run, InputError> {
         let keys = TableKeys::new(document, "run");
-        let optional =
-            |key: &str, value: Option<f64>| value.map(|v| positive(&keys, key, v)).transpose();
         Ok(match self {
-            Self::Transient { end_s } => Run::Transient {
-                end_s: positive(&keys, "end_s", *end_s)?,
-            },
+            Self::Transient { end_s } => Run::Transient { end_s: **end_s },
             Self::Static(table) => {
                 let angles = ("angles_deg", table.angles_deg.as_deref(), TAU / 360.0);
                 Run::Static {
@@ -331,10 +327,10 @@ impl RunTable {
             Self::Eigen(table) => {
                 let speeds = ("speeds_rpm", table.speeds_rpm.as_deref(), TAU / 60.0);
                 Run::Eigen {
-                    settle_s: optional("settle_s", table.settle_s)?,
+                    settle_s: table.settle_s.map(f64::from),
                     load_factors: load_factors(table.load_factors.as_deref(), &keys)?,
                     speeds_rad_per_s: motion_values(&keys, table.motion.as_deref(), speeds)?,
-                    most_frequency_hz: optional("most_frequency_Hz", table.most_frequency_Hz)?,
+                    most_frequency_hz: table.most_frequency_Hz.map(f64::from),
                 }
             }
             Self::SpeedSweep(table) => Run::SpeedSweep(SpeedSweep {
@@ -363,26 +359,15 @@ impl SpeedSweepTable {
                     ));
                 }
             }
-            let ramp_s = positive(keys, "ramp_s", ramp_s)?;
-            return Ok(Schedule::Ramped { ramp_s });
+            return Ok(Schedule::Ramped { ramp_s: *ramp_s });
         }
         let stepped = "a stepped sweep (or give ramp_s)";
-        let speeds = keys.needed("speeds", self.speeds, stepped)?;
-        let ok = (2..=100_000).contains(&speeds);
-        keys.require("speeds", speeds as f64, ok, "2 to 100000")?;
-        let needed =
-            |key: &str, value: Option<f64>| positive(keys, key, keys.needed(key, value, stepped)?);
         Ok(Schedule::Stepped {
-            speeds,
-            settle_s: needed("settle_s", self.settle_s)?,
-            measure_s: needed("measure_s", self.measure_s)?,
+            speeds: keys.needed("speeds", self.speeds, stepped)?.get(),
+            settle_s: *keys.needed("settle_s", self.settle_s, stepped)?,
+            measure_s: *keys.needed("measure_s", self.measure_s, stepped)?,
         })
     }
-}
-
-fn positive(keys: &TableKeys<'_>, key: &str, value: f64) -> Result<f64, InputError> {
-    keys.require(key, value, value > 0.0, "more than 0")?;
-    Ok(value)
 }
 
 fn load_factors(factors: Option<&[f64]>, keys: &TableKeys<'_>) -> Result<Vec<f64>, InputError> {

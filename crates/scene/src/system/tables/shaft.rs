@@ -1,5 +1,7 @@
 //! `[[shaft]]`: stations along an axis, round sections between them, lumped parts and bodies that sit on it.
 
+use gearmesh_geometry::gear_file::PoissonRatio;
+use gearmesh_geometry::input::{Bounded, NotNegative, Positive};
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -22,9 +24,9 @@ pub struct ShaftTable {
     /// Outer diameter between each station and the next.
     pub outer_diameters_mm: Vec<f64>,
     /// Inner diameters likewise; solid where not given.
-    pub inner_diameters_mm: Option<Vec<f64>>,
+    pub inner_diameters_mm: Option<Vec<Bounded<NotNegative>>>,
     /// Density.
-    pub density_kg_per_m3: f64,
+    pub density_kg_per_m3: Bounded<Positive>,
     /// Speed about the axis at the start, also of the bodies on the shaft that state none; 0 where not given.
     pub speed_rpm: Option<f64>,
     /// Lumped parts.
@@ -46,12 +48,11 @@ pub enum ShaftModel {
     /// A body at each station, Timoshenko beams between them.
     Beam {
         /// Young's modulus.
-        young_GPa: f64,
+        young_GPa: Bounded<Positive>,
         /// Poisson's ratio.
-        poisson: f64,
+        poisson: Bounded<PoissonRatio>,
         /// Damping over stiffness; none where not given.
-        #[serde(default)]
-        damping_s: f64,
+        damping_s: Option<Bounded<NotNegative>>,
     },
 }
 
@@ -64,9 +65,9 @@ pub struct PartTable {
     /// Number of the station, from 0.
     pub station: usize,
     /// Mass.
-    pub mass_kg: f64,
+    pub mass_kg: Bounded<Positive>,
     /// Inertia about the station: [Jxx, Jyy, Jzz], z along the shaft.
-    pub inertia_kg_m2: [f64; 3],
+    pub inertia_kg_m2: [Bounded<NotNegative>; 3],
 }
 
 /// `[[shaft.seat]]`: a body on the shaft. On a beam it takes the place of the station's own body, and the shaft's mass

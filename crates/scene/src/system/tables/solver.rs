@@ -2,7 +2,8 @@
 
 use gearmesh_dynamics::scheme::{AdaptiveStep, Params, StepControl};
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::{Bounded, Count, End, InputDocument, Positive, TableKeys, Within};
+use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,33 +14,38 @@ use super::run::Run;
 #[serde(deny_unknown_fields)]
 pub struct SolverTable {
     /// What is left of the highest frequencies after a step, 0 to 1; 0.8 where not given.
-    pub rho_infinity: Option<f64>,
+    pub rho_infinity: Option<Bounded<Within<0, 1>>>,
     /// Fixed step.
-    pub step_s: Option<f64>,
+    pub step_s: Option<Bounded<Positive>>,
     /// Adaptive step, instead of `step_s`.
     pub adaptive: Option<AdaptiveTable>,
     /// End of Newton's iteration: share of the step's own increment. Where not given, a tenth of the step's own error.
-    pub newton_tolerance: Option<f64>,
+    pub newton_tolerance: Option<Bounded<NewtonTolerance>>,
     /// Newton iterations after which a step is given up; 20 where not given.
-    pub most_iterations: Option<usize>,
+    pub most_iterations: Option<Count<2, 1000>>,
     /// Where the motion begins; "as-given" where not given.
     pub start: Option<Start>,
 }
+
+number_range!(
+    /// Shares of a step's increment that Newton's iteration can tell from rounding and from the step's own error.
+    pub NewtonTolerance: End::At(1e-14), End::At(1e-3)
+);
 
 /// `[solver.adaptive]`.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AdaptiveTable {
     /// Longest step.
-    pub largest_step_s: f64,
+    pub largest_step_s: Bounded<Positive>,
     /// First step; a thousandth of the longest where not given.
-    pub first_step_s: Option<f64>,
+    pub first_step_s: Option<Bounded<Positive>>,
     /// Shortest step, below which the run ends with advice; a millionth of the longest where not given.
-    pub least_step_s: Option<f64>,
+    pub least_step_s: Option<Bounded<Positive>>,
     /// Allowed error of a place in one step.
-    pub translation_tolerance_um: f64,
+    pub translation_tolerance_um: Bounded<Positive>,
     /// Allowed error of a rotation in one step.
-    pub rotation_tolerance_urad: f64,
+    pub rotation_tolerance_urad: Bounded<Positive>,
 }
 
 /// Where a motion begins.
@@ -89,10 +95,7 @@ impl SolverTable {
             });
         }
         let mut params = match (self.step_s, self.adaptive) {
-            (Some(step_s), None) => {
-                keys.require("step_s", step_s, step_s > 0.0, "more than 0")?;
-                Params::fixed(step_s)
-            }
+            (Some(step_s), None) => Params::fixed(*step_s),
             (None, Some(adaptive)) => {
                 adaptive.check(&TableKeys::new(document, "solver.adaptive"))?
             }
@@ -110,26 +113,11 @@ impl SolverTable {
             }
         };
         if let Some(rho) = self.rho_infinity {
-            keys.require("rho_infinity", rho, (0.0..=1.0).contains(&rho), "0 to 1")?;
-            params.rho_infinity = rho;
+            params.rho_infinity = *rho;
         }
-        if let Some(tolerance) = self.newton_tolerance {
-            keys.require(
-                "newton_tolerance",
-                tolerance,
-                (1e-14..=1e-3).contains(&tolerance),
-                "1e-14 to 1e-3",
-            )?;
-            params.newton_tolerance = Some(tolerance);
-        }
+        params.newton_tolerance = self.newton_tolerance.map(f64::from);
         if let Some(most) = self.most_iterations {
-            keys.require(
-                "most_iterations",
-                most as f64,
-                (2..=1000).contains(&most),
-                "2 to 1000",
-            )?;
-            params.most_iterations = most;
+            params.most_iterations = most.get();
         }
         let longest = match params.step {
             StepControl::Fixed { step_s } => step_s,
@@ -157,18 +145,11 @@ impl SolverTable {
 
 impl AdaptiveTable {
     fn check(&self, keys: &TableKeys<'_>) -> Result<Params, InputError> {
-        let largest = self.largest_step_s;
-        keys.require("largest_step_s", largest, largest > 0.0, "more than 0")?;
-        for (key, value) in [
-            ("translation_tolerance_um", self.translation_tolerance_um),
-            ("rotation_tolerance_urad", self.rotation_tolerance_urad),
-        ] {
-            keys.require(key, value, value > 0.0, "more than 0")?;
-        }
+        let largest = *self.largest_step_s;
         let mut params = Params::adaptive(
             largest,
-            1e-6 * self.translation_tolerance_um,
-            1e-6 * self.rotation_tolerance_urad,
+            1e-6 * *self.translation_tolerance_um,
+            1e-6 * *self.rotation_tolerance_urad,
         );
         if let StepControl::Adaptive(limits) = &mut params.step {
             let AdaptiveStep {
@@ -176,24 +157,15 @@ impl AdaptiveTable {
                 least_step_s,
                 ..
             } = limits;
-            if let Some(first) = self.first_step_s {
-                keys.require(
-                    "first_step_s",
-                    first,
-                    first > 0.0 && first <= largest,
-                    "more than 0, at most largest_step_s",
-                )?;
+            if let Some(first) = self.first_step_s.map(f64::from) {
+                let ok = first <= largest;
+                keys.require("first_step_s", first, ok, "at most largest_step_s")?;
                 *first_step_s = first;
                 *least_step_s = least_step_s.min(first);
             }
-            if let Some(least) = self.least_step_s {
-                let ok = least > 0.0 && least <= *first_step_s;
-                keys.require(
-                    "least_step_s",
-                    least,
-                    ok,
-                    "more than 0, at most the first step",
-                )?;
+            if let Some(least) = self.least_step_s.map(f64::from) {
+                let ok = least <= *first_step_s;
+                keys.require("least_step_s", least, ok, "at most the first step")?;
                 *least_step_s = least;
             }
         }

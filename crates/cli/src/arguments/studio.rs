@@ -1,0 +1,17 @@
+//! `gearmesh studio`.
+
+use clap::Args;
+use std::path::PathBuf;
+
+/// `gearmesh studio`.
+#[derive(Debug, Args)]
+pub struct StudioArguments {
+    /// Scene of a gear pair (.toml), its result, or the result of a multibody scene (.h5)
+    pub file: PathBuf,
+    /// Print the address only; open it yourself
+    #[arg(long)]
+    pub no_open: bool,
+    /// Port on this machine; a free one where not given
+    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    pub port: u16,
+}

@@ -1,0 +1,232 @@
+// Both gears in three dimensions, drawn by three. Tooth outlines and blanks are exact; millimetres, axes as in the scene:
+// gear 1 at the origin, gear 2 on +x, z along the axes.
+
+import * as THREE from "./three.module.min.js";
+import { colour } from "./curves.js";
+import { pressureColour } from "./flank.js";
+
+/** Sections of helical teeth along the axis. */
+const SECTIONS = 10;
+/** Places with pressure that are drawn; more would be finer than the picture. */
+const MOST_PLACES = 6000;
+
+function outline(gear) {
+  const points = [];
+  for (let tooth = 0; tooth < gear.teeth; tooth++) {
+    const [s, c] = [Math.sin((2 * Math.PI * tooth) / gear.teeth), Math.cos((2 * Math.PI * tooth) / gear.teeth)];
+    for (const [x, y] of gear.outline_mm) points.push(new THREE.Vector2(c * x - s * y, s * x + c * y));
+  }
+  return points;
+}
+
+const circle = (radius, [x, y] = [0, 0]) => new THREE.Path().absarc(x, y, radius, 0, 2 * Math.PI, true);
+
+function opening(one) {
+  if (one.hole) return circle(one.hole.radius_mm, one.hole.centre_mm);
+  const { radii_mm: [inner, outer], angles_rad: [from, to] } = one.slot;
+  const path = new THREE.Path();
+  path.absarc(0, 0, outer, from, to, false);
+  path.absarc(0, 0, inner, to, from, true);
+  path.closePath();
+  return path;
+}
+
+function ringGeometry(gear, ring) {
+  const shape = new THREE.Shape();
+  if (ring.outer_mm === null) shape.setFromPoints(outline(gear));
+  else shape.absarc(0, 0, ring.outer_mm, 0, 2 * Math.PI, false);
+  if (ring.inner_mm > 0) shape.holes.push(circle(ring.inner_mm));
+  for (const one of ring.openings) shape.holes.push(opening(one));
+  const [low, high] = ring.z_mm;
+  const isTwisted = ring.outer_mm === null && gear.twist_rad_per_mm !== 0;
+  const geometry = new THREE.ExtrudeGeometry(shape, { depth: high - low, bevelEnabled: false, curveSegments: 48, steps: isTwisted ? SECTIONS : 1 });
+  geometry.translate(0, 0, low);
+  if (isTwisted) {
+    // The teeth turn with z; bore and openings do not.
+    const least = Math.min(...gear.outline_mm.map(([x, y]) => Math.hypot(x, y))) - 1e-3;
+    const place = geometry.getAttribute("position");
+    for (let k = 0; k < place.count; k++) {
+      const [x, y, z] = [place.getX(k), place.getY(k), place.getZ(k)];
+      if (Math.hypot(x, y) < least) continue;
+      const [s, c] = [Math.sin(z * gear.twist_rad_per_mm), Math.cos(z * gear.twist_rad_per_mm)];
+      place.setXY(k, c * x - s * y, s * x + c * y);
+    }
+    geometry.computeVertexNormals();
+  }
+  return geometry;
+}
+
+export class Scene3d {
+  #wanted = false;
+
+  constructor(canvas, gears) {
+    this.canvas = canvas;
+    this.gears = gears;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(30, 1, 1, 1e5);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8890a0, 1.6));
+    const lamp = new THREE.DirectionalLight(0xffffff, 2.2);
+    lamp.position.set(-0.4, 0.7, 1);
+    this.scene.add(lamp);
+    this.materials = gears.map(() => new THREE.MeshStandardMaterial({ flatShading: true, roughness: 0.75, metalness: 0.1, side: THREE.DoubleSide }));
+    this.bodies = gears.map((gear, k) => {
+      const body = new THREE.Group();
+      for (const ring of gear.rings) body.add(new THREE.Mesh(ringGeometry(gear, ring), this.materials[k]));
+      this.scene.add(body);
+      return body;
+    });
+    this.view = { turn: -0.5, tilt: 0.45, distance: 1, target: new THREE.Vector3() };
+    const box = new THREE.BoxGeometry(1, 1, 1);
+    const lit = (depthTest) => new THREE.MeshBasicMaterial({ depthTest, toneMapped: false });
+    this.trace = new THREE.InstancedMesh(box, lit(true), MOST_PLACES);
+    this.lines = new THREE.InstancedMesh(box, lit(false), 512);
+    this.lines.renderOrder = 2;
+    this.trace.frustumCulled = this.lines.frustumCulled = false;
+    this.bodies[0].add(this.trace, this.lines);
+    this.seeThrough(true);
+    this.restyle();
+    this.#controls();
+    new ResizeObserver(() => this.draw()).observe(canvas);
+  }
+
+  restyle() {
+    this.materials.forEach((material, k) => material.color.set(colour(`--gear-${k + 1}`)));
+    this.draw();
+  }
+
+  seeThrough(isSo) {
+    const [, material] = this.materials;
+    Object.assign(material, { transparent: isSo, opacity: isSo ? 0.3 : 1, depthWrite: !isSo, needsUpdate: true });
+    this.bodies[1].renderOrder = 1;
+    this.draw();
+  }
+
+  /** The whole pair, or the teeth in mesh. */
+  look(at) {
+    const [first, second] = this.gears.map((gear) => 0.5 * gear.tip_diameter_mm);
+    const distance = this.distance ?? first + second;
+    const pitch = (distance * this.gears[0].teeth) / (this.gears[0].teeth + this.gears[1].teeth);
+    if (at === "mesh") {
+      this.view.target.set(pitch, 0, 0);
+      this.view.size = 7 * ((Math.PI * 2 * pitch) / this.gears[0].teeth);
+    } else {
+      this.view.target.set(0.5 * (distance + second - first), 0, 0);
+      this.view.size = distance + first + second;
+    }
+    this.view.zoom = 1;
+    this.draw();
+  }
+
+  /** A new answer: where the gears stand and what presses on the flank of gear 1. */
+  show(answer, torque, most) {
+    Object.assign(this, { answer, torque, most });
+    const isNew = this.distance === undefined;
+    this.distance = answer.centre_distance_mm;
+    this.bodies[1].position.set(answer.centre_distance_mm, 0, answer.axial_offset_mm);
+    const places = answer.angle_deg.length * answer.slots * answer.slices;
+    const every = Math.ceil(places / MOST_PLACES);
+    this.trace.count = this.#place(this.trace, Array.from({ length: Math.ceil(places / every) }, (_, k) => k * every), 0.05);
+    if (isNew) this.look("pair");
+  }
+
+  /** Turns the gears to a position. */
+  at(angle) {
+    const { answer } = this;
+    if (!answer) return;
+    this.bodies.forEach((body, k) => (body.rotation.z = answer.turns_rad[2 * angle + k]));
+    const block = answer.slots * answer.slices;
+    this.lines.count = this.#place(this.lines, Array.from({ length: Math.min(block, 512) }, (_, k) => angle * block + k), 0.16);
+    this.draw();
+  }
+
+  /** Boxes at places of the answer; as thick as a share of the module. */
+  #place(boxes, places, share) {
+    const { answer, torque } = this;
+    const gear = this.gears[0];
+    const thick = (share * gear.tip_diameter_mm) / gear.teeth;
+    const all = answer.angle_deg.length * answer.slots * answer.slices;
+    const matrix = new THREE.Matrix4();
+    const tint = new THREE.Color();
+    let count = 0;
+    for (const at of places) {
+      const pressure = answer.pressure_MPa[torque * all + at];
+      if (!(pressure > 0)) continue;
+      matrix.makeScale(thick, thick, answer.width_mm[at]);
+      matrix.setPosition(answer.point_mm[2 * at], answer.point_mm[2 * at + 1], answer.z_mm[at]);
+      boxes.setMatrixAt(count, matrix);
+      const [r, g, b] = pressureColour(pressure / this.most);
+      boxes.setColorAt(count, tint.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace));
+      count += 1;
+    }
+    boxes.instanceMatrix.needsUpdate = true;
+    if (boxes.instanceColor) boxes.instanceColor.needsUpdate = true;
+    return count;
+  }
+
+  /** Draws once before the next picture of the screen, however often it is asked. */
+  draw() {
+    if (this.#wanted) return;
+    this.#wanted = true;
+    requestAnimationFrame(() => {
+      this.#wanted = false;
+      this.#render();
+    });
+  }
+
+  #render() {
+    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+    if (width === 0 || !this.view.size) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    const { turn, tilt, target, size, zoom } = this.view;
+    const half = Math.tan((0.5 * this.camera.fov * Math.PI) / 180) * Math.min(1, this.camera.aspect);
+    const wide = this.camera.aspect > 1 ? size / this.camera.aspect : size;
+    const distance = (0.56 * Math.max(wide, 0.45 * size)) / half / zoom;
+    const along = new THREE.Vector3(Math.sin(turn) * Math.cos(tilt), Math.sin(tilt), Math.cos(turn) * Math.cos(tilt));
+    this.camera.position.copy(target).addScaledVector(along, distance);
+    this.camera.near = distance / 100;
+    this.camera.far = distance * 10;
+    this.camera.lookAt(target);
+    this.camera.updateProjectionMatrix();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  #controls() {
+    const { canvas, view } = this;
+    const turn = (x, y) => {
+      view.turn -= x;
+      view.tilt = Math.min(Math.max(view.tilt + y, -1.5), 1.5);
+      this.draw();
+    };
+    const zoom = (factor) => {
+      view.zoom = Math.min(Math.max(view.zoom * factor, 0.3), 40);
+      this.draw();
+    };
+    const pan = (x, y) => {
+      const way = (view.size / view.zoom / canvas.clientWidth) * 1.2;
+      const right = new THREE.Vector3().setFromMatrixColumn(this.camera.matrix, 0);
+      const up = new THREE.Vector3().setFromMatrixColumn(this.camera.matrix, 1);
+      view.target.addScaledVector(right, -x * way).addScaledVector(up, y * way);
+      this.draw();
+    };
+    canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
+    canvas.addEventListener("pointermove", (event) => {
+      if (!(event.buttons & 3)) return;
+      if (event.shiftKey || event.buttons & 2) pan(event.movementX, event.movementY);
+      else turn(0.008 * event.movementX, 0.008 * event.movementY);
+    });
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      zoom(Math.exp(-0.0012 * event.deltaY));
+    }, { passive: false });
+    const keys = { ArrowLeft: () => turn(-0.1, 0), ArrowRight: () => turn(0.1, 0), ArrowUp: () => turn(0, 0.1), ArrowDown: () => turn(0, -0.1), "+": () => zoom(1.2), "-": () => zoom(1 / 1.2) };
+    canvas.addEventListener("keydown", (event) => {
+      if (!keys[event.key]) return;
+      event.preventDefault();
+      keys[event.key]();
+    });
+  }
+}

@@ -1,0 +1,82 @@
+// The table of figures, and states that are kept beside the present one.
+
+import { short } from "./curves.js";
+
+/** Figures of a row of `gearmesh run --json`, in the units of axes. */
+const ROWS = [
+  ["TE peak to peak", "µm", "te_peak_to_peak_m", 1e6],
+  ["TE mean", "µm", "te_mean_m", 1e6],
+  ["Pressure, largest", "MPa", "pressure_largest_Pa", 1e-6],
+  ["K_Hβ", "", "k_h_beta", 1],
+  ["Stiffness, tangent mean", "N/µm", "tangent_stiffness_mean_N_per_m", 1e-6],
+  ["Stiffness, secant mean", "N/µm", "secant_stiffness_mean_N_per_m", 1e-6],
+  ["Axial force on gear 1", "N", "axial_force_1_mean_N", 1],
+];
+
+function difference(percent) {
+  const amount = Math.abs(percent).toFixed(1);
+  const sign = amount === "0.0" ? "±" : percent > 0 ? "+" : "−";
+  return `${sign}${amount} %`;
+}
+
+function element(tag, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
+
+export class Variants {
+  #pinned = [];
+  #count = 0;
+
+  /** `go(change)` brings a kept state back; `changed()` hears that others are kept. */
+  constructor(place, { go, changed }) {
+    Object.assign(this, { place, go, changed });
+  }
+
+  get pinned() {
+    return this.#pinned;
+  }
+
+  pin(change, answer) {
+    this.#count += 1;
+    this.#pinned.push({ name: `pin ${this.#count}`, change: JSON.parse(JSON.stringify(change)), answer });
+    if (this.#pinned.length > 4) this.#pinned.shift();
+    this.changed();
+  }
+
+  #head(pin) {
+    const go = element("button", { type: "button", title: "Go back to this state" }, "go");
+    const drop = element("button", { type: "button", ariaLabel: `Drop ${pin.name}` }, "×");
+    go.addEventListener("click", () => this.go(pin.change));
+    drop.addEventListener("click", () => {
+      this.#pinned = this.#pinned.filter((one) => one !== pin);
+      this.changed();
+    });
+    return element("th", { scope: "col" }, pin.name, element("span", { className: "actions" }, go, drop));
+  }
+
+  /** One torque: the present state and those that are kept, with differences. */
+  show(answer, torque) {
+    const load = answer.torques_Nm[torque];
+    const now = answer.figures.rows[torque];
+    const head = element("tr", {}, element("th", { scope: "col" }, `At ${short(load)} N·m`), element("th", { scope: "col" }, "unit"), element("th", { scope: "col" }, "now"));
+    head.append(...this.#pinned.map((pin) => this.#head(pin)));
+    const body = element("tbody");
+    for (const [label, unit, key, factor] of ROWS) {
+      if (key.startsWith("axial") && now[key] === 0) continue;
+      const data = element("data", { value: String(now[key]) }, short(now[key] * factor));
+      data.dataset.figure = key;
+      const row = element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, unit), element("td", {}, data));
+      for (const pin of this.#pinned) {
+        const other = pin.answer.figures.rows[torque]?.[key];
+        const cell = element("td", {}, other === undefined ? "" : short(other * factor));
+        // From the kept state to the present one.
+        if (other) cell.append(element("span", { className: "difference" }, difference((100 * (now[key] - other)) / Math.abs(other))));
+        row.append(cell);
+      }
+      body.append(row);
+    }
+    this.place.replaceChildren(element("table", {}, element("thead", {}, head), body));
+  }
+}

@@ -1,0 +1,65 @@
+//! The page and its libraries, in the program.
+//!
+//! | library | version | licence | source |
+//! | --- | --- | --- | --- |
+//! | three | 0.184.0, the last release with a minified module build | MIT (`assets/three-LICENSE.txt`) | npm package `three`, `build/` |
+//! | uPlot | 1.6.32 | MIT | the copy of `gearmesh_report::page` |
+//!
+//! Both stand as published; a test compares their SHA-256. A table, and not a folder: what is not named here is not
+//! served.
+
+use gearmesh_report::page::{UPLOT_SCRIPT, UPLOT_STYLE};
+
+/// A file of the page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Asset {
+    /// Name behind `/assets/`; the page itself has none.
+    pub name: &'static str,
+    /// Its media type.
+    pub kind: &'static str,
+    /// Its text.
+    pub text: &'static str,
+}
+
+const SCRIPT: &str = "text/javascript; charset=utf-8";
+const STYLE: &str = "text/css; charset=utf-8";
+const PAGE: &str = "text/html; charset=utf-8";
+const PICTURE: &str = "image/svg+xml";
+
+macro_rules! own {
+    ($($name:literal $kind:ident),* $(,)?) => {
+        [$(Asset { name: $name, kind: $kind, text: include_str!(concat!("../assets/", $name)) }),*]
+    };
+}
+
+const OWN: [Asset; 14] = own!(
+    "index.html" PAGE,
+    "studio.css" STYLE,
+    "icon.svg" PICTURE,
+    "main.js" SCRIPT,
+    "server.js" SCRIPT,
+    "state.js" SCRIPT,
+    "form.js" SCRIPT,
+    "curves.js" SCRIPT,
+    "scene3d.js" SCRIPT,
+    "flank.js" SCRIPT,
+    "variants.js" SCRIPT,
+    "columns.js" SCRIPT,
+    "three.module.min.js" SCRIPT,
+    "three.core.min.js" SCRIPT,
+);
+
+/// All of them.
+pub fn assets() -> impl Iterator<Item = Asset> {
+    let shared = [
+        ("uplot.js", SCRIPT, UPLOT_SCRIPT),
+        ("uplot.css", STYLE, UPLOT_STYLE),
+    ];
+    let shared = shared.map(|(name, kind, text)| Asset { name, kind, text });
+    OWN.into_iter().chain(shared)
+}
+
+/// The asset of a name.
+pub fn asset(name: &str) -> Option<Asset> {
+    assets().find(|asset| asset.name == name)
+}

@@ -1,0 +1,20 @@
+#![doc = include_str!("../README.md")]
+
+mod answer;
+mod assets;
+mod columns;
+mod form;
+mod guard;
+mod latest;
+mod opened;
+mod pair;
+mod problem;
+mod server;
+mod shape;
+
+pub use answer::PairAnswer;
+pub use assets::{Asset, assets};
+pub use opened::Opened;
+pub use pair::{Change, PairSession};
+pub use problem::Problem;
+pub use server::{ServeOptions, serve};
