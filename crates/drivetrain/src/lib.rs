@@ -48,6 +48,7 @@ mod mesh_load;
 pub mod modal_loads;
 pub mod models;
 mod nearest_flanks;
+mod node_surface;
 mod pair_channels;
 pub mod pair_curve;
 pub mod path_ends;
@@ -86,6 +87,11 @@ pub use models::hybrid::ReducedTeeth;
 pub use models::impact::{Impact, PowerStiffness};
 pub use models::iso6336::{MeshSpring, SingleStiffness};
 pub use models::kinematic::kinematic_mesh;
+pub use node_surface::{
+    DigitalFlank, NodeSurfaces, PatchSize, ReferenceApproach, line_contact_area_m2,
+    point_contact_area_m2,
+};
+pub use pair_channels::{SlicePressure, ToothPairs};
 pub use pair_curve::{PairCurve, PairSamples};
 pub use path_ends::PathEnds;
 pub use pose::Pose;

@@ -78,6 +78,39 @@ fn the_cage_tends_to_its_kinematic_speed() {
     close(found.get("bearing.orbit_speed_rad_per_s"), kinematic, 1e-3);
 }
 
+/// The acceleration of a ball is that of its equations of motion, which the integrator solves, blows of the pockets
+/// and weight included; in the mean of a
+/// turn under thrust alone it points to the axis with ω² r.
+#[test]
+fn the_acceleration_of_a_ball_is_that_of_its_motion() {
+    // What Newton's method leaves of the equations is the difference.
+    let params = Params {
+        newton_tolerance: Some(1e-10),
+        ..Params::fixed(1e-5)
+    };
+    let mut run = Simulation::new(caged(pockets(), None, 0.9, PRESSED_M), params).unwrap();
+    for _ in 0..20 {
+        run.run(run.state().time_s + 5e-4, |_| ControlFlow::Continue(()))
+            .unwrap();
+        let (state, solved) = (run.state().clone(), run.acceleration().to_vec());
+        // A sample of a copy: the run goes on.
+        let found = Channels::of(&mut caged(pockets(), None, 0.9, PRESSED_M), &state);
+        let largest = solved[12..]
+            .iter()
+            .fold(0.0_f64, |most, a| most.max(a.abs()));
+        for ball in 0..9 {
+            for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+                let name = format!("bearing.ball_{}_acceleration_{name}_m_per_s2", ball + 1);
+                let (found, solved) = (found.get(&name), solved[12 + 6 * ball + axis]);
+                assert!(
+                    (found - solved).abs() < 1e-5 * largest,
+                    "{name}: {found}, {solved}"
+                );
+            }
+        }
+    }
+}
+
 /// A cage whose middle goes round the axis is seen where it is, with the speed at which it goes round.
 #[test]
 fn the_middle_of_the_cage_is_seen() {

@@ -16,6 +16,7 @@ mod gearbox;
 mod lost_meshes;
 #[path = "../made_up_gears/mod.rs"]
 mod made_up_gears;
+mod node_surface;
 mod other_run_kinds;
 mod pair_stiffness;
 mod pairs_at_rest;
@@ -33,6 +34,7 @@ mod static_pairs;
 mod system_runs;
 mod tables;
 mod tilted_shafts;
+mod tooth_pairs;
 
 use gearmesh_scene::system::BuiltSystem;
 
