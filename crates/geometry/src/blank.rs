@@ -161,9 +161,9 @@ impl CutIntoShaft {
     /// The hole over the root radius: it takes 0.06 % of the root disc's area, and 4e-7 of its polar moment.
     pub const HOLE: f64 = 1.0 / 40.0;
     /// Length of the stubs of shaft that are meshed beyond the faces, over the shaft's diameter. Stress without
-    /// resultant dies away along a round bar by exp(−2.7 z/R) at least (R. W. Little and S. B. Childs, Q. Appl. Math. 25
-    /// (1967) 261-274): a quarter of the diameter leaves 0.26 of it at the stub's rigid end, and 0.07 of what that end
-    /// sends back to the teeth.
+    /// resultant dies away along a round bar by exp(−2.7 z/R) where it is the same all round (R. W. Little and S. B. Childs,
+    /// Q. Appl. Math. 25 (1967) 261-274), and by exp(−2.09 z/R) where it has two lobes (docs/theory/reduction.md): a quarter
+    /// of the diameter leaves 0.26 to 0.35 of it at the stub's rigid end.
     pub const STUB: f64 = 0.25;
 
     /// Lengths of the stubs on the back and the front face \[m\]; 0 where the shaft does not go on.
