@@ -164,7 +164,7 @@ impl LoadHistory {
                 continue;
             }
             let load = AppliedBearingLoad {
-                // Cylindrical rollers bear no axial load; what damping leaves of it is none.
+                // Cylindrical rollers carry no axial load; what damping leaves of it is none.
                 force_n: [radial, 0.0, if bearing.locates { axial } else { 0.0 }],
                 // What a self-aligning bearing passes on as a moment is its force beside the ring's middle.
                 tilt: if bearing.aligns() {

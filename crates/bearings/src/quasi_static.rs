@@ -81,7 +81,7 @@ impl Row {
         }
     }
 
-    /// Peak pressures at the inner and outer race under an element's load \[Pa\]; of rollers those of the lamina that bears most.
+    /// Peak pressures at the inner and outer race under an element's load \[Pa\]; of rollers those of the lamina that carries most.
     #[must_use]
     pub fn peak_pressures_pa(&self, load: &ElementLoad) -> [f64; 2] {
         match self {
@@ -384,7 +384,7 @@ fn shift_under_force(
             return Err(BearingError::NoEquilibrium {
                 unbalanced_n: force_n,
                 iterations: 0,
-                hint: "The preload is more than the races can bear.",
+                hint: "The preload is more than the races can carry.",
             });
         }
     }

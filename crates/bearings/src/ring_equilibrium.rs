@@ -84,7 +84,7 @@ impl QuasiStaticBearing {
         };
         if !self.locates && load.force_n[2] != 0.0 {
             return Err(BearingError::NotCarried(
-                "the load has an axial part, which cylindrical rollers do not bear in this model; set it to 0, another bearing bears it",
+                "the load has an axial part, which cylindrical rollers do not carry in this model; set it to 0, another bearing carries it",
             ));
         }
         let resting = Operation {
@@ -310,5 +310,5 @@ fn hint(applied: &Vector5<f64>, arm_m: f64) -> &'static str {
     if size < SMALL_LOAD_N {
         return "So small a load is lost in the rounding of the elements' places: give 0 or at least 0.001 N.";
     }
-    "A single row that bears axial loads one way needs an axial load towards +z, a preload or a second row; a moment needs something that resists it."
+    "A single row that carries axial loads one way needs an axial load towards +z, a preload or a second row; a moment needs something that resists it."
 }

@@ -106,7 +106,7 @@ impl RunBar {
         let (first, told) = self.state.get();
         let first = first.unwrap_or(done);
         let now = Instant::now();
-        // A sum of times is told without its rounding, a count without digits.
+        // A sum of times is printed without its rounding, a count without digits.
         let whole = (1e6 * total).round() / 1e6;
         let digits = if done.fract() == 0.0 && total.fract() == 0.0 {
             0

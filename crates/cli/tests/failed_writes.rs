@@ -55,7 +55,7 @@ fn a_failed_write_leaves_the_old_file_and_nothing_else() {
 }
 
 /// Without the trap the system kills the program in the midst of the write. It cannot tidy up then, but what it leaves
-/// is hidden and bears another name.
+/// is hidden and has another name.
 #[test]
 fn a_killed_write_leaves_the_old_file() {
     let (desk, outputs) = (Desk::new(), Desk::new());

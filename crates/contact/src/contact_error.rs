@@ -52,7 +52,7 @@ pub enum ContactError {
         "gears that stand beside or tilted to their axes are not supported at rest where one gear is a ring; leave the runout out"
     )]
     RingRunout,
-    /// All flanks that could bear the load at this position are gone.
+    /// All flanks that could carry the load at this position are gone.
     #[error(
         "no flank is left to touch: the teeth that would carry the load there are broken off; gears turn on until others touch, \
          which a multibody scene shows"

@@ -129,7 +129,7 @@ pub enum DrivetrainError {
         /// Largest angle allowed.
         allowed_mrad: f64,
     },
-    /// Flanks of the mesh are pressed into each other deeper than teeth can give way.
+    /// Flanks of the mesh are pressed into each other deeper than teeth can deflect.
     #[error(
         "the {} flanks stand {depth_mm:.3} mm in each other, allowed are {allowed_mm:.3} mm, a tenth of the base pitch: the teeth would pass \
          through each other; check loads, mesh stiffness and the angles at the start, or take a shorter step", flank.name()

@@ -11,7 +11,7 @@
 //! | what resists | the models | `teeth_model.rs`, `models/` |
 //! | what simple models take from a pair's own static curve | [`PairCurve`] | `pair_curve.rs`, `roll_harmonics.rs` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
-//! | teeth that are apart, or stand in each other | `nearest_flanks.rs`, `tooth_overlap.rs` |
+//! | teeth that are apart, or overlap | `nearest_flanks.rs`, `tooth_overlap.rs` |
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs`, a side of it `side_assembly.rs` |
 //! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |

@@ -125,7 +125,7 @@ fn exchanging_the_gears_changes_no_gap() {
     }
 }
 
-/// Bodies that give way at their surfaces only, one slice: 1/ρ = 1/ρ₁ − 1/ρ₂ with ρ₂ − ρ₁ = a sin α, Hertz's half
+/// Bodies that deflect at their surfaces only, one slice: 1/ρ = 1/ρ₁ − 1/ρ₂ with ρ₂ − ρ₁ = a sin α, Hertz's half
 /// width, and the deflection of a
 /// line load of finite length, k q [asinh(l/2ρ₀) + ln(ρ₀/ρ)] (half_spaces.rs), k = 2(1 − ν²)/(πE) of both bodies
 /// together halved.

@@ -68,7 +68,7 @@ def run_cases(
     """
     path, out = Path(study).absolute(), Path(folder).absolute()
     with contextlib.ExitStack() as stack:
-        # What is wrong with the study is told before a cluster is asked for.
+        # What is wrong with the study is reported before a cluster is asked for.
         gears = _native.study_gears(path, out, most_result_GB)
         out.mkdir(parents=True, exist_ok=True)
         token = stack.enter_context(_token(out))

@@ -1,4 +1,4 @@
-//! A REXS model as it stands in the file: components with attributes, relations between them, load cases.
+//! A REXS model as written in the file: components with attributes, relations between them, load cases.
 
 use crate::effort;
 use std::collections::{HashMap, HashSet};

@@ -31,7 +31,7 @@ fn tooth() -> ToothGeometry {
     ToothGeometry::new(&pair_common::tooth(TEETH, 0.0, 0.0)).unwrap()
 }
 
-/// Two equal gears whose teeth give way like springs, and do not feel each other.
+/// Two equal gears whose teeth deflect like springs, and do not feel each other.
 fn write_models(folder: &Path) {
     let body = pair_common::made_up_gear(&tooth(), 0.02, 1);
     let loads = body.grid.len();

@@ -1,4 +1,4 @@
-//! Cages: how fast they turn, what their pockets bear, what guides them.
+//! Cages: how fast they turn, what their pockets carry, what guides them.
 
 use std::ops::ControlFlow;
 
@@ -156,7 +156,7 @@ fn pocket_forces_sum_to_the_force_on_the_cage() {
     assert!(largest > 0.1, "{largest} N");
 }
 
-/// The law of a pocket is continuous and rises in the ball's displacement, also where film gives way to solid contact.
+/// The law of a pocket is continuous and rises in the ball's displacement, also where solid contact takes over from the film.
 #[test]
 fn the_pocket_law_is_continuous() {
     let system = |place: f64| {
@@ -242,7 +242,7 @@ fn the_steady_film_is_ocvirks() {
             1e-9,
         );
     }
-    // Carried round at half its speed the film does not bear along e: 1 − 2ϕ̇/ω = 0.
+    // Carried round at half its speed the film does not carry along e: 1 − 2ϕ̇/ω = 0.
     let increment = [0.5 * c, 0.0, 0.0, 0.0, 0.0, 0.0];
     let velocity = [0.0, 0.5 * omega * 0.5 * c, 0.0, 0.0, 0.0, omega];
     let probe = system.probe("land", &start, &increment, &velocity).unwrap();

@@ -226,7 +226,7 @@ fn a_name_that_is_a_path_is_refused_before_the_run() {
     }
 }
 
-/// What would fill the memory is told before the first position is solved.
+/// What would fill the memory is reported before the first position is solved.
 #[test]
 fn a_run_of_too_many_positions_is_refused_by_plan_and_run() {
     let desk = Desk::new();

@@ -234,7 +234,7 @@ impl LoadedPair<'_> {
         Pose::at_rest(back * apart, back * axes[1])
     }
 
-    /// Loads the pair by torques on the gear \[N·m\]; `contact`: what gives way on [`Self::side`], with all its memory.
+    /// Loads the pair by torques on the gear \[N·m\]; `contact`: what deflects on [`Self::side`], with all its memory.
     ///
     /// # Errors
     /// [`DrivetrainError::Contact`] where no contact is found or the solver does not converge.

@@ -88,7 +88,7 @@ impl Impact {
         })
     }
 
-    /// The same on flanks that vibrate: K is that of the surfaces alone, and what the modes give way comes on top.
+    /// The same on flanks that vibrate: K is that of the surfaces alone, and what the modes deflect comes on top.
     #[must_use]
     pub fn on_modes(mut self) -> Self {
         self.on_modes = true;

@@ -25,7 +25,7 @@ fn slices(pair: &Pair, count: usize) -> BevelSlices {
     BevelSlices::new(&pair.blank, &pair.design, count).unwrap()
 }
 
-/// Rigid gears whose surfaces give way.
+/// Rigid gears whose surfaces deflect.
 fn half_spaces(flanks: &BevelSlices) -> ReducedTeeth {
     let bodies = HalfSpaces::new([STEEL; 2]);
     let layout = *flanks.layout();

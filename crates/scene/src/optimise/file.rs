@@ -20,7 +20,7 @@ pub struct OptimiseTables {
     pub title: String,
     /// What is varied, relative to this file: a scene of a gear pair, a multibody scene, a bevel pair or a bearing.
     pub scene: PathBuf,
-    /// With a bearing: what it bears. Its keys vary as "operation.load_N.2".
+    /// With a bearing: what it carries. Its keys vary as "operation.load_N.2".
     pub operation: Option<OperationTable>,
     /// Run "transient": figures are those from this time on; 0 where not given.
     #[serde(default)]

@@ -163,7 +163,7 @@ pub struct StudyScenes {
 }
 
 impl StudyScenes {
-    /// Makes the scenes of all cases: a wrong key is told before the first run, not after it. `out`: the folder of the
+    /// Makes the scenes of all cases: a wrong key is reported before the first run, not after it. `out`: the folder of the
     /// study, of which only the name is used.
     ///
     /// # Errors

@@ -23,7 +23,7 @@ pub struct StudyTables {
     /// What is varied, relative to this file: a scene of a gear pair, a multibody scene of any run, a bevel pair (its tooth contact
     /// analysis) or a bearing.
     pub scene: PathBuf,
-    /// With a bearing: what it bears. Its keys vary as "operation.load_N.2".
+    /// With a bearing: what it carries. Its keys vary as "operation.load_N.2".
     pub operation: Option<OperationTable>,
     /// How the parameters are combined; "one-at-a-time" where not given.
     #[serde(default)]

@@ -162,7 +162,7 @@ fn a_pair_of_another_shaft_angle_turns_at_its_ratio() {
     let read = |name: &str| result.rows.read(name).unwrap();
     let gear = read("bodies/gear/turn_rad");
     let turned = gear[gear.len() - 1] - gear[0];
-    // Less what the teeth give way under the load, 33 um over a lever of 25 mm.
+    // Less what the teeth deflect under the load, 33 um over a lever of 25 mm.
     assert!((turned + 0.5 * TAU).abs() < 3e-3, "{turned}");
     assert!(
         read("elements/mesh/apart")

@@ -141,7 +141,7 @@ fn pairs_of_cylindrical_teeth_have_force_place_and_pressure() {
     for pair in 0..PAIRS {
         for row in 0..forces[pair].len() {
             let (force, height) = (forces[pair][row], heights[pair][row]);
-            // Inside the flank, where no edge holds the contact; the support gives way by some micrometres of the path.
+            // Inside the flank, where no edge holds the contact; the support deflects by some micrometres of the path.
             if force < 100.0 || !(0.05..0.95).contains(&height) {
                 continue;
             }

@@ -10,7 +10,7 @@ use super::flank_errors::FlankErrorTable;
 use super::friction::FrictionTable;
 use super::mesh_model::{HertzTable, MeshModel};
 
-/// `[[gear_mesh]]` as it stands in the file.
+/// `[[gear_mesh]]` as written in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GearMeshTable {

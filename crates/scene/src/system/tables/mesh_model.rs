@@ -242,7 +242,7 @@ pub struct AnalyticTable {
 pub struct HybridTable {
     /// Local contact; "calibrated" where not given.
     pub local: Option<LocalContact>,
-    /// Bevel pairs, instead of reduced gears: rigid ones whose surfaces give way as half spaces do; their material.
+    /// Bevel pairs, instead of reduced gears: rigid ones whose surfaces deflect as half spaces do; their material.
     pub half_space: Option<HertzTable>,
     /// Slices over the overlap of the faces; those of the models where not given. Bevel pairs: along the face, 15 without models.
     pub slices: Option<usize>,
