@@ -132,7 +132,10 @@ def test_gears_are_meshed_and_looked_at(pinion, models, tmp_path):
 def test_files_to_begin_with_are_written_and_checked(tmp_path):
     paths = gm.init("pair", tmp_path)
     assert {path.name for path in paths} == {"pinion.toml", "wheel.toml", "pair.toml", "drive.toml"}
-    assert gm.check(tmp_path / "pinion.toml")
+    assert gm.check(tmp_path / "pinion.toml")["warnings"] == []
+    slip = tmp_path / "slip.toml"
+    slip.write_text((tmp_path / "pinion.toml").read_text() + "[microgeometry]\nlead_crowning_um = 0.004\n")
+    assert "lead_crowning_um: 0.004 is unusual" in gm.check(slip)["warnings"][0]
     with pytest.raises(gm.InputError, match="there already"):
         gm.init("pair", tmp_path)
     bevel = gm.init("bevel", tmp_path)

@@ -1,4 +1,4 @@
-//! A thin-rimmed gear reduced with its natural modes, under the forces of a mesh: at rest it gives way as without
+//! A thin-rimmed gear reduced with its natural modes, under the forces of a mesh: at rest it deflects as without
 //! modes, and when its rim is struck it rings at the frequencies of its own finite element model.
 #![allow(clippy::unwrap_used, missing_docs)]
 

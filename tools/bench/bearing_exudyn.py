@@ -84,7 +84,7 @@ def build(start: dict) -> tuple:
         # Rates of Euler parameters of a body that stands in the world's axes: half the spin.
         rates = [*ball["velocity_m_per_s"], 0.0, *(0.5 * np.array(ball["spin_rad_per_s"]))]
         system.SetNodeParameter(node, "initialVelocities", [float(rate) for rate in rates])
-    # The contacts are told that all balls bear.
+    # The contacts are told that all balls carry.
     for contact in made["innerRingBallContacts"] + made["outerRingBallContacts"]:
         node = system.GetObject(contact)["nodeNumber"]
         system.SetNodeParameter(node, "initialCoordinates", [-1e-6, 0, 0, 0])

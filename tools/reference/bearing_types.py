@@ -183,7 +183,7 @@ class Barrels:
 
 
 def spherical(Z, D, L, dm, alpha, Rr=None, Ri=None, play=0.0, first=0.0):
-    """Both rows: that which bears axial loads towards -z first."""
+    """Both rows: that which carries axial loads towards -z first."""
     Ro = dm / 2 / cos(alpha) + D / 2
     Rr, Ri = Rr or 0.97 * Ro, Ri or Ro
     return [Barrels(Z, D, L, dm, alpha, Rr, Ri, Ro, sense, play, first=first) for sense in (-1, 1)]

@@ -35,7 +35,7 @@ def point_stiffness(curvatures_1, curvatures_2):
 
 
 class Ball:
-    """A row of balls. sense +1: the inner ring bears forces along +z; 0: deep groove."""
+    """A row of balls. sense +1: the inner ring carries forces along +z; 0: deep groove."""
 
     def __init__(self, Z, D, dm, fi, fo, alpha, sense=1, z=0.0, preload=0.0, first=0.0):
         self.Z, self.D, self.dm, self.alpha = Z, D, dm, alpha
@@ -274,7 +274,7 @@ def main():
     show("deep groove, 2000 N radial, no clearance", q, s)
     q, s, _ = solve_ball([groove(0.015)], [2000, 0, 0, 0, 0], guess=[0.022, 0, 0, 0, 0], held=(1, 2, 3, 4))
     show("deep groove, 2000 N radial, 15 um clearance", q, s)
-    # From pure thrust, where all balls bear load, a part of the rest after the other.
+    # From pure thrust, where all balls carry load, a part of the rest after the other.
     q, v = [0.0, 0.0, 0.1, 0.0, 0.0], None
     for part in np.linspace(0, 1, 6):
         load = [1500 * part, 500 * part, 800, 3000 * part, -4000 * part]

@@ -1,4 +1,9 @@
-"""Sliced frictionless contact of a spur pair on the line of action, load given. Half width z >= 0. N, mm, rad."""
+"""Sliced contact of a spur pair on the line of action, load given. Half width z >= 0. N, mm, rad.
+
+Coulomb friction mu: towards the roots of both gears before the pitch point, towards both tips after it, none in it. The driven
+gear's surface runs towards its tip there, so that friction towards the tip helps to turn it: its lever arm is rho_2 = r_b2 xi_2.
+With `bends`, the friction's own part of the normal deflection is counted; the method that is checked leaves it out.
+"""
 
 import numpy as np
 
@@ -11,7 +16,8 @@ Q_FLOOR = 0.5  # N/mm: below it the Hertz half width is held (keeps the logarith
 class Pair:
     """Gear 1 drives. teeth of pair p: gear 1 tooth p, gear 2 tooth -p."""
 
-    def __init__(self, gear1, gear2, near1, near2, centre_distance=150.0, crown_mm=0.010):
+    def __init__(self, gear1, gear2, near1, near2, centre_distance=150.0, crown_mm=0.010, mu=0.0, bends=False):
+        self.mu, self.bends = mu, bends
         self.g, self.near = (gear1, gear2), (near1, near2)
         t1, t2 = gear1.tooth, gear2.tooth
         self.t = (t1, t2)
@@ -37,8 +43,13 @@ class Pair:
     def crowning(self, xi1):
         return self.crown * ((xi1 - self.xi_ref) / (self.t[0].xi_tip - self.xi_ref)) ** 2
 
+    def friction(self, xi1):
+        """Friction over normal force, positive towards the tips."""
+        return self.mu * np.sign(round(xi1 - np.tan(self.alpha_w), 12))
+
     def system(self, theta1):
-        """Compliance (mm/N), initial gaps (mm), kappa (mm per N/mm), equivalent radius (mm) and slice widths of all slices."""
+        """Compliance (mm/N), initial gaps (mm), kappa (mm per N/mm), equivalent radius (mm), slice widths and lever arms about
+        the driven axis over r_b2 of all slices."""
         ps, ns = self.pairs(theta1), len(self.width)
         n = len(ps) * ns
         C = np.zeros((n, n))
@@ -47,17 +58,22 @@ class Pair:
             for j, (q, *_) in enumerate(ps):
                 b1 = self.g[0].block(p, q)[: self.g[0].n_load, : self.g[0].n_load]
                 b2 = self.g[1].block(-p, -q)[: self.g[1].n_load, : self.g[1].n_load]
-                C[i * ns : (i + 1) * ns, j * ns : (j + 1) * ns] = (pats[i][0] @ b1 @ pats[j][0].T
-                                                                   + pats[i][1] @ b2 @ pats[j][1].T)
-        C = (C + C.T) / 2
+                load = pats[j]
+                if self.bends:
+                    f = self.friction(ps[j][1])
+                    load = [n + f * g.pattern(xi, along=True) for n, g, xi in zip(pats[j], self.g, ps[j][1:])]
+                C[i * ns : (i + 1) * ns, j * ns : (j + 1) * ns] = pats[i][0] @ b1 @ load[0].T + pats[i][1] @ b2 @ load[1].T
+        if not self.bends:
+            C = (C + C.T) / 2
         gap = np.repeat([self.crowning(x1) for _, x1, _ in ps], ns)
         kap = np.repeat([self.near[0].kappa(x1) + self.near[1].kappa(x2) for _, x1, x2 in ps], ns)
         rho = np.repeat([1 / (1 / (self.t[0].r_base * x1) + 1 / (self.t[1].r_base * x2)) for _, x1, x2 in ps], ns)
-        return ps, C, gap, kap, rho, np.tile(self.width, len(ps))
+        arm = np.repeat([1 + self.friction(x1) * x2 for _, x1, x2 in ps], ns)
+        return ps, C, gap, kap, rho, np.tile(self.width, len(ps)), arm
 
     def solve(self, system, torque_nm, a0):
         """TE (mm, negative under load) and slice forces (N, of the half width) for a driven torque."""
-        ps, C, gap, kap, rho, b = system
+        ps, C, gap, kap, rho, b, arm = system
         total = torque_nm * 1e3 / self.t[1].r_base / 2  # half the width carries half the load
         n = len(gap)
         e_star = E_MPA / (2 * (1 - NU**2))
@@ -80,8 +96,8 @@ class Pair:
                 J = np.zeros((len(A) + 1, len(A) + 1))
                 J[:-1, :-1] = C[np.ix_(A, A)] + np.diag(dloc[A])
                 J[:-1, -1] = 1
-                J[-1, :-1] = 1
-                d = np.linalg.solve(J, -np.concatenate([r, [F[A].sum() - total]]))
+                J[-1, :-1] = arm[A]
+                d = np.linalg.solve(J, -np.concatenate([r, [arm[A] @ F[A] - total]]))
                 F = F.copy()
                 F[A] += d[:-1]
                 te += d[-1]
@@ -99,6 +115,6 @@ class Pair:
             if worst.min() < -1e-13:
                 active[np.argmin(worst)] = True
                 continue
-            assert np.abs(g[active]).max() < 1e-12 and abs(F.sum() - total) < 1e-8 * total
+            assert np.abs(g[active]).max() < 1e-12 and abs(arm @ F - total) < 1e-8 * total
             return te, F
         raise RuntimeError("active set did not settle")

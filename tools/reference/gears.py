@@ -164,14 +164,15 @@ class GearCompliance:
     def block(self, i, j):
         return self._lookup(self._blocks, i, j)
 
-    def pattern(self, xi):
-        """(slices, n_load) combination of columns: unit normal force into the right flank at roll angle xi, per slice."""
+    def pattern(self, xi, along=False):
+        """(slices, n_load) combination of columns: unit force at roll angle xi of the right flank, per slice: along the normal
+        into the material, or along the profile towards the tip."""
         arc = self.sec.flank_arc  # tip first, equally spaced
         ne = (len(arc) - 1) // 2
         s = (arc[0] - self.tooth.arc(xi)) / (arc[0] - arc[-1]) * ne
         e = int(np.clip(np.floor(s), 0, ne - 1))
         n, _ = quad1d(2 * (s - e) - 1)
-        d = self.tooth.inward_normal(xi)[0] * [1, -1]
+        d = (self.tooth.towards_tip(xi) if along else self.tooth.inward_normal(xi))[0] * [1, -1]
         col = np.zeros((self.n_nodes, 2))
         col[2 * e : 2 * e + 3] = np.outer(n, d)
         return np.kron(np.eye(self.n_slices), col.ravel())

@@ -3,6 +3,8 @@
     python make_reference.py compute --mesh fine   --cache DIR
     python make_reference.py compute --mesh coarse --cache DIR
     python make_reference.py write   --cache DIR --out ../../reference
+
+With `--mu 0.3` the same with friction: reference/pair_a_friction and pair_b_friction.
 """
 
 import argparse
@@ -71,12 +73,12 @@ def near_field(tooth, mesh_name, cache):
     return nf.NearField(tooth, R_RIM, MESHES[mesh_name], st, c)
 
 
-def run_pair(pair_name, mesh_name, cache, torques=TORQUES, n_pitch=N_PITCH):
+def run_pair(pair_name, mesh_name, cache, torques=TORQUES, n_pitch=N_PITCH, mu=0.0, bends=False):
     """TE (µm) and gauge strains (microstrain) over one driver revolution."""
     tooth = Tooth()
     near = near_field(tooth, mesh_name, cache)
     pair = Pair(gear("gear1", tooth, mesh_name, cache), gear("gear2" if pair_name == "a" else "gear3", tooth, mesh_name, cache),
-                near, near)
+                near, near, mu=mu, bends=bends)
     pitches = 1 if pair_name == "a" else N_REPEAT
     driven = pair.g[1]
     te = {T: np.empty(Z * n_pitch) for T in torques}
@@ -85,7 +87,7 @@ def run_pair(pair_name, mesh_name, cache, torques=TORQUES, n_pitch=N_PITCH):
     for i in range(pitches * n_pitch):
         theta = i * tooth.pitch_angle / n_pitch
         system = pair.system(theta)
-        pats = [driven.pattern(xi2) for _, _, xi2 in system[0]]
+        pats = [driven.pattern(xi2) + pair.friction(xi1) * driven.pattern(xi2, along=True) for _, xi1, xi2 in system[0]]
         for T in torques:
             e, F = pair.solve(system, T, nf.A0)
             for rep in range(Z // pitches):
@@ -112,6 +114,11 @@ def summary(r):
     return out
 
 
+def suffix(mu):
+    """Of the names of files with friction."""
+    return f"_mu{mu:g}" if mu else ""
+
+
 def main():
     ap = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ap.add_argument("what", choices=("compute", "write"))
@@ -119,12 +126,15 @@ def main():
     ap.add_argument("--pairs", default="ab")
     ap.add_argument("--cache", type=Path, required=True)
     ap.add_argument("--out", type=Path)
+    ap.add_argument("--mu", type=float, default=0.0)
+    ap.add_argument("--bends", action="store_true", help="count the friction's own part of the deflection (printed only)")
     a = ap.parse_args()
     a.cache.mkdir(parents=True, exist_ok=True)
     if a.what == "compute":
         for p in a.pairs:
             t0 = time.time()
-            r = cached(a.cache / f"pair_{p}_{a.mesh}.pkl", lambda: run_pair(p, a.mesh, a.cache))
+            r = cached(a.cache / f"pair_{p}{suffix(a.mu)}_{a.mesh}{'_bends' if a.bends else ''}.pkl",
+                       lambda: run_pair(p, a.mesh, a.cache, mu=a.mu, bends=a.bends))
             s = summary(r)
             for T in TORQUES:
                 log(f"pair {p} {a.mesh} {T} Nm " + "  ".join(f"{k} {v:.4f}" for k, v in s[T].items()))
@@ -132,7 +142,7 @@ def main():
             log(f"pair {p}: {time.time() - t0:.0f} s, peak memory {mem:.1f} GiB")
     else:
         from record import write_records
-        write_records(a.cache, a.out, summary)
+        write_records(a.cache, a.out, summary, a.mu)
 
 
 if __name__ == "__main__":

@@ -5,14 +5,14 @@ import time
 
 import numpy as np
 
-from make_reference import GAUGES, MESHES, N_PITCH, N_REPEAT, TORQUES, Z
+from make_reference import GAUGES, MESHES, N_PITCH, N_REPEAT, TORQUES, Z, suffix
 
 SIDES = ("tension", "compression")
 TITLE = {"a": "Gear pair A: solid gear 1 drives thin-rim gear 2 (57/57, m 2.6 mm)",
          "b": "Gear pair B: solid gear 1 drives thin-rim gear 3 with three web slots (57/57, m 2.6 mm)"}
 DRIVEN = {"a": "gear2", "b": "gear3"}
 METHOD = """\
-Quasi-static, frictionless, contact on the theoretical line of action only (path = line-of-action), no misalignment, no
+Quasi-static, {friction}, contact on the theoretical line of action only (path = line-of-action), no misalignment, no
 thickness allowance, no chamfer. Compliance: 27-node hexahedra, half width with a plane of symmetry at mid-face, one tooth
 pitch condensed on its cut faces; {body}.
 Full tooth-to-tooth coupling. Line loads, uniform over each of {slices} slices of the half width. Near field: each slice's own term is corrected by c0 - w_h - 2(1-nu^2)/(pi E) ln(a/a0) for both gears, from plane
@@ -31,14 +31,20 @@ def changes(results, summary):
     return s[best], {m: {n: {T: s[best][T][n] - s[m][T][n] for T in TORQUES} for n in s[best][TORQUES[0]]} for m in others}
 
 
-def write_records(cache, out, summary):
+def write_records(cache, out, summary, mu):
     for p in "ab":
-        res = {m: pickle.loads(f.read_bytes()) for m in MESHES if (f := cache / f"pair_{p}_{m}.pkl").exists()}
+        load = lambda tail: pickle.loads(f.read_bytes()) if (f := cache / f"pair_{p}{suffix(mu)}_{tail}.pkl").exists() else None
+        res = {m: r for m in MESHES if (r := load(m))}
         if len(res) > 1:
-            write_one(p, res, out / f"pair_{p}", summary)
+            write_one(p, res, out / f"pair_{p}{'_friction' if mu else ''}", summary, mu, load(f"{next(iter(res))}_bends"))
 
 
-def write_one(p, res, folder, summary):
+FRICTION = """\
+Coulomb friction {mu:g} along the profile, towards both roots before the pitch point and towards both tips after it, none in
+it; it turns the driven gear with the lever arm rho_2 and strains its root, and does not bend teeth towards their mates"""
+
+
+def write_one(p, res, folder, summary, mu, bends):
     folder.mkdir(parents=True, exist_ok=True)
     best = next(m for m in MESHES if m in res)
     r = res[best]
@@ -67,10 +73,10 @@ def write_one(p, res, folder, summary):
     L = []
     q = lambda s: '"' + s.replace("\\", "\\\\").replace('"', '\\"') + '"'
     slices = len(MESHES[best]["z"]) - 1
-    L += [f"title = {q(TITLE[p])}", 'kind = "computed"',
+    L += [f"title = {q(TITLE[p] + (f', friction {mu:g}' if mu else ''))}", 'kind = "computed"',
           'source = "computed with tools/reference (Python, own finite elements and contact solver), no code shared with gearmesh; nothing in it is measured"',
-          'method = """\n' + METHOD.format(body=BODY[p], slices=slices) + '"""',
-          'command = "python tools/reference/make_reference.py (see tools/reference/README.md)"',
+          'method = """\n' + METHOD.format(body=BODY[p], slices=slices, friction=FRICTION.format(mu=mu) if mu else 'frictionless') + '"""',
+          f'command = "python tools/reference/make_reference.py{f" --mu {mu:g}" if mu else ""} (see tools/reference/README.md)"',
           f"date = {time.strftime('%Y-%m-%d')}",
           'angle_origin = "driver angle 0: the unmodified right flanks of tooth 0 of gear 1 and of tooth 0 of the driven gear touch at the pitch point"',
           f"torques_Nm = [{', '.join(map(str, TORQUES))}]",
@@ -111,6 +117,13 @@ def write_one(p, res, folder, summary):
         for n in ch[m]:
             unit = "um" if n.startswith("te") else "ustrain"
             L.append(f"{n}_{unit} = [{', '.join(f'{ch[m][n][T]:.4f}' for T in TORQUES)}]")
+        L.append("")
+    if bends:
+        all_in = summary(bends)
+        L.append("[left_out.bending_by_friction]  # what changes where friction bends teeth towards their mates, too")
+        for n in fine[TORQUES[0]]:
+            unit = "um" if n.startswith("te") else "ustrain"
+            L.append(f"{n}_{unit} = [{', '.join(f'{all_in[T][n] - fine[T][n]:.4f}' for T in TORQUES)}]")
         L.append("")
     L.append("[summary]  # in the order of torques_Nm")
     for n in fine[TORQUES[0]]:

@@ -54,6 +54,11 @@ class Tooth:
         t = self.half_base - np.atleast_1d(xi)
         return np.column_stack([np.sin(t), -np.cos(t)])
 
+    def towards_tip(self, xi):
+        """Unit tangent of the flank towards the tip, at right angles to the normal."""
+        t = self.half_base - np.atleast_1d(xi)
+        return np.column_stack([np.cos(t), np.sin(t)])
+
     def _troch_polar(self, u):
         d = np.stack([self.xc - u, np.full_like(u, self.yc)])
         p = np.stack([np.full_like(u, self.xc), np.full_like(u, self.yc)]) + self.rho * d / np.hypot(*d)

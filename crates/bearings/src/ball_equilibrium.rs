@@ -80,7 +80,7 @@ impl State {
         self.inner.load + self.outer.load + centrifugal
     }
 
-    /// Friction at the inner and outer race that bears the gyroscopic moment: value and derivatives by α_i, α_o.
+    /// Friction at the inner and outer race that carries the gyroscopic moment: value and derivatives by α_i, α_o.
     fn friction(&self) -> [(f64, [f64; 2]); 2] {
         let none = (0.0, [0.0; 2]);
         match &self.motion {
@@ -104,7 +104,7 @@ impl Ball<'_> {
         ring: &mut RingLoad,
     ) -> Result<ElementLoad, BearingError> {
         let before = found.take().map(|place| Vector2::new(place[0], place[1]));
-        // A ball that hardly bears any more may not be found from where it stood before.
+        // A ball that hardly carries any more may not be found from where it stood before.
         let near = before.and_then(|place| self.balanced(place).ok());
         let (place, state) = match near {
             Some(near) => near,
@@ -465,6 +465,9 @@ impl Ball<'_> {
             orbit_rad_per_s: motion.map_or(0.0, |m| m.orbit_rad_per_s),
             spin_rad_per_s: motion.map_or(0.0, |m| m.spin_rad_per_s),
             controlled_by_inner: matches!(state.motion, Some((_, RaceControl::Inner))),
+            left_inner_ring: motion.is_some()
+                && row.free_angle_rad != 0.0
+                && !self.inner.reaches(state.inner.cosine, state.inner.sine),
             ..ElementLoad::default()
         }
     }

@@ -21,9 +21,9 @@ type ByAngles = Dual<2>;
 /// Race on which balls roll without spin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RaceControl {
-    /// No spin at the outer race, which bears the whole gyroscopic moment.
+    /// No spin at the outer race, which carries the whole gyroscopic moment.
     Outer,
-    /// No spin at the inner race, which bears the whole gyroscopic moment.
+    /// No spin at the inner race, which carries the whole gyroscopic moment.
     Inner,
 }
 
@@ -45,7 +45,7 @@ pub(crate) struct BallMotion {
     /// Rate of spin between ball and inner, outer race about the contacts' normals.
     pub contact_spin_rad_per_s: [f64; 2],
     pub centrifugal_n: ByAngles,
-    /// 2 M_g/D, the friction that bears the gyroscopic moment at the controlling race.
+    /// 2 M_g/D, the friction that carries the gyroscopic moment at the controlling race.
     pub friction_n: ByAngles,
 }
 

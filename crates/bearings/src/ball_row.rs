@@ -83,6 +83,16 @@ impl BallRow {
         !(self.faults.as_ref()).is_some_and(|faults| faults.is_missing(ball))
     }
 
+    /// Place (r, z) of a ball that is pressed into the bottom of the outer groove \[m\].
+    pub(crate) fn bottom(&self, force_n: f64) -> (f64, f64) {
+        let outer = &self.outer;
+        let depth_m = (force_n / outer.contact.stiffness_n_per_m15).cbrt().powi(2);
+        (
+            outer.centre_radius_m + outer.arm_m + depth_m,
+            outer.centre_z_m,
+        )
+    }
+
     /// Diameter \[m\] and mass \[kg\] of a ball, which may be of another size than the others.
     #[must_use]
     pub fn ball_size(&self, ball: usize) -> (f64, f64) {

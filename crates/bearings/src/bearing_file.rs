@@ -101,7 +101,7 @@ struct BearingFile {
     arrangement: Option<ArrangementWord>,
     /// Distance of the two rows. "catalogue" with two rows in its rings: half the width where not given.
     row_distance_mm: Option<Bounded<Positive>>,
-    /// "angular-contact", "thrust-ball", "tapered-roller": axial force that the rows of a pair bear at rest without load; of a single row that which its place without
+    /// "angular-contact", "thrust-ball", "tapered-roller": axial force that the rows of a pair carry at rest without load; of a single row that which its place without
     /// load stands for.
     preload_N: Option<Bounded<NotNegative>>,
     /// "angular-contact", "thrust-ball", "tapered-roller": axial displacement by which each row's inner ring is pressed in; negative for play.
@@ -138,9 +138,9 @@ number_range!(
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum Kind {
-    /// Ball bearing that bears axial loads both ways.
+    /// Ball bearing that carries axial loads both ways.
     DeepGroove,
-    /// Ball bearing that bears axial loads one way.
+    /// Ball bearing that carries axial loads one way.
     AngularContact,
     /// Ball bearing whose grooves have two arcs each: a ball touches at up to four points.
     FourPoint,
@@ -148,9 +148,9 @@ enum Kind {
     ThrustBall,
     /// Bears no axial loads.
     CylindricalRoller,
-    /// Roller bearing that bears axial loads one way.
+    /// Roller bearing that carries axial loads one way.
     TaperedRoller,
-    /// Two rows of barrels in a sphere: bears axial loads both ways and tilts freely.
+    /// Two rows of barrels in a sphere: carries axial loads both ways and tilts freely.
     SphericalRoller,
     /// Estimated from a line of a catalogue.
     Catalogue,

@@ -226,7 +226,7 @@ pub(crate) fn roller_row(
     }
 }
 
-/// A row of barrels; `sense` is 1 where the inner ring bears axial loads along +z on it.
+/// A row of barrels; `sense` is 1 where the inner ring carries axial loads along +z on it.
 pub(crate) fn barrel_row(
     definition: &BearingDefinition,
     g: &RollerGeometry,

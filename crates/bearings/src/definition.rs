@@ -256,7 +256,7 @@ impl RollerProfile {
 /// Rows of a bearing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Arrangement {
-    /// One row; bears axial loads on the inner ring along +z where it bears them one way only.
+    /// One row; carries axial loads on the inner ring along +z where it carries them one way only.
     Single,
     /// Two rows, back to back: their load lines meet the axis far apart.
     O {
@@ -276,7 +276,7 @@ pub enum Arrangement {
 }
 
 impl Arrangement {
-    /// Place of each row along the axis and the sense of the axial force that its inner ring bears.
+    /// Place of each row along the axis and the sense of the axial force that its inner ring carries.
     #[must_use]
     pub fn rows(&self) -> Vec<(f64, f64)> {
         match *self {
@@ -296,7 +296,7 @@ pub enum Preload {
     None,
     /// So far \[m\]; negative leaves play.
     Displacement(f64),
-    /// So far that each row bears this axial force at rest \[N\].
+    /// So far that each row carries this axial force at rest \[N\].
     Force(f64),
 }
 

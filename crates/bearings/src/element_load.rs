@@ -1,6 +1,6 @@
 //! Load on one ball or roller.
 
-/// What a ball or roller bears and does.
+/// What a ball or roller carries and does.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ElementLoad {
     /// Place round the axis, from x towards y \[rad\].
@@ -35,7 +35,10 @@ pub struct ElementLoad {
     pub spin_rad_per_s: f64,
     /// Whether a ball rolls without spin on the inner race; otherwise on the outer one.
     pub controlled_by_inner: bool,
-    /// Of a four-point contact bearing: the contacts on the side that bears less.
+    /// Whether a ball of an angular-contact bearing at speed lies beyond the end of the inner groove: it then carries its
+    /// centrifugal force on the outer ring alone.
+    pub left_inner_ring: bool,
+    /// Of a four-point contact bearing: the contacts on the side that carries less.
     pub other_side: Option<OtherSide>,
 }
 

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::quasi_static::Row;
 
-/// Place of a ball (r, z, 0) or roller (r, z, tilt) at which it bears load \[m, rad\]; none for a loose one, whose place is not determined.
+/// Place of a ball (r, z, 0) or roller (r, z, tilt) at which it carries load \[m, rad\]; none for a loose one, whose place is not determined.
 pub(crate) type ElementPlace = Option<Vector3<f64>>;
 
 /// Places of all elements of a bearing, row after row.
@@ -53,6 +53,11 @@ impl ElementPlaces {
         for (place, saved) in places.zip(numbers.chunks_exact(4)) {
             *place = (saved[0] > 0.0).then(|| Vector3::new(saved[1], saved[2], saved[3]));
         }
+    }
+
+    /// Where the search of an element begins next.
+    pub(crate) fn set(&mut self, row: usize, element: usize, (r_m, z_m): (f64, f64)) {
+        self.rows[row][element] = Some(Vector3::new(r_m, z_m, 0.0));
     }
 
     pub(crate) fn rows(&mut self) -> impl Iterator<Item = &mut [ElementPlace]> {

@@ -65,7 +65,7 @@ pub enum BearingError {
     },
     /// Balls of an angular-contact bearing on the side where it has no groove.
     #[error(
-        "the load pulls the rings of an angular-contact bearing apart: a single row bears axial loads along +z only; give it a preload, a second row, or turn the load round"
+        "the load pulls the rings of an angular-contact bearing apart: a single row carries axial loads along +z only; give it a preload, a second row, or turn the load round"
     )]
     PulledOut,
     /// A number that makes no sense.

@@ -65,6 +65,7 @@ pub mod ring_pose;
 mod roller_equilibrium;
 pub mod roller_row;
 mod shoulder;
+mod speed_up;
 pub mod static_safety;
 pub mod stress_riser;
 pub mod thrust_ratings;

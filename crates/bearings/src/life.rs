@@ -70,7 +70,7 @@ fn is_thrust(definition: &BearingDefinition) -> bool {
 /// A ring that turns by less than this share of the other one's speed stands still: housings on springs rock.
 const STANDS_STILL: f64 = 0.01;
 
-/// Whether inner and outer ring turn against the load, which stands still: a ring that turns bears it all round, one that does not wears where the
+/// Whether inner and outer ring turn against the load, which stands still: a ring that turns carries it all round, one that does not wears where the
 /// load is. Without any speed the inner ring is taken to turn.
 fn rings_that_turn(operation: &Operation) -> [bool; 2] {
     let speeds = [operation.inner_rad_per_s, operation.outer_rad_per_s].map(f64::abs);
@@ -105,8 +105,8 @@ fn reference_mrev(
     loads: &RowLoads,
     turns: [bool; 2],
 ) -> f64 {
-    let borne = |load: &ElementLoad| load.inner_load_n.max(load.outer_load_n) > NO_LOAD_N;
-    if !loads.elements.iter().flatten().any(borne) {
+    let carried = |load: &ElementLoad| load.inner_load_n.max(load.outer_load_n) > NO_LOAD_N;
+    if !loads.elements.iter().flatten().any(carried) {
         return f64::INFINITY;
     }
     match &definition.geometry {

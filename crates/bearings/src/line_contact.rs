@@ -1,6 +1,6 @@
 //! Line contact of a roller and a race, cut into laminae.
 //!
-//! ISO/TS 16281 (2008), section 5: a roller between two races bears Q = 35 948 L^{8/9} δ^{10/9} (N, mm; steel), δ the approach of both races
+//! ISO/TS 16281 (2008), section 5: a roller between two races carries Q = 35 948 L^{8/9} δ^{10/9} (N, mm; steel), δ the approach of both races
 //! together. One contact alone takes half of δ, so that with the length L of the roller and a lamina of length l
 //!
 //! ```text

@@ -164,7 +164,7 @@ impl LoadHistory {
                 continue;
             }
             let load = AppliedBearingLoad {
-                // Cylindrical rollers bear no axial load; what damping leaves of it is none.
+                // Cylindrical rollers carry no axial load; what damping leaves of it is none.
                 force_n: [radial, 0.0, if bearing.locates { axial } else { 0.0 }],
                 // What a self-aligning bearing passes on as a moment is its force beside the ring's middle.
                 tilt: if bearing.aligns() {
@@ -182,8 +182,8 @@ impl LoadHistory {
                     cage_angle_rad: share * TAU / bearing.rows[0].elements() as f64,
                     ..Operation::default()
                 };
-                let pose = bearing.equilibrium(&load, &operation)?;
-                let (ring, elements) = bearing.loads(&pose, &operation)?;
+                let (pose, mut places) = bearing.equilibrium_with_places(&load, &operation)?;
+                let (ring, elements) = bearing.loads_from(&pose, &operation, &mut places)?;
                 let life = Life::of(definition, &elements, load.force_n, &operation, lubrication);
                 let judged = Judged {
                     definition,

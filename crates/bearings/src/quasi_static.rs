@@ -81,7 +81,7 @@ impl Row {
         }
     }
 
-    /// Peak pressures at the inner and outer race under an element's load \[Pa\]; of rollers those of the lamina that bears most.
+    /// Peak pressures at the inner and outer race under an element's load \[Pa\]; of rollers those of the lamina that carries most.
     #[must_use]
     pub fn peak_pressures_pa(&self, load: &ElementLoad) -> [f64; 2] {
         match self {
@@ -301,9 +301,21 @@ impl QuasiStaticBearing {
         pose: &RingPose,
         operation: &Operation,
     ) -> Result<(RingLoad, RowLoads), BearingError> {
+        self.loads_from(pose, operation, &mut ElementPlaces::unknown(&self.rows))
+    }
+
+    /// As [`Self::loads`], the search of each element beginning at its place, which is left where it ended.
+    ///
+    /// # Errors
+    /// As [`Self::evaluate`].
+    pub fn loads_from(
+        &self,
+        pose: &RingPose,
+        operation: &Operation,
+        places: &mut ElementPlaces,
+    ) -> Result<(RingLoad, RowLoads), BearingError> {
         let mut ring = RingLoad::default();
         let mut all = RowLoads::default();
-        let mut places = ElementPlaces::unknown(&self.rows);
         for (row, places) in self.rows.iter().zip(places.rows()) {
             let (mut elements, mut laminae) = (Vec::new(), Vec::new());
             let each = |element| elements.push(element);
@@ -372,7 +384,7 @@ fn shift_under_force(
             return Err(BearingError::NoEquilibrium {
                 unbalanced_n: force_n,
                 iterations: 0,
-                hint: "The preload is more than the races can bear.",
+                hint: "The preload is more than the races can carry.",
             });
         }
     }

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector5;
 
+use crate::element_place::ElementPlaces;
 use crate::error::BearingError;
 use crate::operation::Operation;
 use crate::quasi_static::QuasiStaticBearing;
@@ -41,8 +42,9 @@ pub(crate) struct Anchor {
 impl QuasiStaticBearing {
     /// Where the inner ring comes to rest under a load.
     ///
-    /// Newton's method with the exact tangent; steps that do not lessen the unbalanced load are turned towards it (Levenberg and
-    /// Marquardt). At speed the loads of the rest position are the start. Self-aligning bearings resist no tilt: they
+    /// Newton's method with the exact tangent; steps that do not lessen the unbalanced load are turned towards it
+    /// (Levenberg and Marquardt). At speed the place at rest is the start, and balls stay between both grooves as long as
+    /// an equilibrium with them is found as the speed rises. Self-aligning bearings resist no tilt: they
     /// are held without one where none is stated.
     ///
     /// # Errors
@@ -52,6 +54,19 @@ impl QuasiStaticBearing {
         load: &AppliedBearingLoad,
         operation: &Operation,
     ) -> Result<RingPose, BearingError> {
+        Ok(self.equilibrium_with_places(load, operation)?.0)
+    }
+
+    /// As [`Self::equilibrium`], with the places of its elements: balls with two equilibria are evaluated from them
+    /// ([`Self::loads_from`]).
+    ///
+    /// # Errors
+    /// As [`Self::equilibrium`].
+    pub fn equilibrium_with_places(
+        &self,
+        load: &AppliedBearingLoad,
+        operation: &Operation,
+    ) -> Result<(RingPose, ElementPlaces), BearingError> {
         let held = AppliedBearingLoad {
             tilt: TiltCondition::Held([0.0; 2]),
             ..*load
@@ -69,7 +84,7 @@ impl QuasiStaticBearing {
         };
         if !self.locates && load.force_n[2] != 0.0 {
             return Err(BearingError::NotCarried(
-                "the load has an axial part, which cylindrical rollers do not bear in this model; set it to 0, another bearing bears it",
+                "the load has an axial part, which cylindrical rollers do not carry in this model; set it to 0, another bearing carries it",
             ));
         }
         let resting = Operation {
@@ -78,16 +93,16 @@ impl QuasiStaticBearing {
             ..*operation
         };
         let start = self.first_guess(load);
-        let mut pose = match self.iterate(start, load, &resting, None) {
+        let pose = match self.iterate(start, load, &resting, (None, None)) {
             Ok(found) => found,
             Err(error) => self
                 .settle(start, load, &resting, error)
                 .or_else(|error| self.tilt_up(load, &resting, error))?,
         };
         if operation.is_turning() {
-            pose = self.speed_up(pose, load, operation)?;
+            return self.speed_up(pose, load, operation);
         }
-        Ok(pose)
+        Ok((pose, ElementPlaces::unknown(&self.rows)))
     }
 
     /// To rest down the potential energy, where Newton's method alone stays behind an edge of it.
@@ -118,11 +133,11 @@ impl QuasiStaticBearing {
                 at: pose.to_five(),
                 spring_n_per_m: spring,
             };
-            match self.iterate(pose, load, operation, Some(&anchor)) {
+            match self.iterate(pose, load, operation, (Some(&anchor), None)) {
                 Ok(next) => {
                     pose = next;
                     spring *= 0.5;
-                    if let Ok(found) = self.iterate(pose, load, operation, None) {
+                    if let Ok(found) = self.iterate(pose, load, operation, (None, None)) {
                         return Ok(found);
                     }
                 }
@@ -133,39 +148,6 @@ impl QuasiStaticBearing {
             }
         }
         Err(failure)
-    }
-
-    /// From rest to speed, in shorter steps of the square of the speed where a step fails.
-    fn speed_up(
-        &self,
-        mut pose: RingPose,
-        load: &AppliedBearingLoad,
-        operation: &Operation,
-    ) -> Result<RingPose, BearingError> {
-        let (mut done, mut step) = (0.0_f64, 1.0_f64);
-        loop {
-            let next = (done + step).min(1.0);
-            let part = Operation {
-                inner_rad_per_s: operation.inner_rad_per_s * next.sqrt(),
-                outer_rad_per_s: operation.outer_rad_per_s * next.sqrt(),
-                ..*operation
-            };
-            match self.iterate(pose, load, &part, None) {
-                Ok(found) => {
-                    (pose, done) = (found, next);
-                    if done >= 1.0 {
-                        return Ok(pose);
-                    }
-                    step *= 2.0;
-                }
-                Err(error) => {
-                    step *= 0.25;
-                    if step < 1e-4 {
-                        return Err(error);
-                    }
-                }
-            }
-        }
     }
 
     /// Moved towards the load, through the clearance.
@@ -202,7 +184,7 @@ impl QuasiStaticBearing {
         start: RingPose,
         load: &AppliedBearingLoad,
         operation: &Operation,
-        anchor: Option<&Anchor>,
+        (anchor, places): (Option<&Anchor>, Option<&mut ElementPlaces>),
     ) -> Result<RingPose, BearingError> {
         let arm = self.rows[0].pitch_radius_m();
         let scale = Vector5::new(1.0, 1.0, 1.0, arm, arm);
@@ -230,7 +212,18 @@ impl QuasiStaticBearing {
             r
         };
         let mut pose = start;
-        let mut ring = self.evaluate(&pose, operation)?;
+        // Without places every search of an element begins from the ring's place alone.
+        let mut known = places;
+        let unknown = ElementPlaces::unknown(&self.rows);
+        let evaluate = |pose: &RingPose, known: &Option<&mut ElementPlaces>| {
+            let mut places = known.as_deref().unwrap_or(&unknown).clone();
+            let ring = self.evaluate_from(pose, operation, &mut places)?;
+            Ok::<_, BearingError>((ring, places))
+        };
+        let (mut ring, found) = evaluate(&pose, &known)?;
+        if let Some(known) = &mut known {
+            known.take_from(&found);
+        }
         let mut r = residual(&pose, &ring);
         let mut lift = 0.0_f64;
         let mut rounding_n = 0.0;
@@ -275,10 +268,13 @@ impl QuasiStaticBearing {
             }
             let factor = (100e-6 / length).min(1.0);
             let next = pose.moved(&(step * factor).component_div(&scale));
-            let found = self.evaluate(&next, operation);
+            let found = evaluate(&next, &known);
             match found {
-                Ok(found) if residual(&next, &found).norm() < size => {
+                Ok((found, places)) if residual(&next, &found).norm() < size => {
                     (pose, ring) = (next, found);
+                    if let Some(known) = &mut known {
+                        known.take_from(&places);
+                    }
                     r = residual(&pose, &ring);
                     lift = if lift < 1e-9 { 0.0 } else { 0.1 * lift };
                 }
@@ -314,5 +310,5 @@ fn hint(applied: &Vector5<f64>, arm_m: f64) -> &'static str {
     if size < SMALL_LOAD_N {
         return "So small a load is lost in the rounding of the elements' places: give 0 or at least 0.001 N.";
     }
-    "A single row that bears axial loads one way needs an axial load towards +z, a preload or a second row; a moment needs something that resists it."
+    "A single row that carries axial loads one way needs an axial load towards +z, a preload or a second row; a moment needs something that resists it."
 }

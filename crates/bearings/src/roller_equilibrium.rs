@@ -226,7 +226,7 @@ impl Roller<'_> {
         plane.tr_mul(&(m * plane))
     }
 
-    /// Where a cylindrical roller lies on the outer race under its centrifugal force, all of its length taken to bear;
+    /// Where a cylindrical roller lies on the outer race under its centrifugal force, all of its length taken to carry;
     /// where nothing throws it, far inside. Between the races nothing tells a search which way to go.
     fn thrown_out_m(&self) -> f64 {
         let row = self.row;

@@ -5,6 +5,7 @@
 //! | static safety | s₀ = C₀/P₀ | 1 for balls, 1.5 for rollers | ISO 76, guide values for normal operation |
 //! | pressure | largest peak pressure | 4200 MPa for balls, 4000 MPa for rollers | ISO 76, what C₀ stands for |
 //! | shoulder | height of the contact ellipse's end in the groove | the shoulder's | `shoulder.rs` |
+//! | dropped balls | balls that carry at rest, and at speed on the outer ring alone | 0 | `speed_up.rs` |
 //! | minimum load | P_ref of ISO/TS 16281 at speed | 0.01 C for balls, 0.02 C for rollers | SKF's rule of thumb; guidance |
 //! | speed | n d_m | 500 000 mm/min for balls, cylindrical rollers 450 000, tapered 350 000 | SKF's catalogue, grease at light loads; guidance |
 //! | load of the life | P_ref | 0.5 C | ISO 281 |
@@ -20,6 +21,7 @@ use crate::life::Life;
 use crate::operation::Operation;
 use crate::quasi_static::{QuasiStaticBearing, RowLoads};
 use crate::ratings::Ratings;
+use crate::ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 use crate::ring_load::RingLoad;
 use crate::ring_pose::RingPose;
 use crate::static_safety::StaticSafety;
@@ -33,6 +35,8 @@ pub enum Concern {
     Pressure,
     /// A contact ellipse that is cut off.
     Shoulder,
+    /// Balls that centrifugal forces have dropped off the inner ring.
+    DroppedBalls,
     /// Balls or rollers that may skid.
     MinimumLoad,
     /// Lubrication that the speed asks for.
@@ -55,6 +59,7 @@ impl Concern {
             Self::StaticSafety => "static-safety",
             Self::Pressure => "pressure",
             Self::Shoulder => "shoulder",
+            Self::DroppedBalls => "dropped-balls",
             Self::MinimumLoad => "minimum-load",
             Self::Speed => "speed",
             Self::LifeLoad => "life-load",
@@ -90,10 +95,12 @@ impl fmt::Display for BearingWarning {
 }
 
 impl BearingWarning {
-    /// How far the figure is beyond the limit: their ratio, above 1.
+    /// How far the figure is beyond the limit: their ratio, above 1; of a limit of zero the figure and 1.
     #[must_use]
     pub fn excess(&self) -> f64 {
-        if self.concern.is_upper() {
+        if self.limit == 0.0 {
+            self.value + 1.0
+        } else if self.concern.is_upper() {
             self.value / self.limit
         } else {
             self.limit / self.value
@@ -152,6 +159,7 @@ impl Judged<'_> {
         self.static_safety(&mut found);
         self.pressure(&mut found);
         self.shoulders(&mut found);
+        self.dropped_balls(&mut found);
         self.least_and_most_load(&mut found);
         self.nonsense(&mut found);
         self.speed(&mut found);
@@ -251,6 +259,40 @@ impl Judged<'_> {
                 )
             });
         }
+    }
+
+    fn dropped_balls(&self, found: &mut Found) {
+        let balls = || self.loads.elements.iter().flatten();
+        if !balls().any(|ball| ball.left_inner_ring) {
+            return;
+        }
+        // A ball beside the load's zone is loose at rest, too.
+        let tilt = self.pose.to_five();
+        let load = AppliedBearingLoad {
+            force_n: self.force_n,
+            tilt: TiltCondition::Held([tilt[3], tilt[4]]),
+        };
+        let at_rest = Operation {
+            inner_rad_per_s: 0.0,
+            outer_rad_per_s: 0.0,
+            ..*self.operation
+        };
+        let resting = (self.bearing.equilibrium(&load, &at_rest))
+            .and_then(|pose| self.bearing.loads(&pose, &at_rest));
+        let Ok((_, resting)) = resting else {
+            return;
+        };
+        let dropped = balls()
+            .zip(resting.elements.iter().flatten())
+            .filter(|(ball, resting)| ball.left_inner_ring && resting.inner_load_n > 0.0)
+            .count();
+        let of = balls().count();
+        found.check(Concern::DroppedBalls, dropped as f64, 0.0, || {
+            format!(
+                "dropped balls: {dropped} of {of} that carry at rest carry on the outer ring only: centrifugal forces have pressed them to the bottom of its groove, beyond \
+                 the end of the inner one; the others take their load. Give more axial load or preload, or a lower speed"
+            )
+        });
     }
 
     fn least_and_most_load(&self, found: &mut Found) {

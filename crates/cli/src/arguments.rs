@@ -239,6 +239,9 @@ pub struct OptimiseArguments {
     /// Folder for front.csv, tried.csv and the page optimise.html
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Largest result of a trial of a multibody scene
+    #[arg(long = "most-result-GB", default_value = "1", value_parser = positive)]
+    pub most_result_gb: f64,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -252,6 +255,9 @@ pub struct StudyArguments {
     /// Folder for the results, study.csv and the page study.html; what is there already is not run again
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Largest size of the results of all cases together
+    #[arg(long = "most-result-GB", default_value = "1", value_parser = positive)]
+    pub most_result_gb: f64,
     /// Run the cases on a Dask cluster: the address of its scheduler (tcp://HOST:8786), its scheduler file, or "local" for
     /// one that is started for this study (docs/cluster.md)
     #[arg(long)]

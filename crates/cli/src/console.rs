@@ -36,6 +36,18 @@ pub fn warning(text: impl std::fmt::Display) {
     note(format!("warning: {text}"));
 }
 
+/// Says what is wrong with the words of a command, or prints the help that was asked for; returns the exit code. What is
+/// wrong has no colours: the words may be names of files.
+pub fn usage(told: &clap::Error) -> u8 {
+    if told.use_stderr() {
+        note(told.to_string().trim_end());
+        return 2;
+    }
+    // A reader of the help that stops reading is no error.
+    let _ = told.print();
+    0
+}
+
 /// An error.
 pub fn error(text: impl std::fmt::Display) {
     note(format!("error: {text}"));
@@ -132,7 +144,7 @@ impl RunBar {
         }
         let now = Instant::now();
         Self {
-            title: title.to_owned(),
+            title: printable(title).into_owned(),
             bar,
             begun: now,
             state: Cell::new((None, now)),
@@ -148,7 +160,7 @@ impl RunBar {
         let (first, told) = self.state.get();
         let first = first.unwrap_or(done);
         let now = Instant::now();
-        // A sum of times is told without its rounding, a count without digits.
+        // A sum of times is printed without its rounding, a count without digits.
         let whole = (1e6 * total).round() / 1e6;
         let digits = if done.fract() == 0.0 && total.fract() == 0.0 {
             0
@@ -213,7 +225,7 @@ impl StageBar {
     fn new(title: &str) -> Self {
         let now = Instant::now();
         Self {
-            title: title.to_string(),
+            title: printable(title).into_owned(),
             now: Mutex::new(Stage {
                 bar: ProgressBar::new_spinner(),
                 name: String::new(),
@@ -233,6 +245,7 @@ impl StageBar {
     fn stage(&self, name: &str) {
         self.with(|stage| {
             stage.bar.finish_and_clear();
+            let name = &*printable(name);
             stage.bar = ProgressBar::new_spinner().with_message(format!("{}: {name}", self.title));
             stage.bar.enable_steady_tick(Duration::from_millis(200));
             name.clone_into(&mut stage.name);

@@ -14,7 +14,10 @@ use gearmesh_operations::{Failure, Fault};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(told) => return ExitCode::from(console::usage(&told)),
+    };
     gearmesh_fe::split_alike();
     let sound = gearmesh_geometry::input::demand_threads().map_err(Failure::from);
     let sound = sound.and_then(|()| interrupt::install());

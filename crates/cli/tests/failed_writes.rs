@@ -4,10 +4,11 @@
 mod common;
 
 use common::{
-    Answer, Desk, SOLID, argument, changed, gearmesh, names_in, refused, succeeds, workshop,
+    Answer, Desk, SOLID, argument, changed, gearmesh, names_in, program, refused, send, succeeds,
+    workshop,
 };
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::time::Duration;
 
 const OLD: &[u8] = b"the old file";
@@ -54,7 +55,7 @@ fn a_failed_write_leaves_the_old_file_and_nothing_else() {
 }
 
 /// Without the trap the system kills the program in the midst of the write. It cannot tidy up then, but what it leaves
-/// is hidden and bears another name.
+/// is hidden and has another name.
 #[test]
 fn a_killed_write_leaves_the_old_file() {
     let (desk, outputs) = (Desk::new(), Desk::new());
@@ -184,20 +185,13 @@ fn an_interrupted_reduction_leaves_nothing() {
     // The whole factorisation takes many times as long as one by symmetry.
     let gear = changed(&gear, "[reduction]", "[reduction]\nsymmetry = \"off\"");
     let gear = desk.file("gear.toml", gear);
-    let child = Command::new(env!("CARGO_BIN_EXE_gearmesh"))
-        .args(["reduce", argument(&gear), "-o"])
-        .arg(outputs.path("gear.h5"))
+    let output = outputs.path("gear.h5");
+    let child = program(&["reduce", argument(&gear), "-o", argument(&output)])
         .env("TMPDIR", scratch.path(""))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
         .spawn()
         .unwrap();
     std::thread::sleep(Duration::from_millis(1500));
-    let killed = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(killed.success());
+    send("-INT", child.id());
     let answer = Answer::from(child.wait_with_output().unwrap());
     refused(&answer, 130, &["interrupted"]);
     assert!(outputs.names().is_empty(), "{:?}", outputs.names());

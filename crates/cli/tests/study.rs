@@ -44,6 +44,51 @@ fn a_study_prints_its_cases_and_keeps_its_results() {
     assert!((number(&case["columns"][0]["largest"]) - 8.0).abs() < 1e-9);
 }
 
+/// Results that together are large are refused before the first case, by the program of studies and of optimisations.
+#[test]
+fn large_results_are_refused_until_they_are_allowed() {
+    let desk = Desk::new();
+    desk.file(
+        "scene.toml",
+        changed(SCENE, "interval_s = 1e-2", "interval_s = 1e-5"),
+    );
+    let study = desk.file("study.toml", STUDY);
+    let out = desk.path("out");
+    let words = [
+        "study",
+        argument(&study),
+        "-o",
+        argument(&out),
+        "--most-result-GB",
+    ];
+    // Two cases of 100 001 rows of 38 columns.
+    let told = [
+        "the results of its 2 cases together will have 60.8 MB, allowed are 0.05 GB",
+        "--most-result-GB 1 ",
+    ];
+    refused(&gearmesh(&[&words[..], &["0.05"]].concat()), 2, &told);
+    assert!(!out.exists());
+    let search = desk.file(
+        "optimise.toml",
+        "title = \"t\"\nscene = \"scene.toml\"\ntrials = 20\n[[variable]]\nname = \"torque\"\nkeys = [\"load.0.torque_Nm\"]\nfrom = 1.0\nto = 2.0\n\
+         [[objective]]\nname = \"speed\"\nterm = [{ column = \"bodies/wheel/angular_velocity_z_rad_per_s:largest\" }]\n",
+    );
+    let words = [
+        "optimise",
+        argument(&search),
+        "-o",
+        argument(&out),
+        "--most-result-GB",
+        "0.03",
+    ];
+    refused(
+        &gearmesh(&words),
+        2,
+        &["the result of each trial will have 30.4 MB, allowed are 0.03 GB"],
+    );
+    assert!(!out.exists());
+}
+
 /// Figures of a sweep are those of its speeds, of a static run those of its equilibria: no time is told with them.
 #[test]
 fn what_figures_are_taken_over_is_told() {
@@ -194,15 +239,9 @@ fn two_studies_in_one_folder_end_clean() {
     let text = changed(STUDY, "[4.0]", &format!("[{}]", values.join(", ")));
     let study = desk.file("study.toml", &text);
     let out = desk.path("out");
-    let begin = || {
-        std::process::Command::new(env!("CARGO_BIN_EXE_gearmesh"))
-            .args(["study", argument(&study), "-o", argument(&out), "--json"])
-            .stdout(std::process::Stdio::piped())
-            .stderr(std::process::Stdio::piped())
-            .spawn()
-            .unwrap()
-    };
-    let both = [begin(), begin()].map(|child| child.wait_with_output().unwrap());
+    let words = ["study", argument(&study), "-o", argument(&out), "--json"];
+    let both = [common::begin(&words), common::begin(&words)]
+        .map(|child| child.wait_with_output().unwrap());
     let figures = both.map(|output| {
         let told = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success(), "{told}");

@@ -3,10 +3,10 @@
 
 mod common;
 
-use common::{Answer, Desk, argument, changed, gearmesh, refused, succeeds};
+use common::{Answer, Desk, argument, changed, gearmesh, refused, send, succeeds};
 use gearmesh_scene::system_run::SystemResult;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::Child;
 use std::time::Duration;
 
 /// A driven pendulum on a torsion spring: 120 000 steps, some hundred milliseconds at least.
@@ -41,20 +41,8 @@ torque_Nm = { sine = { amplitude = 9.0, frequency_Hz = 0.9 } }
 "#;
 
 fn begin(scene: &Path, output: &Path, checkpoint_s: &str) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_gearmesh"))
-        .args(["run", argument(scene), "-o", argument(output), "--json"])
-        .args(["--checkpoint-s", checkpoint_s])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
-}
-
-fn send(signal: &str, child: &Child) {
-    let kill = Command::new("kill")
-        .args([signal, &child.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
+    let words = ["run", argument(scene), "-o", argument(output), "--json"];
+    common::begin(&[&words[..], &["--checkpoint-s", checkpoint_s]].concat())
 }
 
 fn assert_same_columns(a: &Path, b: &Path) {
@@ -106,7 +94,7 @@ fn a_run_that_is_killed_goes_on_from_its_checkpoint_to_the_same_result() {
         }
         let running = child.try_wait().unwrap().is_none();
         if kills < 6 && running {
-            send("-KILL", &child);
+            send("-KILL", child.id());
             let answer = Answer::from(child.wait_with_output().unwrap());
             assert_eq!(answer.code, None);
             // Killed at the very end, the run may have given its result its name already; then it is whole.
@@ -135,7 +123,7 @@ fn an_interrupted_run_says_so_and_goes_on() {
     let mut child = begin(&scene, &output, "0.01");
     let part = desk.path("result.h5.part");
     next_file(&part.join("checkpoint.h5"), None, &mut child).unwrap();
-    send("-INT", &child);
+    send("-INT", child.id());
     let answer = Answer::from(child.wait_with_output().unwrap());
     refused(&answer, 130, &["interrupted", "--restart"]);
     assert_eq!(desk.names(), ["result.h5.part", "scene.toml"]);
@@ -175,7 +163,7 @@ fn a_result_that_another_run_writes_is_refused() {
     let part = desk.path("result.h5.part");
     next_file(&part.join("checkpoint.h5"), None, &mut child).unwrap();
     let answer = gearmesh(&["run", argument(&scene), "-o", argument(&output)]);
-    send("-KILL", &child);
+    send("-KILL", child.id());
     child.wait().unwrap();
     refused(&answer, 1, &["rows.log", "in use"]);
 }

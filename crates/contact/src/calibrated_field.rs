@@ -31,7 +31,7 @@ impl CalibratedField {
             half_width_m: field.half_width_m,
             stations,
             sections: vec![CalibratedSection {
-                contact: field.contact_curve(gear.base_radius_m),
+                contact: field.contact_curve(gear.signed_base_radius_m()),
                 mesh_m2_per_n: field.mesh_m2_per_n[flank_index * size..][..size].to_vec(),
             }],
             between: Vec::new(),

@@ -67,7 +67,9 @@ impl FlankSurface for InvoluteSurface<'_> {
     /// Across the generators, towards the tip, first.
     fn curvature(&self, at: FlankPlace) -> SurfaceCurvature {
         let (_, [x, y]) = self.tooth.flank_frame(self.flank, at.u);
-        let across = self.tooth.base_helix_angle_rad().cos() / (self.tooth.base_radius_m * at.u);
+        // A ring's flank is hollow.
+        let radius_m = self.tooth.tip_direction() * self.tooth.base_radius_m * at.u;
+        let across = self.tooth.base_helix_angle_rad().cos() / radius_m;
         SurfaceCurvature {
             principal_per_m: [across, 0.0],
             first: self.turned([x, y, 0.0], at.v),

@@ -1,4 +1,4 @@
-//! Two half spaces pressed together along a line that is cut into slices: bodies that give way at their surfaces only,
+//! Two half spaces pressed together along a line that is cut into slices: bodies that deflect at their surfaces only,
 //! as Hertz has it.
 //!
 //! A slice of length l carries the line load q, with Hertz's pressure of half width a across the line and even along it.

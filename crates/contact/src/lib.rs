@@ -19,7 +19,7 @@
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
 //! | the same of a calibrated model | | `calibrated_field.rs` |
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
-//! | bodies that give way at their surfaces only, as Hertz has it | [`HalfSpaces`] | `half_spaces.rs` |
+//! | bodies that deflect at their surfaces only, as Hertz has it | [`HalfSpaces`] | `half_spaces.rs` |
 //! | which patches of an involute pair touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
 //! | which part of a helical slice is on the path | [`slice_part::SlicePart`] | `slice_part.rs` |
 //! | what is removed from the flanks | [`FlankDeviations`] | `flank_deviations.rs` |

@@ -22,7 +22,7 @@ mod compliance;
 mod energy_rates;
 mod kept_compliance;
 
-/// What gives way.
+/// What deflects.
 #[derive(Debug, Clone)]
 enum Elastic {
     /// Two reduced gears.
@@ -130,7 +130,7 @@ impl SliceContact {
         Self::of_elastic(layout, (elastic, walks), local_contact, most_lines)
     }
 
-    /// The contact of two bodies that give way at their surfaces only.
+    /// The contact of two bodies that deflect at their surfaces only.
     ///
     /// The local law is a logarithm up to where its slope is all but zero, as that of calibrated models.
     #[must_use]

@@ -181,7 +181,7 @@ impl<F: FlanksAtRest> StaticContact<F> {
     }
 
     /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact of the patch with this number under a normal force; q is
-    /// the force over the patch's length along the contact line. At a tip edge those of the Hertz contact that gives way as the edge does.
+    /// the force over the patch's length along the contact line. At a tip edge those of the Hertz contact that deflects as the edge does.
     ///
     /// # Panics
     /// If there is no such patch.

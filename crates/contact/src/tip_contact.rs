@@ -97,7 +97,7 @@ impl TipContact {
 
 /// How far beyond the ends of the path pairs are looked for: up to this rigid gap over the base pitch.
 ///
-/// No unit. Teeth that give way by more than 1 % of the base pitch raise a warning in a run; half as much again leaves
+/// No unit. Teeth that deflect by more than 1 % of the base pitch raise a warning in a run; half as much again leaves
 /// room for microgeometry. A pair beyond it counts as apart.
 pub const LARGEST_GAP_OVER_BASE_PITCH: f64 = 0.015;
 

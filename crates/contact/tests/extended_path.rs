@@ -83,7 +83,7 @@ fn the_transmission_error_is_continuous_over_a_pitch() {
     }
 }
 
-/// Where no tip touches both paths are the same problem; where one does, the load is shared and the pair gives way less.
+/// Where no tip touches both paths are the same problem; where one does, the load is shared and the pair deflects less.
 #[test]
 fn a_tip_in_contact_stiffens_the_pair() {
     let lines = lines();

@@ -5,22 +5,22 @@ mod pair_common;
 
 use gearmesh_contact::{ContactLine, ContactLines, TipContact, TipGear};
 use gearmesh_geometry::microgeometry::{ReliefShape, TipRelief};
-use gearmesh_geometry::{Flank, GearPair, Microgeometry, Misalignment};
-use pair_common::{extended, pair, tooth};
+use gearmesh_geometry::{GearPair, Microgeometry, Misalignment};
+use pair_common::{extended, pair, ring_pair, tooth};
 use proptest::prelude::*;
 
 /// A point of a right flank in a frame with gear 1's axis at the origin and gear 2's on +x, from the tooth's own geometry
 /// and the definition of the angles only.
 fn placed(pair: &GearPair, gear: usize, turned_rad: f64, roll_rad: f64) -> [f64; 2] {
-    let (tooth, sense) = if gear == 1 {
-        (&pair.gear_1, -1.0)
-    } else {
-        (&pair.gear_2, 1.0)
-    };
+    let tooth = [&pair.gear_1, &pair.gear_2][gear - 1];
+    let side = pair.flank_of(gear - 1);
+    // A ring turns as the gear inside it, and touches it on the side away from the ring's axis.
+    let sense = if gear == 1 { -1.0 } else { side.mirror() };
     let working = pair.working_pressure_angle_rad.tan();
-    let point = tooth.flank_point_m(Flank::Right, roll_rad);
-    let pitch_point = tooth.flank_point_m(Flank::Right, working);
-    let towards = if gear == 1 { 0.0 } else { std::f64::consts::PI };
+    let point = tooth.flank_point_m(side, roll_rad);
+    let pitch_point = tooth.flank_point_m(side, working);
+    let is_behind = pair.gear_2.internal || (gear == 2 && !pair.gear_1.internal);
+    let towards = if is_behind { std::f64::consts::PI } else { 0.0 };
     let angle = towards - pitch_point[1].atan2(pitch_point[0]) + sense * turned_rad;
     let (s, c) = angle.sin_cos();
     let centre = if gear == 1 {
@@ -48,7 +48,12 @@ fn brute_force(pair: &GearPair, tip_gear: TipGear, turned_rad: [f64; 2]) -> (f64
         let p = placed(pair, mate + 1, turned_rad[mate], roll);
         (p[0] - edge[0]).hypot(p[1] - edge[1])
     };
-    let (mut low, mut high) = (gears[mate].form_roll_rad, gears[mate].flank_end_roll_rad);
+    let ends = [gears[mate].form_roll_rad, gears[mate].flank_end_roll_rad];
+    let (mut low, mut high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    if pair.has_ring() {
+        // The foot may stand beyond either end of the flank, whose involute goes on.
+        (low, high) = (0.5 * low, high + 0.5 * low);
+    }
     let mut best = (f64::INFINITY, 0.0);
     for _ in 0..12 {
         let step = (high - low) / 400.0;
@@ -66,15 +71,24 @@ fn brute_force(pair: &GearPair, tip_gear: TipGear, turned_rad: [f64; 2]) -> (f64
 /// The tip edge with gears turned by θ₁, θ₂ from pair 0 at the pitch point.
 fn tip_at(pair: &GearPair, tip_gear: TipGear, turned_rad: [f64; 2]) -> TipContact {
     let working = pair.working_pressure_angle_rad.tan();
-    // Gear 1's flank meets the line of action farther out as it turns on, gear 2's farther in.
-    let rolls = [working + turned_rad[0], working - turned_rad[1]];
+    // Gear 1's flank meets the line of action nearer to its tip as it turns on, gear 2's farther from it.
+    let [sense_1, sense_2] = [pair.gear_1.tip_direction(), pair.gear_2.tip_direction()];
+    let rolls = [
+        working + sense_1 * turned_rad[0],
+        working - sense_2 * turned_rad[1],
+    ];
     let (tip, mate) = tip_gear.indices();
     TipContact::new(pair, tip_gear, rolls[tip], rolls[mate])
 }
 
 fn some_pair() -> impl Strategy<Value = GearPair> {
     let gear = (25usize..90, -0.1..0.4f64, 0.0..0.4e-3f64);
-    (gear.clone(), gear).prop_map(|(a, b)| pair(&tooth(a.0, a.1, a.2), &tooth(b.0, b.1, b.2)))
+    let external =
+        (gear.clone(), gear).prop_map(|(a, b)| pair(&tooth(a.0, a.1, a.2), &tooth(b.0, b.1, b.2)));
+    prop_oneof![
+        external,
+        any::<bool>().prop_map(|drives| ring_pair(0.0, drives))
+    ]
 }
 
 fn either() -> impl Strategy<Value = TipGear> {
@@ -84,11 +98,12 @@ fn either() -> impl Strategy<Value = TipGear> {
 /// Angles of both gears where a tip stands `beyond` pitches outside the path and gear 2 lags by `lag_m`.
 fn angles(pair: &GearPair, tip_gear: TipGear, beyond: f64, lag_m: f64) -> [f64; 2] {
     let working = pair.working_pressure_angle_rad.tan();
+    let sense = pair.gear_1.tip_direction();
     let roll = match tip_gear {
-        TipGear::One => pair.roll_end_1_rad + beyond * pair.pitch_1_rad(),
-        TipGear::Two => pair.roll_start_1_rad - beyond * pair.pitch_1_rad(),
+        TipGear::One => pair.roll_end_1_rad + sense * beyond * pair.pitch_1_rad(),
+        TipGear::Two => pair.roll_start_1_rad - sense * beyond * pair.pitch_1_rad(),
     };
-    let theta_1 = roll - working;
+    let theta_1 = sense * (roll - working);
     let base_2 = pair.gear_2.base_radius_m;
     [
         theta_1,
@@ -174,9 +189,11 @@ proptest! {
         let turned = [after[0] - before[0], after[1] - before[1]];
         let foot = |angles| tip_at(pair, tip_gear, angles).foot_roll_rad;
         let (tip, mate) = tip_gear.indices();
-        let mate_base = [pair.gear_1.base_radius_m, pair.gear_2.base_radius_m][mate];
+        let mate_gear = [&pair.gear_1, &pair.gear_2][mate];
+        let mate_base = mate_gear.base_radius_m;
         // The edge runs over the flank by ds = ρ dξ, towards the mate's tip where positive.
-        let path = mate_base * contact.foot_roll_rad * (foot(after) - foot(before));
+        let towards_tip = mate_gear.tip_direction() * (foot(after) - foot(before));
+        let path = mate_base * contact.foot_roll_rad * towards_tip;
         let mut arms = [0.0; 2];
         arms[tip] = contact.tip_friction_arm_m;
         arms[mate] = mate_base * contact.foot_roll_rad;

@@ -220,7 +220,7 @@ impl FlankContacts {
             .sum()
     }
 
-    /// How deep flanks stand in each other at most \[m\], along their normal; zero where none do.
+    /// How deep flanks overlap at most \[m\], along their normal; zero where none do.
     #[must_use]
     pub fn deepest_overlap_m(&self) -> f64 {
         let gaps = self.contacts.iter().map(|contact| contact.gap_m);

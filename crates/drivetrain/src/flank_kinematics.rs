@@ -168,7 +168,7 @@ pub trait FlankKinematics: Send {
     /// Whether no tooth reaches the mate.
     fn is_apart(&self) -> bool;
 
-    /// How deep flanks of one side stand in each other \[m\]; zero where none do.
+    /// How deep flanks of one side overlap \[m\]; zero where none do.
     fn overlap_m(&self, pose: &Pose, side: Flank) -> f64 {
         let mut found = FlankContacts::default();
         let looked = self.contacts_at(pose, side, &mut found);

@@ -76,8 +76,17 @@ impl GearInertia {
             width_m: face_width_m,
             z_m: 0.0,
         };
-        add(whole, 1.0);
-        add(ring(0.0, blank.bore_radius_m(), face_width_m, 0.0), -1.0);
+        match blank.rim() {
+            // The outline bounds the hole.
+            Some(rim) => {
+                add(ring(0.0, rim.outer_radius_m, face_width_m, 0.0), 1.0);
+                add(whole, -1.0);
+            }
+            None => {
+                add(whole, 1.0);
+                add(ring(0.0, blank.bore_radius_m(), face_width_m, 0.0), -1.0);
+            }
+        }
         if let Some(web) = blank.web() {
             let (low, high) = (web.hub_radius_m, web.rim_inner_radius_m);
             add(ring(low, high, face_width_m, 0.0), -1.0);

@@ -377,6 +377,7 @@ impl GearMesh {
                 }
             }
             let (contacts, sections) = (side.found.contacts.len(), side.found.sections.len());
+            side.loads.single = side.model.acts_singly();
             side.loads.begin(contacts, sections);
             side.friction.clear();
             side.friction.resize(contacts, FlankFriction::default());
@@ -391,8 +392,13 @@ impl GearMesh {
             if tangents {
                 // Once for each contact: all others may feel its gap rate.
                 let (found, damping) = (&side.found, &side.loads.damping_n_s_per_m);
+                let rows = if side.loads.single {
+                    damping.len()
+                } else {
+                    contacts
+                };
                 side.rate_by_pose.extend((0..contacts).map(|contact| {
-                    let column = damping[contact..].iter().step_by(contacts);
+                    let column = damping[contact..].iter().step_by(rows);
                     let is_felt = column.into_iter().any(|d| *d != 0.0);
                     let curvature = || self.kinematics.gap_curvature(found, contact, side.flank);
                     is_felt

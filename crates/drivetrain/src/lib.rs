@@ -11,7 +11,7 @@
 //! | what resists | the models | `teeth_model.rs`, `models/` |
 //! | what simple models take from a pair's own static curve | [`PairCurve`] | `pair_curve.rs`, `roll_harmonics.rs` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
-//! | teeth that are apart, or stand in each other | `nearest_flanks.rs`, `tooth_overlap.rs` |
+//! | teeth that are apart, or overlap | `nearest_flanks.rs`, `tooth_overlap.rs` |
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs`, a side of it `side_assembly.rs` |
 //! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
@@ -48,6 +48,7 @@ mod mesh_load;
 pub mod modal_loads;
 pub mod models;
 mod nearest_flanks;
+mod node_surface;
 mod pair_channels;
 pub mod pair_curve;
 pub mod path_ends;
@@ -86,6 +87,11 @@ pub use models::hybrid::ReducedTeeth;
 pub use models::impact::{Impact, PowerStiffness};
 pub use models::iso6336::{MeshSpring, SingleStiffness};
 pub use models::kinematic::kinematic_mesh;
+pub use node_surface::{
+    DigitalFlank, NodeSurfaces, PatchSize, ReferenceApproach, line_contact_area_m2,
+    point_contact_area_m2,
+};
+pub use pair_channels::{SlicePressure, ToothPairs};
 pub use pair_curve::{PairCurve, PairSamples};
 pub use path_ends::PathEnds;
 pub use pose::Pose;

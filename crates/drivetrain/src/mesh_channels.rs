@@ -129,10 +129,17 @@ impl SliceLineLoads {
             let Some((found, forces)) = mesh.side(flank) else {
                 continue;
             };
-            for (contact, force) in found.contacts.iter().zip(forces) {
+            // Nodes of one slice of a pair share its width.
+            let of_slice = |n: usize| (found.contacts[n].line, found.contacts[n].slice);
+            for (first, contact) in found.contacts.iter().enumerate() {
+                let same = |n: &usize| of_slice(*n) == of_slice(first);
+                if (0..first).any(|n| same(&n)) {
+                    continue;
+                }
+                let sum: f64 = (first..forces.len()).filter(same).map(|n| forces[n]).sum();
                 let width_m = self.width_m * found.section(contact).share;
                 let place = &mut out[contact.slice];
-                *place = place.max(force / width_m);
+                *place = place.max(sum / width_m);
             }
         }
     }

@@ -10,7 +10,7 @@ use crate::flank_contacts::FlankContacts;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
 use crate::mesh_channels::{self, FORCES, MOMENTS, POWERS, SliceLineLoads, force_on_gear_1};
-use crate::pair_channels::PairChannels;
+use crate::pair_channels::ToothPairs;
 use crate::pose::Pose;
 use crate::strain_gauges::{ModalPart, StrainGauges};
 
@@ -63,7 +63,7 @@ pub struct MeshElement {
     mesh: GearMesh,
     gauges: Vec<StrainGauges>,
     line_loads: Option<SliceLineLoads>,
-    pairs: Option<PairChannels>,
+    pairs: Option<ToothPairs>,
 }
 
 impl MeshElement {
@@ -104,11 +104,10 @@ impl MeshElement {
         self
     }
 
-    /// Adds tooth, force and place of each pair that carries (pair_channels.rs), its pressure and its ellipse after
-    /// Hertz with E* \[Pa\]; of families whose flanks touch in points, as those of bevel gears.
+    /// Adds tooth, force, place and pressure of each pair that carries (pair_channels.rs).
     #[must_use]
-    pub fn with_tooth_pairs(mut self, contact_modulus_pa: f64) -> Self {
-        self.pairs = Some(PairChannels { contact_modulus_pa });
+    pub fn with_tooth_pairs(mut self, pairs: ToothPairs) -> Self {
+        self.pairs = Some(pairs);
         self
     }
 
@@ -292,12 +291,7 @@ impl ForceElement for MeshElement {
             .chain(mesh_channels::forces())
             .chain(mesh_channels::moments())
             .chain(slices.map(SliceLineLoads::channels).into_iter().flatten())
-            .chain(
-                self.pairs
-                    .map(|_| PairChannels::channels())
-                    .into_iter()
-                    .flatten(),
-            )
+            .chain(self.pairs.map(ToothPairs::channels).into_iter().flatten())
             .chain(
                 (self.mesh.rubs())
                     .then(mesh_channels::powers)
@@ -353,7 +347,7 @@ impl ForceElement for MeshElement {
         let (forces, rest) = rest.split_at_mut(FORCES);
         let (moments, rest) = rest.split_at_mut(MOMENTS);
         moments.copy_from_slice(&[force[5], force[11]]);
-        let of_pairs = self.pairs.map_or(0, |_| PairChannels::COUNT);
+        let of_pairs = self.pairs.map_or(0, ToothPairs::count);
         let (slices, pairs) = rest.split_at_mut(rest.len() - of_pairs);
         forces.copy_from_slice(&force_on_gear_1(&self.mesh, &Pose::from(&motion)));
         if let Some(line_loads) = &self.line_loads {

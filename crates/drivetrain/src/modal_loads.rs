@@ -122,13 +122,13 @@ impl ModalLoads {
         loads: &TeethLoads,
         found: &FlankContacts,
     ) {
-        let n = found.contacts.len();
         let matrices = [&loads.stiffness_n_per_m, &loads.damping_n_s_per_m];
         for (along, matrix) in self.along.iter_mut().zip(matrices) {
             along.fill(0.0);
             let (first, second) = along.split_at_mut(self.counts[0]);
             for (half, rows) in [first, second].into_iter().zip(&found.modal) {
-                for (other, entry) in matrix[contact * n..][..n].iter().enumerate() {
+                let (start, entries) = loads.row(matrix, contact);
+                for (other, entry) in (start..).zip(entries) {
                     if rows.count() > 0 && *entry != 0.0 {
                         add_scaled(half, -entry, rows.shape(other));
                     }

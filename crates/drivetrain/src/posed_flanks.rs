@@ -1,6 +1,6 @@
 //! Flanks of any family at rest: those of a gear mesh at the pose of the driver angle.
 //!
-//! The pose at which the transmission error is zero is given for each driver angle θ₁. From there gear 2 gives way
+//! The pose at which the transmission error is zero is given for each driver angle θ₁. From there gear 2 deflects
 //! about its own axis e₂; with u its place and g the gradient of a gap by the increments of the pose, R₂ the radius
 //! along which the transmission error is counted and σ = ±1 for right and left flanks, a normal force of one newton
 //! makes the torques

@@ -1,6 +1,6 @@
-//! What the body below a tooth gives way: an elastic ring, held at the bore, under the stresses of the tooth's root.
+//! What the body below a tooth deflects: an elastic ring, held at the bore, under the stresses of the tooth's root.
 //!
-//! The ring reaches from the bore to the root circle, r_f, in plane stress. On the arc |θ| ≤ θ_f that the tooth covers it bears what the tooth as a
+//! The ring reaches from the bore to the root circle, r_f, in plane stress. On the arc |θ| ≤ θ_f that the tooth covers it carries what the tooth as a
 //! beam has there: normal stress m θ/θ_f and p (bending, compression), shear stress τ (constant). A force on the tooth along the normal at
 //! the angle α_F to the perpendicular of its centre line, which its line crosses at the distance x from the gear's centre, has with X = x/r_f, per
 //! unit width and r_f = 1,

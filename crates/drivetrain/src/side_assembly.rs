@@ -156,14 +156,15 @@ impl Assembly<'_> {
     /// ∂F_i/∂(increments) and ∂F_i/∂(rates).
     fn force_gradients(&self, i: usize) -> (Vector6, Vector6) {
         let (found, loads) = (self.found, self.loads);
-        let n = found.contacts.len();
         let (mut by_pose, mut by_rates) = (Vector6::zeros(), Vector6::zeros());
-        for (j, contact) in found.contacts.iter().enumerate() {
-            let stiffness = loads.stiffness_n_per_m[i * n + j];
+        let (first, stiffnesses) = loads.row(&loads.stiffness_n_per_m, i);
+        let (_, dampings) = loads.row(&loads.damping_n_s_per_m, i);
+        let entries = stiffnesses.iter().zip(dampings);
+        for (j, (&stiffness, &damping)) in (first..).zip(entries) {
+            let contact = &found.contacts[j];
             if stiffness != 0.0 {
                 by_pose -= stiffness * contact.gradient;
             }
-            let damping = loads.damping_n_s_per_m[i * n + j];
             if damping != 0.0 {
                 by_rates -= damping * contact.gradient;
                 by_pose -= damping * self.rate_by_pose[j];

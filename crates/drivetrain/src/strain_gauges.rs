@@ -96,7 +96,8 @@ impl StrainGauges {
         };
         let mut sides = Vec::new();
         for side in mesh.flanks() {
-            let array = GaugeArray::new(model, &rows, side, &spread)?;
+            let flank = mesh.kinematics().side_of(gear - 1, side);
+            let array = GaugeArray::new(model, &rows, flank, &spread)?;
             sides.push((side, array));
         }
         Ok(Self {

@@ -16,6 +16,9 @@ use crate::flank_contacts::FlankContacts;
 /// Normal forces of the contacts of one side of the teeth, and their derivatives. Reused from call to call.
 #[derive(Debug, Clone, Default)]
 pub struct TeethLoads {
+    /// Whether the force of a contact depends on its own gap alone: stiffness and damping are then one number a
+    /// contact in place of matrices.
+    pub single: bool,
     /// F \[N\], zero or positive, one a contact.
     pub normal_n: Vec<f64>,
     /// K = −∂F/∂gap \[N/m\], row: force.
@@ -43,8 +46,9 @@ impl TeethLoads {
             values.resize(size, 0.0);
         };
         zero(&mut self.normal_n, contacts);
-        zero(&mut self.stiffness_n_per_m, contacts * contacts);
-        zero(&mut self.damping_n_s_per_m, contacts * contacts);
+        let entries = contacts * if self.single { 1 } else { contacts };
+        zero(&mut self.stiffness_n_per_m, entries);
+        zero(&mut self.damping_n_s_per_m, entries);
         self.energy_by_roll.clear();
         self.energy_by_roll.resize(sections, [0.0; 2]);
         self.energy_by_height.clear();
@@ -52,6 +56,27 @@ impl TeethLoads {
         zero(&mut self.energy_by_share, sections);
         self.stored_j = 0.0;
         self.dissipated_w = 0.0;
+    }
+
+    /// Where stiffness and damping of a contact by its own gap stand.
+    #[must_use]
+    pub fn own(&self, contact: usize) -> usize {
+        if self.single {
+            contact
+        } else {
+            contact * (self.normal_n.len() + 1)
+        }
+    }
+
+    /// The row of a contact in stiffness or damping, and the contact to which its first entry belongs.
+    #[must_use]
+    pub fn row<'a>(&self, matrix: &'a [f64], contact: usize) -> (usize, &'a [f64]) {
+        let n = self.normal_n.len();
+        if self.single {
+            (contact, &matrix[contact..=contact])
+        } else {
+            (0, &matrix[contact * n..][..n])
+        }
     }
 
     /// Memory for at most so many contacts.
@@ -86,21 +111,26 @@ pub trait TeethModel: Send {
     /// stiffness in every evaluation, as those with a spring of its own for each contact do.
     fn apply_stiffness(
         &mut self,
-        flanks: &FlankContacts,
+        _flanks: &FlankContacts,
         loads: &TeethLoads,
         opening_m: &[f64],
         forces_n: &mut [f64],
     ) {
-        let n = flanks.contacts.len();
         for (row, force) in forces_n.iter_mut().enumerate() {
-            let entries = &loads.stiffness_n_per_m[row * n..][..n];
-            *force = entries.iter().zip(opening_m).map(|(k, d)| k * d).sum();
+            let (first, entries) = loads.row(&loads.stiffness_n_per_m, row);
+            let openings = &opening_m[first..];
+            *force = entries.iter().zip(openings).map(|(k, d)| k * d).sum();
         }
     }
 
     /// Whether single teeth carry: if not, their errors cannot be felt and are refused.
     fn resolves_teeth(&self) -> bool {
         true
+    }
+
+    /// Whether each contact is a spring of its own, so that [`TeethLoads::single`] holds.
+    fn acts_singly(&self) -> bool {
+        false
     }
 
     /// Whether the model's compliance is that of reduced gears, from which the share of vibration modes can be taken.
@@ -145,6 +175,10 @@ impl TeethModel for Box<dyn TeethModel> {
 
     fn resolves_teeth(&self) -> bool {
         (**self).resolves_teeth()
+    }
+
+    fn acts_singly(&self) -> bool {
+        (**self).acts_singly()
     }
 
     fn takes_modes(&self) -> bool {

@@ -85,7 +85,7 @@ impl RootCrack {
     }
 }
 
-/// What a tooth gives way by, over the face width, as a table in roll angle.
+/// What a tooth deflects by, over the face width, as a table in roll angle.
 #[derive(Debug, Clone)]
 pub struct ToothCompliance {
     start_rad: f64,

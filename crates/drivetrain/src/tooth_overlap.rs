@@ -1,4 +1,4 @@
-//! Teeth that stand in each other deeper than any teeth give way: no motion of gears, although the equations would go on with it.
+//! Teeth that overlap deeper than any teeth deflect: no motion of gears, although the equations would go on with it.
 //!
 //! Which tooth faces which follows from the angles alone (mesh_kinematics.rs). So teeth whose only modelled flanks are torn apart would
 //! pass through those of the mate until the next tooth is nearer, half a base pitch deep in it, and the mesh would push with a force that
@@ -10,7 +10,7 @@ use crate::error::DrivetrainError;
 use crate::gear_mesh::GearMesh;
 use crate::pose::Pose;
 
-/// How deep flanks that the mesh leaves out may stand in each other, as a share of the base pitch: 0.06 modules, the upper end of the usual
+/// How deep flanks that the mesh leaves out may overlap, as a share of the base pitch: 0.06 modules, the upper end of the usual
 /// backlash, since gears without thickness allowance have none and still may lift off their working flanks by as much.
 pub const BEHIND: f64 = 0.02;
 
@@ -19,7 +19,7 @@ pub const BEHIND: f64 = 0.02;
 pub const THROUGH: f64 = 0.1;
 
 impl GearMesh {
-    /// Refuses a motion in which teeth stand in each other, at the pose of the last evaluation.
+    /// Refuses a motion in which teeth overlap, at the pose of the last evaluation.
     ///
     /// # Errors
     /// [`DrivetrainError::TeethPressed`] for flanks of the mesh deeper than [`THROUGH`], [`DrivetrainError::TeethBehind`] for flanks that it

@@ -40,6 +40,7 @@ fn finish(system: System, params: Params, end_s: f64) -> Simulation {
     simulation
 }
 
+/// Two hinges on one axis, five equations too many: they are named, and the door swings as on one.
 #[test]
 fn redundant_hinges_are_named_and_solved_all_the_same() {
     let two = door(&[0.2, 1.8]);
@@ -55,6 +56,7 @@ fn redundant_hinges_are_named_and_solved_all_the_same() {
     assert!(one.state().orientations[0].angle_to(&two.state().orientations[0]) < 1e-10);
 }
 
+/// A block held at two places at once is refused with both joints and the distance.
 #[test]
 fn contradictory_joints_are_refused_by_name() {
     let mut builder = System::builder();
@@ -90,6 +92,7 @@ fn contradictory_joints_are_refused_by_name() {
     assert!((violation - 0.1).abs() < 1e-9);
 }
 
+/// A link of one metre between points two metres apart is refused with both joints.
 #[test]
 fn a_chain_that_cannot_close_is_refused_by_name() {
     let mut builder = System::builder();
@@ -128,6 +131,7 @@ fn two_motors(second: TimeFunction) -> Result<Simulation, DynamicsError> {
     Simulation::new(builder.build()?, Params::fixed(1e-2))
 }
 
+/// Two motors on one axle: of one speed they run, of two they are refused, also where they differ only later.
 #[test]
 fn motors_may_agree_but_not_differ() {
     let mut agreed = two_motors(TimeFunction::Constant(2.0)).unwrap();
@@ -150,6 +154,7 @@ fn motors_may_agree_but_not_differ() {
     );
 }
 
+/// Names given twice and bodies that are not there are refused.
 #[test]
 fn names_and_bodies_are_checked() {
     let mut builder = System::builder();
@@ -263,6 +268,7 @@ fn reactions_hold_though_the_body_turns_far_from_where_the_matrix_was_made() {
     }
 }
 
+/// A minute of slow rotation: joints hold to rounding, no angle drifts.
 #[test]
 fn a_minute_of_slow_rotation_does_not_drift() {
     let speed = 10.0 / 60.0 * TAU;
@@ -331,6 +337,7 @@ impl ForceElement for Broken {
     }
 }
 
+/// A force that is not a number from some time on ends the run there with a state of finite numbers.
 #[test]
 fn a_force_that_is_no_number_ends_the_run() {
     for joint in [false, true] {
@@ -353,6 +360,7 @@ fn a_force_that_is_no_number_ends_the_run() {
     }
 }
 
+/// A mass thrown round on a stiff spring: the adaptive step, half a second at most, shortens until it follows the spring.
 #[test]
 fn an_adaptive_step_finds_the_length_that_a_stiff_spring_needs() {
     let mut builder = System::builder();
@@ -383,6 +391,7 @@ fn an_adaptive_step_finds_the_length_that_a_stiff_spring_needs() {
     );
 }
 
+/// A tolerance a hundred times tighter: the error falls, and the steps grow with its cube root.
 #[test]
 fn the_adaptive_step_follows_its_tolerance() {
     let error = |tolerance: f64| {
@@ -402,6 +411,7 @@ fn the_adaptive_step_follows_its_tolerance() {
     assert!((3.0..7.0).contains(&ratio), "{few} {many}");
 }
 
+/// A run that is stopped and resumed, with fixed and adaptive steps, ends with the same bits.
 #[test]
 fn a_resumed_run_gives_the_same_bits() {
     for params in [Params::fixed(1e-3), Params::adaptive(1e-2, 1e-7, 1e-6)] {
@@ -421,6 +431,7 @@ fn a_resumed_run_gives_the_same_bits() {
     }
 }
 
+/// A checkpoint of a system of other bodies is refused.
 #[test]
 fn a_checkpoint_of_another_system_is_refused() {
     let checkpoint = finish(door(&[0.2]), Params::fixed(1e-3), 0.01).checkpoint();
@@ -433,6 +444,7 @@ fn a_checkpoint_of_another_system_is_refused() {
     assert!(Simulation::resume(door(&[0.2]), Params::fixed(1e-3), &damaged).is_err());
 }
 
+/// What a system does not name is never called, what it names once an evaluation.
 #[test]
 fn what_a_system_does_not_name_is_not_called() {
     let plain = {
@@ -461,6 +473,7 @@ fn what_a_system_does_not_name_is_not_called() {
     }
 }
 
+/// Rows between steps: those of steps a hundred times longer are the same to 2e-5 rad.
 #[test]
 fn output_on_a_uniform_grid_does_not_depend_on_the_steps() {
     let sampled = |params: Params| {

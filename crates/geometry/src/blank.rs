@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use crate::definition::Flank;
 
-/// The body below the teeth. Held at the bore, or at the end faces of the shaft that it is cut into.
+/// The body below the teeth. Held at the bore, at the end faces of the shaft that it is cut into, or at the outside of a
+/// ring.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Blank {
     /// A disc of full width, perhaps with openings through it.
@@ -27,6 +28,8 @@ pub enum Blank {
     },
     /// A disc of full width, cut into its shaft: solid down to the axis.
     CutIntoShaft(CutIntoShaft),
+    /// The rim of a ring with internal teeth, of full width.
+    Ring(Rim),
     /// The whole gear, teeth included, was meshed elsewhere; web and openings are not known.
     Meshed {
         /// Bore radius \[m\].
@@ -52,22 +55,35 @@ impl Blank {
         }
     }
 
-    /// Bore radius \[m\]; 0 of a gear cut into its shaft.
+    /// Bore radius \[m\]; 0 of a gear cut into its shaft and of a ring, which have none.
     #[must_use]
     pub fn bore_radius_m(&self) -> f64 {
         match self {
-            Self::CutIntoShaft(_) => 0.0,
+            Self::CutIntoShaft(_) | Self::Ring(_) => 0.0,
             Self::Solid { bore_radius_m, .. }
             | Self::Webbed { bore_radius_m, .. }
             | Self::Meshed { bore_radius_m, .. } => *bore_radius_m,
         }
     }
 
-    /// Radius at which the mesh ends inwards \[m\]: the bore, or the hole that is left open in a gear cut into its shaft.
+    /// Radius at which the mesh ends away from the teeth \[m\]: the bore, the hole that is left open in a gear cut into
+    /// its shaft, or the outside of a ring.
     #[must_use]
-    pub fn inner_radius_m(&self) -> f64 {
-        self.cut_into_shaft()
-            .map_or(self.bore_radius_m(), |shaft| shaft.hole_radius_m)
+    pub fn edge_radius_m(&self) -> f64 {
+        match self {
+            Self::CutIntoShaft(shaft) => shaft.hole_radius_m,
+            Self::Ring(rim) => rim.outer_radius_m,
+            _ => self.bore_radius_m(),
+        }
+    }
+
+    /// The rim of a ring with internal teeth.
+    #[must_use]
+    pub fn rim(&self) -> Option<&Rim> {
+        match self {
+            Self::Ring(rim) => Some(rim),
+            _ => None,
+        }
     }
 
     /// Hub, web and rim; none of a solid disc of full width.
@@ -75,7 +91,7 @@ impl Blank {
     pub fn web(&self) -> Option<Web> {
         match self {
             Self::Webbed { web, .. } => Some(*web),
-            Self::Solid { .. } | Self::CutIntoShaft(_) | Self::Meshed { .. } => None,
+            _ => None,
         }
     }
 
@@ -84,7 +100,7 @@ impl Blank {
     pub fn contour(&self) -> Option<&Contour> {
         match self {
             Self::Webbed { contour, .. } => contour.as_ref(),
-            Self::Solid { .. } | Self::CutIntoShaft(_) | Self::Meshed { .. } => None,
+            _ => None,
         }
     }
 
@@ -93,7 +109,7 @@ impl Blank {
     pub fn openings(&self) -> Option<Openings> {
         match self {
             Self::Solid { openings, .. } | Self::Webbed { openings, .. } => *openings,
-            Self::CutIntoShaft(_) | Self::Meshed { .. } => None,
+            _ => None,
         }
     }
 
@@ -118,9 +134,18 @@ impl Blank {
     pub fn meshed(&self) -> Option<&MeshedBody> {
         match self {
             Self::Meshed { body, .. } => Some(body),
-            Self::Solid { .. } | Self::CutIntoShaft(_) | Self::Webbed { .. } => None,
+            _ => None,
         }
     }
+}
+
+/// The rim of a ring with internal teeth.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Rim {
+    /// Outer radius \[m\].
+    pub outer_radius_m: f64,
+    /// Back and front of the band of the outside that is held \[m\]; the whole outside where there is none.
+    pub held_z_m: Option<[f64; 2]>,
 }
 
 /// A gear that is one with its shaft.
@@ -136,9 +161,9 @@ impl CutIntoShaft {
     /// The hole over the root radius: it takes 0.06 % of the root disc's area, and 4e-7 of its polar moment.
     pub const HOLE: f64 = 1.0 / 40.0;
     /// Length of the stubs of shaft that are meshed beyond the faces, over the shaft's diameter. Stress without
-    /// resultant dies away along a round bar by exp(−2.7 z/R) at least (R. W. Little and S. B. Childs, Q. Appl. Math. 25
-    /// (1967) 261-274): a quarter of the diameter leaves 0.26 of it at the stub's rigid end, and 0.07 of what that end
-    /// sends back to the teeth.
+    /// resultant dies away along a round bar by exp(−2.7 z/R) where it is the same all round (R. W. Little and S. B. Childs,
+    /// Q. Appl. Math. 25 (1967) 261-274), and by exp(−2.09 z/R) where it has two lobes (docs/theory/reduction.md): a quarter
+    /// of the diameter leaves 0.26 to 0.35 of it at the stub's rigid end.
     pub const STUB: f64 = 0.25;
 
     /// Lengths of the stubs on the back and the front face \[m\]; 0 where the shaft does not go on.

@@ -93,12 +93,6 @@ impl GearDefinition {
         let file: GearFile = document.parse()?;
         let tooth = file.tooth.check(document)?;
         let profile = ToothGeometry::new(&tooth).map_err(|e| document.error("tooth", e))?;
-        if profile.internal {
-            return Err(document.error(
-                "tooth.teeth",
-                "internal teeth have no body yet: rings are not meshed; give a positive number of teeth",
-            ));
-        }
         let blank = file.blank.check(document, &tooth, &profile)?;
         let material = file.material.material();
         let microgeometry = file.microgeometry.check(
@@ -130,6 +124,12 @@ impl GearDefinition {
         let modes = modes
             .map(|table| table.check(document, &material, mesh.plane_strain))
             .transpose()?;
+        if blank.rim().is_some() && hub_support != HubSupport::Fixed {
+            return Err(document.error(
+                "hub.support",
+                "a ring is fixed where it is held, blank.held_band_mm or its whole outside; remove it",
+            ));
+        }
         let hub = file.hub.check(document, &material, mesh.plane_strain)?;
         let gauges = gauge_table::check_all(file.gauge, document, &tooth, &profile)?;
         let crack = file.crack;

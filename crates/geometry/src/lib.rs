@@ -42,7 +42,8 @@ pub mod tooth;
 
 pub use base_circles::BaseCircles;
 pub use blank::{
-    Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, MeshedBody, Openings, Slots, Web,
+    Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, MeshedBody, Openings, Rim,
+    Slots, Web,
 };
 pub use definition::{
     CrackDefinition, Flank, GaugeDefinition, GearDefinition, Gearing, HubSupport, InternalRoot,

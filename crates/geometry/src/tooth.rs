@@ -407,6 +407,13 @@ impl ToothGeometry {
         }
     }
 
+    /// Roll angle of the point that lies `towards_tip_m` along the profile from the one at `roll_rad`; zero beyond the
+    /// base circle. The arc of an involute is r_b ξ²/2; in a ring it runs to the root.
+    pub fn roll_from_rad(&self, roll_rad: f64, towards_tip_m: f64) -> f64 {
+        let further = 2.0 * self.tip_direction() * towards_tip_m / self.base_radius_m;
+        (roll_rad * roll_rad + further).max(0.0).sqrt()
+    }
+
     /// Point of a flank \[m\] at a roll angle, for the tooth centred on +x.
     pub fn flank_point_m(&self, side: Flank, roll_rad: f64) -> [f64; 2] {
         let r = involute::radius_m(roll_rad, self.base_radius_m);

@@ -166,7 +166,7 @@ pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
             }
         }
     }
-    levels.push((gear.blank.inner_radius_m(), false));
+    levels.push((gear.blank.edge_radius_m(), false));
     levels
 }
 
@@ -263,7 +263,7 @@ pub fn body_problem(
         .enumerate()
         .map(|(level, &(r, _))| {
             // The bore takes over the hub's number of pieces, so that the hub can be paved regularly.
-            let is_bore = level + 1 == levels.len() && r <= gear.blank.inner_radius_m();
+            let is_bore = level + 1 == levels.len() && r <= gear.blank.edge_radius_m();
             let hub_inside = is_bore && gear.blank.web().is_some();
             if level > 0 && !hub_inside && !is_thin(level - 1) {
                 // Free regions are meshed two boundary pieces at a time, and blossom needs an even number of those:

@@ -170,7 +170,12 @@ impl ContactSection {
                 quads.push([n, n + columns, n + columns + 1, n + 1]);
             }
         }
-        // Rows run outwards, columns counter-clockwise: (outwards, counter-clockwise) is a right-handed pair.
+        // Columns run counter-clockwise. Rows run outwards, and the two are a right-handed pair; inwards in a ring.
+        if right[0][0].hypot(right[0][1]) > right[last][0].hypot(right[last][1]) {
+            for quad in &mut quads {
+                quad.swap(1, 3);
+            }
+        }
         let mut held: Vec<usize> = (0..columns).collect();
         held.extend((1..arcs.len()).map(|i| i * columns + columns - 1));
         Self {

@@ -2,7 +2,7 @@
 //!
 //! The mouth is the node of the outline next to the place asked for, moved there along the outline; from there the
 //! shortest chain of sides that keeps close to the straight line is followed to the node next to the wanted tip. That
-//! node is moved to the very place, and the nodes around give way as long as that makes the quads better: depth and
+//! node is moved to the very place, and the nodes around move as long as that makes the quads better: depth and
 //! angle are those asked for, the sides in between are as ragged as the mesh. All teeth have the same section, the
 //! sound ones too.
 
@@ -11,7 +11,7 @@ use crate::tooth_cell::ToothCell;
 use gearmesh_geometry::{CrackDefinition, Flank, GearDefinition, ProfileCurve};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
-/// How far from the tip nodes give way, in sides of quads.
+/// How far from the tip nodes move, in sides of quads.
 const REACH: usize = 4;
 /// Sweeps over them; the last of them move nothing any more.
 const SWEEPS: usize = 30;
@@ -215,7 +215,7 @@ fn follow(cell: &ToothCell, mouth: usize, line: &Line) -> Result<Vec<usize>, Mes
     Ok(path)
 }
 
-/// Moves the end of the path to its place and lets the nodes around it and around the mouth give way.
+/// Moves the end of the path to its place and lets the nodes around it and around the mouth move.
 fn place_tip(cell: &mut ToothCell, path: &[usize], place: [f64; 2]) {
     let tip = path[path.len() - 1];
     cell.nodes[tip] = place;

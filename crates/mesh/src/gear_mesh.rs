@@ -229,13 +229,19 @@ impl GearMesh {
         }
     }
 
-    /// Nodes at which the gear is held: those of the bore, or of a gear cut into its shaft those at the ends of the
-    /// shaft's stubs.
+    /// Nodes at which the gear is held: those of the bore, of a gear cut into its shaft those at the ends of the
+    /// shaft's stubs, of a ring those on the outside, or on the band of it that is held.
     pub fn held(&self, blank: &Blank) -> Vec<u32> {
-        match blank.cut_into_shaft() {
-            None => self.bore(),
-            Some(_) => self.stub_ends().concat(),
+        if blank.cut_into_shaft().is_some() {
+            return self.stub_ends().concat();
         }
+        let mut held = self.bore();
+        if let Some([from, to]) = blank.rim().and_then(|rim| rim.held_z_m) {
+            let slack = SAME_RADIUS * (to - from);
+            let band = from - slack..=to + slack;
+            held.retain(|&node| band.contains(&self.nodes[node as usize][2]));
+        }
+        held
     }
 
     /// Nodes at the ends of the shaft's stubs on the back and the front face; none where the shaft does not go on.
@@ -266,7 +272,7 @@ impl GearMesh {
             .collect()
     }
 
-    /// Nodes of the bore.
+    /// Nodes of the bore, of a ring those of its outside.
     pub fn bore(&self) -> Vec<u32> {
         if let Some(solid) = &self.solid {
             return solid.bore.clone();
@@ -469,20 +475,16 @@ impl GearMesh {
     /// Number, along the outline, of the corner between right flank (or chamfer) and tip land.
     fn tip_corner_index(&self) -> usize {
         let cell = &self.section.cell;
-        let tip_radius =
-            |n: usize| self.section.cell.nodes[n][0].hypot(self.section.cell.nodes[n][1]);
-        let top = cell
-            .outline
-            .iter()
-            .map(|&n| tip_radius(n))
-            .fold(0.0, f64::max);
+        let radius = |n: usize| self.section.cell.nodes[n][0].hypot(self.section.cell.nodes[n][1]);
+        // The middle of the outline is the middle of the tip land.
+        let tip = radius(cell.outline[cell.outline.len() / 2]);
         cell.outline
             .iter()
-            .position(|&n| tip_radius(n) > top * (1.0 - 1e-9))
+            .position(|&n| (radius(n) / tip - 1.0).abs() < 1e-9)
             .unwrap_or(0)
     }
 
-    /// Named node sets for files: `bore` (of a gear cut into its shaft `shaft`), and for each tooth
+    /// Named node sets for files: `bore` (of a gear cut into its shaft `shaft`, of a ring `outside`), and for each tooth
     /// `tooth<k>_right_flank`, `_left_flank`, `_root`.
     pub fn node_sets(&self, gear: &GearDefinition) -> BTreeMap<String, Vec<u32>> {
         let curve = ProfileCurve::new(&gear.profile);
@@ -500,7 +502,11 @@ impl GearMesh {
             .iter()
             .rposition(|&s| s <= end + tolerance)
             .unwrap_or(last);
-        let name = gear.blank.cut_into_shaft().map_or("bore", |_| "shaft");
+        let name = match &gear.blank {
+            Blank::CutIntoShaft(_) => "shaft",
+            Blank::Ring(_) => "outside",
+            _ => "bore",
+        };
         let mut sets = BTreeMap::from([(name.to_string(), self.held(&gear.blank))]);
         for tooth in 0..gear.tooth.teeth {
             sets.insert(

@@ -113,6 +113,13 @@ impl Layers {
                 web.offset_m + 0.5 * web.thickness_m,
             ]);
         }
+        breaks.extend(
+            gear.blank
+                .rim()
+                .and_then(|rim| rim.held_z_m)
+                .into_iter()
+                .flatten(),
+        );
         breaks.sort_by(f64::total_cmp);
         breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
         let edges = &breaks[1..breaks.len() - 1];
@@ -142,6 +149,9 @@ impl Layers {
             } else {
                 planes.extend(&graded(from, to, thickness, any)[1..]);
             }
+        }
+        if gear.blank.web().is_none() {
+            web = 0..planes.len() - 1;
         }
         let layers = Self::between_faces(planes, web);
         match gear.blank.cut_into_shaft() {

@@ -249,7 +249,8 @@ impl MeshError {
                 let key = ["flank_mm", "fillet_mm", "body_mm"][k];
                 format!("{key} {:.3}, {:.3} by default", found[k] * 1e3, defaults[k])
             };
-            let in_teeth = x_mm.hypot(*y_mm) > 1e3 * tooth_cell::ring_radius_m(gear);
+            let ring_mm = 1e3 * tooth_cell::ring_radius_m(gear);
+            let in_teeth = gear.profile.is_towards_tip(x_mm.hypot(*y_mm), ring_mm);
             *lengths = match in_teeth {
                 true => format!(" (there: {}; {})", told(0), told(1)),
                 false => format!(" (there: {})", told(2)),

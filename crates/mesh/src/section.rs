@@ -93,7 +93,7 @@ impl Section {
         let mut span = Span {
             radii_m: [
                 repeating_down_to_m(gear).unwrap_or(ring_m),
-                gear.blank.inner_radius_m(),
+                gear.blank.edge_radius_m(),
             ],
             sectors,
             first_tooth: first_tooth(gear)?,

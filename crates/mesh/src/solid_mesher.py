@@ -3,7 +3,7 @@
 Reads the problem as JSON on standard input (lengths in mm), writes the mesh on standard output. The contour is revolved by the
 OpenCASCADE kernel, openings are cut out. On the ring, where the teeth stand, the triangulation is given: a regular grid, every
 rectangle cut from its lower clockwise to its upper counter-clockwise corner. The two sides of the sector get the same
-triangles, and the pairs of their nodes are told. Nodes in the middle of edges lie on the true surface.
+triangles, and the pairs of their nodes are passed on. Nodes in the middle of edges lie on the true surface.
 """
 
 import json

@@ -10,9 +10,9 @@ const SHARE: f64 = 0.25;
 const CHORDS: f64 = 4.0;
 
 /// Whether the ring between two radii is paved in rows where elements are to be `length_m` long.
-pub(crate) fn is_thin(outer_m: f64, inner_m: f64, length_m: f64) -> bool {
-    let height = outer_m - inner_m;
-    let from_circle = 0.5 * length_m * length_m / inner_m;
+pub(crate) fn is_thin(one_m: f64, other_m: f64, length_m: f64) -> bool {
+    let height = (one_m - other_m).abs();
+    let from_circle = 0.5 * length_m * length_m / one_m.min(other_m);
     height < SHARE * length_m || height < CHORDS * from_circle
 }
 

@@ -129,7 +129,9 @@ impl ToothBlocks {
         // Offset curve: along the normal, turning into the tip land at the tip.
         let tip_half = tooth.tip_half_angle_rad();
         let ring = ring_radius_m(gear);
-        let room = LAYER_SHARE * (tooth.root_radius_m - ring);
+        // From the outline into the body the radius falls, in a ring it grows.
+        let outwards = tooth.tip_direction();
+        let room = LAYER_SHARE * (tooth.root_radius_m - ring).abs();
         let thickness = (LAYER_THICKNESS * h_fillet).min(room);
         let tip_thickness = thickness.min(0.45 * tip_half * tooth.tip_radius_m);
         let outline_points: Vec<[f64; 2]> = arcs.iter().map(|&s| curve.point_at(s)).collect();
@@ -137,7 +139,7 @@ impl ToothBlocks {
             .map(|i| {
                 let p = outline_points[i];
                 if i == 0 {
-                    return polar(p[0].hypot(p[1]) - thickness, space);
+                    return polar(p[0].hypot(p[1]) - outwards * thickness, space);
                 }
                 if i == last {
                     return polar(
@@ -149,7 +151,7 @@ impl ToothBlocks {
                 let (a, b) = (curve.point_at(arcs[i] - ds), curve.point_at(arcs[i] + ds));
                 let along = [b[0] - a[0], b[1] - a[1]];
                 let length = along[0].hypot(along[1]);
-                let normal = [-along[1] / length, along[0] / length];
+                let normal = [-outwards * along[1] / length, outwards * along[0] / length];
                 let w = if i > n_root {
                     ((arcs[i] - s_cut) / (s_tip - s_cut)).powi(3)
                 } else {
@@ -209,14 +211,14 @@ impl ToothBlocks {
         let tip_angle = -tip_half + tip_thickness / tooth.tip_radius_m;
         let tip_half_line = arc(&mut points, tooth.tip_radius_m, tip_angle, offset[last]);
 
-        // Down to the ring's inner circle.
-        let depth = tooth.root_radius_m - thickness - ring;
+        // On to the circle where the body begins.
+        let start_radius = tooth.root_radius_m - outwards * thickness;
+        let depth = (start_radius - ring).abs();
         let n_depth = ((depth / h_flank.max(2.0 * h_fillet)).ceil() as usize).max(2);
-        let start_radius = tooth.root_radius_m - thickness;
         let mut right_down = vec![offset[0]];
         right_down.extend((1..=n_depth).map(|k| {
             points.add(polar(
-                start_radius - depth * k as f64 / n_depth as f64,
+                start_radius - outwards * depth * k as f64 / n_depth as f64,
                 space,
             ))
         }));

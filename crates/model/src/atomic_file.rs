@@ -186,20 +186,31 @@ pub(crate) fn temporary_prefix(path: &Path) -> String {
     format!(".gearmesh-{}-", &digest[..16])
 }
 
+/// Makes temporary files or folders of these names, with the usual rights under the user's umask instead of 0600 and 0700.
+pub(crate) fn temporary_builder<'a>(
+    prefix: &'a str,
+    suffix: &'a str,
+    rights: u32,
+) -> tempfile::Builder<'a, 'a> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(prefix).suffix(suffix);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(rights));
+    }
+    #[cfg(not(unix))]
+    let _ = rights;
+    builder
+}
+
 /// A temporary file, locked while it is being written: one without a lock belongs to a process that was killed.
 fn locked_temporary(
     staging: &Path,
     prefix: &str,
     suffix: &str,
 ) -> std::io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(prefix).suffix(suffix);
-    #[cfg(unix)]
-    {
-        // The usual rights under the user's umask instead of a temporary file's 0600.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
+    let builder = temporary_builder(prefix, suffix, 0o666);
     loop {
         let temporary = builder.tempfile_in(staging)?;
         // Another process may take it for abandoned before it is locked. Where a file system knows no locks nothing is.
@@ -214,8 +225,8 @@ fn locked_temporary(
     }
 }
 
-/// Removes what killed writes of the same file have left in a folder.
-fn remove_abandoned(folder: &Path, prefix: &str, suffix: &str) {
+/// Removes what killed writes of the same name have left in a folder: files, and folders with all that is in them.
+pub(crate) fn remove_abandoned(folder: &Path, prefix: &str, suffix: &str) {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries {
         let name = entry.file_name();
@@ -225,7 +236,10 @@ fn remove_abandoned(folder: &Path, prefix: &str, suffix: &str) {
         }
         let is_free = File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok());
         if is_free {
-            let _ = std::fs::remove_file(entry.path());
+            let _ = match entry.file_type() {
+                Ok(kind) if kind.is_dir() => std::fs::remove_dir_all(entry.path()),
+                _ => std::fs::remove_file(entry.path()),
+            };
         }
     }
 }

@@ -28,7 +28,7 @@ impl DataTree {
         })
     }
 
-    /// A file that is complete holds numbers only: what could not be computed is told before it is written.
+    /// A file that is complete holds numbers only: what could not be computed is reported before it is written.
     pub(crate) fn check_numbers(&self, path: &Path) -> Result<(), FileError> {
         match self.first_not_a_number() {
             None => Ok(()),

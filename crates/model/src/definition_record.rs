@@ -2,9 +2,9 @@
 
 use gearmesh_geometry::{
     Blank, Contour, ContourPoint, CrackDefinition, Element, Flank, GaugeDefinition, GearDefinition,
-    GearMicrogeometry, GeometryError, Holes, HubSupport, LengthUnit, Material, MeshSettings,
-    MeshedBody, ModeRange, Openings, ReductionSettings, RootPosition, Slots, Symmetry,
-    ToothDefinition, ToothGeometry, Web,
+    GearMicrogeometry, Gearing, GeometryError, Holes, HubSupport, InternalRoot, LengthUnit,
+    Material, MeshSettings, MeshedBody, ModeRange, Openings, PinionCutter, ReductionSettings,
+    RootPosition, Slots, Symmetry, ToothDefinition, ToothGeometry, Web,
 };
 
 use crate::file_error::FileError;
@@ -104,7 +104,60 @@ impl Record for ToothDefinition {
         f.number("tip_chamfer", &mut self.tip_chamfer_m, "m", "tip chamfer")?;
         f.number("face_width", &mut self.face_width_m, "m", "face width")?;
         let what = "helix angle on the reference cylinder, positive for a right hand";
-        f.number("helix_angle", &mut self.helix_angle_rad, "rad", what)
+        f.number("helix_angle", &mut self.helix_angle_rad, "rad", what)?;
+        let mut internal = match self.gearing {
+            Gearing::External => None,
+            Gearing::Internal(root) => Some(InternalParts::of(root)),
+        };
+        f.optional("internal", &mut internal, InternalParts::fields)?;
+        if f.is_reading() {
+            self.gearing = internal.map_or(Gearing::External, |parts| {
+                Gearing::Internal(parts.into_root())
+            });
+        }
+        Ok(())
+    }
+}
+
+/// What makes the root of internal teeth.
+#[derive(Default)]
+struct InternalParts {
+    full_round: bool,
+    cutter: Option<PinionCutter>,
+}
+
+impl InternalParts {
+    fn of(root: InternalRoot) -> Self {
+        match root {
+            InternalRoot::FullRound => Self {
+                full_round: true,
+                cutter: None,
+            },
+            InternalRoot::Cutter(cutter) => Self {
+                full_round: false,
+                cutter: Some(cutter),
+            },
+        }
+    }
+
+    fn into_root(self) -> InternalRoot {
+        self.cutter
+            .map_or(InternalRoot::FullRound, InternalRoot::Cutter)
+    }
+
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let what = "the root has one radius";
+        f.flag("full_round", &mut self.full_round, what)?;
+        f.optional("cutter", &mut self.cutter, |cutter, f| {
+            let what = "number of teeth of the pinion cutter";
+            f.count("teeth", &mut cutter.teeth, what)?;
+            let what = "its profile shift coefficient";
+            f.number("profile_shift", &mut cutter.profile_shift, "1", what)?;
+            let what = "its addendum in modules";
+            f.number("addendum", &mut cutter.addendum, "1", what)?;
+            let what = "radius of its tip edges in modules";
+            f.number("tip_radius", &mut cutter.tip_radius, "1", what)
+        })
     }
 }
 
@@ -114,6 +167,7 @@ impl Record for Blank {
         let (mut web, mut contour) = (self.web(), self.contour().cloned());
         let mut meshed = self.meshed().cloned();
         let mut shaft = self.cut_into_shaft().copied();
+        let mut rim = self.rim().copied();
         let (mut slots, mut holes) = match self.openings() {
             None => (None, None),
             Some(Openings::Slots(slots)) => (Some(slots), None),
@@ -132,6 +186,18 @@ impl Record for Blank {
             let ends = [("back, front", 2)];
             f.fixed("end_radii", &mut shaft.end_radii_m, &ends, "m", what)
         })?;
+        f.optional("rim", &mut rim, |rim, f| {
+            let what = "outer radius of a ring with internal teeth";
+            f.number("outer_radius", &mut rim.outer_radius_m, "m", what)?;
+            let mut back = rim.held_z_m.map(|band| band[0]);
+            let mut front = rim.held_z_m.map(|band| band[1]);
+            let what = "back of the band of the outside that is held, where not all of it is";
+            f.optional_number("held_back", &mut back, "m", what)?;
+            let what = "its front";
+            f.optional_number("held_front", &mut front, "m", what)?;
+            rim.held_z_m = back.zip(front).map(|(back, front)| [back, front]);
+            Ok(())
+        })?;
         if !f.is_reading() {
             return Ok(());
         }
@@ -139,6 +205,14 @@ impl Record for Blank {
             (Some(_), Some(_)) => return Err(f.contradiction("holes", "there are slots, too")),
             (slots, holes) => slots.map(Openings::Slots).or(holes.map(Openings::Holes)),
         };
+        if let Some(rim) = rim {
+            if shaft.is_some() || meshed.is_some() || web.is_some() || openings.is_some() {
+                let what = "there is a shaft, a web, openings or a mesh from elsewhere, too";
+                return Err(f.contradiction("rim", what));
+            }
+            *self = Self::Ring(rim);
+            return Ok(());
+        }
         if let Some(shaft) = shaft {
             if meshed.is_some() || web.is_some() || contour.is_some() || openings.is_some() {
                 let what = "there is a web, a contour, openings or a mesh from elsewhere, too";

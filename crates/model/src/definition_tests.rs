@@ -7,8 +7,8 @@ use gearmesh_geometry::microgeometry::{
 };
 use gearmesh_geometry::{
     Blank, Contour, ContourPoint, CrackDefinition, CutIntoShaft, Element, Flank, GearMicrogeometry,
-    LengthUnit, MeshSettings, MeshedBody, Microgeometry, ModeRange, Openings, RootPosition, Slots,
-    Web,
+    Gearing, InternalRoot, LengthUnit, MeshSettings, MeshedBody, Microgeometry, ModeRange,
+    Openings, PinionCutter, Rim, RootPosition, Slots, ToothDefinition, Web,
 };
 use std::path::Path;
 
@@ -107,6 +107,27 @@ fn rarer_parts_come_back_equal() {
         end_radii_m: [0.0, 0.015],
     });
     assert_eq!(read_back(&cut), cut);
+    for held_z_m in [None, Some([-4e-3, 2e-3])] {
+        let ring = Blank::Ring(Rim {
+            outer_radius_m: 0.06,
+            held_z_m,
+        });
+        assert_eq!(read_back(&ring), ring);
+    }
+    let cutter = PinionCutter {
+        teeth: 33,
+        profile_shift: 0.1,
+        addendum: 1.25,
+        tip_radius: 0.2,
+    };
+    for root in [InternalRoot::FullRound, InternalRoot::Cutter(cutter)] {
+        let teeth = ToothDefinition {
+            teeth: 99,
+            gearing: Gearing::Internal(root),
+            ..ToothDefinition::default()
+        };
+        assert_eq!(read_back(&teeth), teeth);
+    }
     let crack = CrackDefinition {
         tooth: 4,
         side: Flank::Left,

@@ -7,7 +7,7 @@
 //! [ ΦᵀMR   1    ] [ η̈ ] + [ 0  Ω² ] [ η ] = [ ΦᵀN f            ]
 //! ```
 //!
-//! and the deflection at the flanks is NᵀR r + NᵀΦ η + (C − NᵀΦ Ω⁻² ΦᵀN) f: what the modes left out give way
+//! and the deflection at the flanks is NᵀR r + NᵀΦ η + (C − NᵀΦ Ω⁻² ΦᵀN) f: what the modes left out deflect
 //! statically is the residual flexibility. Nothing is counted twice.
 
 use crate::reduced_gear::{GaugeRows, ReducedGear};
@@ -77,7 +77,7 @@ impl ReducedGear {
     }
 
     /// The residual flexibility C − NᵀΦ Ω⁻² ΦᵀN between two flanks (m/N), normal loads, `[load L][response L]` as
-    /// [`ReducedGear::c_hub_block`]: what the body gives way statically beyond its modes. Over all loads together it is
+    /// [`ReducedGear::c_hub_block`]: what the body deflects statically beyond its modes. Over all loads together it is
     /// positive semidefinite, and each further mode lessens it.
     ///
     /// # Errors

@@ -26,9 +26,12 @@ pub struct NearField {
 }
 
 impl NearField {
-    /// c₀ over the roll angle on a gear with this base radius.
+    /// c₀ over the roll angle on a gear with this base radius, negative of a ring, whose tip has the smallest roll angle.
     pub fn contact_curve(&self, base_radius_m: f64) -> ContactCurve {
-        let end_rad = self.roll_angles_rad[self.roll_angles_rad.len() - 1];
+        let end_rad = match base_radius_m < 0.0 {
+            true => self.roll_angles_rad[0],
+            false => self.roll_angles_rad[self.roll_angles_rad.len() - 1],
+        };
         ContactCurve::new(
             EdgeDistance::Involute {
                 base_radius_m,
@@ -66,7 +69,7 @@ pub struct ContactCurve {
 /// How far a place along the profile is from the tip's edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum EdgeDistance {
-    /// Of an involute, by the roll angle.
+    /// Of an involute, by the roll angle; the base radius of a ring is negative.
     Involute { base_radius_m: f64, end_rad: f64 },
     /// By the share of the way up the flank.
     Share { length_m: f64 },

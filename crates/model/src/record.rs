@@ -1,4 +1,4 @@
-//! What stands in a file is declared once: [`Record::fields`] lists the parts of a record, and writing, reading and
+//! What is in a file is declared once: [`Record::fields`] lists the parts of a record, and writing, reading and
 //! documenting all go through that list.
 //!
 //! The parts are visited in the order of the list. A length that an array leaves [`OPEN`] is taken from the file; the

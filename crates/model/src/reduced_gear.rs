@@ -328,6 +328,21 @@ impl ReducedGear {
         &self.opposite_distance_m[flank * stations..(flank + 1) * stations]
     }
 
+    /// Whether it is a ring with internal teeth.
+    #[must_use]
+    pub fn is_ring(&self) -> bool {
+        (self.input.definition()).is_some_and(|gear| gear.profile.internal)
+    }
+
+    /// Base radius with the sign of ISO 21771 \[m\]: negative of a ring.
+    #[must_use]
+    pub fn signed_base_radius_m(&self) -> f64 {
+        match self.is_ring() {
+            true => -self.base_radius_m,
+            false => self.base_radius_m,
+        }
+    }
+
     /// The calibration of the near field.
     ///
     /// # Errors

@@ -125,7 +125,7 @@ impl ReducedGear {
         for (item, value) in [
             ("definition.tooth.module", tooth.module_m),
             ("definition.tooth.face_width", tooth.face_width_m),
-            ("definition.blank.inner_radius", gear.blank.inner_radius_m()),
+            ("definition.blank.edge_radius", gear.blank.edge_radius_m()),
             ("definition.material.young", material.young_pa),
             (
                 "definition.material.density",

@@ -4,7 +4,8 @@ use std::fs::File;
 use std::path::Path;
 
 use crate::atomic_file::{
-    TEMPORARY_SUFFIX, demand_output, folder_of, temporary_prefix, wait_for_writes, write_text,
+    TEMPORARY_SUFFIX, demand_output, folder_of, remove_abandoned, temporary_builder,
+    temporary_prefix, wait_for_writes, write_text,
 };
 use crate::file_error::FileError;
 
@@ -29,16 +30,9 @@ pub fn write_folder(folder: &Path, files: &[(String, String)]) -> Result<(), Fil
     let parent = folder_of(folder);
     std::fs::create_dir_all(parent).map_err(io("make the folder of"))?;
     let prefix = temporary_prefix(folder);
-    remove_abandoned(parent, &prefix);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(TEMPORARY_SUFFIX);
-    #[cfg(unix)]
-    {
-        // The usual rights under the user's umask instead of a temporary folder's 0700.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o777));
-    }
-    let staged = (builder.tempdir_in(parent)).map_err(io("make a temporary folder beside"))?;
+    remove_abandoned(parent, &prefix, TEMPORARY_SUFFIX);
+    let staged = temporary_builder(&prefix, TEMPORARY_SUFFIX, 0o777).tempdir_in(parent);
+    let staged = staged.map_err(io("make a temporary folder beside"))?;
     // Locked while it is written: one without a lock belongs to a process that was killed.
     let lock = File::open(staged.path())
         .and_then(|open| open.try_lock().map(|()| open).map_err(Into::into))
@@ -66,21 +60,6 @@ pub fn write_folder(folder: &Path, files: &[(String, String)]) -> Result<(), Fil
         }
     }
     Ok(())
-}
-
-/// Removes what killed writes of the same folder have left beside it.
-fn remove_abandoned(parent: &Path, prefix: &str) {
-    for entry in std::fs::read_dir(parent).into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        let is_ours = name.starts_with(prefix) && name.ends_with(TEMPORARY_SUFFIX);
-        if !is_ours || !entry.file_type().is_ok_and(|kind| kind.is_dir()) {
-            continue;
-        }
-        if File::open(entry.path()).is_ok_and(|open| open.try_lock().is_ok()) {
-            let _ = std::fs::remove_dir_all(entry.path());
-        }
-    }
 }
 
 #[cfg(test)]

@@ -75,7 +75,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let how = RunHow {
         output: Some(Path::new(output)),
         restart: false,
-        most_result_gb: Some(2.0),
+        most_result_gb: 2.0,
         checkpoint_interval: Duration::from_secs(10),
     };
     let ran = match run(SceneFile::read(Path::new(scene))?, &how, &watch) {
@@ -89,8 +89,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("this scene is a pair at rest; see the example pair_at_rest".into());
     };
     // Figures of a column, as its file has them.
-    let names = result.rows.columns().iter().map(|column| &column.name);
-    let force = names.filter(|name| name.ends_with("/force_N")).next();
+    let mut names = result.rows.columns().iter().map(|column| &column.name);
+    let force = names.find(|name| name.ends_with("/force_N"));
     if let Some(name) = force {
         let values = result.rows.read(name)?;
         let mean = values.iter().sum::<f64>() / values.len() as f64;

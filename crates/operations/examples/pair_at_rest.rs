@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let how = RunHow {
         output: None,
         restart: false,
-        most_result_gb: None,
+        most_result_gb: 1.0,
         checkpoint_interval: Duration::MAX,
     };
     let result = run_pair(&loaded, &how, &watch)?;

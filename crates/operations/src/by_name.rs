@@ -22,6 +22,8 @@ struct CheckRequest {
 struct OptimiseRequest {
     file: PathBuf,
     output: PathBuf,
+    #[serde(rename = "most_result_GB")]
+    most_result_gb: f64,
 }
 
 /// Does an operation, which is named as the command of the program is; what the command prints with `--json`.
@@ -58,8 +60,8 @@ pub fn call(name: &str, request: Value, watch: &Watch<'_>) -> Result<Value, Fail
         "mesh" => Ok(mesh::mesh(&read(name, request)?, watch)?.figures()),
         "modes" => Ok(modes::modes(&read(name, request)?, watch)?.figures()),
         "optimise" => {
-            let OptimiseRequest { file, output } = read(name, request)?;
-            let found = optimise(&file, &output, watch)?;
+            let of: OptimiseRequest = read(name, request)?;
+            let found = optimise(&of.file, &of.output, of.most_result_gb, watch)?;
             match found.optimum.stopped {
                 true => Err(Failure::stopped(
                     "interrupted; the files have what was tried until then",

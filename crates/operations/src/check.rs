@@ -8,9 +8,9 @@ use crate::{reduce, system_table};
 use gearmesh_bearings::QuasiStaticBearing;
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bevel::{AssembledPair, BevelError, BevelGear, PairFile};
-use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::{GearDefinition, Gearing, InternalRoot};
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_scene::optimise::{Evaluator, Optimisation};
@@ -87,6 +87,7 @@ impl Finding {
             "kind": self.kind,
             "name": self.name,
             "sound": self.problem.is_none(),
+            "warnings": self.notes.iter().cloned().chain(self.slips.iter().map(ToString::to_string)).collect::<Vec<_>>(),
         });
         if let Value::Object(all) = &mut all {
             all.extend(self.facts.clone());
@@ -306,6 +307,28 @@ fn record(folder: &Path) -> Result<Finding, Failure> {
     ))
 }
 
+/// What makes the root of a ring, in words and for machines; a cutter may be the program's choice.
+fn root_of_ring(root: &InternalRoot) -> (String, Value) {
+    match root {
+        InternalRoot::FullRound => (
+            "internal teeth: full root radius".into(),
+            json!("full-round"),
+        ),
+        InternalRoot::Cutter(cutter) => (
+            format!(
+                "internal teeth: pinion cutter of {} teeth, in modules: profile shift {:.4}, addendum {:.4}, tip radius {:.4}",
+                cutter.teeth, cutter.profile_shift, cutter.addendum, cutter.tip_radius
+            ),
+            json!({
+                "cutter_teeth": cutter.teeth,
+                "profile_shift": cutter.profile_shift,
+                "addendum": cutter.addendum,
+                "tip_radius": cutter.tip_radius,
+            }),
+        ),
+    }
+}
+
 fn gear(document: &InputDocument) -> Result<Finding, Failure> {
     let gear = GearDefinition::from_document(document)?;
     demand_body_file(&gear, document)?;
@@ -328,6 +351,11 @@ fn gear(document: &InputDocument) -> Result<Finding, Failure> {
         (finding.facts).insert(format!("{name}_radius_mm"), json!(mm));
     }
     (finding.facts).insert("undercut".into(), json!(p.undercut));
+    if let Gearing::Internal(root) = gear.tooth.gearing {
+        let (line, fact) = root_of_ring(&root);
+        finding.lines.push(line);
+        (finding.facts).insert("root".into(), fact);
+    }
     if p.helix_angle_rad != 0.0 {
         let width = gear.tooth.face_width_m;
         finding.lines.push(format!(

@@ -186,7 +186,7 @@ fn at_rest(scene: &Path, output: &Path, watch: &Watch<'_>) -> Result<SystemResul
     let how = RunHow {
         output: Some(output),
         restart: true,
-        most_result_gb: None,
+        most_result_gb: f64::INFINITY,
         checkpoint_interval: Duration::MAX,
     };
     let unheard = Watch {

@@ -239,6 +239,9 @@ pub fn figures(loaded: &Loaded) -> Value {
                 })
             })
             .collect();
+        let between: Vec<[f64; 2]> = (of.between.iter())
+            .map(|p| [p.pinion_turn_rad.to_degrees(), 1e6 * p.error_rad])
+            .collect();
         json!({
             "torque_Nm": of.torque_nm,
             "mean_urad": 1e6 * of.mean_rad(),
@@ -252,6 +255,7 @@ pub fn figures(loaded: &Loaded) -> Value {
             "tip_share": of.tip_share(),
             "pattern_along_and_up": of.pattern(loaded.slices),
             "positions": positions,
+            "between_deg_urad": between,
         })
     });
     json!({

@@ -1,4 +1,4 @@
-//! Natural frequencies and shapes of a gear with its bore held.
+//! Natural frequencies and shapes of a gear with its bore held, or the ends of its shaft's stubs.
 
 use crate::failure::Failure;
 use crate::gear_file::{GearFile, note_element, note_sound};
@@ -40,7 +40,9 @@ pub struct ModesRequest {
 pub struct FoundModes {
     /// Name of the gear.
     pub gear: String,
-    /// Degrees of freedom with the bore held.
+    /// Where it is held.
+    pub held: String,
+    /// Degrees of freedom that are left.
     pub dofs: usize,
     /// The modes.
     pub modes: GearModes,
@@ -84,6 +86,7 @@ pub fn modes(a: &ModesRequest, watch: &Watch<'_>) -> Result<FoundModes, Failure>
         export_mesh(&gear, &body.mesh, shapes, (path, LengthUnit::M), watch)?;
     }
     Ok(FoundModes {
+        held: held_words(&gear),
         gear: gear.name,
         dofs: body.dofs.free_count(),
         modes,
@@ -127,6 +130,28 @@ fn shape(field: &[f64]) -> Field {
     }
 }
 
+/// Where the gear is held: the bore, or of a gear cut into its shaft the ends of the stubs that are meshed with it.
+fn held_words(gear: &GearDefinition) -> String {
+    let Some(shaft) = gear.blank.cut_into_shaft() else {
+        return "bore held".to_owned();
+    };
+    let [back, front] = shaft.stub_lengths_m().map(|length_m| 1e3 * length_m);
+    let ends = match (back > 0.0, front > 0.0) {
+        (true, true) => format!(
+            "both ends of the shaft held, {back:.3} mm behind the back face and {front:.3} mm before the front face"
+        ),
+        (true, false) => format!(
+            "the shaft's end at the back held, {back:.3} mm behind the face; the front face is free"
+        ),
+        (false, _) => format!(
+            "the shaft's end at the front held, {front:.3} mm before the face; the back face is free"
+        ),
+    };
+    format!(
+        "{ends} (a reduced gear's modes for scenes are those with the faces held, without the stubs' mass)"
+    )
+}
+
 /// Share of the body's mass or inertia that a mode carries along under each rigid motion.
 #[must_use]
 pub fn effective_shares(mode: &GearMode, rigid: &RigidBody) -> [f64; 6] {
@@ -163,6 +188,7 @@ impl FoundModes {
         });
         json!({
             "gear": self.gear,
+            "held": self.held,
             "mass_kg": self.rigid.mass_kg,
             "centre_m": self.rigid.centre_m,
             "inertia_kg_m2": self.rigid.inertia_kg_m2,

@@ -18,15 +18,22 @@ pub struct FoundOptimum {
     pub optimum: Optimum,
 }
 
-/// Seeks the optimum of a file, and writes `front.csv`, `tried.csv` and the page into a folder; stopped, these have what
-/// was tried until then, which [`Optimum::stopped`] says.
+/// Seeks the optimum of a file, and writes `front.csv`, `tried.csv` and the page into a folder. The result of a trial of a
+/// multibody scene may be as large as `most_result_gb` at most. Stopped, the files have what was tried until then,
+/// which [`Optimum::stopped`] says.
 ///
 /// # Errors
 /// [`Failure`] for a file or scene that is wrong, and files that cannot be written.
-pub fn optimise(file: &Path, folder: &Path, watch: &Watch<'_>) -> Result<FoundOptimum, Failure> {
+pub fn optimise(
+    file: &Path,
+    folder: &Path,
+    most_result_gb: f64,
+    watch: &Watch<'_>,
+) -> Result<FoundOptimum, Failure> {
     let outputs = ["front.csv", "tried.csv", "optimise.html"].map(|name| folder.join(name));
     overwriting::refuse(vec![PathBuf::from(file)], &outputs)?;
-    let problem = Optimisation::read(file)?;
+    let mut problem = Optimisation::read(file)?;
+    problem.most_result_bytes = 1e9 * most_result_gb;
     let scratch = Scratch::new()?;
     let task = watch.listener.begin("search");
     let progress = |done: usize, count: usize| task.advance(done as f64, count as f64);

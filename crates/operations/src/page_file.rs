@@ -6,7 +6,7 @@ use gearmesh_model::write_text;
 use gearmesh_report::page::Page;
 use std::path::Path;
 
-/// Renders a page and writes it, beside and renamed; its size is told.
+/// Renders a page and writes it, beside and renamed; its size is reported.
 ///
 /// # Errors
 /// [`Failure`] for a page that cannot be rendered or written.

@@ -1,11 +1,7 @@
 //! The figures of a pair at rest for people.
 
-use std::path::Path;
-
-use gearmesh_contact::ContactZone;
-use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::SceneResult;
 use gearmesh_scene::pair::PairFigures;
-use gearmesh_scene::{Scene, SceneResult};
 
 use crate::failure::Failure;
 use crate::{periods, ratings};
@@ -15,12 +11,12 @@ pub fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
     let mut lines = vec![
         format!("{}: {} positions per torque", result.title, result.angles()),
         format!(
-            "{:>10} {:>12} {:>12} {:>14} {:>14} {:>8} {:>12} {:>12} {:>9}",
+            "{:>10} {:>12} {:>12} {:>16} {:>17} {:>8} {:>12} {:>12} {:>9}",
             "torque N m",
             "TE mean um",
             "TE pk-pk um",
-            "secant N/mm/um",
-            "tangent N/mm/um",
+            "secant N/(mm um)",
+            "tangent N/(mm um)",
             "K_Hbeta",
             "p_H max MPa",
             "balance",
@@ -28,14 +24,14 @@ pub fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
         ),
     ];
     let mark = periods::mark(&result.contact_coverage);
-    let width_mm = 1e3 * zone_width_m(result)?;
+    let width_mm = 1e3 * result.overlap_width_m()?;
     let figures: Vec<PairFigures> = (0..result.torque_nm.len())
         .map(|k| result.figures(k))
         .collect();
     for (k, f) in figures.iter().enumerate() {
         let per_width = |stiffness: f64| stiffness / width_mm * 1e-6;
         lines.push(format!(
-            "{:>10.1} {:>12.4} {:>12.4} {:>14.4} {:>15.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}{mark}",
+            "{:>10.1} {:>12.4} {:>12.4} {:>16.4} {:>17.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}{mark}",
             f.torque_nm,
             f.te_mean_m * 1e6,
             f.te_peak_to_peak_m * 1e6,
@@ -72,15 +68,4 @@ pub fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
     lines.extend(periods::lines(result));
     lines.extend(ratings::lines(&result.ratings));
     Ok(lines)
-}
-
-/// Width over which the faces overlap \[m\].
-fn zone_width_m(result: &SceneResult) -> Result<f64, Failure> {
-    let width_m = |gear: usize| -> Result<f64, Failure> {
-        let definition = result.gears[gear].definition_in("the result")?;
-        Ok(definition.tooth.face_width_m)
-    };
-    let scene = InputDocument::new("scene in result", &result.scene_toml);
-    let offset_m = Scene::from_document(scene, Path::new("."))?.axial_offset_m;
-    Ok(ContactZone::new([width_m(0)?, width_m(1)?], offset_m).width_m)
 }

@@ -3,13 +3,15 @@
 use crate::failure::Failure;
 use crate::watch::Watch;
 use crate::{pair_table, system_figures, system_table};
+use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::Named;
 use gearmesh_report::run_figures::pair_figures;
 use gearmesh_scene::pair::run::run_until;
 use gearmesh_scene::rating::RatingResult;
 use gearmesh_scene::system::LoadedSystem;
 use gearmesh_scene::system_run::{
-    Advance, Outcome, ResultSize, RunJob, RunOptions, SystemResult, megabytes, run as run_job,
+    Advance, Outcome, ResultSize, RunJob, RunOptions, SystemResult, demand_result_size, megabytes,
+    run as run_job,
 };
 use gearmesh_scene::{LoadedScene, SceneFile, SceneResult, load};
 use serde_json::Value;
@@ -27,7 +29,7 @@ pub struct RunHow<'a> {
     /// Begin anew where an unfinished run lies beside the output.
     pub restart: bool,
     /// Larger results are refused before they are computed \[GB\].
-    pub most_result_gb: Option<f64>,
+    pub most_result_gb: f64,
     /// Wall time between checkpoints of a multibody run.
     pub checkpoint_interval: Duration,
 }
@@ -113,7 +115,7 @@ pub fn run_pair(
     loaded.scene.notes.iter().for_each(|note| watch.note(note));
     demand_size(
         loaded.result_bytes(),
-        (&loaded.scene.document.file, "run.pitches"),
+        (&loaded.scene.document, "run.pitches"),
         how,
         watch,
     )?;
@@ -150,13 +152,13 @@ pub fn run_system(
     })?;
     loaded.scene.notes.iter().for_each(|note| watch.note(note));
     let slips = loaded.unit_slips();
-    let file = loaded.scene.document.file.clone();
+    let document = loaded.scene.document.clone();
     // Slips are among the notes of the job; what is refused may follow from them.
     let job = RunJob::from_scene(loaded).inspect_err(|_| watch.unit_slips(slips))?;
     let before = job.head.notes.len();
     job.head.notes.iter().for_each(|note| watch.note(note));
     if let Some(size) = ResultSize::of(&job) {
-        demand_size(size.bytes(), (&file, "output.interval_s"), how, watch)?;
+        demand_size(size.bytes(), (&document, "output.interval_s"), how, watch)?;
     }
     let resumes = job.kind.resumes();
     let task = watch.listener.begin(job.kind.of_result().name_in_files());
@@ -196,17 +198,11 @@ pub fn run_system(
 /// Refuses a result that is larger than it may be, before anything of it is written; a large one is announced.
 fn demand_size(
     bytes: f64,
-    (file, key): (&str, &str),
+    place: (&InputDocument, &str),
     how: &RunHow<'_>,
     watch: &Watch<'_>,
 ) -> Result<(), Failure> {
-    if let Some(most) = how.most_result_gb.filter(|most| bytes > 1e9 * most) {
-        return Err(Failure::input(format!(
-            "{file}: {key}: the result will have {}, allowed are {most} GB; give --most-result-GB {:.0} to allow it",
-            megabytes(bytes),
-            (1e-9 * bytes).ceil()
-        )));
-    }
+    demand_result_size(place, ("the result", bytes), 1e9 * how.most_result_gb)?;
     if bytes >= WORTH_A_WORD {
         watch.note(format!("the result will have {}", megabytes(bytes)));
     }

@@ -53,7 +53,7 @@ pub fn gather(
     Ok(outcome)
 }
 
-/// Writes the page, and warns of pressures that no steel bears.
+/// Writes the page, and warns of pressures that no steel carries.
 fn conclude(
     study: &Study,
     outcome: &StudyOutcome,

@@ -68,7 +68,7 @@ fn root_stress(of: &LoadedGear<'_>, root: &[RootFace], u: &[f64]) -> Result<Pair
 /// Adds a table and the pictures of a gear; and the figures for other programs.
 pub fn add(section: Section, of: &LoadedGear<'_>) -> Result<(Section, Value), Failure> {
     let (gear, u) = (of.stressed, of.stressed.displacement_m(of.forces)?);
-    // The loaded tooth whose root on the pressed side bears most.
+    // The loaded tooth whose root on the pressed side carries most.
     let mut loaded: Vec<(usize, Flank)> = of.forces.iter().map(|f| (f.tooth, f.side)).collect();
     loaded.sort_unstable_by_key(|(tooth, side)| (*tooth, *side as usize));
     loaded.dedup();

@@ -20,7 +20,7 @@ class Bearing:
         self._file = file
 
     def rest(self, load_N: Sequence[float], **given: Any) -> dict[str, Any]:
-        """Where the inner ring comes to rest under load_N (x, y, z), and what every ball or roller bears.
+        """Where the inner ring comes to rest under load_N (x, y, z), and what every ball or roller carries.
 
         Options are those of `gearmesh bearing` with underscores: speed_rpm, outer_speed_rpm, control, moment_Nm ...
         Returns what the program prints: displacement_um (3,), tilt_mrad (2,), stiffness_SI (5, 5), rows (loads,

@@ -57,6 +57,7 @@ def run_cases(
     *,
     patience_s: float = 600.0,
     progress: Progress = None,
+    most_result_GB: float = 1.0,
 ) -> dict[str, str]:
     """Runs all cases of a study file into a folder; why cases have failed, by the names of their files.
 
@@ -67,8 +68,8 @@ def run_cases(
     """
     path, out = Path(study).absolute(), Path(folder).absolute()
     with contextlib.ExitStack() as stack:
-        # What is wrong with the study is told before a cluster is asked for.
-        gears = _native.study_gears(path, out)
+        # What is wrong with the study is reported before a cluster is asked for.
+        gears = _native.study_gears(path, out, most_result_GB)
         out.mkdir(parents=True, exist_ok=True)
         token = stack.enter_context(_token(out))
         bar = stack.enter_context(Bar(progress, "study"))
@@ -78,8 +79,8 @@ def run_cases(
         if (out / LOG).is_symlink():
             raise _native.InputError(f"{out / LOG} is a symbolic link, and nothing is written through links; remove it")
         if gears:
-            connection.until_done(functools.partial(_reduce_gears, path=path, out=out, token=token, bar=bar))
-        cases: list[Sent] = _native.study_cases(path, out)
+            connection.until_done(functools.partial(_reduce_gears, gears, token=out / token, bar=bar))
+        cases: list[Sent] = _native.study_cases(path, out, most_result_GB)
         batch = _MOST_A_TASK if cases and cases[0][0].endswith(".csv") else 1
         files = _with_named({str(place) for case in cases for _, place in case[4]})
         work = _Work(cases, out, token, files, batch, bar)
@@ -325,14 +326,14 @@ def _token(out: Path) -> Iterator[str]:
         (out / name).unlink(missing_ok=True)
 
 
-def _reduce_gears(client: Client, *, path: Path, out: Path, token: str, bar: Bar) -> None:
-    """Reduces the gears that cases need, each once, on the workers."""
+def _reduce_gears(gears: list[tuple[Path, str]], client: Client, *, token: Path, bar: Bar) -> None:
+    """Reduces the gears that cases need and that are not there yet, each once, on the workers."""
     from distributed import as_completed
 
     from .cluster_worker import reduce_gear, store
 
-    gears = _native.study_gears(path, out)
-    futures = {client.submit(reduce_gear, text, str(model), str(out / token)): model for model, text in gears}
+    missing = [(model, text) for model, text in gears if not model.exists()]
+    futures = {client.submit(reduce_gear, text, str(model), str(token)): model for model, text in missing}
     for done, future in enumerate(as_completed(futures, loop=client.loop), 1):
         if future.status in ("cancelled", "lost"):
             raise _Lost
@@ -348,10 +349,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("study", type=Path)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--scheduler", required=True)
+    parser.add_argument("--most-result-GB", type=float, default=1.0, help="largest size of all results together")
     parser.add_argument("--failures", type=Path, required=True, help="file for the list of failed cases")
     given = parser.parse_args(arguments)
     try:
-        failures = run_cases(given.study, given.output, given.scheduler)
+        failures = run_cases(given.study, given.output, given.scheduler, most_result_GB=given.most_result_GB)
     except KeyboardInterrupt:
         return 130
     except (_native.InputError, FileNotFoundError, ImportError) as error:

@@ -41,7 +41,8 @@ def accuracy(
 
 
 def check(file: str | os.PathLike[str]) -> dict[str, Any]:
-    """What a gear, bearing, bevel pair, scene, study, record, model or result is. Raises InputError for what is wrong."""
+    """What a gear, bearing, bevel pair, scene, study, record, model or result is; under "warnings" what looks odd, such as
+    a number of another unit. Raises InputError for what is wrong."""
     return operate("check", file=file)
 
 

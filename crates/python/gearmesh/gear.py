@@ -16,7 +16,7 @@ STEEL: Tables = {"young_GPa": 206.0, "poisson": 0.3, "density_kg_per_m3": 7850.0
 
 
 class Gear:
-    """The definition of a gear: what stands in a gear file (docs/reference/gear.md), checked.
+    """The definition of a gear: what is in a gear file (docs/reference/gear.md), checked.
 
     Keywords are the tables and keys of the file. Keys of [tooth], [blank] and [material] may be given without their
     table:

@@ -70,13 +70,17 @@ class Optimum:
 
 
 def optimise(
-    source: str | os.PathLike[str] | Tables, folder: str | os.PathLike[str], *, progress: Progress = None
+    source: str | os.PathLike[str] | Tables,
+    folder: str | os.PathLike[str],
+    *,
+    progress: Progress = None,
+    most_result_GB: float = 1.0,
 ) -> Optimum:
     """Seeks the relief, crowning or other keys that make the objectives of a pair least (docs/reference/optimise.md).
 
     source: the file, or its tables with a Scene or the path of one under "scene". progress: see
-    gearmesh.progress.Progress. Raises InputError, WorkError; KeyboardInterrupt on Ctrl-C, when folder has what was tried until then.
+    gearmesh.progress.Progress. most_result_GB: a multibody scene whose result will be larger is refused. Raises InputError, WorkError; KeyboardInterrupt on Ctrl-C, when folder has what was tried until then.
     """
     with tempfile.TemporaryDirectory(prefix="gearmesh-optimise-") as beside:
         path = written(source, Path(beside), "optimise.toml") if isinstance(source, dict) else Path(source)
-        return Optimum(operate("optimise", progress, file=path, output=folder), Path(folder))
+        return Optimum(operate("optimise", progress, file=path, output=folder, most_result_GB=most_result_GB), Path(folder))

@@ -95,13 +95,19 @@ class Scene:
         return _native.plan(self.toml, self.file, self.folder, self.functions)
 
     def run(
-        self, output: str | os.PathLike[str] | None = None, *, restart: bool = False, progress: Progress = None
+        self,
+        output: str | os.PathLike[str] | None = None,
+        *,
+        restart: bool = False,
+        progress: Progress = None,
+        most_result_GB: float = 1.0,
     ) -> Result:
         """Runs the scene, in this process, without Python's lock.
 
         output: the result file. Without it a pair's result stays in memory, and that of a multibody scene lies in a
         temporary folder as long as the Result lives. An unfinished multibody run beside output goes on, unless
-        restart. progress: see gearmesh.progress.Progress.
+        restart. progress: see gearmesh.progress.Progress. most_result_GB: a result that will be larger is refused before
+        anything is computed.
 
         Raises InputError, WorkError, OSError; KeyboardInterrupt on Ctrl-C (a multibody run writes a checkpoint first).
         """
@@ -113,7 +119,7 @@ class Scene:
         begun = time.perf_counter()
         with Bar(progress, self.title) as bar:
             native, notes, cost = _native.run(
-                self.toml, self.file, self.folder, path, restart, bar.call, self.functions, self._identity
+                self.toml, self.file, self.folder, path, restart, bar.call, self.functions, self._identity, most_result_GB
             )
         took_s = time.perf_counter() - begun
         for name, (calls, seconds) in cost.items():
@@ -249,10 +255,11 @@ def run(
     functions: Functions | None = None,
     restart: bool = False,
     progress: Progress = None,
+    most_result_GB: float = 1.0,
 ) -> Result:
     """Runs a scene, its file or its tables, with the Python functions that it names: see Scene and Scene.run."""
     if not isinstance(scene, Scene):
         scene = Scene(scene, functions=functions)
     elif functions is not None:
         raise TypeError("functions: the Scene has those that it was made with; give them to Scene")
-    return scene.run(output, restart=restart, progress=progress)
+    return scene.run(output, restart=restart, progress=progress, most_result_GB=most_result_GB)

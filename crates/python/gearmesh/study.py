@@ -78,12 +78,14 @@ def study(
     client: Cluster | None = None,
     patience_s: float = 600.0,
     progress: Progress = None,
+    most_result_GB: float = 1.0,
 ) -> StudyResult:
     """Runs a study into a folder and returns its figures.
 
     client: None for this process, as many cases at a time as there are processors; a dask.distributed.Client, the address
     or file of a scheduler, or "local" for a cluster of this machine (docs/cluster.md), where a scheduler that is lost is
-    waited for patience_s. progress: see gearmesh.progress.Progress.
+    waited for patience_s. progress: see gearmesh.progress.Progress. most_result_GB: results that together will be larger are
+    refused before the first case.
 
     Raises InputError before the first case where the study or one of its scenes is wrong, WorkError where cases failed
     (study.csv says why), KeyboardInterrupt on Ctrl-C. Stopped or killed, the same call goes on.
@@ -91,11 +93,13 @@ def study(
     it = source if isinstance(source, Study) else Study(source)
     if client is None:
         with Bar(progress, "study") as bar:
-            found = json.loads(_native.study(it.path, Path(folder), interpreter(), bar.call))
+            found = json.loads(_native.study(it.path, Path(folder), interpreter(), bar.call, most_result_GB))
     else:
         from .cluster import run_cases
 
-        failures = run_cases(it.path, folder, client, patience_s=patience_s, progress=progress)
+        failures = run_cases(
+            it.path, folder, client, patience_s=patience_s, progress=progress, most_result_GB=most_result_GB
+        )
         found = json.loads(_native.gather_study(it.path, Path(folder), failures))
     result = StudyResult(found["title"], found["cases"], Path(folder))
     failures = [case["failure"] for case in result.cases if case["failure"] is not None]

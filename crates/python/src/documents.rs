@@ -1,4 +1,4 @@
-//! Texts of files: TOML from Python's dicts and back, what may stand in them, whether they are sound.
+//! Texts of files: TOML from Python's dicts and back, what may be in them, whether they are sound.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -6,6 +6,7 @@ use gearmesh_fe::FeError;
 use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_model::FileError;
 use gearmesh_operations::{Cause, Failure, Fault};
+use gearmesh_report::printable;
 use pyo3::exceptions::{
     PyFileNotFoundError, PyKeyboardInterrupt, PyMemoryError, PyOSError, PyRuntimeError,
     PyValueError,
@@ -26,9 +27,14 @@ pyo3::create_exception!(
     "The input was read, the work failed: no equilibrium, no mesh, a file that cannot be written."
 );
 
+/// A message as a terminal may show it: names of files are in it. The attributes of an `InputError` have them as they are.
+fn shown(error: &dyn std::fmt::Display) -> String {
+    printable(&error.to_string()).into_owned()
+}
+
 /// An `InputError` with its place as attributes.
 pub(crate) fn input_error(complaint: InputComplaint) -> PyErr {
-    let error = InputError::new_err(complaint.to_string());
+    let error = InputError::new_err(shown(&complaint));
     Python::attach(|py| {
         let value = error.value(py);
         // An exception takes any attribute; were it not so, the message would still say all.
@@ -42,7 +48,7 @@ pub(crate) fn input_error(complaint: InputComplaint) -> PyErr {
 
 /// `FileNotFoundError` or `OSError` where the system refused, `ValueError` where the content is wrong.
 pub(crate) fn file_error(error: FileError) -> PyErr {
-    let message = error.to_string();
+    let message = shown(&error);
     match error {
         FileError::Io { source, .. } if source.kind() == ErrorKind::NotFound => {
             PyFileNotFoundError::new_err(message)
@@ -54,7 +60,7 @@ pub(crate) fn file_error(error: FileError) -> PyErr {
 
 /// `MemoryError` where the factor does not fit, `ValueError` for all else: the mesh, the material or the supports.
 pub(crate) fn fe_error(error: FeError) -> PyErr {
-    let message = error.to_string();
+    let message = shown(&error);
     match error {
         FeError::OutOfMemory { .. } => PyMemoryError::new_err(message),
         _ => PyValueError::new_err(message),
@@ -63,7 +69,7 @@ pub(crate) fn fe_error(error: FeError) -> PyErr {
 
 /// Of an operation.
 pub(crate) fn raised(failure: Failure) -> PyErr {
-    let message = failure.message;
+    let message = shown(&failure);
     match (failure.fault, failure.cause) {
         (Fault::Stopped, _) => PyKeyboardInterrupt::new_err(message),
         (_, Cause::Place(complaint)) => input_error(*complaint),

@@ -56,7 +56,7 @@ pub(crate) fn plan(
 /// Third of what is returned: calls and seconds of each function. Raises InputError, WorkError (of a function that has
 /// raised, with its exception as the cause), OSError; KeyboardInterrupt after a checkpoint was written.
 #[pyfunction]
-#[pyo3(signature = (text, file, folder, output, restart, progress, functions = None, identity = String::new()))]
+#[pyo3(signature = (text, file, folder, output, restart, progress, functions = None, identity = String::new(), most_result_gb = 1.0))]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn run(
     py: Python<'_>,
@@ -68,13 +68,15 @@ pub(crate) fn run(
     progress: Option<Bound<'_, PyAny>>,
     functions: Option<Bound<'_, PyDict>>,
     identity: String,
+    most_result_gb: f64,
 ) -> PyResult<(NativeResult, Vec<String>, Cost)> {
     let functions = Functions::of(functions.as_ref())?;
     let host = functions.for_scene(identity);
     let scene = py.detach(move || with_functions(read(text, file, folder)?, host))?;
+    let asked = (output, restart, most_result_gb);
     let outcome = match scene {
-        SceneFile::Pair(scene) => run_pair(py, *scene, (output, restart), progress.as_ref()),
-        SceneFile::System(scene) => run_system(py, *scene, (output, restart), progress.as_ref()),
+        SceneFile::Pair(scene) => run_pair(py, *scene, asked, progress.as_ref()),
+        SceneFile::System(scene) => run_system(py, *scene, asked, progress.as_ref()),
     };
     let (result, notes) = functions.judge(outcome)?;
     Ok((result, notes, functions.cost()))
@@ -94,12 +96,15 @@ fn with_functions(scene: SceneFile, host: HostFunctions) -> PyResult<SceneFile> 
     }
 }
 
+/// Result file, whether to begin anew, and how large the result may be \[GB\].
+type Asked = (Option<PathBuf>, bool, f64);
+
 /// How a scene is run from here.
-fn how((output, restart): &(Option<PathBuf>, bool)) -> RunHow<'_> {
+fn how((output, restart, most_result_gb): &Asked) -> RunHow<'_> {
     RunHow {
         output: output.as_deref(),
         restart: *restart,
-        most_result_gb: None,
+        most_result_gb: *most_result_gb,
         checkpoint_interval: CHECKPOINTS,
     }
 }
@@ -107,7 +112,7 @@ fn how((output, restart): &(Option<PathBuf>, bool)) -> RunHow<'_> {
 fn run_pair(
     py: Python<'_>,
     scene: Scene,
-    place: (Option<PathBuf>, bool),
+    asked: Asked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(NativeResult, Vec<String>)> {
     let (result, notes) = watched(py, progress, OnInterrupt::Leave, None, move |watch| {
@@ -115,7 +120,7 @@ fn run_pair(
         let slips = loaded.unit_slips();
         let slips = slips.iter().map(ToString::to_string);
         let notes = loaded.scene.notes.iter().cloned().chain(slips).collect();
-        Ok((operations::run_pair(&loaded, &how(&place), watch)?, notes))
+        Ok((operations::run_pair(&loaded, &how(&asked), watch)?, notes))
     })?;
     Ok((NativeResult::of_pair(py, result)?, notes))
 }
@@ -160,13 +165,13 @@ fn shelved_models(scene: &Scene) -> Arc<RestCases> {
 fn run_system(
     py: Python<'_>,
     scene: SystemScene,
-    place: (Option<PathBuf>, bool),
+    asked: Asked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(NativeResult, Vec<String>)> {
     watched(py, progress, OnInterrupt::Wait, None, move |watch| {
         let loaded = scene.load()?;
         let mut notes = loaded.scene.notes.clone();
-        let result = operations::run_system(loaded, &how(&place), watch)?;
+        let result = operations::run_system(loaded, &how(&asked), watch)?;
         notes.extend(result.head.notes.iter().cloned());
         Ok((NativeResult::of_system(result), notes))
     })

@@ -1,9 +1,10 @@
 //! Studies whose cases other processes compute.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_model::write_text;
 use gearmesh_operations::study::{gather, study as run_study};
 use gearmesh_operations::{Failure, Watch};
@@ -25,20 +26,28 @@ fn study_error(error: StudyError) -> PyErr {
 ///
 /// Raises InputError before the first case, OSError; KeyboardInterrupt after the cases at hand.
 #[pyfunction]
-#[pyo3(signature = (path, folder, interpreter, progress))]
+#[pyo3(signature = (path, folder, interpreter, progress, most_result_gb = 1.0))]
 pub(crate) fn study(
     py: Python<'_>,
     path: PathBuf,
     folder: PathBuf,
     interpreter: PathBuf,
     progress: Option<Bound<'_, PyAny>>,
+    most_result_gb: f64,
 ) -> PyResult<String> {
     let (progress, python) = (progress.as_ref(), Some(interpreter));
     watched(py, progress, OnInterrupt::Wait, python, move |watch| {
-        let study = Study::read(&path)?;
+        let study = study_at(&path, most_result_gb)?;
         let outcome = run_study(&study, &folder, watch)?;
         Ok(study_figures(&study, &outcome.cases).to_string())
     })
+}
+
+/// A study file whose results may have this size together.
+fn study_at(path: &Path, most_result_gb: f64) -> Result<Study, InputComplaint> {
+    let mut study = Study::read(path)?;
+    study.most_result_bytes = 1e9 * most_result_gb;
+    Ok(study)
 }
 
 /// The same of what lies in a folder already; nothing is computed. failures: why cases have failed, by the names of
@@ -62,13 +71,15 @@ pub(crate) fn gather_study(
 ///
 /// Raises InputError for a study, scene, key or column that is wrong.
 #[pyfunction]
+#[pyo3(signature = (path, folder, most_result_gb = 1.0))]
 pub(crate) fn study_gears(
     py: Python<'_>,
     path: PathBuf,
     folder: PathBuf,
+    most_result_gb: f64,
 ) -> PyResult<Vec<(PathBuf, String)>> {
     py.detach(|| {
-        let study = Study::read(&path).map_err(input_error)?;
+        let study = study_at(&path, most_result_gb).map_err(input_error)?;
         let cases = StudyCases::new(&study, &folder).map_err(study_error)?;
         let mut gears = Vec::new();
         for (path, made) in cases.missing() {
@@ -108,9 +119,15 @@ fn sent((file, identity, text, title, named, inputs): Sent) -> SentCase {
 
 /// The cases of a study, each scene once, when its gears are reduced.
 #[pyfunction]
-pub(crate) fn study_cases(py: Python<'_>, path: PathBuf, folder: PathBuf) -> PyResult<Vec<Sent>> {
+#[pyo3(signature = (path, folder, most_result_gb = 1.0))]
+pub(crate) fn study_cases(
+    py: Python<'_>,
+    path: PathBuf,
+    folder: PathBuf,
+    most_result_gb: f64,
+) -> PyResult<Vec<Sent>> {
     py.detach(|| {
-        let study = Study::read(&path).map_err(input_error)?;
+        let study = study_at(&path, most_result_gb).map_err(input_error)?;
         let cases = StudyCases::new(&study, &folder).map_err(study_error)?;
         let cases = cases.list().map_err(study_error)?.into_iter();
         let tuple = |case: SentCase| {

@@ -20,8 +20,8 @@
 //! Y_DT = 2.366 − 0.666 ε_αn      2.05 < ε_αn < 2.5 and tolerance class 4 or better (ISO 1328-1)
 //! ```
 //!
-//! since only flanks of small errors share the load among three pairs (ISO 6336-3:2006, deep tooth factor, from
-//! memory; its ends meet 1 at 2.05 and 0.7 at 2.5 within 1e-3). From ε_αn = 2.5 on there is no σ_F0 here, nor below
+//! since only flanks of small errors share the load among three pairs (ISO 6336-3:2006, deep tooth factor;
+//! IACS' Unified Requirement M56, M56.3.7, states the same). From ε_αn = 2.5 on there is no σ_F0 here, nor below
 //! half a tooth height of rim, where Y_B is not defined.
 
 use crate::root_section::{RootConstruction, RootSection, RootSectionError};

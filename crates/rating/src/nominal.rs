@@ -1,7 +1,7 @@
 //! Nominal stresses of a pair, spur or helical, under its normal force: Lewis's root stress of both gears and Hertz's
 //! flank pressure.
 //!
-//! Root: one tooth bears all, σ = F_t/(b m_n Y) with F_t = F cos β_b r_b/r at the reference circle and Y of the
+//! Root: one tooth carries all, σ = F_t/(b m_n Y) with F_t = F cos β_b r_b/r at the reference circle and Y of the
 //! [`VirtualGear`]. Force and length of the tooth both grow by 1/cos β in the normal section, so that the transverse
 //! force and the face width stand for them.
 //!
@@ -144,7 +144,7 @@ impl NominalRating {
     }
 }
 
-/// Roll angles of gear 1 between which one pair of teeth bears all, in the transverse section. ρ₁ρ₂/(ρ₁ + ρ₂) has its
+/// Roll angles of gear 1 between which one pair of teeth carries all, in the transverse section. ρ₁ρ₂/(ρ₁ + ρ₂) has its
 /// maximum between the ends of a stretch of the path, so its minimum is at one of them. With two pairs everywhere it is
 /// the pitch point.
 fn single_contact_ends_rad(pair: &GearPair) -> Vec<f64> {

@@ -2,7 +2,7 @@
 //!
 //! The load F acts along the flank's normal at the roll angle ξ. It makes the angle φ = ξ − ψ_b with the normal of the
 //! tooth's centre line and meets that line at the radius r_v = r_b/cos φ. A section at the distance x from the gear's
-//! axis, s = 2|y| thick, bears
+//! axis, s = 2|y| thick, carries
 //!
 //! ```text
 //! σ_b = 6 F cos φ h/(b s²),     h = r_v − x          and the compression  F sin φ/(b s)
@@ -177,7 +177,7 @@ impl RootSection {
             / (face_width_m * self.thickness_m * self.thickness_m)
     }
 
-    /// Compression F sin φ/(b s) \[Pa\] by the radial part of the load, positive: the loaded side bears σ_b minus this.
+    /// Compression F sin φ/(b s) \[Pa\] by the radial part of the load, positive: the loaded side carries σ_b minus this.
     pub fn compressive_stress_pa(&self, normal_force_n: f64, face_width_m: f64) -> f64 {
         normal_force_n * self.load_angle_rad.sin() / (face_width_m * self.thickness_m)
     }

@@ -51,7 +51,7 @@ enum AboveWord {
     FirstSlope,
 }
 
-/// An S-N table as it stands in a TOML file.
+/// An S-N table as written in a TOML file.
 ///
 /// ```toml
 /// cycles               = [1e3, 1e5, 2e6]

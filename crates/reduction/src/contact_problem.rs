@@ -45,10 +45,10 @@ impl LoadedProfile for InvoluteProfile<'_> {
     fn normal(&self, arc_m: f64) -> [f64; 2] {
         let profile = &self.gear.profile;
         let (xi, start) = (profile.form_roll_rad, self.curve.flank_start_m());
-        let roll = (xi * xi + 2.0 * (arc_m - start) / profile.base_radius_m)
-            .max(xi * xi)
-            .sqrt();
-        profile.flank_frame(Flank::Right, roll).0
+        let on_flank = (arc_m - start).max(0.0);
+        profile
+            .flank_frame(Flank::Right, profile.roll_from_rad(xi, on_flank))
+            .0
     }
 
     fn flank_ends_m(&self) -> [f64; 2] {

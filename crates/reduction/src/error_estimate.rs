@@ -84,7 +84,7 @@ fn teeth_looked_at(teeth: usize) -> [usize; 6] {
 }
 
 /// The same mesh with longer elements in the section, and along the teeth.
-fn coarsened(mesh: &MeshSettings, axial: bool) -> MeshSettings {
+pub(crate) fn coarsened(mesh: &MeshSettings, axial: bool) -> MeshSettings {
     let along = if axial { COARSENING } else { 1.0 };
     MeshSettings {
         flank_m: COARSENING * mesh.flank_m,

@@ -46,17 +46,17 @@ impl GridLoad {
     }
 }
 
-/// The flank grid of a gear: roll stations evenly from the form circle to the end of the flank, axial stations at
-/// the edges and middles of the slices.
+/// The flank grid of a gear: roll stations evenly over the flank, from the form circle to its end, of a ring from its end
+/// to the form circle; axial stations at the edges and middles of the slices.
 pub fn flank_grid(gear: &GearDefinition) -> FlankGrid {
     let profile = &gear.profile;
     let n = gear.reduction.roll_stations - 1;
-    let span = profile.flank_end_roll_rad - profile.form_roll_rad;
+    let [first, last] = profile.flank_rolls_rad();
     let slices = gear.reduction.slices;
     let width = gear.tooth.face_width_m;
     FlankGrid {
         roll_angles_rad: (0..=n)
-            .map(|i| profile.form_roll_rad + span * i as f64 / n as f64)
+            .map(|i| first + (last - first) * i as f64 / n as f64)
             .collect(),
         z_m: (0..=2 * slices)
             .map(|j| width * (j as f64 / (2 * slices) as f64 - 0.5))
@@ -65,9 +65,16 @@ pub fn flank_grid(gear: &GearDefinition) -> FlankGrid {
     }
 }
 
-/// Numbers i of the intervals between stations i and i + 1 that overlap a range.
+/// Numbers i of the intervals between stations i and i + 1, which grow or fall, that overlap a range.
 pub(crate) fn overlapping(stations: &[f64], range: [f64; 2]) -> impl Iterator<Item = usize> {
-    (0..stations.len() - 1).filter(move |&i| stations[i] < range[1] && stations[i + 1] > range[0])
+    (0..stations.len() - 1).filter(move |&i| {
+        let [low, high] = ordered([stations[i], stations[i + 1]]);
+        low < range[1] && high > range[0]
+    })
+}
+
+fn ordered([a, b]: [f64; 2]) -> [f64; 2] {
+    [a.min(b), a.max(b)]
 }
 
 /// All unit loads on one flank of one tooth, numbered as [`FlankGrid::load`].
@@ -81,9 +88,7 @@ pub fn flank_loads(
     let profile = &gear.profile;
     let curve = ProfileCurve::new(profile);
     let (start, end) = (curve.flank_start_m(), curve.flank_end_m());
-    // Arc length and roll angle on the involute: s = s₀ + r_b (ξ² − ξ₀²)/2.
-    let (s0, xi0, r_b) = (start, profile.form_roll_rad, profile.base_radius_m);
-    let roll_at = |s: f64| (xi0 * xi0 + 2.0 * (s - s0) / r_b).max(0.0).sqrt();
+    let roll_at = |s: f64| profile.roll_from_rad(profile.form_roll_rad, s - start);
     let station_arcs: Vec<f64> = grid
         .roll_angles_rad
         .iter()
@@ -91,7 +96,7 @@ pub fn flank_loads(
         .collect();
     let tooth_angle = TAU * tooth as f64 / gear.tooth.teeth as f64;
     let twist = mesh.twist_rad_per_m();
-    let (helix_sin, helix_cos) = (r_b * twist).atan().sin_cos();
+    let (helix_sin, helix_cos) = (profile.base_radius_m * twist).atan().sin_cos();
     let axial_part = -side.mirror() * helix_sin;
 
     let count = grid.len();
@@ -105,7 +110,7 @@ pub fn flank_loads(
             let [xi, z] = [&grid.roll_angles_rad, &grid.z_m];
             let points = overlap_points(
                 &face,
-                [station_arcs[i], station_arcs[i + 1]],
+                ordered([station_arcs[i], station_arcs[i + 1]]),
                 [z[j], z[j + 1]],
             );
             for point in points {

@@ -66,7 +66,11 @@ fn plates(gear: &GearDefinition) -> Vec<Plate> {
     let (bore, width) = (gear.blank.bore_radius_m(), gear.tooth.face_width_m);
     let reference = gear.profile.reference_radius_m;
     let (mut parts, opened) = match gear.blank.web() {
-        None => (vec![Plate::ring(bore, reference, width)], 0),
+        None => {
+            let edge = gear.blank.rim().map_or(bore, |rim| rim.outer_radius_m);
+            let (inner, outer) = (edge.min(reference), edge.max(reference));
+            (vec![Plate::ring(inner, outer, width)], 0)
+        }
         Some(web) => (
             vec![
                 Plate::ring(bore, web.hub_radius_m, width),

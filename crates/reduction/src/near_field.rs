@@ -56,15 +56,15 @@ pub fn extrapolated(fine: f64, coarse: f64) -> f64 {
 /// ends.
 pub fn places(gear: &GearDefinition) -> Vec<f64> {
     let (profile, module) = (&gear.profile, gear.tooth.module_m);
-    let (low, high) = (profile.form_roll_rad, profile.flank_end_roll_rad);
-    let r_b = profile.base_radius_m;
-    let length = 0.5 * r_b * (high * high - low * low);
+    let [low, high] = profile.flank_rolls_rad();
+    let length = 0.5 * profile.base_radius_m * (high * high - low * low);
     let distances = edge_distances_m(length, module);
     let mut rolls: Vec<f64> = distances
         .iter()
-        .rev()
-        .map(|d| (high * high - 2.0 * d / r_b).max(low * low).sqrt())
+        .map(|d| profile.roll_from_rad(profile.flank_end_roll_rad, -d))
+        .map(|roll| roll.clamp(low, high))
         .collect();
+    rolls.sort_by(f64::total_cmp);
     // The flank's own ends are meant exactly, not to the rounding of the bisection.
     let last = rolls.len() - 1;
     (rolls[0], rolls[last]) = (low, high);

@@ -9,6 +9,7 @@
 //! | CSV, and reading a study's | `csv_text.rs` |
 //! | Parquet | `parquet_bytes.rs` |
 //! | MATLAB, level 5 | `mat_bytes.rs` |
+//! | universal file | `universal_text.rs` |
 
 mod csv_text;
 mod functions;
@@ -16,13 +17,15 @@ mod mat_bytes;
 mod pair_tables;
 mod parquet_bytes;
 mod system_tables;
+mod universal_text;
 
 pub use csv_text::{study_table, write_csv};
-pub use functions::{Function, functions};
+pub use functions::{Function, for_each_function};
 pub use mat_bytes::write_mat;
 pub use pair_tables::{pair_tables, torque_table};
 pub use parquet_bytes::write_parquet;
 pub use system_tables::system_tables;
+pub use universal_text::write_universal;
 
 use std::borrow::Cow;
 use std::io;
@@ -47,6 +50,14 @@ pub enum ExportError {
     /// The Parquet library refuses.
     #[error("Parquet: {0}")]
     Parquet(#[from] parquet::errors::ParquetError),
+    /// Nothing of the table is a function.
+    #[error(
+        "table `{table}` holds no functions over an axis; a universal file takes the curves of a pair, the rows of a run in time and the windows of a sweep"
+    )]
+    NoFunctions {
+        /// The table.
+        table: String,
+    },
     /// A MATLAB file of level 5 counts bytes in 32 bits.
     #[error(
         "table `{table}` has {bytes} bytes; a MATLAB file holds less than 2 GB of a table: export to .parquet, or give --table"

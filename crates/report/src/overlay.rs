@@ -5,8 +5,10 @@ use gearmesh_scene::SceneResult;
 use gearmesh_scene::system_run::{ResultKind, SystemResult, rank, stem};
 use gearmesh_signal::statistics::{mean, peak_to_peak};
 
+use crate::mesh_stiffness_unit::MeshStiffness;
 use crate::min_max;
 use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table, Text};
+use crate::peak_view::PeakView;
 use crate::short_number::{short, usual_unit};
 
 /// Columns that are overlaid, at most.
@@ -23,10 +25,11 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
     };
     let last = |r: &SceneResult| r.torque_nm.len() - 1;
     let x: Vec<f64> = first.angle_rad.iter().map(|a| a.to_degrees()).collect();
-    let chart = |title: &str, y: Axis, factor: f64, of: fn(&SceneResult) -> &Vec<f64>| {
+    let units = MeshStiffness::of_all(results.iter().map(|(_, r)| *r));
+    let chart = |title: &str, y: Axis, factors: &[f64], of: fn(&SceneResult) -> &Vec<f64>| {
         let axis = Axis::new("driver angle", "deg");
         let mut chart = LineChart::new(title, axis, y).x_values(x.clone());
-        for (name, r) in results {
+        for ((name, r), factor) in results.iter().zip(factors) {
             let own: Vec<f64> = r.angle_rad.iter().map(|a| a.to_degrees()).collect();
             let values = interpolated(&own, r.curve(of(r), last(r)), &x);
             let values = values.into_iter().map(|v| factor * v).collect();
@@ -41,10 +44,10 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
         .column("torque N m", Align::Right)
         .column("TE mean µm", Align::Right)
         .column("TE pk-pk µm", Align::Right)
-        .column("tangent N/µm", Align::Right)
+        .column(format!("tangent {}", units[0].name), Align::Right)
         .column("p_H MPa", Align::Right)
         .column("K_Hbeta", Align::Right);
-    for (name, r) in results {
+    for ((name, r), unit) in results.iter().zip(&units) {
         let k = last(r);
         let te = r.curve(&r.te_m, k);
         let block = r.pressure_pa.len() / r.torque_nm.len();
@@ -55,27 +58,92 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
             format!("{}", r.torque_nm[k]),
             short(1e6 * mean(te).unwrap_or(f64::NAN)),
             short(1e6 * peak_to_peak(te).unwrap_or(f64::NAN)),
-            short(1e-6 * mean(r.curve(&r.tangent_n_per_m, k)).unwrap_or(f64::NAN)),
+            short(unit.factor * mean(r.curve(&r.tangent_n_per_m, k)).unwrap_or(f64::NAN)),
             short(1e-6 * pressure.fold(0.0, f64::max)),
             format!("{:.3}", r.k_h_beta[k]),
         ]);
     }
-    Some(
-        Section::new("Gear pairs side by side")
-            .push(table)
-            .push(chart(
-                "Transmission error",
-                Axis::new("TE", "µm"),
-                1e6,
-                |r| &r.te_m,
-            ))
-            .push(chart(
-                "Tangent mesh stiffness",
-                Axis::new("stiffness", "N/µm"),
-                1e-6,
-                |r| &r.tangent_n_per_m,
-            )),
-    )
+    let section = Section::new("Gear pairs side by side")
+        .push(table)
+        .push(chart(
+            "Transmission error",
+            Axis::new("TE", "µm"),
+            &vec![1e6; results.len()],
+            |r| &r.te_m,
+        ))
+        .push(chart(
+            "Tangent mesh stiffness",
+            Axis::new("stiffness", units[0].name),
+            &units.iter().map(|unit| unit.factor).collect::<Vec<_>>(),
+            |r| &r.tangent_n_per_m,
+        ));
+    Some(with_root_strain(section, results))
+}
+
+/// Adds the gauges that all pairs have, each by both methods, and their largest tension and compression.
+fn with_root_strain(mut section: Section, results: &[(String, &SceneResult)]) -> Section {
+    let Some((_, first)) = results.first() else {
+        return section;
+    };
+    let mut table = Table::new("Root strain at the largest torque, µε")
+        .column("gear", Align::Right)
+        .column("gauge", Align::Left)
+        .column("file", Align::Left)
+        .column("method", Align::Right)
+        .column("largest", Align::Right)
+        .column("smallest", Align::Right)
+        .column("range", Align::Right);
+    let degrees = |r: &SceneResult| -> Vec<f64> {
+        r.angle_rad.iter().map(|angle| angle.to_degrees()).collect()
+    };
+    let mut is_empty = true;
+    for own in &first.strain {
+        let same = |r: &SceneResult| {
+            let mut all = r.strain.iter();
+            all.position(|s| (s.gear, &s.name) == (own.gear, &own.name))
+        };
+        let numbers: Option<Vec<usize>> = results.iter().map(|(_, r)| same(r)).collect();
+        let Some(numbers) = numbers else {
+            continue;
+        };
+        is_empty = false;
+        let last = |r: &SceneResult| r.torque_nm.len() - 1;
+        let view = PeakView::of(first, own, first.curve(&own.method_2, last(first)));
+        let mut chart = LineChart::new(
+            format!("Gear {}, gauge {}", own.gear, own.name),
+            Axis::new("driver angle", "deg"),
+            Axis::new("strain", "µε"),
+        )
+        .x_values(view.angles_deg(first));
+        if let Some([from, to]) = view.window_deg(first) {
+            chart = chart.x_window(from, to);
+        }
+        for ((file, r), number) in results.iter().zip(numbers) {
+            let s = &r.strain[number];
+            for (method, values) in [(1, &s.method_1), (2, &s.method_2)] {
+                let curve = interpolated(&degrees(r), r.curve(values, last(r)), &degrees(first));
+                let micro = view.turned(&curve).iter().map(|v| 1e6 * v).collect();
+                let label = format!("{file}, {} N m, method {method}", r.torque_nm[last(r)]);
+                chart = chart.series(LineSeries::new(label, micro));
+                let [least, most] = r.strain_ends(number, method, last(r));
+                table.push_row([
+                    own.gear.to_string(),
+                    own.name.clone(),
+                    file.clone(),
+                    method.to_string(),
+                    short(1e6 * most),
+                    short(1e6 * least),
+                    short(1e6 * (most - least)),
+                ]);
+            }
+        }
+        section = section.push(chart);
+    }
+    if is_empty {
+        section
+    } else {
+        section.push(table)
+    }
 }
 
 /// Multibody results of one kind, transient or speed sweeps, with the names of their files; none where there are fewer

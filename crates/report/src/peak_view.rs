@@ -60,6 +60,13 @@ impl PeakView {
         self.angle_deg(r, self.peak)
     }
 
+    /// What a chart shows at first of a long view: 40 degrees about the peak, the run-up and run-out of a tooth.
+    pub(crate) fn window_deg(&self, r: &SceneResult) -> Option<[f64; 2]> {
+        let (low, high) = self.range_deg(r);
+        let from = (self.peak_deg(r) - 20.0).clamp(low, (high - 40.0).max(low));
+        (high - low > 60.0).then_some([from, from + 40.0])
+    }
+
     pub(crate) fn range_deg(&self, r: &SceneResult) -> (f64, f64) {
         let last = (self.first + self.shown - 1) % self.shown;
         (self.angle_deg(r, self.first), self.angle_deg(r, last))

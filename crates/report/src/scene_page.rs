@@ -2,6 +2,7 @@
 
 use crate::comparison_table;
 use crate::contact_pattern;
+use crate::mesh_stiffness_unit::MeshStiffness;
 use crate::page::{
     self, Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle,
     Page, PageError, Section, SeriesColour, SpectrumChart, SpectrumSeries, Table, Text,
@@ -162,13 +163,14 @@ fn overview(r: &SceneResult) -> Section {
             "µε",
         );
     }
-    let mut section = Section::new(r.title.clone()).push(stiffness_and_pressure(&f, figures));
+    let unit = MeshStiffness::of(r);
+    let mut section = Section::new(r.title.clone()).push(stiffness_and_pressure(&f, unit, figures));
     let mut table = Table::new(format!("By torque: transmission error, mean mesh stiffness (secant and tangent), largest Hertz pressure, face load factor{mark}"))
         .column("torque N m", Align::Right)
         .column("TE mean µm", Align::Right)
         .column("TE pk-pk µm", Align::Right)
-        .column("secant N/µm", Align::Right)
-        .column("tangent N/µm", Align::Right)
+        .column(format!("secant {}", unit.name), Align::Right)
+        .column(format!("tangent {}", unit.name), Align::Right)
         .column("p_H MPa", Align::Right)
         .column("K_Hbeta", Align::Right);
     if r.has_axial_force() {
@@ -179,8 +181,8 @@ fn overview(r: &SceneResult) -> Section {
             format!("{}", f.torque_nm),
             format!("{:.3}", 1e6 * f.te_mean_m),
             format!("{:.3}", 1e6 * f.te_peak_to_peak_m),
-            format!("{:.2}", 1e-6 * f.secant_mean_n_per_m),
-            format!("{:.2}", 1e-6 * f.tangent_mean_n_per_m),
+            format!("{:.3}", unit.factor * f.secant_mean_n_per_m),
+            format!("{:.3}", unit.factor * f.tangent_mean_n_per_m),
             format!("{:.0}", 1e-6 * f.pressure_largest_pa),
             format!("{:.3}", f.k_h_beta),
         ];
@@ -215,12 +217,16 @@ fn overview(r: &SceneResult) -> Section {
 }
 
 /// What the largest torque finds, after the transmission error: mean stiffness and largest pressure.
-fn stiffness_and_pressure(found: &PairFigures, figures: KeyFigures) -> KeyFigures {
+fn stiffness_and_pressure(
+    found: &PairFigures,
+    unit: MeshStiffness,
+    figures: KeyFigures,
+) -> KeyFigures {
     figures
         .figure(
             "mesh stiffness, secant, mean",
-            format!("{:.2}", 1e-6 * found.secant_mean_n_per_m),
-            "N/µm",
+            format!("{:.3}", unit.factor * found.secant_mean_n_per_m),
+            unit.name,
         )
         .figure(
             "largest pressure p_H",
@@ -374,10 +380,11 @@ fn contact(r: &SceneResult) -> Section {
             .collect();
         sharing = sharing.series(LineSeries::new(format!("pair {pair}"), values));
     }
+    let unit = MeshStiffness::of(r);
     let mut stiffness = LineChart::new(
         "Mesh stiffness",
         angle_axis(),
-        Axis::new("stiffness", "N/µm"),
+        Axis::new("stiffness", unit.name),
     )
     .x_values(x);
     for k in [0, last] {
@@ -385,7 +392,7 @@ fn contact(r: &SceneResult) -> Section {
         let part = |values: &[f64]| {
             r.curve(values, k)[..points]
                 .iter()
-                .map(|v| v * 1e-6)
+                .map(|v| v * unit.factor)
                 .collect()
         };
         stiffness = stiffness
@@ -447,11 +454,8 @@ fn root_strain(chapter: &SceneChapter) -> Section {
             let values = view.turned(&values);
             chart = chart.series(LineSeries::new("reference", values).style(LineStyle::Dashed));
         }
-        let (low, high) = view.range_deg(r);
-        if high - low > 60.0 {
-            let centre = view.peak_deg(r);
-            let from = (centre - 20.0).clamp(low, high - 40.0);
-            chart = chart.x_window(from, from + 40.0);
+        if let Some([from, to]) = view.window_deg(r) {
+            chart = chart.x_window(from, to);
         }
         section = section.push(
             chart

@@ -7,7 +7,7 @@
 //! | which columns, in which charts, with which units | `columns.rs` |
 //! | time histories, spectra, energy | `transient.rs` |
 //! | balls and cages of bearings whose balls move | `bearings.rs` |
-//! | pairs of bevel teeth: forces, contact pattern, path | `tooth_pairs.rs` |
+//! | pairs of teeth: forces, contact pattern, path | `tooth_pairs.rs` |
 //! | orbits of gears, lines of shafts and cages | `orbits.rs` |
 //! | curves over the speed | `sweep.rs` |
 //! | the stages, their loads beside what follows from their teeth | `stages.rs` |

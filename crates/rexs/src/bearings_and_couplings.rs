@@ -104,7 +104,7 @@ pub fn bearings_and_couplings(
         let braked = [(a, b, 0), (b, a, 1)].into_iter();
         let braked = braked.filter(|&(_, other, _)| casing(other));
         if let Some((shaft, _, side)) = { braked }.find(|&(id, ..)| train.shaft(id).is_some()) {
-            let what = "engaged between a shaft and the casing: a brake, which bears the torque that the loads leave over; the shaft stands";
+            let what = "engaged between a shaft and the casing: a brake, which carries the torque that the loads leave over; the shaft stands";
             source.assume(component, About::Nothing, what);
             let u_mm = found.u_mm[side].unwrap_or(0.0);
             let load = loads::brake(component.id, found.name, shaft, u_mm);

@@ -62,7 +62,7 @@ impl BevelStage {
     }
 }
 
-/// Reads a bevel stage; none where it lacks what a pair needs, which is told.
+/// Reads a bevel stage; none where it lacks what a pair needs, which is reported.
 ///
 /// # Errors
 /// Those of [`Source`].
@@ -164,7 +164,7 @@ pub fn read(
     }))
 }
 
-/// Text of the pair file; none where the stage lacks what it needs, which is told.
+/// Text of the pair file; none where the stage lacks what it needs, which is reported.
 ///
 /// # Errors
 /// Those of [`Source`].

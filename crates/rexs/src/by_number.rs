@@ -1,5 +1,6 @@
 //! Parts of a train that are found by the number of their component.
 
+use crate::effort;
 use std::collections::HashMap;
 use std::ops::{Deref, DerefMut};
 
@@ -34,11 +35,19 @@ impl<T: Numbered> ByNumber<T> {
 
     /// Place of a part in the list.
     pub fn place(&self, id: i64) -> Option<usize> {
+        effort::visited(1);
         self.places.get(&id).copied()
+    }
+
+    /// All parts, in the order of the file.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &T> + ExactSizeIterator + Clone {
+        effort::visited(self.list.len());
+        self.list.iter()
     }
 
     /// Keeps some.
     pub fn retain(&mut self, wanted: impl FnMut(&T) -> bool) {
+        effort::visited(self.list.len());
         self.list.retain(wanted);
         self.places.clear();
         for (place, part) in self.list.iter().enumerate() {

@@ -55,7 +55,7 @@ pub fn drive(
         // What the shaft brings to the link, the link takes from the shaft.
         let Some(link) = train.flow.link_nm.get(seat.link.0).copied().flatten() else {
             if let Some(component) = source.model.component(seat.shaft) {
-                source.leave_out(component, About::Lost, format!("the torque at {}, which is part of a loop: it depends on stiffness, which a stage without a mesh in the scene does not have. Nothing acts there, what is behind it bears no load", seat.name));
+                source.leave_out(component, About::Lost, format!("the torque at {}, which is part of a loop: it depends on stiffness, which a stage without a mesh in the scene does not have. Nothing acts there, what is behind it carries no load", seat.name));
             }
             continue;
         };

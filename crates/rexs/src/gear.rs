@@ -226,7 +226,7 @@ pub fn read(
     Ok(gear)
 }
 
-/// A value of both flanks: the right one's where they differ, which is told.
+/// A value of both flanks: the right one's where they differ, which is reported.
 fn of_flanks(
     source: &Source<'_>,
     gear: &Component,

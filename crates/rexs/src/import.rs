@@ -2,6 +2,7 @@
 
 use crate::bevel;
 use crate::container::{Unpacked, unpack};
+use crate::effort;
 use crate::error::RexsError;
 use crate::gear_text::gear_file;
 use crate::in_time::Running;
@@ -44,6 +45,8 @@ pub struct Import {
     pub sheets: Vec<Sheet>,
     /// What became of it.
     pub ledger: Ledger,
+    /// How often components, attributes, references of relations, shafts and gears were looked at.
+    pub visits: u64,
 }
 
 /// Types that the import knows; what others hold is listed, with their names.
@@ -109,6 +112,7 @@ pub fn import_to_run(
     with: Meshes,
     running: Running,
 ) -> Result<Import, RexsError> {
+    let before = effort::visits();
     let unpacked = unpack(bytes)?;
     let mut ledger = Ledger::default();
     let mut model = parse(&unpacked)?;
@@ -214,6 +218,7 @@ pub fn import_to_run(
         gears: made.gears,
         sheets: made.sheets,
         ledger: ledger.into_inner(),
+        visits: effort::visits() - before,
     })
 }
 

@@ -18,6 +18,7 @@ pub mod by_number;
 pub mod container;
 pub mod coupling;
 pub mod drive_text;
+mod effort;
 pub mod error;
 pub mod gear;
 pub mod gear_bodies;

@@ -1,5 +1,6 @@
-//! A REXS model as it stands in the file: components with attributes, relations between them, load cases.
+//! A REXS model as written in the file: components with attributes, relations between them, load cases.
 
+use crate::effort;
 use std::collections::{HashMap, HashSet};
 use std::sync::OnceLock;
 
@@ -47,7 +48,7 @@ impl Component {
 
     /// An attribute.
     pub fn attribute(&self, id: &str) -> Option<&Attribute> {
-        self.attributes.iter().find(|a| a.id == id)
+        effort::each(self.attributes.iter()).find(|a| a.id == id)
     }
 }
 
@@ -115,16 +116,13 @@ pub struct Relation {
 impl Relation {
     /// The component in a role.
     pub fn role(&self, roles: &[&str]) -> Option<i64> {
-        let found = self
-            .references
-            .iter()
-            .find(|r| roles.contains(&r.role.as_str()));
+        let found = effort::each(self.references.iter()).find(|r| roles.contains(&r.role.as_str()));
         found.map(|r| r.id)
     }
 
     /// Whether a component takes part.
     pub fn names(&self, id: i64) -> bool {
-        self.references.iter().any(|r| r.id == id)
+        effort::each(self.references.iter()).any(|r| r.id == id)
     }
 }
 
@@ -167,13 +165,14 @@ impl Model {
             }
             places
         });
+        effort::visited(1);
         places.get(&id).map(|&place| &self.components[place])
     }
 
     /// Components of some types, in the order of the file.
     pub fn of_kind<'a>(&'a self, kinds: &'a [&str]) -> impl Iterator<Item = &'a Component> {
         let wanted = move |c: &&Component| kinds.contains(&c.kind.as_str());
-        self.components.iter().filter(wanted)
+        effort::each(self.components.iter()).filter(wanted)
     }
 
     /// The model in a load case.

@@ -285,7 +285,7 @@ fn balance(
             return;
         }
     }
-    // What holds the train in the scene bears what is left over; flanks and axial forces follow from that.
+    // What holds the train in the scene carries what is left over; flanks and axial forces follow from that.
     let power = |i: usize| found.torque_nm[i] * of(i) * root_rpm;
     let input = mine.iter().copied();
     if let Some(i) = input.max_by(|&a, &b| power(a).total_cmp(&power(b))) {

@@ -1,6 +1,7 @@
 //! Values of a model with their units. Whoever asks for an attribute leaves a trace: what nobody has asked for is listed as
 //! not represented, so that nothing is dropped in silence.
 
+use crate::effort;
 use crate::error::RexsError;
 use crate::ledger::{About, Ledger};
 use crate::model::{Attribute, Component, Model, Value};
@@ -372,7 +373,7 @@ impl<'a> Source<'a> {
     /// Lists what nobody has asked for.
     pub fn list_unused(&self) {
         let used = self.used.borrow();
-        for component in &self.model.components {
+        for component in effort::each(self.model.components.iter()) {
             let unused = component
                 .attributes
                 .iter()

@@ -1,5 +1,6 @@
 //! Which component belongs to which, from the relations.
 
+use crate::effort;
 use crate::error::RexsError;
 use crate::ledger::{About, Ledger};
 use crate::model::{Model, Relation};
@@ -168,7 +169,7 @@ impl Structure {
 
     /// Relations in which a component takes part.
     fn naming(&self, id: i64) -> impl Iterator<Item = &Relation> {
-        let mine = self.of.get(&id).into_iter().flatten();
+        let mine = effort::each(self.of.get(&id).into_iter().flatten());
         mine.map(|&i| &self.relations[i])
     }
 
@@ -184,9 +185,11 @@ impl Structure {
         }
         let mut kept = self.partners.borrow_mut();
         let mine = kept.entry((id, kinds.join(" ")));
-        { mine }
+        let found = { mine }
             .or_insert_with(|| self.found_partners(id, kinds))
-            .clone()
+            .clone();
+        effort::visited(found.len());
+        found
     }
 
     fn found_partners(&self, id: i64, kinds: &[&str]) -> Vec<i64> {
@@ -196,7 +199,7 @@ impl Structure {
             .naming(id)
             .filter(|r| !JOINING.contains(&r.kind.as_str()))
         {
-            for other in r.references.iter().map(|other| other.id) {
+            for other in effort::each(r.references.iter()).map(|other| other.id) {
                 if other != id && kinds.contains(&self.kind(other)) && seen.insert(other) {
                     found.push(other);
                 }
@@ -207,6 +210,7 @@ impl Structure {
 
     /// The stages, in the order of the file.
     pub fn stages(&self) -> &[Stage] {
+        effort::visited(self.stages.len());
         &self.stages
     }
 

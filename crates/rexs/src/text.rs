@@ -1,4 +1,4 @@
-//! Numbers, texts and names as they stand in TOML files.
+//! Numbers, texts and names as written in TOML files.
 
 use std::collections::HashSet;
 

@@ -343,7 +343,7 @@ fn bores(source: &Source<'_>, train: &mut Train) {
 pub fn power(source: &Source<'_>, train: &Train) -> Flow {
     let ids: Vec<i64> = train.shafts.iter().map(|s| s.id).collect();
     let sign = |id: i64| train.shaft(id).map_or(1.0, Shaft::sign);
-    // A brake bears what is left over where nothing else does.
+    // A brake carries what is left over where nothing else does.
     let open = |l: &&Load| l.transmits && l.torque_nm.is_none() && l.power_w.is_none();
     let has_open = train.loads.iter().filter(open).any(|l| !l.is_brake);
     let torques: Vec<TorqueOn> = train

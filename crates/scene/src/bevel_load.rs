@@ -1,4 +1,4 @@
-//! A bevel pair under the torques of its `[load]`: its slices, and what gives way. For `gearmesh tca` and for studies.
+//! A bevel pair under the torques of its `[load]`: its slices, and what deflects. For `gearmesh tca` and for studies.
 
 use gearmesh_bevel::pair_file::LoadRequest;
 use gearmesh_bevel::{PairDesign, PairFile};
@@ -63,7 +63,7 @@ pub enum BevelLoadError {
     Contact(#[from] DrivetrainError),
 }
 
-/// Loads a pair with its reduced members, or as rigid gears whose surfaces give way as half spaces do.
+/// Loads a pair with its reduced members, or as rigid gears whose surfaces deflect as half spaces do.
 ///
 /// # Errors
 /// [`BevelLoadError`].

@@ -10,7 +10,7 @@
 //! | a multibody system | `[[body]]` | [`system`] |
 //!
 //! [`periods`] says how much of what repeats a run has seen, [`rating`] judges what both have given. [`SceneFile`]
-//! tells them apart, [`ResultFile`] their results, [`schema`] writes down what may stand in them. [`system_run`] runs
+//! tells them apart, [`ResultFile`] their results, [`schema`] writes down what may be in them. [`system_run`] runs
 //! multibody systems, [`study`] computes a scene again and again with keys that vary, [`optimise`] seeks the best of
 //! them, [`accuracy`] says what exactness costs in time. [`bevel_load`] puts torques on bevel pairs.
 

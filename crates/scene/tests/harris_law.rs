@@ -31,7 +31,7 @@ fn tooth() -> ToothGeometry {
     ToothGeometry::new(&pair_common::tooth(TEETH, 0.0, 0.0)).unwrap()
 }
 
-/// Two equal gears whose teeth give way like springs, and do not feel each other.
+/// Two equal gears whose teeth deflect like springs, and do not feel each other.
 fn write_models(folder: &Path) {
     let body = pair_common::made_up_gear(&tooth(), 0.02, 1);
     let loads = body.grid.len();
@@ -233,6 +233,18 @@ fn what_is_wrong_is_told_with_what_is_right() {
         (
             format!("trials = 3\n{RANGE}"),
             "trials: found 3 in 1 searches, allowed are 20 and more",
+        ),
+        (
+            format!(
+                "{RANGE}[[variable]]\nname = \"relief\"\nkeys = [\"pair.deviation_mrad\"]\nfrom = 0.0\nto = 1.0\n"
+            ),
+            "variable.1.name: `relief` is the name of variable.0, too",
+        ),
+        (
+            format!(
+                "{RANGE}[[variable]]\nname = \"again\"\nkeys = [\"gear_2.microgeometry.tip_relief_um\"]\nfrom = 0.0\nto = 1.0\n"
+            ),
+            "is set by variable.0 already",
         ),
         (
             format!("scatter_samples = 3\n{RANGE}"),

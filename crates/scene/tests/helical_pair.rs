@@ -47,7 +47,7 @@ fn bearings_carry_the_axial_force_of_every_model() {
         let axial = value("bearing 2", "force_shaft_z_N").abs() / (tangential_n * helix.tan());
         let normal = value("mesh", "normal_force_right_N") * helix.cos() / tangential_n;
         // F_t, F_r and F_a on gear 1: those of the normal force with the working pressure angle and β_b, and what the
-        // bearing of gear 2 bears.
+        // bearing of gear 2 carries.
         let [tangential, radial, axial_1] = ["tangential", "radial", "axial"]
             .map(|part| value("mesh", &format!("{part}_force_1_N")));
         let transverse_n = value("mesh", "normal_force_right_N") * helix.cos();
@@ -63,21 +63,21 @@ fn bearings_carry_the_axial_force_of_every_model() {
                 "{model} {found} {expected}"
             );
         }
-        let bears = |channel: &str| value("bearing 2", channel);
+        let carries = |channel: &str| value("bearing 2", channel);
         assert!(
-            (bears("force_radial_N") / tangential.hypot(radial) - 1.0).abs() < 1e-6,
+            (carries("force_radial_N") / tangential.hypot(radial) - 1.0).abs() < 1e-6,
             "{model}"
         );
         assert!(
-            (bears("force_world_z_N") / axial_1 - 1.0).abs() < 1e-6,
+            (carries("force_world_z_N") / axial_1 - 1.0).abs() < 1e-6,
             "{model}"
         );
         assert!(
-            (bears("force_world_y_N") / tangential - 1.0).abs() < 1e-3,
+            (carries("force_world_y_N") / tangential - 1.0).abs() < 1e-3,
             "{model}"
         );
         assert!(
-            (bears("force_world_x_N") / -radial - 1.0).abs() < 3e-3,
+            (carries("force_world_x_N") / -radial - 1.0).abs() < 3e-3,
             "{model}"
         );
         // Each slice's line load is that of its most loaded pair of teeth: no more than all pairs together, no less

@@ -53,7 +53,7 @@ fn at_low_speed_a_modal_gear_is_a_reduced_one() {
         let pairs = a.iter().zip(&b);
         pairs.fold(0.0_f64, |most, (x, y)| most.max((x - y).abs())) / scale
     };
-    // Modes and the flexibility left give way as the patterns do; what is left is their inertia.
+    // Modes and the flexibility left deflect as the patterns do; what is left is their inertia.
     // Seen, over the largest value, at every row: 6.1e-5, 4.9e-5, 2.0e-4, 6.4e-4.
     for (name, tolerance) in [
         (TE, 1e-4),

@@ -297,6 +297,45 @@ fn a_torque_belongs_to_columns_under_load() {
     );
 }
 
+/// Choices that are tried grow with `trials`, not with the variables: a number that does not do for the corners of a
+/// simplex is refused.
+#[test]
+fn many_variables_ask_for_no_more_trials_than_stated() {
+    const BODIES: usize = 12;
+    let folder = tempfile::tempdir().unwrap();
+    let body = |k: usize| {
+        format!("[[body]]\nname = \"{k}\"\nmass_kg = 1.0\ninertia_kg_m2 = [1.0, 1.0, 1.0]\n")
+    };
+    let scene = format!(
+        "title = \"t\"\n[run]\nkind = \"transient\"\nend_s = 2e-3\n[solver]\nstep_s = 1e-3\n[output]\ninterval_s = 1e-3\n{}",
+        (0..BODIES).map(body).collect::<String>()
+    );
+    std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let text = |trials: usize| {
+        let variable = |k: usize| {
+            format!(
+                "[[variable]]\nname = \"{k}\"\nkeys = [\"body.{k}.mass_kg\"]\nfrom = 1.0\nto = 2.0\n"
+            )
+        };
+        format!(
+            "title = \"t\"\nscene = \"scene.toml\"\ntrials = {trials}\n{}[[objective]]\nname = \"o\"\n\
+             term = [{{ column = \"bodies/0/velocity_x_m_per_s:largest\" }}]\n",
+            (0..BODIES).map(variable).collect::<String>()
+        )
+    };
+    let read = |trials| {
+        Optimisation::from_document(InputDocument::new("o.toml", text(trials)), folder.path())
+    };
+    let told = read(20).unwrap_err().to_string();
+    assert!(
+        told.contains("trials: found 20 in 1 searches, allowed are 26 and more of 12 variables"),
+        "{told}"
+    );
+    let stop = AtomicBool::new(false);
+    let found = optimise(&read(26).unwrap(), folder.path(), &stop, &|_, _| ()).unwrap();
+    assert!(found.tried.len() <= 26, "{}", found.tried.len());
+}
+
 /// The damper that lets a block swing least over a second is the strongest one that is allowed.
 #[test]
 fn a_run_in_time_is_optimised() {

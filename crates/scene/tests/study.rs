@@ -135,7 +135,7 @@ fn a_key_that_is_not_in_the_scene_is_told_before_anything_runs() {
     assert!(told.contains("mass = -1"), "{told}");
 }
 
-/// A study varies the microgeometry that a scene states; a slip in the key is told before the first case.
+/// A study varies the microgeometry that a scene states; a slip in the key is reported before the first case.
 #[test]
 fn microgeometry_of_a_body_is_varied() {
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models");
@@ -177,7 +177,7 @@ fn microgeometry_of_a_body_is_varied() {
     );
 }
 
-/// A column that is not there is told before the first case, with the nearest and all that there are.
+/// A column that is not there is reported before the first case, with the nearest and all that there are.
 #[test]
 fn a_column_that_is_not_there_names_those_that_are() {
     let folder = tempfile::tempdir().unwrap();

@@ -220,3 +220,43 @@ pub fn before_comment(line: &str) -> &str {
 fn words(line: &str) -> impl Iterator<Item = &str> {
     line.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '-'))
 }
+
+/// What docs/sources.md says that a scene takes is what the scene's file says.
+#[test]
+fn the_page_of_sources_says_what_the_scenes_take() {
+    let folder = root().join("fe_models");
+    let page = read(&root().join("docs/sources.md"));
+    let row = |part: &str| {
+        let mut lines = page.lines();
+        lines
+            .find(|line| line.contains(part))
+            .unwrap_or_else(|| panic!("no row on {part}"))
+    };
+    let value = |file: &str, key: &str| -> f64 {
+        let text = read(&folder.join(file));
+        let (_, after) = text.split_once(&format!("\n{key} = ")).expect(key);
+        let number: String = after
+            .chars()
+            .take_while(|c| !c.is_whitespace() && *c != ',')
+            .collect();
+        number.parse().expect(key)
+    };
+    let (scene, study) = (
+        "dynamics_17_25.toml",
+        read(&folder.join("study_17_25.toml")),
+    );
+    let damping = value(scene, "damping_N_s_per_mm");
+    assert!(row("C of 0.1 to 1 % of K").contains(&format!("| {damping} N·s/mm at K 1e6")));
+    assert_eq!(value(scene, "stiffness_N_per_mm_e"), 1e6);
+    // The study's head says the middle one first, then the tenth and ten times the stiffness.
+    assert!(row("the peak grows with K").contains("10.3, 6.0 and 6.6 kN for K 1e5, 1e6 and 1e7"));
+    assert!(
+        study.contains("it is 6.0 kN as it is")
+            && study.contains("10.3 and\n# 6.6 kN with a tenth and ten times")
+    );
+    // Seed 001's gears, 20/20.
+    for file in ["bevel_gear_20_20.toml", "bevel_pinion_20_20.toml"] {
+        assert_eq!(value(file, "young_GPa"), 206.0);
+    }
+    assert!(row("E = 2.1e11 N/mm²").contains("206 GPa"));
+}

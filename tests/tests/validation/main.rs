@@ -3,13 +3,16 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 mod analytic_tooth;
+mod end_effect;
 mod friction_at_the_root;
 mod gear_modes;
 mod graded_tooth;
 mod line_load;
 mod mesh_convergence;
 mod mesh_error_estimate;
+mod pairs_a_and_b;
 mod plane_strain_deflection;
+mod ring_deflection;
 mod slice_deflection;
 mod solid_pair_transmission_error;
 mod tetrahedra;

@@ -129,7 +129,7 @@ fn stated_errors_cover_the_true_ones_on_a_thin_rim() {
     check_against("thin rim", gear, "", LONGER);
 }
 
-/// Tooth 0 stands over the middle of a slot, where it gives way most.
+/// Tooth 0 stands over the middle of a slot, where it deflects most.
 #[test]
 #[ignore = "minutes: a sector of eight teeth in quadratic elements; run with --ignored"]
 fn stated_errors_cover_the_true_ones_over_three_slots() {

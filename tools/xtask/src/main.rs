@@ -1,4 +1,4 @@
-//! The project's own commands: `cargo xtask test`, `demo`, `bench` and `accuracy-cost`.
+//! The project's own commands: `cargo xtask test`, `demo`, `bench`, `accuracy-cost`, `figures` and `hard-cases`.
 //!
 //! All begin with the same preparation ([`prepare::prepare`]), so that each works on a clean clone: the Python
 //! environment `.venv` from the locked requirements, the shared libraries that gmsh needs, the Python module.
@@ -8,6 +8,8 @@
 mod bench;
 mod console;
 mod error;
+mod figures;
+mod hard_cases;
 mod machine;
 mod prepare;
 mod python_module;
@@ -50,6 +52,11 @@ Usage: cargo xtask <COMMAND>
                   the models of a bearing beside each other, into docs/benchmarks/bearing-models.md
   accuracy-cost bevel-machines
                   seed 000's machines with each model of their bearings, into docs/benchmarks/bevel-machines.md
+  figures [--made | PAGE...]
+                  lists the pages above with commit, day and processor, and which of them are stale
+                  --made      makes the stale ones again that take minutes; PAGE: those named, such as `accuracy-cost`
+  hard-cases      runs every hard case of every crate, a million problems of the contact solver among them, into
+                  docs/hard-cases.md
   wheel [--quick] the Python package and the program in one wheel, into target/wheel: stripped, with links across crates
                   --quick     the development build instead, to try the wheel out
   release [--quick]
@@ -83,13 +90,9 @@ enum Command {
     Test(steps::Extent),
     RustTests(Vec<String>),
     Demo(Vec<String>),
-    BenchOffline(bench::Options),
-    BenchChain(bench::Options),
-    BenchBearings(bench::Options),
-    AccuracyCost(bench::Options),
-    AccuracyCostBearings(bench::Options),
-    AccuracyCostElements(bench::Options),
-    AccuracyCostBevelMachines(bench::Options),
+    /// A page of the documentation that measures.
+    Page(&'static figures::Page, bench::Options),
+    Figures(figures::Which),
     Wheel(wheel::Build),
     Release(wheel::Build),
     Prepare,
@@ -111,24 +114,6 @@ impl Command {
             ("rust-tests", rest) if !rest.iter().any(|word| word.starts_with('-')) => {
                 Ok(Self::RustTests(owned(rest)))
             }
-            ("bench", ["offline", rest @ ..]) => {
-                bench_options("bench offline", rest).map(Self::BenchOffline)
-            }
-            ("bench", ["chain"]) => Ok(Self::BenchChain(bench::Options::default())),
-            ("bench", ["bearings"]) => Ok(Self::BenchBearings(bench::Options::default())),
-            ("accuracy-cost", ["bearings", rest @ ..]) => {
-                bench_options("accuracy-cost bearings", rest).map(Self::AccuracyCostBearings)
-            }
-            ("accuracy-cost", ["elements", rest @ ..]) => {
-                bench_options("accuracy-cost elements", rest).map(Self::AccuracyCostElements)
-            }
-            ("accuracy-cost", ["bevel-machines", rest @ ..]) => {
-                bench_options("accuracy-cost bevel-machines", rest)
-                    .map(Self::AccuracyCostBevelMachines)
-            }
-            ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
-                bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
-            }
             ("wheel", []) => Ok(Self::Wheel(wheel::Build::Release)),
             ("wheel", ["--quick"]) => Ok(Self::Wheel(wheel::Build::Quick)),
             ("release", []) => Ok(Self::Release(wheel::Build::Release)),
@@ -136,33 +121,46 @@ impl Command {
             ("prepare", []) => Ok(Self::Prepare),
             ("help" | "--help" | "-h", _)
             | (
-                "test" | "rust-tests" | "prepare" | "wheel" | "release" | "bench" | "accuracy-cost",
+                "test" | "rust-tests" | "prepare" | "wheel" | "release" | "bench" | "accuracy-cost"
+                | "figures" | "hard-cases",
                 ["--help" | "-h"],
             ) => Ok(Self::Help),
+            ("figures", rest) => figures::Which::parse(rest).map(Self::Figures),
             ("test" | "rust-tests" | "prepare" | "wheel" | "release", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
-            ("bench", _) => Err(
-                "`bench` needs what to measure: `bench offline`, `bench chain` or `bench bearings`"
-                    .into(),
-            ),
+            ("bench" | "accuracy-cost" | "hard-cases", _) => {
+                let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+                let Some((page, rest)) = figures::Page::named(&words) else {
+                    return Err(
+                        "`bench` needs what to measure: `bench offline`, `bench chain` or `bench bearings`"
+                            .into(),
+                    );
+                };
+                bench_options(page, rest).map(|options| Self::Page(page, options))
+            }
             (other, _) => Err(format!("unknown command `{other}`")),
         }
     }
 }
 
 /// Reads what follows a command that measures.
-fn bench_options(command: &str, arguments: &[&str]) -> Result<bench::Options, String> {
+fn bench_options(page: &figures::Page, arguments: &[&str]) -> Result<bench::Options, String> {
     let mut options = bench::Options::default();
     let mut rest = arguments.iter();
     while let Some(&argument) = rest.next() {
         match argument {
-            "--quick" => options.quick = true,
-            "--program" => {
+            "--quick" if page.has_options => options.quick = true,
+            "--program" if page.has_options => {
                 let path = rest.next().ok_or("`--program` needs a path")?;
                 options.program = Some(path.into());
             }
-            other => return Err(format!("unknown argument `{other}` of `{command}`")),
+            other => {
+                return Err(format!(
+                    "unknown argument `{other}` of `{}`",
+                    page.command()
+                ));
+            }
         }
     }
     Ok(options)
@@ -175,17 +173,8 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
     }
     let workspace = Workspace::find()?;
     match &command {
-        Command::BenchOffline(options) => return bench::offline(&workspace, options),
-        Command::BenchChain(options) => return bench::chain(&workspace, options),
-        Command::BenchBearings(options) => return bench::bearings(&workspace, options),
-        Command::AccuracyCost(options) => return bench::accuracy_cost(&workspace, options),
-        Command::AccuracyCostBearings(options) => {
-            return bench::bearing_models(&workspace, options);
-        }
-        Command::AccuracyCostElements(options) => return bench::elements(&workspace, options),
-        Command::AccuracyCostBevelMachines(options) => {
-            return bench::bevel_machines(&workspace, options);
-        }
+        Command::Page(page, options) => return (page.make)(&workspace, options),
+        Command::Figures(which) => return figures::figures(&workspace, which),
         _ => {}
     }
     let start = std::time::Instant::now();
@@ -199,15 +188,9 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         Command::Wheel(build) => wheel::wheel(&workspace, &venv, build).map(|_| ExitCode::SUCCESS),
         Command::Release(build) => release::release(&workspace, &venv, build),
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
-        Command::Prepare
-        | Command::Help
-        | Command::BenchOffline(_)
-        | Command::BenchChain(_)
-        | Command::BenchBearings(_)
-        | Command::AccuracyCost(_)
-        | Command::AccuracyCostBearings(_)
-        | Command::AccuracyCostElements(_)
-        | Command::AccuracyCostBevelMachines(_) => Ok(ExitCode::SUCCESS),
+        Command::Prepare | Command::Help | Command::Page(..) | Command::Figures(_) => {
+            Ok(ExitCode::SUCCESS)
+        }
     }
 }
 
@@ -272,26 +255,26 @@ mod tests {
             quick: true,
             program: Some("x/gearmesh".into()),
         };
+        let page = |line: &str, options| {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            let (page, _) = figures::Page::named(&words).ok_or("no such page")?;
+            Ok(Command::Page(page, options))
+        };
         assert_eq!(
             parse("bench offline --program x/gearmesh --quick"),
-            Ok(Command::BenchOffline(options))
+            page("bench offline", options)
         );
-        assert_eq!(
-            parse("bench offline"),
-            Ok(Command::BenchOffline(bench::Options::default()))
-        );
-        assert_eq!(
-            parse("accuracy-cost"),
-            Ok(Command::AccuracyCost(bench::Options::default()))
-        );
-        assert_eq!(
-            parse("accuracy-cost elements"),
-            Ok(Command::AccuracyCostElements(bench::Options::default()))
-        );
+        for line in ["bench offline", "accuracy-cost", "accuracy-cost elements"] {
+            assert_eq!(parse(line), page(line, bench::Options::default()));
+        }
         assert_eq!(parse("accuracy-cost --help"), Ok(Command::Help));
         assert_eq!(
             parse("accuracy-cost now"),
             Err("unknown argument `now` of `accuracy-cost`".into())
+        );
+        assert_eq!(
+            parse("bench chain --quick"),
+            Err("unknown argument `--quick` of `bench chain`".into())
         );
         assert_eq!(
             parse("bench offline --program"),

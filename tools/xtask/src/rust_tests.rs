@@ -56,6 +56,68 @@ pub fn run(build: Command, venv: &Venv, extent: Extent, only: &[String]) -> Resu
     summary(&run_side_by_side(parts, venv)?)
 }
 
+/// A test that ran by its name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finished {
+    /// Folder of its package.
+    pub package: String,
+    /// Its program.
+    pub target: String,
+    /// Its full name there.
+    pub test: String,
+    /// Whether it passed.
+    pub passed: bool,
+    /// How long it took.
+    pub time: Duration,
+    /// What it printed, line by line.
+    pub printed: Vec<String>,
+}
+
+/// Builds with `build` and runs the tests named by package, program and test, with a variable of the environment. Those that
+/// no program has are not among the answers.
+///
+/// # Errors
+/// [`XtaskError::Failed`] where something does not build.
+pub fn run_named(
+    build: Command,
+    venv: &Venv,
+    named: &[[&str; 3]],
+    variable: (&'static str, &'static str),
+) -> Result<Vec<Finished>, XtaskError> {
+    let mut parts = Vec::new();
+    for binary in binaries::built(build)? {
+        for mut part in part::parts_of(binary, Extent::Full, false)? {
+            let label = part.binary.label();
+            part.tests.retain(|test| {
+                let is_it = |[package, target, name]: &[&str; 3]| {
+                    label == format!("{package} {target}") && test == name
+                };
+                named.iter().any(is_it)
+            });
+            part.shows_output = Some(variable);
+            if !part.tests.is_empty() {
+                parts.push(part);
+            }
+        }
+    }
+    let mut finished = Vec::new();
+    for result in &run_side_by_side(parts, venv)? {
+        let (package, target) = result.label.split_once(' ').unwrap_or_default();
+        let failures = result.failures();
+        for (test, time) in &result.times {
+            finished.push(Finished {
+                package: package.to_owned(),
+                target: target.to_owned(),
+                test: test.clone(),
+                passed: !failures.contains(&result.full_name(test)) || result.passed,
+                time: *time,
+                printed: result.printed_by(test),
+            });
+        }
+    }
+    Ok(finished)
+}
+
 /// Runs the parts, the first ones first, on as many threads as there are cores.
 fn run_side_by_side(parts: Vec<Part>, venv: &Venv) -> Result<Vec<PartResult>, XtaskError> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);

@@ -87,7 +87,7 @@ fn offer(needed: &Needed) {
         ..
     } = needed;
     let answers = |command: &&str| Command::new(command).arg(needed.argument).output().is_ok();
-    let there = || needed.commands.iter().any(|command| answers(&command));
+    let there = || needed.commands.iter().any(answers);
     if there() {
         return;
     }

@@ -39,7 +39,7 @@ pub const ANGULAR: &str = "angular-contact\"\ncontact_angle_deg = 15.0\n";
 /// The same balls in grooves opposite each other, without clearance.
 const DEEP: &str = "deep-groove\"\n";
 
-/// The deep-groove bearing, its inner ring widened by a tight fit so that all balls bear.
+/// The deep-groove bearing, its inner ring widened by a tight fit so that all balls carry.
 pub fn fitted() -> QuasiStaticBearing {
     let mut bearing = bearing(DEEP);
     for row in &mut bearing.rows {

@@ -40,7 +40,7 @@ pub(super) fn of_double_row(
         Some(ArrangementWord::X) => Ok(Arrangement::X { distance_m }),
         Some(ArrangementWord::Tandem) => Err(keys.error(
             "arrangement",
-            "found \"tandem\", allowed are \"O\" and \"X\": the rows of a double-row bearing bear axial loads both ways",
+            "found \"tandem\", allowed are \"O\" and \"X\": the rows of a double-row bearing carry axial loads both ways",
         )),
     }
 }

@@ -46,7 +46,9 @@ pub struct DynamicEffects {
 /// A ball bearing: the outer ring on marker A, the inner ring on marker B, z along the axis of each.
 ///
 /// Channels: force and moment on the inner ring (axes of marker A, moment about marker B's place), mean orbital speed of the balls against the outer ring; with
-/// [`Self::with_ball_loads`] the load of every ball at both races and its place; with cages the force on each by its pockets, where its middle is, and how fast it turns and whirls.
+/// [`Self::with_ball_loads`] the load of every ball at both races and its place; with
+/// [`Self::with_ball_accelerations`] its acceleration; with cages the force on each by its pockets, where its middle
+/// is, and how fast it turns and whirls.
 pub struct DynamicBearing {
     name: String,
     pub(super) pair: MarkerPair,
@@ -58,6 +60,7 @@ pub struct DynamicBearing {
     /// Of balls with spalls, in the order of their numbers.
     pub(super) orientations: Vec<BallOrientation>,
     ball_loads: bool,
+    ball_accelerations: bool,
     pub(super) effort: Option<Arc<BearingEffort>>,
 }
 
@@ -106,6 +109,7 @@ impl DynamicBearing {
             effects,
             orientations: Vec::new(),
             ball_loads: false,
+            ball_accelerations: false,
             effort: None,
         };
         found.orientations = found.spalled_balls();
@@ -132,6 +136,15 @@ impl DynamicBearing {
     #[must_use]
     pub fn with_ball_loads(mut self) -> Self {
         self.ball_loads = true;
+        self
+    }
+
+    /// Adds the acceleration of every ball's centre to the channels, world axes:
+    /// `ball_<number>_acceleration_x_m_per_s2` and so on. It is the sum of all
+    /// forces on the ball over its mass, its weight included where it has any.
+    #[must_use]
+    pub fn with_ball_accelerations(mut self) -> Self {
+        self.ball_accelerations = true;
         self
     }
 
@@ -376,14 +389,21 @@ impl ForceElement for DynamicBearing {
             );
             channels.extend(cage_motion_channels(cage));
         }
-        if self.ball_loads {
-            for (place, _, ball, _) in self.numbered() {
-                let ball = self.label(place, ball);
+        for (place, _, ball, _) in self.numbered() {
+            let ball = self.label(place, ball);
+            if self.ball_loads {
                 channels.extend(race_loads("ball", ball));
                 let what = format!(
                     "place of ball {ball} round the axis of the outer ring, from its x towards y"
                 );
                 channels.push(Channel::new(format!("ball_{ball}_angle_rad"), "rad", what));
+            }
+            if self.ball_accelerations {
+                let what = format!("acceleration of the centre of ball {ball}, world axes");
+                channels.extend(["x", "y", "z"].map(|axis| {
+                    let name = format!("ball_{ball}_acceleration_{axis}_m_per_s2");
+                    Channel::new(name, "m/s²", what.clone())
+                }));
             }
         }
         channels
@@ -397,7 +417,7 @@ impl ForceElement for DynamicBearing {
         let cages = self.effects.cages.len();
         let first_cage = RING_CHANNELS + 1;
         let per_cage = 3 + CAGE_MOTION;
-        let first_load = first_cage + per_cage * cages;
+        let mut of_balls = first_cage + per_cage * cages;
         for (place, row, ball_of_row, number) in self.numbered() {
             let ball = self.ball(view, row, ball_of_row, number);
             let (faults, _) = self.faults(view, row, ball_of_row, number);
@@ -415,12 +435,18 @@ impl ForceElement for DynamicBearing {
             let arm = ball.place_m - rings[0].middle;
             let across = arm - rings[0].axis * arm.dot(&rings[0].axis);
             orbit += rings[0].axis.dot(&across.cross(&against.velocity)) / across.norm_squared();
+            let mut on_ball: Vector3<f64> = [&outer, &inner]
+                .into_iter()
+                .flatten()
+                .map(|f| f.force)
+                .sum();
             if let Some((body, _)) = self.effects.cages.get(place) {
                 let cage = Carrier::new(view.body(*body), 0);
                 let which = (row, place, ball_of_row);
                 let mut found = SurfaceForce::NONE;
                 let touches = self.in_pocket(which, &cage, &ball, false, &mut found);
                 if touches.is_some() {
+                    on_ball += found.force;
                     for axis in 0..3 {
                         out[first_cage + per_cage * place + axis] -= found.force[axis];
                     }
@@ -430,7 +456,15 @@ impl ForceElement for DynamicBearing {
                 let load = |found: &Option<SurfaceForce>| found.map_or(0.0, |f| f.load_n);
                 let angle = rings[0].angle_rad(&arm);
                 let of_ball = [load(&inner), load(&outer), angle];
-                out[first_load + 3 * number..][..3].copy_from_slice(&of_ball);
+                out[of_balls..][..3].copy_from_slice(&of_ball);
+                of_balls += 3;
+            }
+            if self.ball_accelerations {
+                let weight = self.effects.gravity_m_per_s2.map(Vector3::from);
+                let fall = weight.unwrap_or_default() * view.load_factor;
+                let acceleration: Vector3<f64> = on_ball / row.ball_size(ball_of_row).1 + fall;
+                out[of_balls..][..3].copy_from_slice(acceleration.as_slice());
+                of_balls += 3;
             }
         }
         for (place, (body, _)) in self.effects.cages.iter().enumerate() {

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! Without whirl and squeeze these are η U L³ ε²/(C²(1 − ε²)²), πηUL³ε/(4C²(1 − ε²)^1.5) and 2πηUR²L/(C√(1 − ε²)) with U = Rω. Where less than
-//! the roughness h₀ is left of the gap, the solids bear K (e − C + h₀)^1.5, and the film stays as it is there. ω − 2ϕ̇ is the same
+//! the roughness h₀ is left of the gap, the solids carry K (e − C + h₀)^1.5, and the film stays as it is there. ω − 2ϕ̇ is the same
 //! in every frame, so that land and cage may both turn. A tilt of the cage is not seen: two lands side by side resist it.
 
 use std::f64::consts::PI;

@@ -1,4 +1,4 @@
-//! Cages: how fast they turn, what their pockets bear, what guides them.
+//! Cages: how fast they turn, what their pockets carry, what guides them.
 
 use std::ops::ControlFlow;
 
@@ -78,6 +78,39 @@ fn the_cage_tends_to_its_kinematic_speed() {
     close(found.get("bearing.orbit_speed_rad_per_s"), kinematic, 1e-3);
 }
 
+/// The acceleration of a ball is that of its equations of motion, which the integrator solves, blows of the pockets
+/// and weight included; in the mean of a
+/// turn under thrust alone it points to the axis with ω² r.
+#[test]
+fn the_acceleration_of_a_ball_is_that_of_its_motion() {
+    // What Newton's method leaves of the equations is the difference.
+    let params = Params {
+        newton_tolerance: Some(1e-10),
+        ..Params::fixed(1e-5)
+    };
+    let mut run = Simulation::new(caged(pockets(), None, 0.9, PRESSED_M), params).unwrap();
+    for _ in 0..20 {
+        run.run(run.state().time_s + 5e-4, |_| ControlFlow::Continue(()))
+            .unwrap();
+        let (state, solved) = (run.state().clone(), run.acceleration().to_vec());
+        // A sample of a copy: the run goes on.
+        let found = Channels::of(&mut caged(pockets(), None, 0.9, PRESSED_M), &state);
+        let largest = solved[12..]
+            .iter()
+            .fold(0.0_f64, |most, a| most.max(a.abs()));
+        for ball in 0..9 {
+            for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+                let name = format!("bearing.ball_{}_acceleration_{name}_m_per_s2", ball + 1);
+                let (found, solved) = (found.get(&name), solved[12 + 6 * ball + axis]);
+                assert!(
+                    (found - solved).abs() < 1e-5 * largest,
+                    "{name}: {found}, {solved}"
+                );
+            }
+        }
+    }
+}
+
 /// A cage whose middle goes round the axis is seen where it is, with the speed at which it goes round.
 #[test]
 fn the_middle_of_the_cage_is_seen() {
@@ -123,7 +156,7 @@ fn pocket_forces_sum_to_the_force_on_the_cage() {
     assert!(largest > 0.1, "{largest} N");
 }
 
-/// The law of a pocket is continuous and rises in the ball's displacement, also where film gives way to solid contact.
+/// The law of a pocket is continuous and rises in the ball's displacement, also where solid contact takes over from the film.
 #[test]
 fn the_pocket_law_is_continuous() {
     let system = |place: f64| {
@@ -209,7 +242,7 @@ fn the_steady_film_is_ocvirks() {
             1e-9,
         );
     }
-    // Carried round at half its speed the film does not bear along e: 1 − 2ϕ̇/ω = 0.
+    // Carried round at half its speed the film does not carry along e: 1 − 2ϕ̇/ω = 0.
     let increment = [0.5 * c, 0.0, 0.0, 0.0, 0.0, 0.0];
     let velocity = [0.0, 0.5 * omega * 0.5 * c, 0.0, 0.0, 0.0, omega];
     let probe = system.probe("land", &start, &increment, &velocity).unwrap();

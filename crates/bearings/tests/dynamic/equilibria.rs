@@ -115,7 +115,7 @@ fn balls_settle_where_the_equilibrium_has_them() {
             "{inner} {ball:?}"
         );
     }
-    assert!(lifted > 0, "one ball at least bears nothing");
+    assert!(lifted > 0, "one ball at least carries nothing");
     for (axis, name) in ["x", "y", "z"].iter().enumerate() {
         let force = found.get(&format!("bearing.force_shaft_{name}_N"));
         assert!(

@@ -75,7 +75,7 @@ fn as_in_equilibrium(
     }
 }
 
-/// Balls that just touch, turning slowly: no ball bears more than its centrifugal force; pressed in by 0.2 mm they bear a kilonewton each.
+/// Balls that just touch, turning slowly: no ball carries more than its centrifugal force; pressed in by 0.2 mm they carry a kilonewton each.
 #[test]
 fn no_clearance_and_heavy_preload() {
     let bearing = bearing(B6205);
@@ -93,7 +93,7 @@ fn no_clearance_and_heavy_preload() {
     as_in_equilibrium(&pressed, &bearing, &pose, 100.0, 1e-3);
 }
 
-/// A caged bearing with clearance under a radial load: each ball that passes the load zone and leaves it bears load and loses it within a turn of the cage.
+/// A caged bearing with clearance under a radial load: each ball that passes the load zone and leaves it carries load and loses it within a turn of the cage.
 #[test]
 fn balls_lose_contact_each_turn() {
     let bearing = bearing(&format!("{B6205}radial_clearance_um = 15.0\n"));
@@ -213,7 +213,7 @@ fn four_million() {
     as_in_equilibrium(&found, &bearing, &pose, speed, 4e-2);
 }
 
-/// A thrust of a millinewton is borne.
+/// A thrust of a millinewton is carried.
 #[test]
 fn a_millinewton() {
     let bearing = bearing(B6205);

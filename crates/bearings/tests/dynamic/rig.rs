@@ -99,6 +99,7 @@ pub fn element(
     DynamicBearing::new("bearing", pair, bearing, effects)
         .unwrap()
         .with_ball_loads()
+        .with_ball_accelerations()
 }
 
 /// A cage of 20 g on the pitch circle, turning.

@@ -29,7 +29,7 @@ fn rest(
         .unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// 10⁻³ N is borne as well as a million times more.
+/// 10⁻³ N is carried as well as a million times more.
 #[test]
 fn tiny_and_heavy_loads_are_borne() {
     for text in [B218, TAPERED] {
@@ -185,7 +185,7 @@ fn a_profile_relieves_the_edge() {
             0.0,
         );
         let (_, loads) = bearing.loads(&pose, &Operation::default()).unwrap();
-        // End laminae of the roller that bears most.
+        // End laminae of the roller that carries most.
         let of_roller = &loads.laminae[0][..40];
         of_roller[0].0.max(of_roller[39].0) / of_roller.iter().map(|q| q.0).fold(0.0, f64::max)
     };
@@ -315,7 +315,7 @@ fn balls_are_found_from_no_load_to_heavy_load_at_all_speeds() {
                     for ball in &loads.elements[0] {
                         let (inner, outer) =
                             (ball.inner_contact_angle_rad, ball.outer_contact_angle_rad);
-                        // Outer-race control: friction there along the groove bears the gyroscopic moment.
+                        // Outer-race control: friction there along the groove carries the gyroscopic moment.
                         let friction = 2.0 * ball.gyroscopic_nm / ball_m;
                         let across = ball.outer_load_n * outer.cos()
                             - ball.inner_load_n * inner.cos()

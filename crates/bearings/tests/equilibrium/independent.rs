@@ -23,7 +23,7 @@ fn rest_under(
         .equilibrium(&load, &operation)
         .unwrap_or_else(|e| panic!("{e}"));
     let (ring, loads) = bearing.loads(&pose, &operation).unwrap();
-    // Cylindrical rollers bear no axial load: what tilted ones press out sideways is not balanced.
+    // Cylindrical rollers carry no axial load: what tilted ones press out sideways is not balanced.
     let balanced = if bearing.locates { 3 } else { 2 };
     for (found, applied) in ring.load.iter().zip(force_n).take(balanced) {
         assert!(
@@ -71,7 +71,7 @@ fn the_218_under_thrust_at_10000_rpm() {
         [1452.06997, 1924.1603, 0.872825208, 0.545604062, 642.406882],
     );
     close(ball.gyroscopic_nm, 1.48215023, 1e-6);
-    // The invariants of REFERENCES §2; the outer race bears the whole gyroscopic moment, so that the inner loads alone balance the thrust.
+    // The invariants of REFERENCES §2; the outer race carries the whole gyroscopic moment, so that the inner loads alone balance the thrust.
     let rest = 0.724344157;
     assert!(ball.outer_contact_angle_rad < rest && rest < ball.inner_contact_angle_rad);
     assert!(ball.inner_load_n < 1678.87 && ball.outer_load_n > 1678.88);

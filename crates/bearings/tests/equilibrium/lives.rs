@@ -39,7 +39,7 @@ fn static_factors_of_balls_are_those_of_the_table() {
     }
 }
 
-/// Every ball bears the same under pure thrust: L10r = (Q_c/Q)³ with Q_c of both races together, as Lundberg and Palmgren have it.
+/// Every ball carries the same under pure thrust: L10r = (Q_c/Q)³ with Q_c of both races together, as Lundberg and Palmgren have it.
 #[test]
 fn even_load_gives_the_theoretical_life() {
     let definition = definition(B218);
@@ -97,7 +97,7 @@ fn a_load_zone_of_half_the_turn_gives_l10() {
     close(capacity, Ratings::of(&definition).dynamic_n, 2e-2);
 }
 
-/// Clearance narrows the load zone: shorter life, more load on the ball that bears most.
+/// Clearance narrows the load zone: shorter life, more load on the ball that carries most.
 #[test]
 fn clearance_shortens_life() {
     let tight = definition(B6205);
@@ -153,7 +153,7 @@ fn lubrication_changes_life_within_its_bounds() {
     }
 }
 
-/// A ring that turns against the load bears it all round (power 3), one that stands bears it at one place (10/3); rings that both turn have 3 each. One that rocks on
+/// A ring that turns against the load carries it all round (power 3), one that stands carries it at one place (10/3); rings that both turn have 3 each. One that rocks on
 /// its springs stands.
 #[test]
 fn lives_ask_which_rings_turn() {

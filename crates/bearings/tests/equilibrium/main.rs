@@ -6,6 +6,7 @@ mod ball_types;
 mod barrels;
 mod catalogue;
 mod common;
+mod dropped_balls;
 mod files;
 mod fits;
 mod friction;

@@ -8,7 +8,7 @@ use gearmesh_bearings::{
     TiltCondition,
 };
 
-/// Where the ring rests; what it bears there is the load, to 1e-8 of it.
+/// Where the ring rests; what it carries there is the load, to 1e-8 of it.
 fn rests(
     bearing: &QuasiStaticBearing,
     load: AppliedBearingLoad,
@@ -406,7 +406,7 @@ fn tilted_rings_rest_where_the_least_energy_is() {
     }
 }
 
-/// Loads in the rounding of the elements' places are refused with that reason; a thousandth of a newton is borne.
+/// Loads in the rounding of the elements' places are refused with that reason; a thousandth of a newton is carried.
 #[test]
 fn tiny_loads_are_refused_with_their_reason() {
     for text in [B6205, TAPERED, crate::common::B218] {

@@ -53,7 +53,7 @@ fn misfit(ring: &RingLoad, other: &Matrix6<f64>, arm: f64) -> f64 {
     worst / largest
 }
 
-/// Balls and rollers that bear load, and all of them.
+/// Balls and rollers that carry load, and all of them.
 fn loaded(bearing: &QuasiStaticBearing, pose: &RingPose, operation: &Operation) -> (usize, usize) {
     let (_, loads) = bearing.loads(pose, operation).unwrap();
     let all = loads.elements.iter().flatten();

@@ -1,4 +1,4 @@
-//! `[load]`: torques under which the contact is analysed, and what gives way.
+//! `[load]`: torques under which the contact is analysed, and what deflects.
 
 use std::path::PathBuf;
 
@@ -22,7 +22,7 @@ pub(super) struct LoadTable {
     /// Positions over a pitch, 24 where not given.
     positions_per_pitch: Option<Count<4, 500>>,
     /// Reduced models (.h5) of pinion and gear, relative to this file. Where not given, the gears are rigid, and their surfaces
-    /// give way as half spaces do.
+    /// deflect as half spaces do.
     models: Option<[PathBuf; 2]>,
     /// Coefficient of friction of the teeth, for the efficiency; none printed where not given.
     friction: Option<Bounded<Within<0, 1>>>,

@@ -56,13 +56,16 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
             "--moment-Nm: a spherical roller bearing tilts freely and carries no moment; remove it, or give --tilt-mrad",
         ));
     }
-    let pose = bearing
-        .equilibrium(&load, &operation)
-        .map_err(|e| match e {
-            BearingError::NotCarried(_) => Failure::input(format!("--load-N: {e}")),
-            e => Failure::work(e),
-        })?;
-    let (ring, loads) = bearing.loads(&pose, &operation).map_err(Failure::work)?;
+    let (pose, mut places) =
+        bearing
+            .equilibrium_with_places(&load, &operation)
+            .map_err(|e| match e {
+                BearingError::NotCarried(_) => Failure::input(format!("--load-N: {e}")),
+                e => Failure::work(e),
+            })?;
+    let (ring, loads) = bearing
+        .loads_from(&pose, &operation, &mut places)
+        .map_err(Failure::work)?;
     let life = Life::of(
         &found.definition,
         &loads,

@@ -23,7 +23,7 @@ const PACKAGES: [(&str, &str); 4] = [
 ];
 
 /// What the one package is for that little needs.
-const UNIVERSAL_FILES: &str = "universal files: export to .uff, record";
+const UNIVERSAL_FILES: &str = "universal files: record";
 
 /// Imports each package and prints one line for it: name, version or what went wrong.
 const PROBE: &str = r#"

@@ -1,4 +1,4 @@
-//! `gearmesh modes`: natural frequencies and shapes with the bore held.
+//! `gearmesh modes`: natural frequencies and shapes with the bore held, or the ends of the shaft's stubs.
 
 use crate::arguments::Printed;
 use crate::console;
@@ -19,10 +19,11 @@ pub fn run(a: &Printed<ModesRequest>) -> Result<(), Failure> {
 fn table(found: &FoundModes) {
     let (modes, rigid) = (&found.modes, &found.rigid);
     console::data(format!(
-        "{}: {} modes up to {:.1} Hz, bore held, {} degrees of freedom; mass {:.4} kg, inertia about the axis {:.4e} kg m2",
+        "{}: {} modes up to {:.1} Hz, {}, {} degrees of freedom; mass {:.4} kg, inertia about the axis {:.4e} kg m2",
         found.gear,
         modes.modes.len(),
         modes.complete_to_hz,
+        found.held,
         found.dofs,
         rigid.mass_kg,
         rigid.inertia_kg_m2[2][2]

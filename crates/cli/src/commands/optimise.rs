@@ -17,7 +17,7 @@ pub fn run(a: &OptimiseArguments) -> Result<(), Failure> {
         stop: &stop.asked,
         ..console::watch()
     };
-    let found = optimise(&a.file, &a.output, &watch)?;
+    let found = optimise(&a.file, &a.output, a.most_result_gb, &watch)?;
     drop(stop);
     if a.json {
         console::json(&found.figures());

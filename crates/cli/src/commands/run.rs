@@ -13,7 +13,7 @@ pub fn run(a: &RunArguments) -> Result<(), Failure> {
     let how = RunHow {
         output: Some(&a.output),
         restart: a.restart,
-        most_result_gb: Some(a.most_result_gb),
+        most_result_gb: a.most_result_gb,
         checkpoint_interval: Duration::from_secs_f64(a.checkpoint_s),
     };
     let scene = SceneFile::read(&a.scene)?;

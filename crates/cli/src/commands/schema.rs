@@ -1,4 +1,4 @@
-//! `gearmesh schema`: what may stand in a file, as JSON Schema for editors and scripts; of HDF5 files the data sets.
+//! `gearmesh schema`: what may be in a file, as JSON Schema for editors and scripts; of HDF5 files the data sets.
 
 use gearmesh_model::{ListedField, ReducedGear, list_record};
 use gearmesh_scene::pair::SceneResult;

@@ -14,7 +14,7 @@ pub fn page(schema: &Value, kind: &str) -> String {
     };
     let _ = write!(
         page.text,
-        "# Keys of {kind} files\n\nMade by `gearmesh schema {kind} --markdown` from what the program reads; units stand in the names of the keys. \
+        "# Keys of {kind} files\n\nMade by `gearmesh schema {kind} --markdown` from what the program reads; units are part of the names of the keys. \
          Keys in **bold** must be given.\n"
     );
     match schema["anyOf"].as_array() {

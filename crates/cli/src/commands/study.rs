@@ -14,7 +14,8 @@ const MOST_LINES: usize = 50;
 
 /// Runs the command.
 pub fn run(a: &StudyArguments) -> Result<(), Failure> {
-    let study = Study::read(&a.study)?;
+    let mut study = Study::read(&a.study)?;
+    study.most_result_bytes = 1e9 * a.most_result_gb;
     let failures = match (&a.scheduler, &a.gather) {
         (None, None) => None,
         (None, Some(failures)) => Some(elsewhere::failures(failures)?),

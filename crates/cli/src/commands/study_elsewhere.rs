@@ -25,6 +25,7 @@ pub fn run(
         .arg("-o")
         .arg(&arguments.output)
         .args(["--scheduler", scheduler])
+        .args(["--most-result-GB", &arguments.most_result_gb.to_string()])
         .arg("--failures")
         .arg(&list);
     // Ctrl-C reaches the child, too, which says what becomes of the study.

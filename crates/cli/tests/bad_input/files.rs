@@ -1,31 +1,18 @@
 //! What is given as a file: devices, pipes, folders, huge files, files that are no tables; outputs that are inputs.
 
-use crate::common::{Answer, Desk, argument, changed, refused, succeeds, workshop};
+use crate::common::{Answer, Desk, argument, changed, program, refused, succeeds, workshop};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
+use std::time::Duration;
 
 /// Time after which a command counts as one that never ends.
 const FOREVER: Duration = Duration::from_secs(30);
 
 /// Starts the program in a folder; it must end by itself.
 fn ends_in(folder: &Path, arguments: &[&str]) -> Answer {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_gearmesh"))
-        .args(arguments)
-        .current_dir(folder)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let begun = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        if begun.elapsed() > FOREVER {
-            child.kill().unwrap();
-            panic!("{arguments:?} does not end");
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    child.wait_with_output().unwrap().into()
+    let mut command = program(arguments);
+    command.current_dir(folder);
+    crate::common::ends(command, FOREVER)
 }
 
 fn ends(arguments: &[&str]) -> Answer {
@@ -239,7 +226,7 @@ fn a_name_that_is_a_path_is_refused_before_the_run() {
     }
 }
 
-/// What would fill the memory is told before the first position is solved.
+/// What would fill the memory is reported before the first position is solved.
 #[test]
 fn a_run_of_too_many_positions_is_refused_by_plan_and_run() {
     let desk = Desk::new();

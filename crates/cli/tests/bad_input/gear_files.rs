@@ -392,3 +392,25 @@ fn more_modes_than_memory_holds_are_refused() {
     let answer = gearmesh(&["modes", argument(&file), "--up-to-Hz", "1e8"]);
     refused(&answer, 2, &["modes", "of them, take", "a lower frequency"]);
 }
+
+/// A relief of 12 nm is more likely one of 0.012 mm: said beside the answer, for people and for programs.
+#[test]
+fn a_relief_of_nanometres_is_a_warning() {
+    let desk = Desk::new();
+    let relief = "[microgeometry]\ntip_relief_um = 0.012\ntip_relief_start_diameter_mm = 56.0\n";
+    let gear = desk.file("gear.toml", format!("{SOLID}{relief}"));
+    let part = "microgeometry.tip_relief_um: 0.012 is unusual";
+    let answer = succeeds(&["check", argument(&gear)]);
+    assert!(
+        answer.stderr.contains("warning: ") && answer.stderr.contains(part),
+        "{answer:#?}"
+    );
+    let told = succeeds(&["check", argument(&gear), "--json"]).json();
+    assert!(
+        told["warnings"][0].as_str().unwrap().contains(part),
+        "{told}"
+    );
+    let usual = desk.file("usual.toml", SOLID);
+    let told = succeeds(&["check", argument(&usual), "--json"]).json();
+    assert_eq!(told["warnings"], serde_json::json!([]));
+}

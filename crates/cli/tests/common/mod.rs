@@ -7,8 +7,10 @@
 use serde_json::Value;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 use std::sync::OnceLock;
+use std::sync::mpsc::channel;
+use std::time::Duration;
 
 /// A solid gear with 18 teeth.
 pub const SOLID: &str = r#"name = "small solid"
@@ -101,16 +103,58 @@ impl Answer {
     }
 }
 
-/// Starts the program.
-pub fn gearmesh(arguments: &[impl AsRef<OsStr>]) -> Answer {
-    let program = env!("CARGO_BIN_EXE_gearmesh");
+/// The program with its words, not yet started. Its output is read, never inherited.
+pub fn program(arguments: &[impl AsRef<OsStr>]) -> Command {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_gearmesh"));
     // Help is folded at the width of the terminal, so the tests state one.
-    Command::new(program)
+    program
         .args(arguments)
         .env("COLUMNS", "100")
-        .output()
-        .unwrap()
-        .into()
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    program
+}
+
+/// Starts the program.
+pub fn gearmesh(arguments: &[impl AsRef<OsStr>]) -> Answer {
+    program(arguments).output().unwrap().into()
+}
+
+/// Runs a program, which must end by itself within a time.
+pub fn ends(mut program: Command, within: Duration) -> Answer {
+    let child = program.spawn().unwrap();
+    let pid = child.id();
+    let (done, waits) = channel();
+    let work = std::thread::spawn(move || {
+        let output = child.wait_with_output();
+        let _ = done.send(());
+        output
+    });
+    if waits.recv_timeout(within).is_err() {
+        send("-KILL", pid);
+        panic!("{program:?} does not end within {within:?}");
+    }
+    work.join().unwrap().unwrap().into()
+}
+
+/// Sends a signal, as `-INT`, to a process that may have ended by itself.
+pub fn send(signal: &str, process: u32) {
+    let kill = Command::new("kill")
+        .args([signal, &process.to_string()])
+        .stderr(Stdio::null())
+        .status();
+    let _ = kill.unwrap();
+}
+
+/// Starts the program and goes on.
+pub fn begin(arguments: &[impl AsRef<OsStr>]) -> Child {
+    program(arguments).spawn().unwrap()
+}
+
+/// The root of the project.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 /// Starts the program, which must succeed.

@@ -1,6 +1,7 @@
 //! Text files: gears, scenes, studies, S-N tables, tables of numbers, records.
 
-use crate::{fuzz, mutation, root};
+use crate::common::root;
+use crate::{fuzz, mutation};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_report::ReferenceRecord;

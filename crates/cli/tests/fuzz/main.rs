@@ -12,6 +12,8 @@
     missing_docs
 )]
 
+#[path = "../common/mod.rs"]
+mod common;
 #[path = "../../../scene/tests/made_up_gears/drilled_pair.rs"]
 mod drilled_pair;
 mod files;
@@ -19,20 +21,16 @@ mod mutation;
 mod numbers;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;
+mod results;
 mod trees;
 
+use common::root;
 use fastrand::Rng;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// A case that takes longer is a finding.
 const LONGEST: Duration = Duration::from_secs(10);
-
-/// The root of the project.
-pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 /// Runs the cases of a target: the regression files, then what `make` makes, `usual` cases or as long as the
 /// environment says.

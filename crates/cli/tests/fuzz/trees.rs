@@ -1,6 +1,7 @@
 //! HDF5 files with a good seal and faults inside: models whose arrays and texts were changed, and files whose bytes
 //! were.
 
+use crate::common::{ends, program};
 use crate::{fuzz, mutation};
 use fastrand::Rng;
 use gearmesh_model::synthetic::{small_crack, small_reduced_gear};
@@ -9,8 +10,7 @@ use gearmesh_model::{
     read_mesh, read_reduced_gear, write_mesh, write_reduced_gear,
 };
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 const COUNTS: [u32; 8] = [0, 1, 2, 3, 7, 1000, u32::MAX / 2, u32::MAX];
 
@@ -191,24 +191,7 @@ fn bytes_of_hdf5_files() {
     let make = |random: &mut Rng| sealed(mutation::bytes(&sound, SEAL, random));
     fuzz("hdf5", 20, make, |bytes| {
         std::fs::write(&case, bytes).unwrap();
-        let mut child = Command::new(env!("CARGO_BIN_EXE_gearmesh"))
-            .args(["check".as_ref(), case.as_os_str()])
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let begun = Instant::now();
-        let status = loop {
-            if let Some(status) = child.try_wait().unwrap() {
-                break status;
-            }
-            if begun.elapsed() > FOREVER {
-                child.kill().unwrap();
-                child.wait().unwrap();
-                panic!("does not end");
-            }
-            std::thread::sleep(Duration::from_millis(2));
-        };
-        assert!(matches!(status.code(), Some(0 | 2)), "{status}");
+        let answer = ends(program(&["check".as_ref(), case.as_os_str()]), FOREVER);
+        assert!(matches!(answer.code, Some(0 | 2)), "{answer:#?}");
     });
 }

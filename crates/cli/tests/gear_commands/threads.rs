@@ -1,14 +1,13 @@
 //! The same bits for any number of threads, and a number of threads that no machine has.
 
-use crate::common::{Answer, Desk, THIN, argument, refused};
+use crate::common::{Answer, Desk, THIN, argument, program, refused};
 use gearmesh_model::{DataTree, FileFormat, REDUCED_GEAR_FORMAT};
 use gearmesh_scene::system_run::SYSTEM_RESULT_FORMAT;
 use std::path::Path;
-use std::process::Command;
 
 fn with_threads(threads: &str, words: &[&str]) -> Answer {
-    let mut program = Command::new(env!("CARGO_BIN_EXE_gearmesh"));
-    let program = program.args(words).env("RAYON_NUM_THREADS", threads);
+    let mut program = program(words);
+    let program = program.env("RAYON_NUM_THREADS", threads);
     program.output().unwrap().into()
 }
 

@@ -1,6 +1,8 @@
 //! What a new user types first: `init`, `doctor`, `completions`, `man`.
 
-use crate::common::{Desk, argument, changed, gearmesh, names_in, refused, succeeds, workshop};
+use crate::common::{
+    Desk, argument, changed, gearmesh, names_in, program, refused, succeeds, workshop,
+};
 use std::process::Command;
 
 #[test]
@@ -117,9 +119,7 @@ fn doctor_says_where_python_is_and_what_the_variable_does() {
             .iter()
             .any(|f| f["name"] == "gmsh" && f["sound"] == true)
     );
-    let program = env!("CARGO_BIN_EXE_gearmesh");
-    let output = Command::new(program)
-        .arg("doctor")
+    let output = program(&["doctor"])
         .env("GEARMESH_PYTHON", "/no/such/python")
         .output()
         .unwrap();
@@ -137,8 +137,9 @@ fn doctor_says_where_python_is_and_what_the_variable_does() {
     // Of the archive, whose users have no cargo: alone in a folder without a Python beside or above it.
     let desk = Desk::new();
     let alone = desk.path("gearmesh");
-    std::fs::hard_link(program, &alone)
-        .or_else(|_| std::fs::copy(program, &alone).map(|_| ()))
+    let built = env!("CARGO_BIN_EXE_gearmesh");
+    std::fs::hard_link(built, &alone)
+        .or_else(|_| std::fs::copy(built, &alone).map(|_| ()))
         .unwrap();
     let output = Command::new(&alone)
         .arg("doctor")

@@ -18,7 +18,7 @@ fn centre(torque: &Value) -> [f64; 2] {
 }
 
 /// Assembly errors move the loaded pattern along the tooth and up the flank in the directions that the tooth contact analysis tells of the mean contact without
-/// load, both ways; of rigid gears whose surfaces give way, and of reduced ones.
+/// load, both ways; of rigid gears whose surfaces deflect, and of reduced ones.
 #[test]
 fn assembly_errors_move_the_loaded_pattern() {
     const ERRORS: [(&str, &str, f64); 4] = [

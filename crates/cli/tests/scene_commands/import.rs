@@ -410,7 +410,7 @@ fn bearings_of_a_bevel_stage_carry_its_forces() {
 }
 
 /// An idler that turns on a needle bearing on its axle, between two gears of 20 teeth on either side: 30 N m at the
-/// working pitch radius of 60.05 mm/3 push it the same way twice, and the axle's bearings bear what the needle bearing
+/// working pitch radius of 60.05 mm/3 push it the same way twice, and the axle's bearings carry what the needle bearing
 /// hands on.
 #[test]
 fn an_idler_on_a_bearing_loads_its_axle() {

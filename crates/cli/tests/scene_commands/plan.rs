@@ -1,9 +1,10 @@
 //! `gearmesh plan`: what it says before a run, and what it refuses.
 
-use crate::common::{Desk, argument, changed, gearmesh, refused, run_scene, succeeds, workshop};
+use crate::common::{
+    Desk, SOLID, argument, begin, changed, gearmesh, refused, run_scene, succeeds, workshop,
+};
 use crate::hybrid_scene;
 use gearmesh_scene::SceneResult;
-use std::process::{Command, Stdio};
 
 #[test]
 fn plan_counts_what_run_computes() {
@@ -75,17 +76,39 @@ fn plan_of_a_hybrid_mesh_in_a_multibody_scene() {
     }
 }
 
+/// Gears that do not run together are refused while they are gear files: before minutes go into reducing them.
+#[test]
+fn gears_of_one_hand_are_refused_before_they_are_reduced() {
+    let desk = Desk::new();
+    let helical = |hand: &str| {
+        let helix = format!("face_width_mm = 12.0\nhelix_angle_deg = 15.0\nhand = \"{hand}\"");
+        changed(SOLID, "face_width_mm = 12.0", &helix)
+    };
+    let pair = "title = \"pair\"\n[pair]\ngear_1 = \"a.h5\"\ngear_2 = \"b.h5\"\ncentre_distance_mm = 56.6\n[mesh]\nmodel = { kind = \"hybrid\" }\n\
+        [run]\ntorques_Nm = [50.0]\npitches = 1\npoints_per_pitch = 8\n";
+    let scene = desk.file("pair.toml", pair);
+    desk.file("a.toml", helical("right"));
+    desk.file("b.toml", helical("right"));
+    let output = desk.path("o.h5");
+    for words in [
+        &["check", argument(&scene)][..],
+        &["plan", argument(&scene)],
+        &["run", argument(&scene), "-o", argument(&output)],
+    ] {
+        let told = ["pair: the helices do not fit", "opposite hand"];
+        refused(&gearmesh(words), 2, &told);
+    }
+    desk.file("b.toml", helical("left"));
+    let told = ["a.h5 does not exist; make it with `gearmesh reduce"];
+    refused(&gearmesh(&["check", argument(&scene)]), 2, &told);
+}
+
 /// `gearmesh plan ... | head -0`: who reads may stop reading.
 #[test]
 fn a_reader_that_stops_reading_is_no_error() {
     let desk = Desk::new();
     let scene = desk.file("scene.toml", workshop().scene(""));
-    let mut child = Command::new(env!("CARGO_BIN_EXE_gearmesh"))
-        .args(["plan", argument(&scene)])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut child = begin(&["plan", argument(&scene)]);
     drop(child.stdout.take());
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success(), "{output:?}");

@@ -1,12 +1,11 @@
 //! `gearmesh recover`: both methods, the field of a position, results in other places.
 
 use crate::common::{
-    Desk, THIN, argument, changed, gearmesh, largest_difference, number, refused, run_scene,
-    succeeds, workshop,
+    Desk, THIN, argument, changed, gearmesh, largest_difference, number, program, refused,
+    run_scene, succeeds, workshop,
 };
 use crate::{largest, recovered};
 use gearmesh_scene::{SceneResult, StrainSeries};
-use std::process::Command;
 
 /// Recovers a scene whose driven gear has the element `element`.
 fn recovered_with_element(element: &str) -> [StrainSeries; 2] {
@@ -166,10 +165,8 @@ fn a_result_is_recovered_from_another_folder() {
     std::fs::copy(&workshop().thin, desk.path("thin.h5")).unwrap();
     let scene = changed(&workshop().scene(""), argument(&workshop().thin), "thin.h5");
     desk.file("scene.toml", scene);
-    let program = env!("CARGO_BIN_EXE_gearmesh");
     let in_folder = |folder: &Desk, arguments: &[&str]| {
-        let output = Command::new(program)
-            .args(arguments)
+        let output = program(arguments)
             .current_dir(folder.path(""))
             .output()
             .unwrap();

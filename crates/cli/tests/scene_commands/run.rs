@@ -96,7 +96,7 @@ fn slices_narrower_than_elements_change_little() {
     assert!((narrow / wide - 1.0).abs() < 0.01, "{wide} {narrow}");
 }
 
-/// With tip edges in contact the pair never gives way more than without them, gives way less at the change of pairs,
+/// With tip edges in contact the pair never deflects more than without them, deflects less at the change of pairs,
 /// and everything that reads a result copes with the further lines.
 #[test]
 fn an_extended_path_runs_through_recovery_and_report() {
@@ -170,7 +170,7 @@ fn the_transmission_error_repeats_with_the_pitch() {
     }
 }
 
-/// Ratings are printed, kept and drawn; what cannot be judged is told and does not take the run with it.
+/// Ratings are printed, kept and drawn; what cannot be judged is reported and does not take the run with it.
 #[test]
 fn a_run_is_rated() {
     let desk = Desk::new();

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! `s` from the corner: a flat punch, tilted until its far end lifts off. The mean of `ln s` over that pressure is
-//! `ln(L/4) − 1`, over a Hertz pressure `ln(a/2) − ½`: the corner gives way as under a Hertz pressure of the half width
+//! `ln(L/4) − 1`, over a Hertz pressure `ln(a/2) − ½`: the corner deflects as under a Hertz pressure of the half width
 //!
 //! ```text
 //! a_w = (L/2) e^(−1/2) = κ q/(E* δ),     κ = 2/(π √e) = 0.386

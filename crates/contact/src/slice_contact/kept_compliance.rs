@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Between stations the compliance is smooth, and its slope changes by some times itself over a flank or a slice: moves of at most [`FARTHEST_U`] and
-//! [`FARTHEST_SLICES`] leave out 1e-8 of it, 1e-13 m of teeth that give way by 10 µm. A patch that has come over a station is not near any more. Rates between
+//! [`FARTHEST_SLICES`] leave out 1e-8 of it, 1e-13 m of teeth that deflect by 10 µm. A patch that has come over a station is not near any more. Rates between
 //! patches that carry are computed where they stand, as always.
 
 use super::compliance::{Filling, Part};

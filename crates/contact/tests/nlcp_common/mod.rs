@@ -1,5 +1,6 @@
 //! Random problems and independent solvers for the tests of the complementarity problem.
 #![allow(dead_code, clippy::unwrap_used, clippy::needless_range_loop)] // each test binary uses its own part
+pub mod families;
 pub mod lemke;
 pub mod projected;
 pub mod random;

@@ -40,6 +40,35 @@ pub fn pair(tooth_1: &ToothDefinition, tooth_2: &ToothDefinition) -> GearPair {
     .unwrap()
 }
 
+/// 24 teeth in a ring of 75, module 3 mm, both hands right where the angle is positive; the planet is gear 1, or the
+/// ring.
+pub fn ring_pair(helix_deg: f64, ring_drives: bool) -> GearPair {
+    use gearmesh_geometry::definition::{Gearing, InternalRoot, PinionCutter};
+    let external = |teeth, profile_shift| ToothDefinition {
+        helix_angle_rad: helix_deg.to_radians(),
+        ..tooth(teeth, profile_shift, 0.0)
+    };
+    let cutter = PinionCutter {
+        teeth: 27,
+        profile_shift: 0.1,
+        addendum: 1.25,
+        tip_radius: 0.25,
+    };
+    let ring = ToothDefinition {
+        addendum: 0.75,
+        gearing: Gearing::Internal(InternalRoot::Cutter(cutter)),
+        ..external(75, -0.2)
+    };
+    let [planet, ring] = [external(24, 0.2), ring].map(|d| ToothGeometry::new(&d).unwrap());
+    let centre = ring.reference_radius_m - planet.reference_radius_m;
+    let [gear_1, gear_2] = if ring_drives {
+        [ring, planet]
+    } else {
+        [planet, ring]
+    };
+    GearPair::on_parallel_axes(gear_1, gear_2, centre, Misalignment::default()).unwrap()
+}
+
 /// A pair with its extended path, unmodified flanks.
 pub fn extended(pair: GearPair, edge_radius_m: f64) -> ContactLines {
     let extension = Some(PathExtension::new(&pair, edge_radius_m));
@@ -55,7 +84,9 @@ pub fn extended(pair: GearPair, edge_radius_m: f64) -> ContactLines {
 /// A body with the compliance of a cantilever tooth on a soft rim: 10 µm per 5 kN near the tip, slices and neighbouring
 /// teeth coupled, symmetric and positive definite by construction.
 pub fn made_up_gear(tooth: &ToothGeometry, face_width_m: f64, slices: usize) -> ReducedGear {
-    let (low, high) = (tooth.form_roll_rad, tooth.flank_end_roll_rad);
+    // A ring's flank ends at its smallest roll angle.
+    let (root, tip) = (tooth.form_roll_rad, tooth.flank_end_roll_rad);
+    let (low, high) = (root.min(tip), root.max(tip));
     let stations = 7;
     let axial = 2 * slices + 1;
     let grid = FlankGrid {
@@ -68,7 +99,7 @@ pub fn made_up_gear(tooth: &ToothGeometry, face_width_m: f64, slices: usize) -> 
         slices,
     };
     let height = |load: usize| {
-        let s = (grid.roll_angles_rad[load / axial] - low) / (high - low);
+        let s = (grid.roll_angles_rad[load / axial] - root) / (tip - root);
         0.3 + 0.7 * s * s
     };
     let loads = grid.len();

@@ -1,4 +1,4 @@
-//! What gives way in a bevel mesh in slices: two reduced gears, or the surfaces of rigid ones.
+//! What deflects in a bevel mesh in slices: two reduced gears, or the surfaces of rigid ones.
 
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{ContactError, HalfSpaces, LocalContact, SliceCompliance};
@@ -39,7 +39,7 @@ impl BevelSlices {
         Ok(SliceContact::new(layout, compliance, local, lines))
     }
 
-    /// The contact of rigid gears whose surfaces give way: Young's modulus \[Pa\] and Poisson's ratio of both.
+    /// The contact of rigid gears whose surfaces deflect: Young's modulus \[Pa\] and Poisson's ratio of both.
     #[must_use]
     pub fn surface_contact(&self, materials: [(f64, f64); 2]) -> SliceContact {
         let layout = *self.layout();

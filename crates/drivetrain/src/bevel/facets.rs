@@ -75,7 +75,7 @@ pub(super) struct Facets {
     fade: [f64; 2],
 }
 
-/// How deep a pair of teeth stands in each other.
+/// How deep a pair of teeth overlaps.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sunk {
     /// Below zero \[m\].
@@ -177,7 +177,7 @@ impl Facets {
         })
     }
 
-    /// Gap of a pair of teeth whose smooth flanks stand in each other; none where no place is covered.
+    /// Gap of a pair of teeth whose smooth flanks overlap; none where no place is covered.
     pub(super) fn sunk(
         &self,
         bodies: &[Placed<'_>; 2],

@@ -11,6 +11,7 @@ use gearmesh_contact::{ContactPatch, Drive, StaticContact};
 use gearmesh_geometry::Flank;
 use nalgebra::Matrix3;
 
+use super::loaded_between::between;
 use super::sliced_mesh::BevelSlices;
 use super::tooth_side::about_z;
 use crate::error::DrivetrainError;
@@ -79,8 +80,11 @@ impl LoadedPosition {
 pub struct LoadedContact {
     /// Torque on the gear \[N·m\].
     pub torque_nm: f64,
-    /// Positions over one pitch.
+    /// Even positions over one pitch.
     pub positions: Vec<LoadedPosition>,
+    /// Positions between them, by the turn: where pairs of teeth take load or give it up, and at the extremes of the
+    /// transmission error.
+    pub between: Vec<LoadedPosition>,
 }
 
 /// Largest less smallest.
@@ -96,16 +100,21 @@ impl LoadedContact {
         sum / self.positions.len() as f64
     }
 
-    /// Transmission error peak to peak \[rad\].
+    /// Even positions and those between them.
+    pub fn all_positions(&self) -> impl Iterator<Item = &LoadedPosition> + Clone {
+        self.positions.iter().chain(&self.between)
+    }
+
+    /// Transmission error peak to peak \[rad\], the positions between the even ones included.
     #[must_use]
     pub fn peak_to_peak_rad(&self) -> f64 {
-        spread(self.positions.iter().map(|p| p.error_rad))
+        spread(self.all_positions().map(|p| p.error_rad))
     }
 
     /// The same without load.
     #[must_use]
     pub fn unloaded_peak_to_peak_rad(&self) -> f64 {
-        spread(self.positions.iter().map(|p| p.unloaded_rad))
+        spread(self.all_positions().map(|p| p.unloaded_rad))
     }
 
     /// All patches of all positions.
@@ -225,7 +234,7 @@ impl LoadedPair<'_> {
         Pose::at_rest(back * apart, back * axes[1])
     }
 
-    /// Loads the pair by torques on the gear \[N·m\]; `contact`: what gives way on [`Self::side`], with all its memory.
+    /// Loads the pair by torques on the gear \[N·m\]; `contact`: what deflects on [`Self::side`], with all its memory.
     ///
     /// # Errors
     /// [`DrivetrainError::Contact`] where no contact is found or the solver does not converge.
@@ -246,12 +255,12 @@ impl LoadedPair<'_> {
             .map(|torque| LoadedContact {
                 torque_nm: *torque,
                 positions: Vec::with_capacity(self.positions),
+                between: Vec::new(),
             })
             .collect();
         for (result, torque) in found.iter_mut().zip(torques_nm) {
             let mut reach_m = FIRST_REACH_M;
-            for k in 0..self.positions {
-                let turn = -side.mirror() * (k as f64 / self.positions as f64) * pitch;
+            let mut at = |turn: f64| {
                 let (mut position, mut approach_m) = (None, 0.0);
                 for _ in 0..=DOUBLINGS {
                     let flanks = self.flanks.clone().reaching(reach_m);
@@ -272,26 +281,31 @@ impl LoadedPair<'_> {
                     }
                     reach_m *= 2.0;
                 }
-                let Some(position) = position else {
-                    return Err(DrivetrainError::Value {
-                        owner: "bevel pair under load",
-                        what: "the approach of the flanks in mm",
-                        found: 1e3 * approach_m,
-                        allowed: "less than 1.5: state smaller torques or errors of assembly",
-                    });
-                };
-                result.positions.push(position);
-            }
+                position.ok_or(DrivetrainError::Value {
+                    owner: "bevel pair under load",
+                    what: "the approach of the flanks in mm",
+                    found: 1e3 * approach_m,
+                    allowed: "less than 1.5: state smaller torques or errors of assembly",
+                })
+            };
+            let turn = |k: usize| -side.mirror() * (k as f64 / self.positions as f64) * pitch;
+            // The end of the pitch is its beginning again, one tooth on.
+            let whole: Result<Vec<_>, _> = (0..=self.positions).map(|k| at(turn(k))).collect();
+            let whole = whole?;
+            result.positions.extend_from_slice(&whole[..self.positions]);
+            result.between = between(whole, at)?;
         }
         // Zero where the gear leads most without load.
         let unloaded = found
             .iter()
-            .flat_map(|c| &c.positions)
+            .flat_map(LoadedContact::all_positions)
             .map(|p| p.unloaded_rad);
         let most = unloaded.fold(f64::NEG_INFINITY, f64::max);
-        for position in found.iter_mut().flat_map(|c| &mut c.positions) {
-            position.error_rad -= most;
-            position.unloaded_rad -= most;
+        for contact in &mut found {
+            for position in contact.positions.iter_mut().chain(&mut contact.between) {
+                position.error_rad -= most;
+                position.unloaded_rad -= most;
+            }
         }
         Ok(found)
     }

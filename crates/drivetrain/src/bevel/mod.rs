@@ -13,7 +13,7 @@
 //! | flanks divided into triangles or quadrilaterals | `facets.rs` |
 //! | the pair in slices along the teeth | `sliced_mesh.rs`, a side of it `sliced_side.rs` |
 //! | its sections once more at a pose nearby | `nearby_sections.rs` |
-//! | what gives way in it | `bevel_teeth.rs` |
+//! | what deflects in it | `bevel_teeth.rs` |
 //! | where a section across the tooth is nearest | `section_points.rs` |
 //! | the pair at rest under a torque | `loaded_contact.rs` |
 //! | length and radius of the line of contact | `line_geometry.rs` |
@@ -27,6 +27,7 @@ mod bounding_spheres;
 mod facets;
 mod hertz_stiffness;
 mod line_geometry;
+mod loaded_between;
 mod loaded_contact;
 mod nearby_sections;
 mod nearest_points;

@@ -11,13 +11,17 @@ use crate::flank_error::{FlankError, FlankPoint, Removed};
 pub struct BrokenTooth {
     tooth: usize,
     from_roll_rad: f64,
+    /// Sense in which the roll angle runs towards the tip.
+    towards_tip: f64,
 }
 
 impl BrokenTooth {
-    /// The tooth, and the radius above which it is gone \[m\]; a radius below the flank takes the whole tooth.
+    /// The tooth, and the radius from which on towards the tip it is gone \[m\]; a radius below the flank takes the
+    /// whole tooth.
     ///
     /// # Errors
-    /// [`DrivetrainError::Tooth`], or [`DrivetrainError::Value`] for a radius not between 0 and the tip.
+    /// [`DrivetrainError::Tooth`], or [`DrivetrainError::Value`] for a radius not between 0 and the tip, of a ring not
+    /// outside the tip.
     pub fn new(
         gear: &ToothGeometry,
         tooth: usize,
@@ -25,24 +29,26 @@ impl BrokenTooth {
     ) -> Result<Self, DrivetrainError> {
         let owner = "broken tooth";
         check_tooth(owner, tooth, gear.teeth)?;
-        if !(above_radius_m > 0.0 && above_radius_m < gear.tip_radius_m) {
+        if !(above_radius_m > 0.0 && gear.is_towards_tip(gear.tip_radius_m, above_radius_m)) {
             return Err(DrivetrainError::Value {
                 owner,
                 what: "the radius where it ends in m",
                 found: above_radius_m,
-                allowed: "positive and below the tip radius",
+                allowed: "positive and below the tip radius, of a ring above it",
             });
         }
         Ok(Self {
             tooth,
             from_roll_rad: involute::roll_angle_rad(above_radius_m, gear.base_radius_m),
+            towards_tip: gear.tip_direction(),
         })
     }
 }
 
 impl FlankError for BrokenTooth {
     fn removed(&self, at: FlankPoint) -> Removed {
-        if at.tooth == self.tooth && at.roll_rad > self.from_roll_rad {
+        let beyond_rad = self.towards_tip * (at.roll_rad - self.from_roll_rad);
+        if at.tooth == self.tooth && beyond_rad > 0.0 {
             Removed::EVERYTHING
         } else {
             Removed::default()

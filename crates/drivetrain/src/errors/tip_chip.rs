@@ -22,6 +22,8 @@ pub struct TipChip {
     end: FaceEnd,
     tip_radius_m: f64,
     base_radius_m: f64,
+    /// +1 where radii grow towards the tip, −1 inside a ring.
+    towards_tip: f64,
     height_m: f64,
     length_m: f64,
     half_width_m: f64,
@@ -44,6 +46,7 @@ impl TipChip {
             end,
             tip_radius_m: gear.tip_radius_m,
             base_radius_m: gear.base_radius_m,
+            towards_tip: gear.tip_direction(),
             height_m: positive(owner, "the height in m", height_m)?,
             length_m: positive(owner, "the length in m", length_m)?,
             half_width_m: 0.5 * positive(owner, "the face width in m", face_width_m)?,
@@ -61,7 +64,8 @@ impl FlankError for TipChip {
             FaceEnd::Negative => self.half_width_m + at.z_m,
         };
         let depth_here = self.height_m * (1.0 - from_face / self.length_m);
-        let below_tip = self.tip_radius_m - involute::radius_m(at.roll_rad, self.base_radius_m);
+        let radius_m = involute::radius_m(at.roll_rad, self.base_radius_m);
+        let below_tip = self.towards_tip * (self.tip_radius_m - radius_m);
         if below_tip < depth_here {
             Removed::EVERYTHING
         } else {

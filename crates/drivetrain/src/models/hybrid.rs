@@ -9,7 +9,7 @@
 //! their energy. The tangent leaves out how C itself moves the forces, about 1e-3 of it.
 //! Helical slices stand each at their own roll angle; on the rigid path those at its ends touch over a share of their width, and the change of
 //! the energy with the share is included, too.
-//! Of gears with vibration modes the compliance is C less Σ φφᵀ/ω², what their modes give way at rest.
+//! Of gears with vibration modes the compliance is C less Σ φφᵀ/ω², what their modes deflect at rest.
 //! A root crack adds to C where its tooth is in contact, by the tooth's number.
 //! Right and left flanks are solved one by one: a tooth wedged on both flanks at once does not feel itself across.
 
@@ -196,7 +196,7 @@ impl ReducedTeeth {
         }
     }
 
-    /// Takes from the compliance what the modes give way at rest.
+    /// Takes from the compliance what the modes deflect at rest.
     fn take_modes_out(&mut self, flanks: &FlankContacts) {
         for (rows, modal) in self.modal_rows.iter_mut().zip(&flanks.modal) {
             let count = modal.count();

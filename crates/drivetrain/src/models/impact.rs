@@ -64,6 +64,7 @@ pub struct Impact {
     damping_n_s_per_m: f64,
     full_depth_m: f64,
     slices: f64,
+    on_modes: bool,
 }
 
 impl Impact {
@@ -83,18 +84,39 @@ impl Impact {
             damping_n_s_per_m: not_negative(owner, "the damping in N s/m", damping_n_s_per_m)?,
             full_depth_m: positive(owner, "the depth of full damping in m", full_depth_m)?,
             slices: slices as f64,
+            on_modes: false,
         })
+    }
+
+    /// The same on flanks that vibrate: K is that of the surfaces alone, and what the modes deflect comes on top.
+    #[must_use]
+    pub fn on_modes(mut self) -> Self {
+        self.on_modes = true;
+        self
+    }
+
+    /// Penetration \[m\] at which a pair of teeth carries this force \[N\].
+    #[must_use]
+    pub fn depth_m(&self, force_n: f64) -> f64 {
+        (force_n / self.stiffness.n_per_m_e).powf(1.0 / self.stiffness.exponent)
     }
 }
 
 impl TeethModel for Impact {
+    fn acts_singly(&self) -> bool {
+        true
+    }
+
+    fn takes_modes(&self) -> bool {
+        self.on_modes
+    }
+
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,
         _tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
-        let n = flanks.contacts.len();
         for (i, contact) in flanks.contacts.iter().enumerate() {
             let depth = -contact.gap_m;
             if depth <= 0.0 {
@@ -113,8 +135,9 @@ impl TeethModel for Impact {
             loads.stored_j += stored;
             if force > 0.0 {
                 loads.normal_n[i] = force;
-                loads.stiffness_n_per_m[i * n + i] = (slope - damping_slope * rate) / slices;
-                loads.damping_n_s_per_m[i * n + i] = damping / slices;
+                let own = loads.own(i);
+                loads.stiffness_n_per_m[own] = (slope - damping_slope * rate) / slices;
+                loads.damping_n_s_per_m[own] = damping / slices;
                 loads.dissipated_w += damping * rate * rate / slices;
                 loads.energy_by_share[contact.section] -= stored / share;
             } else {

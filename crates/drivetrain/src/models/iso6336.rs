@@ -212,11 +212,13 @@ impl TeethModel for MeshSpring {
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         // All pairs of a slice have one gap here: which of them carries is where friction acts.
+        let [r1, r2] = flanks.action_m_per_u;
         let off_path = |section: &Section| -> f64 {
             let beyond = [0, 1].map(|i| section.roll_rad[i] - section.touching_roll_rad[i]);
-            beyond.iter().map(|rad| rad.max(0.0)).sum()
+            (beyond.iter().zip([r1, r2]))
+                .map(|(rad, r)| (r.signum() * rad).max(0.0))
+                .sum()
         };
-        let [r1, r2] = flanks.action_m_per_u;
         let from_middle = |section: &Section| {
             let [of_1, of_2] = section.roll_rad.map(|roll| roll - self.middle_roll_rad);
             (r1 * of_1 - r2 * of_2).abs()

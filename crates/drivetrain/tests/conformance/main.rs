@@ -18,6 +18,7 @@ mod invariance;
 #[path = "../mesh_common/mod.rs"]
 mod mesh_common;
 mod models;
+mod node_surface;
 #[path = "../../../../tests/support/property_cases.rs"]
 mod property_cases;
 mod two_bodies;

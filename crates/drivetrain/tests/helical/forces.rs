@@ -26,6 +26,7 @@ fn elastic(name: &str, pair: &GearPair) -> Box<dyn TeethModel> {
             Box::new(Impact::new(law, 0.0, 5e-6, SLICES).unwrap())
         }
         "none" => Box::new(reduced(pair, LocalContact::None)),
+        "weber-banaschek" if pair.has_ring() => Box::new(reduced_teeth(pair, Flank::Right)),
         "weber-banaschek" => Box::new(reduced(pair, LocalContact::WeberBanaschek)),
         "calibrated" => Box::new(reduced(pair, LocalContact::Calibrated)),
         other => model(other, pair, Flank::Right),
@@ -67,13 +68,20 @@ fn random_pose(pair: &GearPair, number: usize, tilt_rad: f64) -> Pose {
 /// at the ends store is felt as force.
 #[test]
 fn loads_follow_from_the_energy() {
-    let pair = helical_pair(17.0);
-    for name in ELASTIC {
+    let external = helical_pair(17.0);
+    let of_external = ELASTIC.map(|name| (&external, name));
+    // The other models do not take rings.
+    let rings = [ring_pair(15.0, false), ring_pair(-15.0, true)];
+    let of_rings = ["impact", "weber-banaschek"];
+    let with_rings = rings
+        .iter()
+        .flat_map(|pair| of_rings.map(|name| (pair, name)));
+    for (pair, name) in of_external.into_iter().chain(with_rings) {
         for ends in ENDS {
-            let mut mesh = right(&pair, ends, elastic(name, &pair));
+            let mut mesh = right(pair, ends, elastic(name, pair));
             let (mut partly, mut worst) = (0, 0.0_f64);
             for number in 0..12 {
-                let at = random_pose(&pair, number, 1e-4);
+                let at = random_pose(pair, number, 1e-4);
                 let load = mesh.evaluate(&at, false).unwrap();
                 let scale = load.load.fixed_rows::<3>(0).norm();
                 assert!(scale > 100.0, "{name} {number}: {scale}");

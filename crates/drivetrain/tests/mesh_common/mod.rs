@@ -4,6 +4,8 @@
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 pub mod pair_common;
 
+pub use pair_common::ring_pair;
+
 pub mod cracked_gear;
 pub mod made_up_bevel;
 pub mod modal_gear;
@@ -47,6 +49,22 @@ pub fn helical_pair(helix_deg: f64) -> GearPair {
     GearPair::new(gear_1, gear_2, centre, Default::default()).unwrap()
 }
 
+/// Spur pairs: external gears, a planet that drives its ring, a ring that drives its planet.
+pub fn spur_families() -> [GearPair; 3] {
+    [spur_pair(), ring_pair(0.0, false), ring_pair(0.0, true)]
+}
+
+/// Helical pairs of both hands, external and with a ring that is driven or drives.
+pub fn helical_families() -> [GearPair; 5] {
+    [
+        helical_pair(18.0),
+        helical_pair(-18.0),
+        helical_pair(33.0),
+        ring_pair(15.0, false),
+        ring_pair(-15.0, true),
+    ]
+}
+
 /// A spur and a helical pair.
 pub fn pairs() -> [GearPair; 2] {
     [spur_pair(), helical_pair(16.0)]
@@ -54,7 +72,7 @@ pub fn pairs() -> [GearPair; 2] {
 
 /// Turn of gear 2 \[rad\] with which helical flanks keep their distance when it moves by `shift_m` along its axis.
 pub fn screw_rad(pair: &GearPair, shift_m: f64) -> f64 {
-    -shift_m * pair.base_helix_angle_rad().tan() / pair.gear_2.base_radius_m
+    shift_m * pair.gear_2.twist_rad_per_m()
 }
 
 /// The made-up body of the contact tests with both flanks loaded; the two do not feel each other.
@@ -245,17 +263,23 @@ pub fn mesh(name: &str, pair: &GearPair, kinematics: MeshKinematics) -> GearMesh
 }
 
 /// Gear 1 turned by θ₁ from pair 0 at the pitch point, its flanks of `side` leading, gear 2 behind by the transmission error; parallel
-/// axes at the pair's centre distance, gear 2 on +x of the world.
+/// axes at the pair's centre distance, gear 2 on +x of the world. A ring and the gear inside touch on the far side of
+/// that gear.
 pub fn angles(pair: &GearPair, side: Flank, theta_1: f64, te_m: f64) -> [f64; 2] {
     let alpha = pair.working_pressure_angle_rad;
     let inv = involute::involute_function(alpha);
     let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
-    let at = |gear: &ToothGeometry| gear.base_half_angle_rad - inv;
+    let at = |gear: &ToothGeometry| gear.base_half_angle_rad - gear.tip_direction() * inv;
     let theta_2 = (r1 * theta_1 + te_m) / r2;
-    let sigma = side.mirror();
+    let sigma = [0, 1].map(|gear| pair.circles().side_of(gear, side).mirror());
+    let [place_1, place_2] = match (pair.gear_1.internal, pair.gear_2.internal) {
+        (false, false) => [0.0, std::f64::consts::PI],
+        (false, true) => [std::f64::consts::PI; 2],
+        _ => [0.0; 2],
+    };
     [
-        sigma * (at(&pair.gear_1) - theta_1),
-        sigma * (at(&pair.gear_2) + theta_2) + std::f64::consts::PI,
+        sigma[0] * (at(&pair.gear_1) - theta_1) + place_1,
+        sigma[1] * (at(&pair.gear_2) + theta_2) + place_2,
     ]
 }
 
@@ -273,12 +297,13 @@ pub fn pose(pair: &GearPair, phi: [f64; 2], shift: Vector3<f64>, tilt: Vector3<f
     Pose::at_rest(to_1 * u, to_1 * about(tilt, 1.0) * from_2)
 }
 
-/// Torque on gear 2 by its z at a driver angle and a transmission error.
+/// Torque on gear 2 in its own sense of turning at a driver angle and a transmission error.
 pub fn torque_2(mesh: &mut GearMesh, pair: &GearPair, theta: f64, te: f64) -> (f64, f64) {
     let phi = angles(pair, Flank::Right, theta, te);
     let at = pose(pair, phi, Vector3::zeros(), Vector3::zeros());
     let load = mesh.evaluate(&at, true).unwrap();
-    (load.load[5], load.by_position[(5, 5)])
+    let sense = pair.flank_of(1).mirror();
+    (sense * load.load[5], load.by_position[(5, 5)])
 }
 
 /// The transmission error at which the mesh carries a torque: Newton with the mesh's own tangent.

@@ -141,7 +141,7 @@ pub fn modal_gear(name: &str, tooth: &ToothGeometry) -> ReducedGear {
     }
 }
 
-/// Modal coordinates of both gears that give way at rest: Ω²η = Q(η), by Newton with the mesh's own tangent.
+/// Modal coordinates of both gears that deflect at rest: Ω²η = Q(η), by Newton with the mesh's own tangent.
 pub fn at_rest(mesh: &mut GearMesh, pose: &Pose, modes: [usize; 2]) -> (Vec<f64>, MeshLoad) {
     let m = modes[0] + modes[1];
     let omega_squared = |i: usize| {

@@ -99,7 +99,7 @@ fn bent_by_friction(mesh: &GearMesh, model: &ReducedGear, gear: usize, modes: us
     eta
 }
 
-/// With friction a `modal` gear at rest is a `reduced` one whose flanks have the shape that friction gives its modes: what teeth give way
+/// With friction a `modal` gear at rest is a `reduced` one whose flanks have the shape that friction gives its modes: what teeth deflect
 /// along the normal under a force along the profile is in no reduced gear. Loads and gauges to 1e-9.
 #[test]
 fn modal_gears_with_friction_at_rest_are_bent_reduced_gears() {
@@ -190,7 +190,7 @@ fn friction_on_a_turning_mode_is_its_moment() {
             ReducedGear {
                 modes: Some(ModalBasis {
                     nodal_diameters: vec![0],
-                    // So stiff that it gives way to nothing.
+                    // So stiff that it does not deflect.
                     omega_squared: vec![1e20],
                     complete_to_hz: 1.0,
                     flank,
@@ -305,7 +305,7 @@ pub fn check_power_of_friction(
     }
 }
 
-/// Gears whose modes without nodal diameters friction moves, one against the other: Σ φ φ_tᵀ/ω² = 0, so that at rest no flank gives way
+/// Gears whose modes without nodal diameters friction moves, one against the other: Σ φ φ_tᵀ/ω² = 0, so that at rest no flank deflects
 /// to a force along the profile, as in `reduced` gears.
 fn gears_that_bend_to_friction_in_motion_only(pair: &GearPair) -> [ReducedGear; 2] {
     models(pair).map(|mut gear| {

@@ -54,7 +54,7 @@ fn teeth_do_not_pass_through_each_other_where_flanks_are_left_out() {
     }
 }
 
-/// Flanks that are pressed into each other deeper than any tooth gives way end the run, too.
+/// Flanks that are pressed into each other deeper than any tooth deflects end the run, too.
 #[test]
 fn teeth_are_not_pressed_through_each_other() {
     let pair = spur_pair();

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! (ω − (ω·c) c = c × ċ is the rate of the tilt: a shaft that turns about its own tilted axis is not braked) (an axial
-//! support that bears one way has k_a = 0 on the other side of u_z = 0; its damping acts both ways), which is the
+//! support that carries one way has k_a = 0 on the other side of u_z = 0; its damping acts both ways), which is the
 //! gradient of ½ k_r(u_x² + u_y²) + ½ k_a u_z² + ½ k_t(c_x² + c_y²) and the same for every angle of B.
 
 use nalgebra::{SMatrix, Vector3};
@@ -26,7 +26,7 @@ pub enum AxialSupport {
     /// Both ways.
     #[default]
     Both,
-    /// Towards +z only: it bears forces on the shaft along +z.
+    /// Towards +z only: it carries forces on the shaft along +z.
     Positive,
     /// Towards −z only.
     Negative,
@@ -76,7 +76,7 @@ impl LinearBearing {
 
     /// Stiffness along the axes, at a displacement.
     fn stiffness(&self, u_z_m: f64) -> Vector3<f64> {
-        let bears = match self.axial_support {
+        let carries = match self.axial_support {
             AxialSupport::Both => true,
             AxialSupport::Positive => u_z_m > 0.0,
             AxialSupport::Negative => u_z_m < 0.0,
@@ -84,7 +84,7 @@ impl LinearBearing {
         Vector3::new(
             self.radial_stiffness_n_per_m,
             self.radial_stiffness_n_per_m,
-            if bears {
+            if carries {
                 self.axial_stiffness_n_per_m
             } else {
                 0.0

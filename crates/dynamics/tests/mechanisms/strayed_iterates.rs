@@ -110,7 +110,7 @@ fn a_guess_beyond_the_law_is_made_in_parts() {
     }
 }
 
-/// A spring that gives way: 10 N at most. Newton's whole correction from where it has hardly any stiffness left goes far beyond where it is known.
+/// A spring that deflects: 10 N at most. Newton's whole correction from where it has hardly any stiffness left goes far beyond where it is known.
 fn soft(x: f64) -> [f64; 2] {
     let (most_n, width_m) = (10.0 * std::f64::consts::FRAC_2_PI, 1e-4);
     let ratio = x / width_m;

@@ -3,7 +3,7 @@
 use super::contour_table::{ContourRoom, WebPointTable, check_contour, check_fillets};
 use super::openings_table::{HolesTable, SlotsTable, check_openings};
 use super::{MM, TableKeys};
-use crate::blank::{Blank, Contour, CutIntoShaft, LengthUnit, MeshedBody, Web};
+use crate::blank::{Blank, Contour, CutIntoShaft, LengthUnit, MeshedBody, Rim, Web};
 use crate::definition::ToothDefinition;
 use crate::input::{InputDocument, InputError};
 use crate::kinds;
@@ -23,6 +23,8 @@ pub(super) enum BlankTable {
     ThinRim(ThinRimTable),
     /// Hub and web with sloped or stepped faces.
     Contour(ContourTable),
+    /// The rim of a ring with internal teeth.
+    Ring(RingTable),
     /// The whole gear, meshed by another program.
     Mesh(MeshedTable),
 }
@@ -81,6 +83,17 @@ pub(super) struct ContourTable {
     holes: Option<HolesTable>,
 }
 
+/// The keys of `kind = "ring"`, of full width.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RingTable {
+    /// Outer diameter.
+    outer_diameter_mm: f64,
+    /// Back and front of the band of the outside at which the ring is held, from mid-face; the whole outside where not
+    /// given.
+    held_band_mm: Option<[f64; 2]>,
+}
+
 /// The keys of `kind = "mesh"`. The mesh has its openings.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -122,8 +135,18 @@ impl BlankTable {
         profile: &ToothGeometry,
     ) -> Result<Blank, InputError> {
         let keys = TableKeys::new(document, "blank");
+        if let Self::Ring(table) = &self {
+            return table.check_rim(&keys, tooth, profile);
+        }
+        if profile.internal {
+            return Err(keys.error(
+                "kind",
+                "internal teeth stand inside a ring; set kind = \"ring\" and outer_diameter_mm",
+            ));
+        }
         let root_diameter_mm = 2.0 * profile.root_radius_m / MM;
         let bore_mm = match &self {
+            Self::Ring(_) => 0.0,
             Self::Solid(table) => table.bore_diameter_mm,
             Self::ThinRim(table) => table.bore_diameter_mm,
             Self::Contour(table) => table.bore_diameter_mm,
@@ -153,6 +176,7 @@ impl BlankTable {
                 let (contour, web) = table.check_contour(&keys, &room)?;
                 (Some((web, Some(contour))), table.slots, table.holes)
             }
+            Self::Ring(_) => (None, None, None),
             Self::Mesh(table) => {
                 let meshed = table.check_meshed(document, &keys)?;
                 if tooth.helix_angle_rad != 0.0 {
@@ -261,6 +285,60 @@ impl SolidTable {
         Ok(Blank::CutIntoShaft(CutIntoShaft {
             hole_radius_m: 0.5 * hole * MM,
             end_radii_m: ends.map(|d| 0.5 * d * MM),
+        }))
+    }
+}
+
+impl RingTable {
+    /// The rim outside the root circle.
+    fn check_rim(
+        &self,
+        keys: &TableKeys,
+        tooth: &ToothDefinition,
+        profile: &ToothGeometry,
+    ) -> Result<Blank, InputError> {
+        if !profile.internal {
+            return Err(keys.error(
+                "kind",
+                "\"ring\" is the body of internal teeth; give a negative number of teeth or choose another kind",
+            ));
+        }
+        let root_mm = 2.0 * profile.root_radius_m / MM;
+        let least_mm = root_mm + tooth.module_m / MM;
+        // Elements are about a module long: beyond this the rim is a plate whose outside no tooth feels.
+        let most_mm = 10.0 * root_mm;
+        let outer_mm = self.outer_diameter_mm;
+        keys.require(
+            "outer_diameter_mm",
+            outer_mm,
+            outer_mm >= least_mm && outer_mm <= most_mm,
+            &format!(
+                "{least_mm:.3} to {most_mm:.3}: at least the root diameter {root_mm:.3} and one module, so that the rim is half a module thick"
+            ),
+        )?;
+        let half_mm = 0.5 * tooth.face_width_m / MM;
+        let thinnest_mm = LEAST_WALL * tooth.module_m / MM;
+        if let Some([back, front]) = self.held_band_mm {
+            for (i, z) in [back, front].into_iter().enumerate() {
+                let flush = z.abs() == half_mm;
+                let clear = z.abs() <= half_mm - thinnest_mm;
+                keys.require(
+                    &format!("held_band_mm.{i}"),
+                    z,
+                    flush || clear,
+                    &format!("-{half_mm} to {half_mm}, at a face or {thinnest_mm:.4} inside of it"),
+                )?;
+            }
+            keys.require(
+                "held_band_mm.1",
+                front,
+                front - back >= thinnest_mm,
+                &format!("{thinnest_mm:.4} or more above the back, {back}"),
+            )?;
+        }
+        Ok(Blank::Ring(Rim {
+            outer_radius_m: 0.5 * outer_mm * MM,
+            held_z_m: self.held_band_mm.map(|band| band.map(|z| z * MM)),
         }))
     }
 }

@@ -102,7 +102,9 @@ pub(super) fn check_mesh(
     if gear.crack.is_none() {
         return Ok(());
     }
-    let problem = if gear.blank.meshed().is_some() {
+    let problem = if gear.blank.rim().is_some() {
+        "cracks are made in external teeth only; remove [crack]"
+    } else if gear.blank.meshed().is_some() {
         "a crack is cut into gearmesh's own mesh, blank.kind = \"mesh\" has none; remove [crack]"
     } else if gear.mesh.element == Element::Tet10 {
         "a crack follows the sides of hexahedra, and this gear is meshed in tetrahedra; set mesh.element to one of hexahedra or remove [crack]"

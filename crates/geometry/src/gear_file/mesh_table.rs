@@ -18,7 +18,7 @@ pub(super) struct MeshTable {
     element: Option<Element>,
     /// Element length along the flank; 0.3 modules where not given, twice that in tetrahedra.
     flank_mm: Option<f64>,
-    /// Element length along the root fillet; 0.08 modules where not given, twice that in tetrahedra.
+    /// Element length along the root fillet; 0.04 modules where not given, 0.08 of quadratic bricks (`hex20`), 0.16 of tetrahedra.
     fillet_mm: Option<f64>,
     /// Largest element length in the body; 1.2 modules where not given, twice that in tetrahedra.
     body_mm: Option<f64>,
@@ -100,6 +100,14 @@ impl MeshTable {
                     "a gear cut into its shaft is meshed in hexahedra; choose one of them";
                 return Err(keys.error("element", problem));
             }
+        }
+        if blank.rim().is_some() && self.element == Some(Element::Tet10) {
+            let problem = "a ring is meshed in hexahedra; choose one of them";
+            return Err(keys.error("element", problem));
+        }
+        if self.plane_strain && blank.rim().is_some_and(|rim| rim.held_z_m.is_some()) {
+            let problem = "plane strain knows no band of the outside; remove blank.held_band_mm or set plane_strain = false";
+            return Err(keys.error("plane_strain", problem));
         }
         if self.plane_strain && blank.web().is_some() {
             return Err(keys.error(

@@ -41,8 +41,11 @@ fn bound(schema: &mut Value, largest: f64) -> bool {
     };
     if !schema.contains_key("type") {
         let parts = schema.get_mut("anyOf").and_then(Value::as_array_mut);
-        let parts = parts.into_iter().flatten();
-        return parts.fold(false, |any, part| bound(part, largest) || any);
+        let mut any = false;
+        for part in parts.into_iter().flatten() {
+            any |= bound(part, largest);
+        }
+        return any;
     }
     if is(schema, "array") {
         return schema

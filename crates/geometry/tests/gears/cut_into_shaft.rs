@@ -19,7 +19,7 @@ fn it_is_held_at_its_faces() {
     assert_eq!(shaft.end_radii_m, [0.0, 0.015]);
     assert!((shaft.hole_radius_m - 0.024 / 40.0).abs() < 1e-12);
     assert_eq!(
-        (found.blank.bore_radius_m(), found.blank.inner_radius_m()),
+        (found.blank.bore_radius_m(), found.blank.edge_radius_m()),
         (0.0, shaft.hole_radius_m)
     );
     // As thick as the root diameter less three modules.

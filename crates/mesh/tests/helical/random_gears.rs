@@ -118,7 +118,7 @@ fn exact_area(gear: &GearDefinition, points: u32) -> f64 {
         let (inner, outer) = o.radii_m();
         o.count() as f64 * PI * (0.5 * (outer - inner)).powi(2)
     });
-    2.0 * half * gear.tooth.teeth as f64 - PI * gear.blank.inner_radius_m().powi(2) - openings
+    2.0 * half * gear.tooth.teeth as f64 - PI * gear.blank.edge_radius_m().powi(2) - openings
 }
 
 /// Area between a polygon and the chord from its first point to its last \[m²\].
@@ -152,7 +152,7 @@ fn circle_segments_m2(gear: &GearDefinition, mesh: &GearMesh) -> f64 {
     let cut_off = |radius: f64, sides: f64| {
         PI * radius.powi(2) - 0.5 * sides * radius.powi(2) * (TAU / sides).sin()
     };
-    let bore = cut_off(gear.blank.inner_radius_m(), mesh.section.bore.len() as f64);
+    let bore = cut_off(gear.blank.edge_radius_m(), mesh.section.bore.len() as f64);
     let holes = gear.blank.openings().map_or(0.0, |o| {
         let (inner, outer) = o.radii_m();
         o.count() as f64 * cut_off(0.5 * (outer - inner), 8.0)
@@ -238,7 +238,7 @@ proptest! {
         prop_assert!(owners.iter().all(|&n| n == 1));
         for n in mesh.bore() {
             let [x, y, _] = at(n);
-            prop_assert!((x.hypot(y) - definition.blank.inner_radius_m()).abs() < 1e-11 * size);
+            prop_assert!((x.hypot(y) - definition.blank.edge_radius_m()).abs() < 1e-11 * size);
         }
         // Right flanks by their own formula, left ones by the mirrored one.
         let g = &definition.profile;

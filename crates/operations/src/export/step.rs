@@ -83,6 +83,10 @@ impl Solid {
                     left_out: Vec::new(),
                 })
             }
+            AnyGear::Cylindrical(gear) if gear.profile.internal => Err(Failure::input(format!(
+                "{}: a ring with internal teeth, of which no solid is made; `gearmesh mesh` writes its mesh",
+                path.display()
+            ))),
             AnyGear::Cylindrical(gear) => Ok(Self {
                 description: description(&gear),
                 left_out: left_out(&gear),

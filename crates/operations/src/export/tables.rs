@@ -3,13 +3,12 @@
 use super::ExportRequest;
 use crate::answer::Answer;
 use crate::failure::Failure;
-use crate::uff;
 use crate::watch::Watch;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::write_streamed;
 use gearmesh_report::export::{
-    ExportError, Table, functions, pair_tables, study_table, system_tables, write_csv, write_mat,
-    write_parquet,
+    ExportError, Table, pair_tables, study_table, system_tables, write_csv, write_mat,
+    write_parquet, write_universal,
 };
 use gearmesh_scene::ResultFile;
 use serde_json::json;
@@ -47,7 +46,7 @@ pub(super) fn write(a: &ExportRequest, ending: &str, watch: &Watch<'_>) -> Resul
             let all = chosen.map_or(&tables[..], |place| &tables[place..=place]);
             stream(&|out| write_mat(all, out))?;
         }
-        _ => write_functions(a, first, watch)?,
+        _ => stream(&|out| write_functions(a, first, out))?,
     }
     let written: Vec<&Table<'_>> = match (ending, chosen) {
         (".mat", None) => tables.iter().collect(),
@@ -78,18 +77,20 @@ pub(super) fn write(a: &ExportRequest, ending: &str, watch: &Watch<'_>) -> Resul
     })
 }
 
-/// A table as functions over its axis.
-fn write_functions(a: &ExportRequest, table: &Table<'_>, watch: &Watch<'_>) -> Result<(), Failure> {
-    let functions = functions(table)?;
-    if functions.is_empty() {
-        return Err(Failure::input(format!(
-            "{}: table `{}` holds no functions over an axis; a universal file takes the curves of a pair, the rows of a run in time and the windows of a sweep",
-            a.result.display(),
-            table.name
-        )));
+/// Writes a table as functions over its axis; what has none is refused, and nothing written.
+fn write_functions(
+    a: &ExportRequest,
+    table: &Table<'_>,
+    out: &mut dyn Write,
+) -> Result<(), ExportError> {
+    let title = a.result.file_stem().unwrap_or_default().to_string_lossy();
+    let program = format!("gearmesh {}", env!("CARGO_PKG_VERSION"));
+    match write_universal(table, (&title, &program), out)? {
+        0 => Err(ExportError::NoFunctions {
+            table: table.name.clone(),
+        }),
+        _ => Ok(()),
     }
-    let title = a.result.file_stem().unwrap_or_default();
-    uff::write(&a.output, &title.to_string_lossy(), &functions, watch)
 }
 
 /// What tables are made of.
@@ -131,7 +132,7 @@ impl Opened {
 fn blame(error: ExportError, output: &Path) -> Failure {
     match error {
         ExportError::File(error) => Failure::work(error),
-        ExportError::TooLarge { .. } => Failure::input(error),
+        ExportError::TooLarge { .. } | ExportError::NoFunctions { .. } => Failure::input(error),
         ExportError::Csv(_) | ExportError::Write(_) | ExportError::Parquet(_) => {
             Failure::work(format!("cannot write {}: {error}", output.display()))
         }

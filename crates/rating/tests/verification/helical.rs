@@ -176,7 +176,7 @@ fn the_pressure_is_that_of_iso_6336_2() {
     }
 }
 
-/// The narrower gear bears the force: a wider mate changes nothing, whichever of the two it is.
+/// The narrower gear carries the force: a wider mate changes nothing, whichever of the two it is.
 #[test]
 fn a_wider_mate_changes_nothing() {
     let load = LoadPoint::HighestSingleContact;

@@ -14,6 +14,7 @@ mod near_field;
 mod pinion_with_stubs;
 mod random_blanks;
 mod reduction;
+mod rings;
 mod root_crack;
 mod small_gears;
 mod tetrahedra;

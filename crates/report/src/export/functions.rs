@@ -1,12 +1,11 @@
 //! A table as functions over one axis, as measuring programs hold them (universal files, data set 58).
 
-use super::Table;
-use gearmesh_model::FileError;
+use super::{ExportError, Table};
 use gearmesh_scene::system_run::unit_in_name;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// Values over an axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Function {
     /// Column of the table, with the unit in its name.
     pub name: String,
@@ -31,13 +30,16 @@ const FUNCTIONS: [(&str, &str, Option<&str>); 3] = [
     ("windows", "speed_rad_per_s", Some("up")),
 ];
 
-/// The functions of a table: its columns of numbers over the axis, each torque or way of a sweep by itself. Values
-/// that are not there, and functions of less than two values, are left out; empty for a table without an axis
-/// (contact, modes, ratings).
+/// Gives the functions of a table to `take`, one after the other: its columns of numbers over the axis, each torque or way
+/// of a sweep by itself. Values that are not there, and functions of less than two values, are left out; a table without
+/// an axis (contact, modes, ratings) has none. Axis and one column are in memory.
 ///
 /// # Errors
-/// [`FileError`] if a column cannot be read.
-pub fn functions(table: &Table<'_>) -> Result<Vec<Function>, FileError> {
+/// [`ExportError::File`] if a column cannot be read; those of `take`.
+pub fn for_each_function(
+    table: &Table<'_>,
+    take: &mut dyn FnMut(Function) -> Result<(), ExportError>,
+) -> Result<(), ExportError> {
     let numbers = |wanted: &str| {
         let column = table.columns.iter().find(|(name, _)| name == wanted);
         let numbers = column.map(|(_, cells)| cells.numbers(0..cells.rows()));
@@ -45,16 +47,15 @@ pub fn functions(table: &Table<'_>) -> Result<Vec<Function>, FileError> {
     };
     let kind = FUNCTIONS.iter().find(|(name, ..)| *name == table.name);
     let Some((_, axis, group)) = kind else {
-        return Ok(Vec::new());
+        return Ok(());
     };
     let Some(x) = numbers(axis)? else {
-        return Ok(Vec::new());
+        return Ok(());
     };
     let groups = match group {
         Some(group) => numbers(group)?,
         None => None,
     };
-    let mut found = Vec::new();
     // Rows of one group follow each other.
     let mut first = 0;
     while first < x.len() {
@@ -68,27 +69,27 @@ pub fn functions(table: &Table<'_>) -> Result<Vec<Function>, FileError> {
             if name == axis || Some(&**name) == *group {
                 continue;
             }
-            let Some(values) = cells.numbers(0..x.len())? else {
+            let Some(values) = cells.numbers(first..end)? else {
                 continue;
             };
-            let there = |row: &usize| values[*row].is_finite();
-            let rows: Vec<usize> = (first..end).filter(there).collect();
-            if rows.len() < 2 {
+            let own = x[first..end].iter().copied().zip(values.iter().copied());
+            let (x, y): (Vec<f64>, Vec<f64>) = own.filter(|(_, value)| value.is_finite()).unzip();
+            if y.len() < 2 {
                 continue;
             }
-            found.push(Function {
+            take(Function {
                 name: name.clone(),
                 condition: condition.clone(),
                 unit: unit_of(name).to_owned(),
                 axis: (*axis).to_owned(),
                 axis_unit: unit_in_name(axis).to_owned(),
-                x: rows.iter().map(|row| x[*row]).collect(),
-                y: rows.iter().map(|row| values[*row]).collect(),
-            });
+                x,
+                y,
+            })?;
         }
         first = end;
     }
-    Ok(found)
+    Ok(())
 }
 
 /// The unit of a column; of a sweep's figure (`… mean`) that of its column.
@@ -102,6 +103,16 @@ fn unit_of(name: &str) -> &'static str {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+
+    fn functions(table: &Table<'_>) -> Vec<Function> {
+        let mut found = Vec::new();
+        for_each_function(table, &mut |function| {
+            found.push(function);
+            Ok(())
+        })
+        .unwrap();
+        found
+    }
 
     fn table(name: &str, columns: &[(&str, &[f64])]) -> Table<'static> {
         let mut table = Table::new(name);
@@ -121,7 +132,7 @@ mod tests {
                 ("te_m", &[1.0, f64::NAN, 3.0, 4.0, 5.0]),
             ],
         );
-        let found = functions(&curves).unwrap();
+        let found = functions(&curves);
         let shown: Vec<_> = (found.iter())
             .map(|f| {
                 (
@@ -152,11 +163,11 @@ mod tests {
                 ("elements/mesh/force_N largest", &[1.0, 2.0, 3.0, 4.0]),
             ],
         );
-        let found = functions(&windows).unwrap();
+        let found = functions(&windows);
         assert_eq!(found.len(), 2);
         assert_eq!((&*found[1].unit, &*found[1].condition), ("N", "up = 0"));
         assert_eq!(found[1].x, [2.0, 1.0]);
         let none = table("contact", &[("angle_rad", &[0.0, 1.0])]);
-        assert!(functions(&none).unwrap().is_empty());
+        assert!(functions(&none).is_empty());
     }
 }

@@ -15,7 +15,7 @@ const CELLS: [usize; 2] = [160, 120];
 
 /// The picture and the space round it for the axes, in its own units.
 const SIZE: [f64; 2] = [640.0, 360.0];
-const MARGIN: f64 = 56.0;
+const MARGIN: f64 = 76.0;
 
 /// Decades below the largest value that are told apart, and colours of a decade.
 const DECADES: usize = 4;
@@ -112,7 +112,7 @@ impl MapChart {
             "<figure class=\"polar map\">\n<figcaption>{title}</figcaption>\n\
              <svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{name}\">\n",
             wide + 2.0 * MARGIN,
-            high + 1.5 * MARGIN
+            high + 64.0
         );
         let _ = writeln!(
             page,
@@ -187,7 +187,7 @@ impl MapChart {
             let _ = write!(
                 page,
                 "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-                bottom + 15.0,
+                bottom + 22.0,
                 on_axis(value, step)
             );
             value += step;
@@ -197,7 +197,7 @@ impl MapChart {
                 page,
                 "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
                 MARGIN + 0.5 * wide,
-                bottom + 15.0,
+                bottom + 22.0,
                 short(from)
             );
         }
@@ -217,9 +217,9 @@ impl MapChart {
         let _ = writeln!(
             page,
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\
-             <text x=\"14\" y=\"{:.1}\" text-anchor=\"middle\" transform=\"rotate(-90 14 {3:.1})\">{}</text>",
+             <text x=\"20\" y=\"{:.1}\" text-anchor=\"middle\" transform=\"rotate(-90 20 {3:.1})\">{}</text>",
             MARGIN + 0.5 * wide,
-            bottom + 34.0,
+            bottom + 48.0,
             named(&self.axes[0]),
             8.0 + 0.5 * high,
             named(&self.axes[1])
@@ -302,7 +302,7 @@ mod tests {
         assert_eq!(html.matches("<path").count(), 1, "{html}");
         let brightest = colour(DECADES * SHADES - 1);
         // From the third of four rows over the whole width.
-        let row = format!("<path d=\"M56.0 188.0h640.0v-90.0h-640.0z\" fill=\"{brightest}\"");
+        let row = format!("<path d=\"M76.0 188.0h640.0v-90.0h-640.0z\" fill=\"{brightest}\"");
         assert!(html.contains(&row), "{html}");
     }
 

@@ -62,6 +62,14 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
                 format!("{owner}, force in world axes"),
                 stem.replace('_', " "),
             ),
+            // One chart an axis for all balls of a bearing.
+            "elements" if unit == "m/s²" && stem.contains("_acceleration_") => {
+                let (ball, axis) = stem.split_once("_acceleration_").unwrap_or((stem, ""));
+                (
+                    format!("{owner}, acceleration along {axis} of the balls"),
+                    ball.replace('_', " "),
+                )
+            }
             "elements" => (
                 format!("{owner}, {}", quantity(unit)),
                 stem.replace('_', " "),

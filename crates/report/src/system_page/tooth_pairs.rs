@@ -1,4 +1,5 @@
-//! Pairs of bevel teeth in a run: the force of each, where on the flanks it acted, path of contact and ellipses.
+//! Pairs of teeth in a run: the force of each; of bevel teeth that touch in points where on the flanks it acted, path
+//! of contact and ellipses.
 
 use gearmesh_model::FileError;
 use gearmesh_scene::system_run::{MeshPassing, MeshRecord, SystemResult};
@@ -26,8 +27,8 @@ struct Touch {
     /// On gear 1 and gear 2: shares along the face and up the flank.
     places: [[f64; 2]; 2],
     pressure_pa: f64,
-    /// On both gears long and short half axis, as shares.
-    axes: [[[f64; 2]; 2]; 2],
+    /// On both gears long and short half axis, as shares; none where slices were summed.
+    axes: Option<[[[f64; 2]; 2]; 2]>,
 }
 
 /// A section for each mesh whose pairs have columns.
@@ -39,7 +40,7 @@ pub(super) fn sections(
     for passing in passings {
         let mesh = &passing.mesh;
         let touches = read(r, &mesh.name)?;
-        if !touches.is_empty() && mesh.flank_corners_m.len() == 16 {
+        if !touches.is_empty() {
             found.push(section(r, passing, mesh, &touches)?);
         }
     }
@@ -65,7 +66,8 @@ fn read(r: &SystemResult, mesh: &str) -> Result<Vec<Touch>, FileError> {
         let places = [of_gear(1)?, of_gear(2)?];
         let pressures = column("pressure_Pa")?;
         let mut axes = Vec::new();
-        for gear in [1, 2] {
+        let has_ellipses = has(&name("long_along_1"));
+        for gear in [1, 2].into_iter().filter(|_| has_ellipses) {
             for axis in ["long", "short"] {
                 for way in ["along", "height"] {
                     axes.push(column(&format!("{axis}_{way}_{gear}"))?);
@@ -84,7 +86,8 @@ fn read(r: &SystemResult, mesh: &str) -> Result<Vec<Touch>, FileError> {
                     force_n: forces[row],
                     places: [0, 1].map(|gear: usize| [0, 1].map(|k: usize| places[gear][k][row])),
                     pressure_pa: pressures[row],
-                    axes: [0, 1].map(|gear| [0, 1].map(|axis| at(gear, axis))),
+                    axes: has_ellipses
+                        .then(|| [0, 1].map(|gear| [0, 1].map(|axis| at(gear, axis)))),
                 });
             }
         }
@@ -108,7 +111,12 @@ fn section(
                 Ellipses are Hertz' under the forces of the run, cut off at the edges; pressure that edges concentrate is not in them.";
     let mut section = Section::new(format!("{}: teeth of {}", r.head.title, mesh.name))
         .push(figures)
-        .push(forces(r, passing, touches)?)
+        .push(forces(r, passing, touches)?);
+    if touches[0].axes.is_none() {
+        let summed = "The force of a pair is the sum of its slices. How it spreads along the face is in the columns line_load_slice_….";
+        return Ok(section.push(Text::paragraph(summed)));
+    }
+    section = section
         .push(Text::paragraph(moved(mesh, touches)))
         .push(Text::paragraph(text));
     let path = last_passage(r, touches)?;
@@ -254,8 +262,15 @@ impl Flank {
         let [across, up] = CELLS;
         let mut cells = vec![0.0_f64; across * up];
         for touch in touches {
-            let (place, axes) = (touch.places[self.gear], &touch.axes[self.gear]);
-            spread(&mut cells, place, axes, 1e-6 * touch.pressure_pa);
+            let place = touch.places[self.gear];
+            if let Some(axes) = &touch.axes {
+                spread(
+                    &mut cells,
+                    place,
+                    &axes[self.gear],
+                    1e-6 * touch.pressure_pa,
+                );
+            }
         }
         let nodes = (0..=up).flat_map(|j| (0..=across).map(move |i| (i, j)));
         let nodes =
@@ -276,7 +291,10 @@ impl Flank {
         let mut chart = FlankChart::new(title, self.corners_mm.clone());
         let every = path.len().div_ceil(ELLIPSES).max(1);
         for touch in path.iter().skip(every / 2).step_by(every) {
-            let ([long, short], place) = (touch.axes[self.gear], touch.places[self.gear]);
+            let Some(axes) = &touch.axes else {
+                continue;
+            };
+            let ([long, short], place) = (axes[self.gear], touch.places[self.gear]);
             let corner = |k: usize| {
                 let angle = std::f64::consts::TAU * k as f64 / CORNERS as f64;
                 let (sin, cos) = angle.sin_cos();
@@ -346,7 +364,7 @@ mod tests {
             force_n,
             places: [place; 2],
             pressure_pa: 0.0,
-            axes: [[[0.0; 2]; 2]; 2],
+            axes: Some([[[0.0; 2]; 2]; 2]),
         };
         let touches = [touch(1.0, [0.2, 1.0]), touch(3.0, [0.6, 0.2])];
         let (place, tips) = mean_place(&Flank::new(&corners, 0), &touches);

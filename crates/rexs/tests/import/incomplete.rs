@@ -19,7 +19,7 @@ fn what_stands_in_the_middle_of_a_gear_acts_on_the_gear() {
     }
 }
 
-/// Two shafts with teeth and loads, and no bearing: both are held at both ends, which is told.
+/// Two shafts with teeth and loads, and no bearing: both are held at both ends, which is reported.
 #[test]
 fn shafts_without_bearings_are_held() {
     let text = changed(&small(), "type=\"concept_bearing\"", "type=\"seal\"");
@@ -51,7 +51,7 @@ fn gears_without_a_place_face_their_mates() {
     ));
 }
 
-/// Stage and shafts that state different centre distances are told.
+/// Stage and shafts that state different centre distances are reported.
 #[test]
 fn a_centre_distance_that_the_shafts_do_not_have_is_told() {
     let made = read(&changed(&small(), "unit=\"mm\">62<", "unit=\"mm\">63<"));

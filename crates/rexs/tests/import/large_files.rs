@@ -3,15 +3,18 @@
 use gearmesh_rexs::{Import, Meshes, import};
 use std::fmt::Write;
 
-/// Components of each file.
-const COUNT: usize = 40_000;
-/// What a component may cost: 10⁵ of them in 5 s.
-const MOST_US: f64 = 50.0;
+/// Components of each file, about.
+const COUNT: usize = 4_000;
 
-/// Time that this thread has computed \[s\]: what else the machine does is not in it.
-fn own_s() -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap();
-    text.split(' ').next().unwrap().parse::<f64>().unwrap() * 1e-9
+/// Imports a file of as many components as it is told, and of twice as many: what the import looks at doubles. A
+/// part of it that grew with the square and made up a tenth of the smaller file's looks would add a fifth.
+fn grows_linearly(make: impl Fn(usize) -> Import) {
+    let [once, twice] = [COUNT, 2 * COUNT].map(|count| make(count).visits as f64);
+    let ratio = twice / once;
+    assert!(
+        (1.9..2.1).contains(&ratio),
+        "{once} looks, {twice} at twice as many components: {ratio:.4} times"
+    );
 }
 
 #[derive(Default)]
@@ -83,302 +86,327 @@ impl File {
         self.relate("assembly", &[(shaft, "assembly"), (id, "part")]);
     }
 
-    /// Imports it, in time: components and references cost the same each, however many there are.
-    fn read(&self, what: &str) -> Import {
+    fn read(&self) -> Import {
         let text = format!(
             "<model version=\"1.4\"><relations>\n{}</relations><components>\n{}</components></model>",
             self.relations, self.components
         );
-        let bytes = text.into_bytes();
-        let begun = own_s();
-        let made = import(bytes, "box", Meshes::Iso6336).unwrap();
-        let each_us = 1e6 * (own_s() - begun) / self.next as f64;
-        assert!(
-            each_us < MOST_US,
-            "{what}: {each_us:.1} us a component, {} of them",
-            self.next
-        );
-        made
+        import(text.into_bytes(), "box", Meshes::Iso6336).unwrap()
     }
 }
 
 /// Shafts that carry a load each and nothing else.
 #[test]
 fn lone_shafts() {
-    let mut file = File::default();
-    for i in 0..COUNT / 2 {
-        let shaft = file.shaft(i as f64);
-        file.load(shaft, 0.0);
-    }
-    assert_eq!(file.read("lone shafts").scenes.len(), 1);
+    grows_linearly(|number| {
+        let mut file = File::default();
+        for i in 0..number / 2 {
+            let shaft = file.shaft(i as f64);
+            file.load(shaft, 0.0);
+        }
+        let made = file.read();
+        assert_eq!(made.scenes.len(), 1);
+        made
+    });
 }
 
 #[test]
 fn sections_of_one_shaft() {
-    let mut file = File::default();
-    let shaft = file.shaft(0.0);
-    file.load(shaft, 1.0);
-    for i in 0..COUNT {
-        let of = |x: f64| x.to_string();
-        // Half of them drawn over others.
-        let start = 0.5 * (i / 2) as f64;
-        let piece = [
-            ("length", "mm", of(0.5)),
-            ("u_coordinate_on_shaft", "mm", of(start)),
-            ("outer_diameter_begin", "mm", of(300.0 + (i % 5) as f64)),
-        ];
-        let id = file.component("shaft_section", &piece);
-        file.relate("assembly", &[(shaft, "assembly"), (id, "part")]);
-    }
-    file.read("sections of one shaft");
+    grows_linearly(|number| {
+        let mut file = File::default();
+        let shaft = file.shaft(0.0);
+        file.load(shaft, 1.0);
+        for i in 0..number {
+            let of = |x: f64| x.to_string();
+            // Half of them drawn over others.
+            let start = 0.5 * (i / 2) as f64;
+            let piece = [
+                ("length", "mm", of(0.5)),
+                ("u_coordinate_on_shaft", "mm", of(start)),
+                ("outer_diameter_begin", "mm", of(300.0 + (i % 5) as f64)),
+            ];
+            let id = file.component("shaft_section", &piece);
+            file.relate("assembly", &[(shaft, "assembly"), (id, "part")]);
+        }
+        file.read()
+    });
 }
 
 #[test]
 fn gears_on_one_shaft() {
-    let mut file = File::default();
-    let shaft = file.shaft(0.0);
-    for i in 0..COUNT {
-        file.gear(shaft, 6.0 * i as f64);
-    }
-    file.load(shaft, 1.0);
-    assert_eq!(file.read("gears on one shaft").gears.len(), COUNT);
+    grows_linearly(|number| {
+        let mut file = File::default();
+        let shaft = file.shaft(0.0);
+        for i in 0..number {
+            file.gear(shaft, 6.0 * i as f64);
+        }
+        file.load(shaft, 1.0);
+        let made = file.read();
+        assert_eq!(made.gears.len(), number);
+        made
+    });
 }
 
 /// A train of as many stages as there are shafts, whose places follow from each other, the last one first.
 #[test]
 fn a_train_of_many_stages() {
-    let mut file = File::default();
-    let count = COUNT / 4;
-    let shafts: Vec<usize> = (0..count).map(|_| file.component("shaft", &[])).collect();
-    let gears: Vec<usize> = shafts.iter().map(|&shaft| file.gear(shaft, 20.0)).collect();
-    for pair in gears.windows(2).rev() {
-        let stage = file.component(
-            "cylindrical_stage",
-            &[("center_distance", "mm", "62".to_owned())],
-        );
-        file.relate(
-            "stage",
-            &[(stage, "stage"), (pair[0], "gear_1"), (pair[1], "gear_2")],
-        );
-    }
-    for &shaft in &shafts {
-        for u in ["2", "38"] {
-            let bearing = file.component(
-                "concept_bearing",
-                &[("u_coordinate_on_shaft_inner_side", "mm", u.to_owned())],
+    grows_linearly(|number| {
+        let mut file = File::default();
+        let count = number / 4;
+        let shafts: Vec<usize> = (0..count).map(|_| file.component("shaft", &[])).collect();
+        let gears: Vec<usize> = shafts.iter().map(|&shaft| file.gear(shaft, 20.0)).collect();
+        for pair in gears.windows(2).rev() {
+            let stage = file.component(
+                "cylindrical_stage",
+                &[("center_distance", "mm", "62".to_owned())],
             );
             file.relate(
-                "side",
-                &[
-                    (bearing, "assembly"),
-                    (shaft, "inner_part"),
-                    (0, "outer_part"),
-                ],
+                "stage",
+                &[(stage, "stage"), (pair[0], "gear_1"), (pair[1], "gear_2")],
             );
         }
-    }
-    // The casing.
-    file.components
-        .push_str("<component id=\"0\" type=\"gear_casing\" name=\"casing\"></component>\n");
-    file.load(shafts[0], 1.0);
-    file.load(
-        shafts[count - 1],
-        if count.is_multiple_of(2) { 1.0 } else { -1.0 },
-    );
-    let made = file.read("a train of many stages");
-    assert_eq!(made.sheets[0].meshes.len(), count - 1);
+        for &shaft in &shafts {
+            for u in ["2", "38"] {
+                let bearing = file.component(
+                    "concept_bearing",
+                    &[("u_coordinate_on_shaft_inner_side", "mm", u.to_owned())],
+                );
+                file.relate(
+                    "side",
+                    &[
+                        (bearing, "assembly"),
+                        (shaft, "inner_part"),
+                        (0, "outer_part"),
+                    ],
+                );
+            }
+        }
+        // The casing.
+        file.components
+            .push_str("<component id=\"0\" type=\"gear_casing\" name=\"casing\"></component>\n");
+        file.load(shafts[0], 1.0);
+        file.load(
+            shafts[count - 1],
+            if count.is_multiple_of(2) { 1.0 } else { -1.0 },
+        );
+        let made = file.read();
+        assert_eq!(made.sheets[0].meshes.len(), count - 1);
+        made
+    });
 }
 
 #[test]
 fn attributes_of_one_component() {
-    let mut file = File::default();
-    let shaft = file.shaft(0.0);
-    file.load(shaft, 1.0);
-    let names: Vec<String> = (0..COUNT).map(|i| format!("further_{i}")).collect();
-    let attributes: Vec<(&str, &str, String)> = names
-        .iter()
-        .map(|n| (n.as_str(), "mm", "1".to_owned()))
-        .collect();
-    file.component("gear_casing", &attributes);
-    file.next += attributes.len();
-    let made = file.read("attributes of one component");
-    assert!(made.ledger.not_represented.len() >= COUNT);
+    grows_linearly(|number| {
+        let mut file = File::default();
+        let shaft = file.shaft(0.0);
+        file.load(shaft, 1.0);
+        let names: Vec<String> = (0..number).map(|i| format!("further_{i}")).collect();
+        let attributes: Vec<(&str, &str, String)> = names
+            .iter()
+            .map(|n| (n.as_str(), "mm", "1".to_owned()))
+            .collect();
+        file.component("gear_casing", &attributes);
+        file.next += attributes.len();
+        let made = file.read();
+        assert!(made.ledger.not_represented.len() >= number);
+        made
+    });
 }
 
 /// More than 1000 places that are given from each other are no circle.
 #[test]
 fn chains_of_references() {
-    let mut file = File::default();
-    for i in 0..COUNT {
-        let from = if i == 0 { 1 } else { i };
-        let place = "<array><c>0</c><c>1</c><c>0</c></array>".to_owned();
-        let kind = if i == 0 { "gear_unit" } else { "shaft" };
-        let id = file.component(
-            kind,
-            &[
-                ("support_vector", "mm", place),
-                ("reference_component_for_position", "none", from.to_string()),
-            ],
+    grows_linearly(|number| {
+        let mut file = File::default();
+        for i in 0..number {
+            let from = if i == 0 { 1 } else { i };
+            let place = "<array><c>0</c><c>1</c><c>0</c></array>".to_owned();
+            let kind = if i == 0 { "gear_unit" } else { "shaft" };
+            let id = file.component(
+                kind,
+                &[
+                    ("support_vector", "mm", place),
+                    ("reference_component_for_position", "none", from.to_string()),
+                ],
+            );
+            assert_eq!(id, i + 1);
+        }
+        file.load(number, 1.0);
+        let made = file.read();
+        let scene = &made.files[0].text;
+        assert!(
+            scene.contains(&format!("origin_mm = [0.0, {number}.0, 0.0]")),
+            "{scene}"
         );
-        assert_eq!(id, i + 1);
-    }
-    file.load(COUNT, 1.0);
-    let made = file.read("chains of references");
-    let scene = &made.files[0].text;
-    assert!(
-        scene.contains(&format!("origin_mm = [0.0, {COUNT}.0, 0.0]")),
-        "{scene}"
-    );
+        made
+    });
 }
 
 /// Shafts of as many directions: against the first one along its line a shaft may run the other way.
 #[test]
 fn shafts_of_many_directions() {
-    let mut file = File::default();
-    for i in 0..COUNT / 2 {
-        let around = 0.7 * i as f64;
-        let up = 2.0 * (i as f64 + 0.5) / (COUNT / 2) as f64 - 1.0;
-        let across = (1.0 - up * up).sqrt();
-        let place = format!("<array><c>0</c><c>{i}</c><c>0</c></array>");
-        let [x, y] = [across * around.cos(), across * around.sin()];
-        let u = format!("<array><c>{x}</c><c>{y}</c><c>{up}</c></array>");
-        let w = format!("<array><c>{}</c><c>{}</c><c>0</c></array>", -y, x);
-        let shaft = file.component(
-            "shaft",
-            &[
-                ("support_vector", "mm", place),
-                ("u_axis_vector", "mm", u),
-                ("w_axis_vector", "mm", w),
-            ],
-        );
-        file.load(shaft, 0.0);
-    }
-    file.read("shafts of many directions");
+    grows_linearly(|number| {
+        let mut file = File::default();
+        for i in 0..number / 2 {
+            let around = 0.7 * i as f64;
+            let up = 2.0 * (i as f64 + 0.5) / (number / 2) as f64 - 1.0;
+            let across = (1.0 - up * up).sqrt();
+            let place = format!("<array><c>0</c><c>{i}</c><c>0</c></array>");
+            let [x, y] = [across * around.cos(), across * around.sin()];
+            let u = format!("<array><c>{x}</c><c>{y}</c><c>{up}</c></array>");
+            let w = format!("<array><c>{}</c><c>{}</c><c>0</c></array>", -y, x);
+            let shaft = file.component(
+                "shaft",
+                &[
+                    ("support_vector", "mm", place),
+                    ("u_axis_vector", "mm", u),
+                    ("w_axis_vector", "mm", w),
+                ],
+            );
+            file.load(shaft, 0.0);
+        }
+        file.read()
+    });
 }
 
 /// Gears that are cut into one shaft, from its far end on, and a section for each.
 #[test]
 fn gears_cut_into_a_shaft_backwards() {
-    let mut file = File::default();
-    let shaft = file.shaft(0.0);
-    for i in (0..COUNT / 2).rev() {
-        let of = |x: f64| x.to_string();
-        file.gear(shaft, 6.0 * i as f64 + 0.5);
-        let piece = [
-            ("length", "mm", of(6.0)),
-            ("u_coordinate_on_shaft", "mm", of(6.0 * i as f64)),
-            ("outer_diameter_begin", "mm", of(55.0)),
-        ];
-        let id = file.component("shaft_section", &piece);
-        file.relate("assembly", &[(shaft, "assembly"), (id, "part")]);
-    }
-    file.load(shaft, 1.0);
-    assert_eq!(file.read("gears cut into a shaft").gears.len(), COUNT / 2);
+    grows_linearly(|number| {
+        let mut file = File::default();
+        let shaft = file.shaft(0.0);
+        for i in (0..number / 2).rev() {
+            let of = |x: f64| x.to_string();
+            file.gear(shaft, 6.0 * i as f64 + 0.5);
+            let piece = [
+                ("length", "mm", of(6.0)),
+                ("u_coordinate_on_shaft", "mm", of(6.0 * i as f64)),
+                ("outer_diameter_begin", "mm", of(55.0)),
+            ];
+            let id = file.component("shaft_section", &piece);
+            file.relate("assembly", &[(shaft, "assembly"), (id, "part")]);
+        }
+        file.load(shaft, 1.0);
+        let made = file.read();
+        assert_eq!(made.gears.len(), number / 2);
+        made
+    });
 }
 
 /// Gears that turn loose on a shaft of many sections: no hub takes the sections with it.
 #[test]
 fn loose_gears_on_a_shaft_of_many_sections() {
-    let mut file = File::default();
-    let shaft = file.shaft(0.0);
-    for i in 0..COUNT / 4 {
-        let of = |x: f64| x.to_string();
-        let gear = file.gear(shaft, 6.0 * i as f64);
-        let clutch = file.component(
-            "switchable_coupling",
-            &[("is_engaged", "none", "false".to_owned())],
-        );
-        file.relate(
-            "side",
-            &[(clutch, "assembly"), (shaft, "side_1"), (gear, "side_2")],
-        );
-        let piece = [
-            ("length", "mm", of(6.0)),
-            ("outer_diameter_begin", "mm", of(20.0)),
-        ];
-        let id = file.component("shaft_section", &piece);
-        file.relate("assembly", &[(shaft, "assembly"), (id, "part")]);
-    }
-    file.load(shaft, 1.0);
-    let made = file.read("loose gears");
-    assert_eq!(made.gears.len(), COUNT / 4);
+    grows_linearly(|number| {
+        let mut file = File::default();
+        let shaft = file.shaft(0.0);
+        for i in 0..number / 4 {
+            let of = |x: f64| x.to_string();
+            let gear = file.gear(shaft, 6.0 * i as f64);
+            let clutch = file.component(
+                "switchable_coupling",
+                &[("is_engaged", "none", "false".to_owned())],
+            );
+            file.relate(
+                "side",
+                &[(clutch, "assembly"), (shaft, "side_1"), (gear, "side_2")],
+            );
+            let piece = [
+                ("length", "mm", of(6.0)),
+                ("outer_diameter_begin", "mm", of(20.0)),
+            ];
+            let id = file.component("shaft_section", &piece);
+            file.relate("assembly", &[(shaft, "assembly"), (id, "part")]);
+        }
+        file.load(shaft, 1.0);
+        let made = file.read();
+        assert_eq!(made.gears.len(), number / 4);
+        made
+    });
 }
 
 /// Members that share one stage of many planets.
 #[test]
 fn a_stage_of_many_planets() {
-    let mut file = File::default();
-    let (carrier, sun_shaft, ring_shaft) = (file.shaft(0.0), file.shaft(0.0), file.shaft(0.0));
-    let sun = file.gear(sun_shaft, 0.0);
-    let ring = file.component(
-        "ring_gear",
-        &[("number_of_teeth", "none", "-93".to_owned())],
-    );
-    file.relate("assembly", &[(ring_shaft, "assembly"), (ring, "part")]);
-    let stage = file.component("planetary_stage", &[]);
-    file.relate(
-        "planet_carrier_shaft",
-        &[(stage, "planetary_stage"), (carrier, "shaft")],
-    );
-    for i in 0..COUNT / 6 {
-        let pin = file.shaft(i as f64);
-        file.relate("planet_pin", &[(stage, "planetary_stage"), (pin, "shaft")]);
-        let planet = file.gear(pin, 0.0);
-        for mate in [sun, ring] {
-            let pair = file.component("cylindrical_stage", &[]);
-            file.relate(
-                "stage",
-                &[(pair, "stage"), (planet, "gear_1"), (mate, "gear_2")],
-            );
-            file.relate("assembly", &[(stage, "assembly"), (pair, "part")]);
+    grows_linearly(|number| {
+        let mut file = File::default();
+        let (carrier, sun_shaft, ring_shaft) = (file.shaft(0.0), file.shaft(0.0), file.shaft(0.0));
+        let sun = file.gear(sun_shaft, 0.0);
+        let ring = file.component(
+            "ring_gear",
+            &[("number_of_teeth", "none", "-93".to_owned())],
+        );
+        file.relate("assembly", &[(ring_shaft, "assembly"), (ring, "part")]);
+        let stage = file.component("planetary_stage", &[]);
+        file.relate(
+            "planet_carrier_shaft",
+            &[(stage, "planetary_stage"), (carrier, "shaft")],
+        );
+        for i in 0..number / 6 {
+            let pin = file.shaft(i as f64);
+            file.relate("planet_pin", &[(stage, "planetary_stage"), (pin, "shaft")]);
+            let planet = file.gear(pin, 0.0);
+            for mate in [sun, ring] {
+                let pair = file.component("cylindrical_stage", &[]);
+                file.relate(
+                    "stage",
+                    &[(pair, "stage"), (planet, "gear_1"), (mate, "gear_2")],
+                );
+                file.relate("assembly", &[(stage, "assembly"), (pair, "part")]);
+            }
         }
-    }
-    for shaft in [carrier, sun_shaft] {
-        file.load(shaft, 1.0);
-    }
-    file.read("a stage of many planets");
+        for shaft in [carrier, sun_shaft] {
+            file.load(shaft, 1.0);
+        }
+        file.read()
+    });
 }
 
 /// A relation that names every component is none of the format, and is reported.
 #[test]
 fn a_relation_of_all_components() {
-    let mut file = File::default();
-    let shaft = file.shaft(0.0);
-    file.load(shaft, 1.0);
-    let mut all = vec![(shaft, "assembly")];
-    for i in 0..COUNT {
-        let kind = if i % 2 == 0 { "shaft" } else { "shaft_section" };
-        all.push((file.component(kind, &[]), "part"));
-    }
-    file.relate("assembly", &all);
-    let made = file.read("a relation of all components");
-    let told = made.ledger.not_represented.iter();
-    assert!({ told }.any(|e| e.text.contains(&format!("names {} components", COUNT + 1))));
+    grows_linearly(|number| {
+        let mut file = File::default();
+        let shaft = file.shaft(0.0);
+        file.load(shaft, 1.0);
+        let mut all = vec![(shaft, "assembly")];
+        for i in 0..number {
+            let kind = if i % 2 == 0 { "shaft" } else { "shaft_section" };
+            all.push((file.component(kind, &[]), "part"));
+        }
+        file.relate("assembly", &all);
+        let made = file.read();
+        let told = made.ledger.not_represented.iter();
+        assert!({ told }.any(|e| e.text.contains(&format!("names {} components", number + 1))));
+        made
+    });
 }
 
 /// Two shafts joined by rings of stages: each ring is a loop, whose torques depend on stiffness.
 #[test]
 fn a_ladder_of_loops() {
-    let mut file = File::default();
-    let shafts: Vec<usize> = (0..COUNT / 4)
-        .map(|i| file.shaft(62.0 * i as f64))
-        .collect();
-    for (i, pair) in shafts.windows(2).enumerate() {
-        let [a, b] = [pair[0], pair[1]];
-        let coupled = |file: &mut File, a, b| {
-            let coupling = file.component("coupling", &[]);
-            file.relate(
-                "side",
-                &[(coupling, "assembly"), (a, "side_1"), (b, "side_2")],
-            );
-        };
-        coupled(&mut file, a, b);
-        // A second way back to the first shaft closes a loop over all that is between.
-        if i % 2 == 1 {
-            coupled(&mut file, shafts[0], b);
+    grows_linearly(|number| {
+        let mut file = File::default();
+        let shafts: Vec<usize> = (0..number / 4)
+            .map(|i| file.shaft(62.0 * i as f64))
+            .collect();
+        for (i, pair) in shafts.windows(2).enumerate() {
+            let [a, b] = [pair[0], pair[1]];
+            let coupled = |file: &mut File, a, b| {
+                let coupling = file.component("coupling", &[]);
+                file.relate(
+                    "side",
+                    &[(coupling, "assembly"), (a, "side_1"), (b, "side_2")],
+                );
+            };
+            coupled(&mut file, a, b);
+            // A second way back to the first shaft closes a loop over all that is between.
+            if i % 2 == 1 {
+                coupled(&mut file, shafts[0], b);
+            }
         }
-    }
-    file.load(shafts[0], 1.0);
-    file.load(shafts[shafts.len() - 1], -1.0);
-    file.read("a ladder of loops");
+        file.load(shafts[0], 1.0);
+        file.load(shafts[shafts.len() - 1], -1.0);
+        file.read()
+    });
 }

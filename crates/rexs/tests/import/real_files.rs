@@ -208,7 +208,7 @@ fn places_from_components_that_are_not_there_are_told() {
     ));
 }
 
-/// Two spectra whose cases have the same numbers: a scene for each case, and values of components that are not there are told.
+/// Two spectra whose cases have the same numbers: a scene for each case, and values of components that are not there are reported.
 #[test]
 fn cases_of_several_spectra() {
     let case = |id: usize, torque: &str| {

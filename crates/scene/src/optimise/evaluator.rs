@@ -12,9 +12,10 @@ use super::file::{Judged, Optimisation};
 use crate::study::{
     BaseScene, Case, Design, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, Setting,
     StudyError, Subject, VaryError, Wanted, evaluate, is_without_load, known_columns, number,
-    probabilities, seeded,
+    probabilities, result_size, seeded,
 };
 use crate::system::Run;
+use crate::system_run::demand_result_size;
 
 /// A choice of the variables that was tried.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,6 +111,10 @@ impl<'a> Evaluator<'a> {
         if tables.from_s > 0.0 && !is_in_time(&scene) {
             let told = "belongs to a multibody scene whose run is \"transient\"; remove it";
             return Err(problem.document.error("from_s", told).into());
+        }
+        if let Some(size) = result_size(&scene)? {
+            let sized = ("the result of each trial", size.bytes());
+            demand_result_size((&problem.document, ""), sized, problem.most_result_bytes)?;
         }
         let (known, kinds) = known_columns(&scene, &this.rest)?;
         for (i, objective) in tables.objective.iter().enumerate() {

@@ -1,5 +1,6 @@
 //! The file: variables with bounds, what scatters, what is to be small.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::InputError;
@@ -9,6 +10,7 @@ use serde::Deserialize;
 
 use crate::study::{NormalTable, OperationTable, UniformTable};
 use crate::system::label_problem;
+use crate::system_run::MOST_RESULT_BYTES;
 
 /// The keys of the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -18,7 +20,7 @@ pub struct OptimiseTables {
     pub title: String,
     /// What is varied, relative to this file: a scene of a gear pair, a multibody scene, a bevel pair or a bearing.
     pub scene: PathBuf,
-    /// With a bearing: what it bears. Its keys vary as "operation.load_N.2".
+    /// With a bearing: what it carries. Its keys vary as "operation.load_N.2".
     pub operation: Option<OperationTable>,
     /// Run "transient": figures are those from this time on; 0 where not given.
     #[serde(default)]
@@ -130,6 +132,8 @@ pub struct Optimisation {
     pub document: InputDocument,
     /// The file's folder.
     pub folder: PathBuf,
+    /// Largest result of a trial of a multibody scene \[bytes\]; [`MOST_RESULT_BYTES`] where nobody allows more.
+    pub most_result_bytes: f64,
 }
 
 impl Optimisation {
@@ -174,6 +178,7 @@ impl Optimisation {
                 }
             }
         }
+        demand_each_once(&document, &tables.variable)?;
         for (i, variable) in tables.variable.iter().enumerate() {
             keys_of(&document, &format!("variable.{i}"), &variable.keys)?;
             let ordered = variable.from.is_finite() && variable.to.is_finite();
@@ -209,6 +214,7 @@ impl Optimisation {
             tables,
             document,
             folder: folder.to_path_buf(),
+            most_result_bytes: MOST_RESULT_BYTES,
         };
         this.demand_counts()?;
         Ok(this)
@@ -245,11 +251,14 @@ impl Optimisation {
                 "belongs to several objectives; there is one; remove it",
             );
         }
+        // A simplex has a corner more than there are variables, and a swarm before it as many trials.
+        let least = LEAST_TRIALS.max(2 * (self.tables.variable.len() + 1));
         let all = trials.saturating_mul(self.searches());
-        if *trials < LEAST_TRIALS || all > MOST_TRIALS {
+        if *trials < least || all > MOST_TRIALS {
             let problem = format!(
-                "found {trials} in {} searches, allowed are {LEAST_TRIALS} and more, {MOST_TRIALS} in all",
-                self.searches()
+                "found {trials} in {} searches, allowed are {least} and more of {} variables, {MOST_TRIALS} in all",
+                self.searches(),
+                self.tables.variable.len()
             );
             return error("trials", &problem);
         }
@@ -273,6 +282,32 @@ impl Optimisation {
         }
         self.tables.scatter_samples.unwrap_or(8)
     }
+}
+
+/// Two variables with one name cannot be told apart in the tables; of two that set one key, one would be without effect.
+fn demand_each_once(
+    document: &InputDocument,
+    variables: &[VariableTable],
+) -> Result<(), InputError> {
+    let (mut names, mut keys) = (BTreeMap::new(), BTreeMap::new());
+    for (i, variable) in variables.iter().enumerate() {
+        if let Some(first) = names.insert(&variable.name, i) {
+            let problem = format!(
+                "`{}` is the name of variable.{first}, too; names must differ",
+                variable.name
+            );
+            return Err(document.error(&format!("variable.{i}.name"), problem));
+        }
+        for key in &variable.keys {
+            if let Some(first) = keys.insert(key, i) {
+                let problem = format!(
+                    "`{key}` is set by variable.{first} already; a key belongs to one variable"
+                );
+                return Err(document.error(&format!("variable.{i}.keys"), problem));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn keys_of(document: &InputDocument, at: &str, keys: &[String]) -> Result<(), InputError> {

@@ -80,7 +80,7 @@ impl LoadedScene {
         (Cow::Owned(placed), lines)
     }
 
-    /// Patches with their forces `[line][slice]` as gear 1 or gear 2 bears them.
+    /// Patches with their forces `[line][slice]` as gear 1 or gear 2 carries them.
     pub fn loaded_slices<'a>(
         &'a self,
         gear: usize,

@@ -4,7 +4,14 @@
 //! Means go over the even grid and whole periods, extremes over all positions: those between the even ones, too
 //! (`between_positions.rs`).
 
+use std::path::Path;
+
+use gearmesh_contact::ContactZone;
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::InputDocument;
+
 use super::result::SceneResult;
+use super::scene_file::Scene;
 
 /// Figures of one torque.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +58,20 @@ pub struct FigureErrors {
 }
 
 impl SceneResult {
+    /// Width over which the faces of the gears overlap \[m\].
+    ///
+    /// # Errors
+    /// [`InputError`] where a gear file or the scene inside the result is not understood.
+    pub fn overlap_width_m(&self) -> Result<f64, InputError> {
+        let mut widths = [0.0; 2];
+        for (width, gear) in widths.iter_mut().zip(&self.gears) {
+            *width = gear.definition_in("the result")?.tooth.face_width_m;
+        }
+        let scene = InputDocument::new("scene in result", &self.scene_toml);
+        let offset_m = Scene::from_document(scene, Path::new("."))?.axial_offset_m;
+        Ok(ContactZone::new(widths, offset_m).width_m)
+    }
+
     /// The figures of a torque.
     #[must_use]
     pub fn figures(&self, torque: usize) -> PairFigures {

@@ -16,9 +16,9 @@ use gearmesh_contact::{
     AxialSpread, ContactError, ContactLines, ContactPatch, FlankDeviations, PathExtension, Runout,
     SliceLayout, StaticContact,
 };
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
-use gearmesh_model::{FileError, ReducedGear, ReducedGearError, utc_now};
+use gearmesh_model::{FileError, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
 use gearmesh_recovery::GaugeReader;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -111,6 +111,7 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
 /// # Errors
 /// As [`load`].
 pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, RunError> {
+    demand_gears_that_fit(&scene)?;
     let read = |key: &str, path: &Path| -> Result<(ShelvedModel, GearDefinition), RunError> {
         if !path.exists() {
             let problem = format!(
@@ -230,6 +231,34 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         model_digests,
         condensed: shelf.condensed(),
     })
+}
+
+/// Where models are not there yet, the gear files of the same names beside them say whether the gears run together: told
+/// before minutes go into reducing them.
+///
+/// # Errors
+/// [`InputError`] for gears that do not run together, as two of one hand.
+fn demand_gears_that_fit(scene: &Scene) -> Result<(), InputError> {
+    let models = [&scene.gear_1, &scene.gear_2];
+    if models.iter().all(|path| path.exists()) {
+        return Ok(());
+    }
+    let stated = |path: &Path| -> Option<GearDefinition> {
+        if path.exists() {
+            let model = read_reduced_gear(path).ok()?;
+            return model.input.definition_in(path.display()).ok().cloned();
+        }
+        let file = path.with_extension("toml");
+        let document = InputDocument::read(&file).ok()?;
+        GearDefinition::from_document(&document).ok()
+    };
+    let [Some(gear_1), Some(gear_2)] = models.map(|path| stated(path)) else {
+        return Ok(());
+    };
+    let (distance_m, misalignment) = (scene.centre_distance_m, scene.misalignment);
+    GearPair::new(gear_1.profile, gear_2.profile, distance_m, misalignment)
+        .map_err(|error| scene.document.error("pair", error))?;
+    Ok(())
 }
 
 impl LoadedScene {

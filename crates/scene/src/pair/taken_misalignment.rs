@@ -1,5 +1,5 @@
 //! `pair.misalignment_from`: the axes of a pair as a static run of its gearbox has found them, with shafts and bearings
-//! that give way.
+//! that deflect.
 
 use std::path::{Path, PathBuf};
 

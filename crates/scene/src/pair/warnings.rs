@@ -56,7 +56,7 @@ impl Assumption {
                 value * 100.0
             ),
             Self::SmallDeflection => format!(
-                "small deflection: the teeth give way by {:.2} % of the base pitch (above 1 % contact starts far outside the line of action)",
+                "small deflection: the teeth deflect by {:.2} % of the base pitch (above 1 % contact starts far outside the line of action)",
                 value * 100.0
             ),
             Self::LocalTermCapped => format!(

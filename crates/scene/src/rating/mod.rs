@@ -3,7 +3,7 @@
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
-//! | what stands in `[[rating]]` | [`RatingTable`] | `table.rs`, `sn_table_file.rs` |
+//! | what is in `[[rating]]` | [`RatingTable`] | `table.rs`, `sn_table_file.rs` |
 //! | what is made of a stress history | [`FatigueJob`] | `fatigue_job.rs` |
 //! | what is made of the largest force | [`nominal_figures`] | `nominal_figures.rs` |
 //! | what is made of a bearing's loads | [`BearingLifeJob`] | `bearing_life.rs` |

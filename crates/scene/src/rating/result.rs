@@ -113,7 +113,7 @@ const KINDS: [(&str, &str, &str); 39] = [
     (
         "largest_force_N",
         "N",
-        "largest normal force, which one tooth is taken to bear alone at its root",
+        "largest normal force, which one tooth is taken to carry alone at its root",
     ),
     ("lewis_factor_gear1", "1", "Lewis's form factor Y of gear 1"),
     ("lewis_factor_gear2", "1", "Lewis's form factor Y of gear 2"),

@@ -19,7 +19,7 @@ use serde::Deserialize;
 /// A megapascal in pascals.
 const MPA: f64 = 1e6;
 
-/// `[[rating]]` as it stands in the file.
+/// `[[rating]]` as written in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "RatingTable")]

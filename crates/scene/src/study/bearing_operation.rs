@@ -1,4 +1,4 @@
-//! `operation`: what a bearing that is studied by itself bears, and how it turns.
+//! `operation`: what a bearing that is studied by itself carries, and how it turns.
 
 use gearmesh_bearings::life::Lubrication;
 use gearmesh_bearings::{AppliedBearingLoad, Control, Operation, TiltCondition};

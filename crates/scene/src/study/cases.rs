@@ -20,7 +20,7 @@ use super::varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};
 use crate::bevel_load::BevelLoadError;
 use crate::pair::RunError;
 use crate::system::SystemScene;
-use crate::system_run::{Figures, SystemRunError};
+use crate::system_run::{Figures, SystemRunError, demand_result_size};
 
 /// Why a study could not be run.
 #[derive(Debug, thiserror::Error)]
@@ -163,7 +163,7 @@ pub struct StudyScenes {
 }
 
 impl StudyScenes {
-    /// Makes the scenes of all cases: a wrong key is told before the first run, not after it. `out`: the folder of the
+    /// Makes the scenes of all cases: a wrong key is reported before the first run, not after it. `out`: the folder of the
     /// study, of which only the name is used.
     ///
     /// # Errors
@@ -205,10 +205,12 @@ impl StudyScenes {
         })
     }
 
-    /// Checks the columns that the study asks for: those of the scene as it is.
+    /// Checks the columns that the study asks for: those of the scene as it is; and that its results are not larger than
+    /// is allowed.
     ///
     /// # Errors
-    /// [`StudyError`] for a column that is not there, with near names, and for a scene that cannot be loaded.
+    /// [`StudyError`] for a column that is not there, with near names, for a scene that cannot be loaded, and for results
+    /// that are too large.
     pub fn check_columns(&self, study: &Study, rest: &RestCases) -> Result<(), StudyError> {
         let (known, kinds) = known_columns(&self.base, rest)?;
         for (number, one) in study.wanted().iter().enumerate() {
@@ -219,7 +221,29 @@ impl StudyScenes {
                     .into());
             }
         }
+        let what = match self.scenes.len() {
+            1 => "the result of its case".to_owned(),
+            count => format!("the results of its {count} cases together"),
+        };
+        let sized = (what.as_str(), self.result_bytes()?);
+        demand_result_size((&study.document, ""), sized, study.most_result_bytes)?;
         Ok(())
+    }
+
+    /// Bytes of the rows of all results, nearly all of them; 0 of what is at rest, which keeps its figures only.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a scene that cannot be loaded.
+    pub fn result_bytes(&self) -> Result<f64, StudyError> {
+        let Some(size) = system_cases::result_size(&self.base)? else {
+            return Ok(0.0);
+        };
+        let systems = self.scenes.iter().filter_map(|scene| match scene {
+            Subject::System(scene) => Some(scene),
+            _ => None,
+        });
+        // Cases have the columns of the scene as it is.
+        Ok(systems.map(|scene| size.with_rows_of(scene).bytes()).sum())
     }
 }
 

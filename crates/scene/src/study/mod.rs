@@ -51,4 +51,5 @@ pub use rest_cases::{RestCases, RestFigures};
 pub use scatter::{NormalTable, SpacedTable, UniformTable};
 pub use study_file::{ParameterTable, Study, StudyTables};
 pub use subject::{BearingSubject, BevelSubject, SeriesOver, Subject};
+pub(crate) use system_cases::result_size;
 pub use varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};

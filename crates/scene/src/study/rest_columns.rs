@@ -133,8 +133,9 @@ pub(super) fn of_bearing(subject: &BearingSubject) -> Result<Vec<f64>, BearingEr
     let bearing = QuasiStaticBearing::new(definition)?;
     bearing.refuse_spalled_balls()?;
     let operation = &subject.operation;
-    let pose = bearing.equilibrium(&operation.load, &operation.operation)?;
-    let (ring, loads) = bearing.loads(&pose, &operation.operation)?;
+    let (pose, mut places) =
+        bearing.equilibrium_with_places(&operation.load, &operation.operation)?;
+    let (ring, loads) = bearing.loads_from(&pose, &operation.operation, &mut places)?;
     let ratings = Ratings::of(definition);
     let lubrication = operation.lubrication.as_ref();
     let force = operation.load.force_n;

@@ -12,6 +12,7 @@ use super::design::{self, Case, Design};
 use super::figure::Wanted;
 use super::scatter::{NormalTable, SpacedTable, UniformTable};
 use crate::system::label_problem;
+use crate::system_run::MOST_RESULT_BYTES;
 
 /// The keys of the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -22,7 +23,7 @@ pub struct StudyTables {
     /// What is varied, relative to this file: a scene of a gear pair, a multibody scene of any run, a bevel pair (its tooth contact
     /// analysis) or a bearing.
     pub scene: PathBuf,
-    /// With a bearing: what it bears. Its keys vary as "operation.load_N.2".
+    /// With a bearing: what it carries. Its keys vary as "operation.load_N.2".
     pub operation: Option<OperationTable>,
     /// How the parameters are combined; "one-at-a-time" where not given.
     #[serde(default)]
@@ -150,6 +151,8 @@ pub struct Study {
     pub document: InputDocument,
     /// The file's folder.
     pub folder: PathBuf,
+    /// Largest size of the results of all cases together \[bytes\]; [`MOST_RESULT_BYTES`] where nobody allows more.
+    pub most_result_bytes: f64,
 }
 
 /// Cases beyond which a study is refused: a mistake, or a task for a cluster.
@@ -206,6 +209,7 @@ impl Study {
             tables,
             document,
             folder: folder.to_path_buf(),
+            most_result_bytes: MOST_RESULT_BYTES,
         };
         let count = study.case_count();
         if count.is_none_or(|count| count > MOST_CASES) {

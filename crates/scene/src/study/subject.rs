@@ -34,7 +34,7 @@ pub struct BevelSubject {
     pub document: InputDocument,
 }
 
-/// A bearing file and what the bearing bears.
+/// A bearing file and what the bearing carries.
 #[derive(Debug, Clone)]
 pub struct BearingSubject {
     /// What the file holds.

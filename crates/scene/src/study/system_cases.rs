@@ -11,10 +11,11 @@ use super::cases::{Selected, SelectedValue, StudyError};
 use super::elsewhere::SentCase;
 use super::figure::{Figure, FigureKinds, RATINGS, Wanted, line_amplitude, resonance};
 use super::study_file::Study;
+use super::subject::Subject;
 use crate::rating::figure_names;
 use crate::system::{SystemScene, unknown};
 use crate::system_run::{
-    Figures, Outcome, ResultKind, RunHead, RunJob, RunKind, RunOptions, SystemResult,
+    Figures, Outcome, ResultKind, ResultSize, RunHead, RunJob, RunKind, RunOptions, SystemResult,
     SystemRunError, Window, inputs, recorded_columns, run,
 };
 
@@ -54,6 +55,18 @@ pub(super) fn column_names(scene: &SystemScene) -> Result<(Vec<String>, FigureKi
     });
     let all = columns.map(|column| column.name).chain(of_ratings);
     Ok((all.collect(), kinds))
+}
+
+/// Rows and columns of the result of a multibody scene; none where it keeps none.
+///
+/// # Errors
+/// [`StudyError`] for a scene that cannot be built.
+pub(crate) fn result_size(subject: &Subject) -> Result<Option<ResultSize>, StudyError> {
+    let Subject::System(scene) = subject else {
+        return Ok(None);
+    };
+    let job = RunJob::from_scene(scene.clone().load()?)?;
+    Ok(ResultSize::of(&job))
 }
 
 /// Runs a case, or waits for the other study in the same folder that is at it; none if it was stopped.

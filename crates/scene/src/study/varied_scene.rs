@@ -62,7 +62,7 @@ pub struct BaseScene {
 
 impl BaseScene {
     /// Reads the scene and begins the microgeometry that `keys` vary and that the scene leaves to the gear files. `operation` is what a
-    /// bearing bears, whose keys stand behind those of its file.
+    /// bearing carries, whose keys stand behind those of its file.
     ///
     /// # Errors
     /// [`InputError`] for a scene that is wrong as it is, and for a gear file that cannot be read.

@@ -13,6 +13,7 @@ pub mod built;
 mod complaint;
 pub mod host_functions;
 pub(crate) mod names;
+mod other_run_kind;
 pub mod plan;
 pub mod scene;
 mod stage_summary;

@@ -128,6 +128,11 @@ impl SystemScene {
     /// As [`SystemScene::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let document = document.with_former(SYSTEM);
+        let checked = Self::checked(document.clone(), folder);
+        checked.map_err(|error| super::other_run_kind::explained(error, &document))
+    }
+
+    fn checked(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let tables: SystemTables = document.parse()?;
         super::names::check_names(&document)?;
         if tables.body.is_empty() && tables.shaft.is_empty() {

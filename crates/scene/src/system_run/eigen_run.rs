@@ -13,7 +13,7 @@ use std::sync::atomic::Ordering;
 use super::error::SystemRunError;
 use super::in_time::begin;
 use super::job::{Advance, EigenJob, EigenPoint, MeshRecord, Outcome, RunHead, RunOptions};
-use super::recorder::element_column;
+use super::recorder::{element_column, joint_moments};
 use super::result::EigenResult;
 use super::result_kind::ResultKind;
 use super::result_record::Contents;
@@ -70,7 +70,7 @@ fn about(
     notes: &mut Vec<String>,
     options: &RunOptions<'_>,
 ) -> Result<Option<EigenResult>, SystemRunError> {
-    let (mut system, state, modes) = match job.settle {
+    let (mut system, state, lambda, modes) = match job.settle {
         Some(settling) => {
             let mut simulation = begin(system, (&settling.params, settling.start), notes)?;
             let mut found = None;
@@ -85,8 +85,8 @@ fn about(
                 }
             })?;
             let Some(modes) = found else { return Ok(None) };
-            let state = simulation.state().clone();
-            (simulation.into_system(), state, modes?)
+            let (state, lambda) = (simulation.state().clone(), simulation.lambda().to_vec());
+            (simulation.into_system(), state, lambda, modes?)
         }
         None => {
             let start = system.start().clone();
@@ -95,11 +95,11 @@ fn about(
                 notes.push(format!("nothing resists {motion}: held where it was"));
             }
             let modes = modes_of(&mut system, &found.state, job)?;
-            (system, found.state, modes)
+            (system, found.state, found.lambda, modes)
         }
     };
     let strain = strain_shares(&mut system, &state, &modes)?;
-    let loads = loads_of(&mut system, &state, meshes)?;
+    let loads = loads_of(&mut system, (&state, &lambda), meshes)?;
     let participation = modes
         .iter()
         .map(|mode| participation(&system, &state, mode))
@@ -164,10 +164,10 @@ fn torques_that_follow(results: &[EigenResult], torques: &[String]) -> Option<St
     ))
 }
 
-/// What the meshes carry at an operating point; nothing of `kinematic` ones, which are joints.
+/// What the meshes carry at an operating point; `kinematic` ones are joints with reactions λ.
 fn loads_of(
     system: &mut System,
-    state: &State,
+    (state, lambda): (&State, &[f64]),
     meshes: &[MeshRecord],
 ) -> Result<Vec<(usize, StageLoad)>, FileError> {
     let channels = system.channels();
@@ -179,7 +179,8 @@ fn loads_of(
     let columns = channels
         .iter()
         .map(|(owner, channel)| element_column(owner, &channel.name));
-    let by_column: HashMap<String, f64> = columns.zip(values).collect();
+    let moments = joint_moments(system, state, lambda);
+    let by_column: HashMap<String, f64> = columns.zip(values).chain(moments).collect();
     let mut loads = Vec::new();
     for (i, mesh) in meshes.iter().enumerate() {
         let load = StageLoad::of(mesh, |column| Ok(by_column.get(column).copied()))?;

@@ -57,7 +57,12 @@ pub(super) fn begin(
 
 /// Rows of a run, its start included.
 pub(super) fn rows(run: &InTime) -> f64 {
-    (run.end_s / run.interval_s + 1e-9).floor() + 1.0
+    rows_until(run.end_s, run.interval_s)
+}
+
+/// Rows until a time.
+pub(super) fn rows_until(end_s: f64, interval_s: f64) -> f64 {
+    (end_s / interval_s + 1e-9).floor() + 1.0
 }
 
 /// What is made of the accepted steps.

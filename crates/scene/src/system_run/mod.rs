@@ -60,7 +60,9 @@ pub use mesh_misalignment::MeshAxes;
 pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;
-pub use recorded_columns::{ResultSize, megabytes, recorded_columns};
+pub use recorded_columns::{
+    MOST_RESULT_BYTES, ResultSize, demand_result_size, megabytes, recorded_columns,
+};
 pub use recorder::{Course, Moment, Recorder, Selection};
 pub(crate) use recorder::{body_column, element_column};
 pub use result::{EigenResult, FOLDED_SHARE, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};

@@ -2,11 +2,14 @@
 
 use std::fmt;
 
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::Column;
 
 use super::job::{RunJob, RunKind};
 use super::recorder::{Course, Recorder};
 use super::{in_time, static_series};
+use crate::system::{Run, SystemScene};
 
 /// The columns of a job's rows; of natural frequencies none.
 #[must_use]
@@ -43,6 +46,19 @@ impl ResultSize {
         Some(Self { rows, columns })
     }
 
+    /// The same columns, and the rows of a scene that runs in time.
+    #[must_use]
+    pub fn with_rows_of(self, scene: &SystemScene) -> Self {
+        let Run::Transient { end_s } = scene.run else {
+            return self;
+        };
+        let interval_s = scene.output.interval_s.unwrap_or(end_s);
+        Self {
+            rows: in_time::rows_until(end_s, interval_s),
+            ..self
+        }
+    }
+
     /// Bytes of the rows, eight a number.
     #[must_use]
     pub fn bytes(&self) -> f64 {
@@ -56,6 +72,33 @@ impl fmt::Display for ResultSize {
         write!(f, "{rows} rows of {columns} columns, ")?;
         write!(f, "{}", megabytes(self.bytes()))
     }
+}
+
+/// Largest results that are written where nobody allows more \[bytes\].
+pub const MOST_RESULT_BYTES: f64 = 1e9;
+
+/// Refuses results that are larger than they may be, before anything of them is computed. `what` they are, in the
+/// complaint.
+///
+/// # Errors
+/// [`InputError`] at the key, with the size and how more is allowed.
+pub fn demand_result_size(
+    (document, key): (&InputDocument, &str),
+    (what, bytes): (&str, f64),
+    most_bytes: f64,
+) -> Result<(), InputError> {
+    if bytes <= most_bytes {
+        return Ok(());
+    }
+    let enough = (1e-9 * bytes).ceil();
+    let allowed = (1e-3 * most_bytes).round() / 1e6;
+    Err(document.error(
+        key,
+        format!(
+            "{what} will have {}, allowed are {allowed} GB; give --most-result-GB {enough:.0} (in Python most_result_GB={enough:.0}) to allow it",
+            megabytes(bytes)
+        ),
+    ))
 }
 
 /// A size as people read it: `0.3 MB`, `1.4 GB`.

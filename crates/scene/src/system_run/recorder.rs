@@ -440,6 +440,24 @@ impl Recorder {
     }
 }
 
+/// Moment about z of each joint of one pair of markers, by the name of its column.
+pub(super) fn joint_moments(system: &System, state: &State, lambda: &[f64]) -> Vec<(String, f64)> {
+    let mut first = 0;
+    let mut moments = Vec::new();
+    for joint in system.joints() {
+        let equations = first..first + joint.equations();
+        first = equations.end;
+        if let ([markers], Some(lambda)) = (joint.pairs(), lambda.get(equations)) {
+            let load = joint.load(0, lambda, &relative(system, state, markers));
+            moments.push((
+                format!("joints/{}/moment_z_Nm", plain(joint.name())),
+                load[5],
+            ));
+        }
+    }
+    moments
+}
+
 fn relative(system: &System, state: &State, markers: &MarkerPair) -> RelativeMotion {
     let [a, b] = [markers.a.body, markers.b.body].map(|body| system.body_motion(state, body));
     markers.motion(&a, &b)

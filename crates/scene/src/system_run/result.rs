@@ -166,7 +166,7 @@ impl Contents {
 }
 
 impl SystemResult {
-    /// What stands in the file, for the documentation.
+    /// What is in the file, for the documentation.
     #[must_use]
     pub fn data_sets() -> Vec<ListedField> {
         let rows = ListedField {

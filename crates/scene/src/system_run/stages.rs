@@ -127,6 +127,11 @@ impl StageTable {
         };
         let rpm = |row: &StageRow, gear: usize| row.speeds_rad_per_s[gear].map(|w| w * 60.0 / TAU);
         let moment = |row: &StageRow, gear: usize| row.load.map(|l| l.moments_nm[gear]);
+        // What gear 1 gives the mesh, and what gear 2 takes from it: the mesh turns gear 2.
+        let power = |row: &StageRow, gear: usize| {
+            let watts = row.load?.moments_nm[gear] * row.speeds_rad_per_s[gear]?;
+            Some(if gear == 0 { -watts } else { watts })
+        };
         let force = |row: &StageRow, way: usize| {
             let forces = row.load?.forces_n?;
             let largest = forces.iter().fold(0.0, |most: f64, f| most.max(f.abs()));
@@ -169,6 +174,8 @@ impl StageTable {
             ),
             line("moment_1_Nm", "torque on gear 1", "N·m", &|r| moment(r, 0)),
             line("moment_2_Nm", "torque on gear 2", "N·m", &|r| moment(r, 1)),
+            line("power_1_W", "power from gear 1", "W", &|r| power(r, 0)),
+            line("power_2_W", "power to gear 2", "W", &|r| power(r, 1)),
             line("tangential_force_N", "tangential force", "N", &|r| {
                 force(r, 0)
             }),

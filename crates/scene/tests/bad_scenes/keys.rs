@@ -49,7 +49,9 @@ fn keys_of_another_kind_are_refused() {
     refused(
         ("kind = \"impact\"", "kind = \"iso6336\""),
         "damping_N_s_per_mm",
-        &["gear_mesh.0.model: `damping_N_s_per_mm` belongs to kind \"impact\", not to \"iso6336\""],
+        &[
+            "gear_mesh.0.model: `damping_N_s_per_mm` belongs to kind \"impact\" and \"node-to-surface\", not to \"iso6336\"",
+        ],
     );
     refused(
         ("end_s = 0.05", "end_s = 0.05\nspeeds = 7"),

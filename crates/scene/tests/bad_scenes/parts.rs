@@ -126,7 +126,7 @@ fn bodies_that_cannot_be_are_refused() {
             "gear = \"gear1.toml\"\nflexibility = \"reduced\"\nposition_mm",
         ),
         "flexibility",
-        &["body.1.flexibility: is \"reduced\", which hybrid meshes can feel only"],
+        &["body.1.flexibility: is \"reduced\", which its meshes cannot feel"],
     );
 }
 

@@ -115,7 +115,7 @@ fn ratings_are_those_of_the_curves() {
                     1e-6,
                 );
             }
-            // Gear 1 is the smaller one: the flanks are most curved where its tooth begins to bear alone.
+            // Gear 1 is the smaller one: the flanks are most curved where its tooth begins to carry alone.
             let roll = pair.roll_end_1_rad - pair.pitch_1_rad();
             let found = flank_pressure(&pair, roll, force / width_m, [STEEL; 2]).unwrap();
             near(figure(k, "hertz_pressure_Pa"), found.peak_pressure_pa, 1e-9);

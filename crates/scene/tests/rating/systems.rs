@@ -378,7 +378,7 @@ fn ratings_that_cannot_be_are_refused() {
                 .replace("kind = \"transient\"\nend_s = 0.05", "kind = \"static\"")
                 .replace("step_s = 2e-5\nstart = \"equilibrium\"", "")
                 .replace("interval_s = 1e-4", ""),
-            "rating.0.kind: is for runs in time (run.kind = \"transient\" or \"speed-sweep\"), found run.kind = \"static\"",
+            "rating.0.kind: counts the cycles of a motion (run.kind = \"transient\"), found run.kind = \"static\"; change run.kind",
         ),
     ] {
         refused(&sound, &text, &["scene.toml:", part]);

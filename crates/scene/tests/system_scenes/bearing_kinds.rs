@@ -179,7 +179,7 @@ fn a_tangent_is_that_of_the_operating_point() {
     assert!(stiffer > 1.002 * before, "{stiffer} {before}");
 }
 
-/// An axial support that bears one way lets the shaft go the other.
+/// An axial support that carries one way lets the shaft go the other.
 #[test]
 fn an_axial_support_bears_one_way() {
     let folder = tempfile::tempdir().unwrap();
@@ -198,7 +198,7 @@ fn an_axial_support_bears_one_way() {
         ])
     };
     let place = |way: &str| rest(&ends(way), folder.path()).1.state.positions_m[0].z;
-    // 400 N along +z, borne by 1e8 + 1e5 N/m or by 1e5 N/m alone.
+    // 400 N along +z, carried by 1e8 + 1e5 N/m or by 1e5 N/m alone.
     for (way, stiffness) in [("both", 1.001e8), ("positive", 1.001e8), ("negative", 1e5)] {
         let expected = 400.0 / stiffness;
         let found = place(way);
@@ -207,7 +207,7 @@ fn an_axial_support_bears_one_way() {
     }
 }
 
-/// A bearing in a housing: both give way one after the other, and the ring is a body between them.
+/// A bearing in a housing: both deflect one after the other, and the ring is a body between them.
 #[test]
 fn a_housing_gives_way_behind_its_bearing() {
     let folder = tempfile::tempdir().unwrap();

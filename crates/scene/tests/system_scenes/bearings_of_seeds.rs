@@ -101,7 +101,7 @@ fn amplitude(values: &[f64], middle: f64, frequency_hz: f64) -> f64 {
 }
 
 /// Seed 002's gear rig, load brought up within 20 ms: the mesh shows at 250 Hz and its multiples in the transmission error and in the vertical force on a bearing (its
-/// vertical contact force), the bearings of a shaft bear what the mesh and its weight ask for, and friction that turns round within 1 mm/s is no obstacle to steps of 5 us.
+/// vertical contact force), the bearings of a shaft carry what the mesh and its weight ask for, and friction that turns round within 1 mm/s is no obstacle to steps of 5 us.
 #[test]
 fn the_gear_rig_of_seed_002_shows_its_mesh_frequency() {
     let scene = changed(
@@ -150,7 +150,7 @@ fn the_gear_rig_of_seed_002_shows_its_mesh_frequency() {
     );
 }
 
-/// Seed 000's pair at 500 N and 6000 rpm with its cages, a hundredth of a second: without load but the preload all balls bear alike, 500 N/(18 sin α) and what
+/// Seed 000's pair at 500 N and 6000 rpm with its cages, a hundredth of a second: without load but the preload all balls carry alike, 500 N/(18 sin α) and what
 /// their centrifugal force changes; balls go round as they roll, cages with them.
 #[test]
 fn the_pair_of_seed_000_runs_with_its_cages() {

@@ -179,7 +179,7 @@ fn contact_jumps_from_pair_to_pair_under_a_light_load() {
     );
 }
 
-/// The shaft angle 24 mrad off, the gear 0.8 mm too far out: contact at the edges of the path, and no more. The other way the teeth jam, which is told.
+/// The shaft angle 24 mrad off, the gear 0.8 mm too far out: contact at the edges of the path, and no more. The other way the teeth jam, which is reported.
 #[test]
 fn wrong_angle_and_wrong_cone_distance() {
     let at = |position: f64, angle: f64| {
@@ -242,6 +242,7 @@ fn turn_and_torque_reverse() {
     }
 }
 
+/// Axes at 60 degrees: the mean normal force is that of statics at the mean radius within 5 %.
 #[test]
 fn axes_at_60_degrees() {
     let pair = changed(

@@ -1,4 +1,4 @@
-//! The hard cases of bevel teeth in motion once more, the contact in slices on rigid gears whose surfaces give way. Every run is made with two steps.
+//! The hard cases of bevel teeth in motion once more, the contact in slices on rigid gears whose surfaces deflect. Every run is made with two steps.
 
 use std::f64::consts::TAU;
 
@@ -47,7 +47,7 @@ fn slices_carry_at_toe_and_heel() {
     }
 }
 
-/// The shaft angle 24 mrad too large, the gear 0.8 mm too far out: the ratio stays. The other way the teeth jam, which is told.
+/// The shaft angle 24 mrad too large, the gear 0.8 mm too far out: the ratio stays. The other way the teeth jam, which is reported.
 #[test]
 fn slices_at_a_wrong_angle_and_cone_distance() {
     let at = |position: f64, angle: f64| {

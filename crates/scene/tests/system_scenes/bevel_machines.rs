@@ -1,4 +1,4 @@
-//! Seed 000's machines: mesh lines, ratio, who bears what, and each model of the bearings.
+//! Seed 000's machines: mesh lines, ratio, who carries what, and each model of the bearings.
 
 use std::f64::consts::TAU;
 
@@ -21,7 +21,7 @@ fn at_speed(name: &str, end_s: f64) -> String {
 }
 
 /// On linear bearings: over two revolutions the strongest line of the transmission error is the mesh frequency, the gear turns at its ratio, and the bearing beside the
-/// teeth bears more than the other one.
+/// teeth carries more than the other one.
 #[test]
 fn mesh_lines_ratio_and_bearings() {
     for (pair, teeth, frequency_hz) in [("13_35", [13, 35], 1300.0), ("31_36", [31, 36], 3100.0)] {
@@ -73,7 +73,7 @@ fn mesh_lines_ratio_and_bearings() {
     }
 }
 
-/// Balls in equilibrium and balls that move bear the same at first; every ball and cage of the latter has its columns.
+/// Balls in equilibrium and balls that move carry the same at first; every ball and cage of the latter has its columns.
 #[test]
 fn machines_run_on_balls() {
     let last = |result: &SystemResult, name: &str| *result.rows.read(name).unwrap().last().unwrap();

@@ -16,10 +16,13 @@ mod gearbox;
 mod lost_meshes;
 #[path = "../made_up_gears/mod.rs"]
 mod made_up_gears;
+mod node_surface;
+mod other_run_kinds;
 mod pair_stiffness;
 mod pairs_at_rest;
 mod power_losses;
 mod provenance;
+mod random_bevel_pairs;
 mod rolling_bearings;
 mod run_out;
 mod shafts;
@@ -31,6 +34,7 @@ mod static_pairs;
 mod system_runs;
 mod tables;
 mod tilted_shafts;
+mod tooth_pairs;
 
 use gearmesh_scene::system::BuiltSystem;
 

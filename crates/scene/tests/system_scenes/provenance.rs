@@ -1,4 +1,4 @@
-//! The text of a gear file inside a model or a result is provenance: what stands in it changes nothing.
+//! The text of a gear file inside a model or a result is provenance: what is in it changes nothing.
 
 use std::path::Path;
 

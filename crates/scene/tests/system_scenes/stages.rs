@@ -74,7 +74,121 @@ fn loads_of_a_stage_at_rest_are_those_of_statics() {
         let value = |key: &str| lines.iter().find(|l| l.key == key).map(|l| l.values[0]);
         near(value("moment_2_Nm").flatten().unwrap(), 100.0, 1e-6);
         near(value("speed_1_rpm").flatten().unwrap(), 600.0, 1e-12);
+        // 100 N m at 600 · 27/61 rpm, out of the wheel's load and into the spring of the pinion.
+        let watts = -100.0 * 20.0 * PI * 27.0 / 61.0;
+        near(value("power_1_W").flatten().unwrap(), watts, 1e-3);
+        near(value("power_2_W").flatten().unwrap(), watts, 1e-6);
         assert_eq!(value("k_h_beta").is_none(), model.contains("kinematic"));
+    }
+}
+
+/// A `kinematic` mesh is a joint: its torques at an operating point of `eigen` are its reactions.
+#[test]
+fn kinematic_meshes_have_torques_at_operating_points() {
+    let text = at_rest("{ kind = \"kinematic\" }", 0.0, "");
+    let text = changed(&text, "kind = \"static\"", "kind = \"eigen\"");
+    let result = run(&text);
+    let table = stages(&result);
+    let load = table.rows[0].load.unwrap();
+    near(load.moments_nm[1], 100.0, 1e-6);
+    near(load.moments_nm[0], 100.0 * 27.0 / 61.0, 1e-6);
+    let keys: Vec<&str> = table.lines().iter().map(|line| line.key).collect();
+    for key in [
+        "ratio",
+        "contact_ratio",
+        "speed_2_rpm",
+        "moment_1_Nm",
+        "power_1_W",
+        "power_2_W",
+    ] {
+        assert!(keys.contains(&key), "{key} of {keys:?}");
+    }
+}
+
+/// Springs that hold what stands still, or that do not resist turning, take no power: what loads put in and take out
+/// must balance all the same.
+#[test]
+fn springs_at_rest_do_not_hide_power_that_does_not_balance() {
+    let motion = "[run]\nkind = \"transient\"\nend_s = 0.001\n[solver]\nstep_s = 1e-5\n[output]\ninterval_s = 1e-4\n";
+    let text = at_rest("{ kind = \"kinematic\" }", 0.0, "");
+    let text = changed(
+        &text,
+        "[run]\nkind = \"static\"\nload_factors = [0.5, 1.0]\n",
+        motion,
+    );
+    let held =
+        "[[torsion_spring]]\nname = \"held\"\nbody_2 = \"pinion\"\nstiffness_Nm_per_rad = 1e6\n";
+    let with = |spring: &str, input_nm: f64| {
+        let load =
+            format!("[[load]]\nname = \"input\"\nbody = \"pinion\"\ntorque_Nm = {input_nm:?}\n");
+        let frame = "[[body]]\nname = \"frame\"\nmass_kg = 1.0\ninertia_kg_m2 = [1e-3, 1e-3, 2e-3]\nposition_mm = [0.0, 500.0, 0.0]\n";
+        changed(&text, held, &format!("{frame}{spring}{load}"))
+    };
+    let told = |text: &str| {
+        let notes = build_in(text, &fe_models()).unwrap().notes;
+        notes
+            .into_iter()
+            .find(|note| note.contains("does not balance"))
+    };
+    let of = |body: &str| held.replace("\"pinion\"", &format!("\"{body}\""));
+    let seat = "[[bushing]]\nname = \"seat\"\nbody_2 = \"pinion\"\nstiffness_N_per_mm = [1e3, 1e3, 1e3]\nstiffness_Nm_per_rad = [1e5, 1e5, 0.0]\n";
+    let still = of("frame");
+    for spring in [still.as_str(), seat] {
+        // 100 N m · 27/61 balance the load of the wheel, which takes 600 · 27/61 rpm against its speed.
+        let right = -100.0 * 27.0 / 61.0;
+        assert_eq!(told(&with(spring, right)), None, "{spring}");
+        let note = told(&with(spring, 0.5 * right)).unwrap();
+        assert!(
+            note.contains("`input`") && note.contains("`brake`"),
+            "{note}"
+        );
+    }
+    // One that is wound up takes what is missing.
+    assert_eq!(told(&with(&of("pinion"), -10.0)), None);
+}
+
+/// The largest force of the equilibria is rated: 100 N m on the wheel's base circle, beside the load factor of one half.
+#[test]
+fn equilibria_have_nominal_ratings() {
+    let model = "{ kind = \"iso6336\", slices = 5 }";
+    let text = at_rest(
+        model,
+        0.0,
+        "[[rating]]\nkind = \"nominal\"\nmesh = \"mesh\"\n",
+    );
+    let result = run(&text);
+    let rating = &result.ratings[0];
+    let figures = &rating.figures;
+    let force = figures
+        .iter()
+        .find(|f| f.name == "largest_force_N")
+        .unwrap();
+    let built = build_in(&text, &fe_models()).unwrap();
+    near(force.value, 100.0 / built.meshes[0].base_radii_m[1], 1e-6);
+    let timed = at_rest(
+        model,
+        0.0,
+        "[[rating]]\nkind = \"nominal\"\nmesh = \"mesh\"\nfrom_s = 0.1\n",
+    );
+    let error = build_in(&timed, &fe_models()).err().unwrap().to_string();
+    assert!(error.contains("which has no time; remove it"), "{error}");
+}
+
+/// Teeth so far apart that one pair leaves before the next one comes are refused with their contact ratio.
+#[test]
+fn a_contact_ratio_below_one_is_refused_by_name() {
+    for model in [
+        "{ kind = \"iso6336\", slices = 5 }",
+        "{ kind = \"kinematic\" }",
+    ] {
+        let text = changed(
+            &at_rest(model, 0.0, ""),
+            "[88.0, 0.0, 0.0]",
+            "[90.2, 0.0, 0.0]",
+        );
+        let error = build_in(&text, &fe_models()).err().unwrap().to_string();
+        let part = "the transverse contact ratio is 0.7043: below 1 the pair loses contact";
+        assert!(error.contains(part), "{error}");
     }
 }
 

@@ -193,7 +193,7 @@ fn surfaces(text: &mut String, lines: &[Value]) {
 
 fn beside(text: &mut String, ours: &[Beside], theirs: &[Beside]) {
     text.push_str(
-        "\n## Beside Exudyn\n\nWhat both programs have: 18 balls of 9.525 mm on 70 mm in grooves of 0.52 opposite each other, the inner ring's 10 µm larger so that all balls bear; \
+        "\n## Beside Exudyn\n\nWhat both programs have: 18 balls of 9.525 mm on 70 mm in grooves of 0.52 opposite each other, the inner ring's 10 µm larger so that all balls carry; \
          a contact K d^1.5 + c d' (8e9 N/m^1.5, 30 N s/m), friction 0.06 above 0.05 m/s of slip, balls on springs to the cage (100 N/mm), a shaft of 3 kg under 300 N at 6000 rpm; \
          20 ms from the same places and speeds. Exudyn: exudyn.machines.CreateBallBearing, implicit generalized-alpha of spectral radius 0.8, modified Newton, sparse solver (dense \
          and full Newton are slower); ours: the same scheme and radius. Errors are those of a ball's load (in percent of the mean load) and of the cage's speed against the same \

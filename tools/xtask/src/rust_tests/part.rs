@@ -21,6 +21,8 @@ pub struct Part {
     pub tests: Vec<String>,
     /// Whether it takes minutes and its loops are to keep to one thread: the other parts have the other cores.
     pub long: bool,
+    /// A variable of its environment, where what its tests print is wanted, of those that pass too.
+    pub shows_output: Option<(&'static str, &'static str)>,
 }
 
 /// What came of a part.
@@ -60,6 +62,7 @@ pub fn parts_of(binary: Binary, extent: Extent, long: bool) -> Result<Vec<Part>,
                 label,
                 tests: vec![test],
                 long,
+                shows_output: None,
             }),
         }
     }
@@ -100,6 +103,9 @@ impl Part {
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
+        if let Some((name, value)) = self.shows_output {
+            command.arg("--show-output").env(name, value);
+        }
         crate::steps::set_environment(&mut command, venv);
         if self.long {
             // Of our own solvers, and of the linear algebra of the Python programs they are compared with.
@@ -177,6 +183,21 @@ impl PartResult {
         names
     }
 
+    /// The lines that a test printed, as the harness shows them behind all tests.
+    pub fn printed_by(&self, test: &str) -> Vec<String> {
+        let head = format!("---- {test} stdout ----");
+        let after = self.output.lines().skip_while(|line| *line != head).skip(1);
+        after
+            .take_while(|line| {
+                !line.starts_with("---- ")
+                    && !line.starts_with("successes:")
+                    && !line.starts_with("failures:")
+            })
+            .map(|line| line.trim().to_owned())
+            .filter(|line| !line.is_empty())
+            .collect()
+    }
+
     /// Package, target and name of a test.
     pub fn full_name(&self, test: &str) -> String {
         let mut words = self.label.splitn(3, ' ');
@@ -224,6 +245,21 @@ mod tests {
         ] {
             assert_eq!(ended(other), None, "{other}");
         }
+    }
+
+    #[test]
+    fn what_a_test_prints_is_found_behind_all_tests() {
+        let output = "test a ... ok\ntest b ... ok\n\nsuccesses:\n\n---- a stdout ----\nworst 1e-12\n 3 of 4\n\n---- b stdout ----\nb\n\n\
+            successes:\n    a\n    b\n\ntest result: ok.";
+        let result = PartResult {
+            label: "x y".into(),
+            passed: true,
+            times: Vec::new(),
+            output: output.into(),
+        };
+        assert_eq!(result.printed_by("a"), ["worst 1e-12", "3 of 4"]);
+        assert_eq!(result.printed_by("b"), ["b"]);
+        assert!(result.printed_by("c").is_empty());
     }
 
     /// This very program, as a binary of two kinds.

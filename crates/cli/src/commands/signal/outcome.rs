@@ -7,7 +7,7 @@ use gearmesh_model::{csv_cell, write_text};
 use gearmesh_operations::Failure;
 use gearmesh_report::min_max;
 use gearmesh_report::page::{
-    Align, Axis, AxisScale, LineChart, LineSeries, MapChart, Page, Section, Table,
+    Align, Axis, AxisScale, LineChart, LineSeries, MapChart, Page, Section, Table, capital,
 };
 use gearmesh_signal::Spectrum;
 use serde_json::{Map, Value, json};
@@ -82,6 +82,8 @@ impl LineSpectrum {
 pub struct Outcome {
     title: String,
     column: String,
+    /// Unit of the values.
+    unit: String,
     analysis: &'static str,
     place: &'static str,
     figures: Vec<(&'static str, f64, String)>,
@@ -103,6 +105,7 @@ impl Outcome {
         Self {
             title: series.title.clone(),
             column: series.column.clone(),
+            unit: series.unit.clone(),
             analysis,
             place: series.place,
             figures: Vec::new(),
@@ -207,7 +210,7 @@ impl Outcome {
     }
 
     fn page(&self) -> Result<String, Failure> {
-        let mut section = Section::new(self.analysis);
+        let mut section = Section::new(capital(self.analysis));
         section = match &self.map {
             Some(map) => section.push(map.clone()),
             None => section.push(self.chart()?),
@@ -221,19 +224,25 @@ impl Outcome {
                 .column("value", Align::Right)
                 .column("unit", Align::Left);
             for (name, value, unit) in &self.figures {
-                table = table.row([(*name).to_owned(), short(*value), unit.clone()]);
+                table = table.row([(*name).to_owned(), few_digits(*value), unit.clone()]);
             }
             section = section.push(table);
         }
         if !self.rows.is_empty() {
-            let heads = self.heads.iter().cloned();
+            let heads = self
+                .heads
+                .iter()
+                .map(|head| match head.ends_with("amplitude") {
+                    true => format!("{head} {}", self.unit),
+                    false => head.clone(),
+                });
             let table = heads.fold(Table::new("Lines"), |table, head| {
                 table.column(head, Align::Right)
             });
             let cells = self
                 .rows
                 .iter()
-                .map(|row| row.iter().map(|value| short(*value)));
+                .map(|row| row.iter().map(|value| few_digits(*value)));
             section = section.push(cells.fold(table, Table::row));
         }
         let page = Page::new(self.title.clone())
@@ -292,6 +301,14 @@ pub fn peaks(spectrum: &Spectrum, count: usize) -> Vec<(usize, f64)> {
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     found.truncate(count);
     found
+}
+
+/// As pages show numbers; whole ones as they are.
+fn few_digits(value: f64) -> String {
+    match value.is_nan() || value.fract() == 0.0 {
+        true => short(value),
+        false => gearmesh_report::short(value),
+    }
 }
 
 /// Five decimals; small and large numbers in scientific notation.

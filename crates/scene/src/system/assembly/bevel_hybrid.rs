@@ -1,4 +1,4 @@
-//! `kind = "hybrid"` of a bevel mesh: flanks in slices, reduced gears or rigid ones whose surfaces give way.
+//! `kind = "hybrid"` of a bevel mesh: flanks in slices, reduced gears or rigid ones whose surfaces deflect.
 
 use std::sync::Arc;
 
@@ -149,7 +149,7 @@ impl SceneBevel<'_> {
             }
             (false, None) => {
                 let problem = "missing: kind = \"hybrid\" needs the reduced gears of both members, `gear = \"...h5\"` of both bodies or here `bevel_models = [\"pinion.h5\", \"gear.h5\"]`, \
-                               or `half_space = {}` in its model for rigid gears whose surfaces give way";
+                               or `half_space = {}` in its model for rigid gears whose surfaces deflect";
                 Err(self.keys.error("bevel_models", problem))
             }
             (false, Some(_)) if model.local.is_some() => {

@@ -5,14 +5,16 @@ use std::path::Path;
 use gearmesh_bevel::PairFile;
 use gearmesh_drivetrain::{
     BevelMesh, BevelSlices, DrivetrainError, FacetKind, FacetSize, FlankKinematics, GearMesh,
-    PowerStiffness,
+    PowerStiffness, SlicePressure, ToothPairs,
 };
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::point_contact::contact_modulus_pa;
 use gearmesh_geometry::{Flank, InputError};
 
+use super::bevel_hybrid::BevelModels;
 use super::bodies::Bodies;
 use super::gear_mesh::{PreparedMesh, pose, seat};
+use super::mesh_model::refuse_material;
 use super::mesh_stiffness::{impact_law, stated_impact};
 use super::parts::Parts;
 use crate::system::tables::gear_mesh::{
@@ -66,6 +68,7 @@ impl SceneBevel<'_> {
             }
             error => self.keys.error("bevel_pair", error),
         };
+        let mut of_nodes = None;
         let (base_radii_m, slice_width_m, corners, mesh) = match &self.table.model {
             MeshModel::Hybrid(model) => {
                 let slices = self.slices(model, models.as_ref())?;
@@ -82,6 +85,17 @@ impl SceneBevel<'_> {
                 let mesh = self.hybrid(flanks, (model, models.as_ref(), modes), &sides)?;
                 (levers_m, width_m, corners, mesh)
             }
+            MeshModel::NodeToSurface(model) => {
+                let mut flanks = BevelMesh::new(&file.blank, &design).map_err(fault)?;
+                let located = flanks.locate(&at_start);
+                located.map_err(|e| self.keys.error("gear_2", e))?;
+                self.check_models(&flanks, bodies, numbers)?;
+                let (levers_m, corners) = (flanks.levers_m(), flanks.flank_corners_m());
+                let modes = numbers.map(|number| bodies.list[number].modes);
+                let made = self.node_surfaces(flanks, (model, models.as_ref(), modes), &sides)?;
+                of_nodes = Some(made.tooth_pairs);
+                (levers_m, made.slice_width_m, corners, made.mesh)
+            }
             MeshModel::Impact(model) => {
                 let mut flanks = BevelMesh::new(&file.blank, &design).map_err(fault)?;
                 if let Some(surface) = self.table.bevel_surface {
@@ -90,13 +104,7 @@ impl SceneBevel<'_> {
                 }
                 let located = flanks.locate(&at_start);
                 located.map_err(|e| self.keys.error("gear_2", e))?;
-                for (gear, number) in numbers.into_iter().enumerate() {
-                    if let Some(model) = bodies.list[number].bevel() {
-                        let fits = flanks.check_model(gear, model);
-                        let key = ["gear_1", "gear_2"][gear];
-                        fits.map_err(|e| self.keys.error(key, e))?;
-                    }
-                }
+                self.check_models(&flanks, bodies, numbers)?;
                 let (levers_m, width_m) = (flanks.levers_m(), flanks.layout().width_m());
                 let corners = flanks.flank_corners_m();
                 (
@@ -109,7 +117,10 @@ impl SceneBevel<'_> {
             _ => return Err(self.other_model()),
         };
         let flank_corners_m = corners.into_iter().flatten().flatten().collect();
-        let tooth_pairs = self.table.tooth_pairs.as_ref().map(contact_modulus);
+        let tooth_pairs = match of_nodes {
+            Some(pairs) => pairs,
+            None => self.tooth_pairs(models.as_ref(), file.blank.data.face_width_m)?,
+        };
         self.effects(
             (&file, design.backlash_m(&file.blank), models.is_some()),
             parts,
@@ -132,10 +143,27 @@ impl SceneBevel<'_> {
         })
     }
 
+    /// Whether the reduced gears of the bodies are those of the pair.
+    fn check_models(
+        &self,
+        flanks: &BevelMesh,
+        bodies: &Bodies,
+        numbers: [usize; 2],
+    ) -> Result<(), InputError> {
+        for (gear, number) in numbers.into_iter().enumerate() {
+            if let Some(model) = bodies.list[number].bevel() {
+                let fits = flanks.check_model(gear, model);
+                let key = ["gear_1", "gear_2"][gear];
+                fits.map_err(|e| self.keys.error(key, e))?;
+            }
+        }
+        Ok(())
+    }
+
     /// A model that knows no bevel flanks.
     fn other_model(&self) -> InputError {
         let problem = format!(
-            "found \"{}\", allowed for a bevel pair are \"impact\" and \"hybrid\"; the other kinds are for cylindrical gears",
+            "found \"{}\", allowed for a bevel pair are \"impact\", \"node-to-surface\" and \"hybrid\"; the other kinds are for cylindrical gears",
             self.table.model.kind().name()
         );
         self.model_keys.error("kind", problem)
@@ -159,15 +187,22 @@ impl SceneBevel<'_> {
                     return Err(self.keys.error("bevel_models", problem));
                 }
             }
+            MeshModel::NodeToSurface(_) => {
+                if self.table.bevel_surface.is_some() {
+                    let problem =
+                        "belongs to kind = \"impact\"; patches are stated in the model, remove it";
+                    return Err(self.keys.error("bevel_surface", problem));
+                }
+                if self.table.bevel_models.is_some() {
+                    let problem = "is not used by kind = \"node-to-surface\"; name the models as `gear` of bodies with flexibility = \"modal\", or remove it";
+                    return Err(self.keys.error("bevel_models", problem));
+                }
+            }
             MeshModel::Hybrid(model) => {
                 if self.table.bevel_surface.is_some() {
                     let problem =
                         "belongs to kind = \"impact\"; slices cut smooth flanks, remove it";
                     return Err(self.keys.error("bevel_surface", problem));
-                }
-                if self.table.tooth_pairs.is_some() {
-                    let problem = "belongs to kind = \"impact\", one contact for each pair of teeth; the slices of \"hybrid\" have forces and pressures of their own, remove it";
-                    return Err(self.keys.error("tooth_pairs", problem));
                 }
                 let of_bodies = numbers.iter().any(|i| bodies.list[*i].bevel().is_some());
                 self.check_hybrid(model, of_bodies)?;
@@ -254,6 +289,32 @@ impl SceneBevel<'_> {
         })
     }
 
+    /// How pairs of teeth have columns: one contact each, or their slices together.
+    fn tooth_pairs(
+        &self,
+        models: Option<&BevelModels>,
+        face_widths_m: [f64; 2],
+    ) -> Result<Option<ToothPairs>, InputError> {
+        let Some(table) = &self.table.tooth_pairs else {
+            return Ok(None);
+        };
+        let MeshModel::Hybrid(model) = &self.table.model else {
+            let contact_modulus_pa = contact_modulus(table);
+            return Ok(Some(ToothPairs::Points { contact_modulus_pa }));
+        };
+        refuse_material(table, &self.keys)?;
+        let materials = match models {
+            Some(models) => [0, 1].map(|gear: usize| (models[gear].young_pa, models[gear].poisson)),
+            None => [material(model.half_space.as_ref()); 2],
+        };
+        Ok(Some(ToothPairs::Slices {
+            pressure: SlicePressure::Line(contact_modulus_pa(materials[0], materials[1])),
+            face_widths_m,
+            // Bevel flanks count their height in shares.
+            ends: [[0.0, 1.0]; 2],
+        }))
+    }
+
     /// E* of both gears \[Pa\] where the law follows Hertz.
     fn hertz(&self, model: &ImpactTable) -> Result<Option<f64>, InputError> {
         let Some(table) = &model.hertz else {
@@ -290,6 +351,15 @@ impl SceneBevel<'_> {
                 if let Some(surface) = self.table.bevel_surface {
                     parts.effect(name("flanks of the pinion"), Some(words(surface)));
                 }
+                let damping = model.damping_N_s_per_mm;
+                damping.map(|_| "STEP of the depth".to_string())
+            }
+            MeshModel::NodeToSurface(model) => {
+                let what = format!(
+                    "nodes of the pinion against patches of the gear, edges up to {:.0} um along the face and {:.0} um up the flank",
+                    *model.along_um, *model.up_um
+                );
+                parts.effect(name("flanks"), Some(what));
                 let damping = model.damping_N_s_per_mm;
                 damping.map(|_| "STEP of the depth".to_string())
             }

@@ -51,14 +51,22 @@ impl LoadedSystem {
             let hybrid = meshes
                 .iter()
                 .find(|mesh| mesh.model == MeshKind::Hybrid && mesh.bodies.contains(&i));
+            // Their K is that of the surfaces, and modes move the flanks.
+            let bends = |mesh: &&PreparedMesh| match mesh.model {
+                MeshKind::NodeToSurface => true,
+                MeshKind::Impact => bodies.list[i].cylindrical().is_some(),
+                _ => false,
+            };
+            let on_modes = (meshes.iter().filter(bends)).any(|mesh| mesh.bodies.contains(&i));
             let problem = match (flexibility, hybrid, &bodies.list[i].gear) {
+                (Flexibility::Modal, None, Some(_)) if on_modes => continue,
                 (_, _, None) => "is stated for a body that is no gear; remove it".to_string(),
                 (Flexibility::Rigid, Some(mesh), _) => format!(
                     "is \"rigid\", but `{}` is a hybrid mesh, which takes the static patterns of both gears; write \"reduced\"",
                     mesh.name
                 ),
                 (Flexibility::Reduced | Flexibility::Modal, None, _) => format!(
-                    "is \"{}\", which hybrid meshes can feel only, and the body is in none; write \"rigid\"",
+                    "is \"{}\", which its meshes cannot feel: \"reduced\" and \"modal\" need a hybrid mesh, \"modal\" a node-to-surface one or one of cylindrical gears by impact, too; write \"rigid\"",
                     flexibility.name()
                 ),
                 _ => continue,

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use gearmesh_drivetrain::errors::eccentricity::Eccentricity;
-use gearmesh_drivetrain::{GearMesh, MeshElement, ModalPart, Pose, kinematic_mesh};
+use gearmesh_drivetrain::{GearMesh, MeshElement, ModalPart, Pose, ToothPairs, kinematic_mesh};
 use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{BaseCircles, Flank, GearPair, InputError, Misalignment};
@@ -19,7 +19,7 @@ use super::parts::Parts;
 use crate::system::built::BuiltGauge;
 use crate::system::stage_summary::StageSummary;
 use crate::system::tables::gear_mesh::{EccentricityTable, GearMeshTable, TeethTable};
-use crate::system::tables::mesh_model::MeshKind;
+use crate::system::tables::mesh_model::{MeshKind, MeshModel};
 use crate::system::tables::{MM, UM};
 
 /// A mesh of two bodies, ready but for its place in the system.
@@ -41,8 +41,8 @@ pub(super) struct PreparedMesh {
     pub slice_width_m: f64,
     /// Reduced bevel gears, which the mesh names itself.
     pub models: Option<BevelModels>,
-    /// E* \[Pa\] where pairs of teeth have columns.
-    pub tooth_pairs: Option<f64>,
+    /// How pairs of teeth have columns, where they do.
+    pub tooth_pairs: Option<ToothPairs>,
     /// As in [`crate::system::BuiltMesh`].
     pub flank_corners_m: Vec<f64>,
     /// The stage, its speed left open; none of bevel pairs.
@@ -88,10 +88,6 @@ impl PreparedMesh {
                 folder,
             };
             return scene.prepare((&key, numbers), bodies, parts);
-        }
-        if table.tooth_pairs.is_some() {
-            let problem = "tells the pairs of teeth of a `bevel_pair`, which this mesh is not; remove it (the load along cylindrical teeth is in the columns line_load_slice_…)";
-            return Err(keys.error("tooth_pairs", problem));
         }
         for (key, given) in [
             ("bevel_models", table.bevel_models.is_some()),
@@ -160,8 +156,19 @@ impl PreparedMesh {
         scene.refuse_unfelt_cracks()?;
         if kind == MeshKind::Kinematic {
             scene.microgeometry()?;
+            scene.tooth_pairs()?;
         } else {
-            let mesh = scene.mesh(&prepared.sides)?;
+            let mesh = match &table.model {
+                MeshModel::NodeToSurface(model) => {
+                    let made = scene.node_surfaces(model, &prepared.sides)?;
+                    prepared.tooth_pairs = made.tooth_pairs;
+                    made.mesh
+                }
+                _ => {
+                    prepared.tooth_pairs = scene.tooth_pairs()?;
+                    scene.mesh(&prepared.sides)?
+                }
+            };
             prepared.slice_width_m = mesh.kinematics().layout().width_m();
             let modes = numbers.map(|number| bodies.list[number].modes);
             prepared.mesh = Some(scene.modal(mesh, modes)?);
@@ -203,8 +210,8 @@ impl PreparedMesh {
                 if markers != axes {
                     element = element.with_axes(axes);
                 }
-                if let Some(contact_modulus_pa) = self.tooth_pairs {
-                    element = element.with_tooth_pairs(contact_modulus_pa);
+                if let Some(pairs) = self.tooth_pairs {
+                    element = element.with_tooth_pairs(pairs);
                 }
                 for gear in [1, 2] {
                     let on_gear = |gauge: &&BuiltGauge| {
@@ -234,6 +241,7 @@ impl PreparedMesh {
                     MeshKind::Impact => "impact mesh",
                     MeshKind::Iso6336 => "iso6336 mesh",
                     MeshKind::Analytic => "analytic mesh",
+                    MeshKind::NodeToSurface => "node-to-surface mesh",
                     MeshKind::Hybrid => "hybrid mesh",
                 };
                 parts.element(&self.name, kind, bodies, ends);

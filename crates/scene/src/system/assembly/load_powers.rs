@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, GROUND_NAME};
 use super::joints::PlacedMotion;
 use crate::system::scene::SystemTables;
 use crate::system::tables::function::FunctionTable;
@@ -15,6 +15,9 @@ use crate::system::tables::load::{AxesWord, LoadTable};
 
 /// Power that does not come out, as a share of what goes in, from which it is reported.
 const MISSING: f64 = 0.01;
+
+/// Share of a body's speed below which its part along an axis is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// A torque on a body that turns.
 struct Power<'a> {
@@ -53,21 +56,9 @@ pub(super) fn note(
         }
         return;
     }
-    // What joins the train to the ground about its axis may take the rest.
-    let to_ground = |body: &Option<String>| {
-        body.as_deref()
-            .is_none_or(|name| name == super::bodies::GROUND_NAME)
-    };
     let is_held = !motions.is_empty()
-        || tables
-            .torsion_spring
-            .iter()
-            .any(|s| to_ground(&s.body_1) || s.body_2 == super::bodies::GROUND_NAME)
-        || tables
-            .bushing
-            .iter()
-            .any(|b| to_ground(&b.body_1) || b.body_2 == super::bodies::GROUND_NAME)
-        || !tables.python_element.is_empty();
+        || !tables.python_element.is_empty()
+        || springs_take_power(tables, bodies);
     let sum = |sign: f64| -> f64 { powers.iter().map(|p| (sign * p.watts).max(0.0)).sum() };
     let [into, out] = [sum(1.0), sum(-1.0)];
     if !is_held && (into - out).abs() > MISSING * into.max(out) {
@@ -80,6 +71,47 @@ pub(super) fn note(
             names.collect::<Vec<_>>().join(", ")
         ));
     }
+}
+
+/// Whether a spring between the ground and a body resists a turning of the body that the scene begins with. A spring
+/// that holds a body at rest takes no power, and one that does not resist turning takes none either.
+fn springs_take_power(tables: &SystemTables, bodies: &Bodies) -> bool {
+    let turns = |ends: [Option<&str>; 2], axis: Option<[f64; 3]>| {
+        let is_ground = |name: &Option<&str>| name.is_none_or(|name| name == GROUND_NAME);
+        let body = match ends {
+            [first, Some(second)] if is_ground(&first) => second,
+            [Some(first), second] if is_ground(&second) => first,
+            _ => return false,
+        };
+        let Some(placed) = bodies.list.iter().find(|p| p.body.name == body) else {
+            return false;
+        };
+        let along = axis.map_or_else(|| placed.axis(), Vector3::from);
+        let along = along.try_normalize(0.0).unwrap_or_else(|| placed.axis());
+        let spin = placed.body.orientation * placed.body.angular_velocity_rad_per_s;
+        along.dot(&spin).abs() > ROUNDING * spin.norm()
+    };
+    let torsion = tables.torsion_spring.iter().any(|spring| {
+        let resists = spring.stiffness_Nm_per_rad != 0.0 || spring.damping_Nm_s_per_rad != 0.0;
+        resists
+            && turns(
+                [spring.body_1.as_deref(), Some(&spring.body_2)],
+                spring.axis,
+            )
+    });
+    let bushing = tables.bushing.iter().any(|bushing| {
+        let about_z = |diagonal: Option<[f64; 3]>, matrix: Option<[[f64; 6]; 6]>| {
+            diagonal.is_some_and(|d| d[2] != 0.0) || matrix.is_some_and(|m| m[5][5] != 0.0)
+        };
+        let resists = about_z(bushing.stiffness_Nm_per_rad, bushing.stiffness_matrix_SI)
+            || about_z(bushing.damping_Nm_s_per_rad, bushing.damping_matrix_SI);
+        resists
+            && turns(
+                [bushing.body_1.as_deref(), Some(&bushing.body_2)],
+                bushing.axis,
+            )
+    });
+    torsion || bushing
 }
 
 fn power<'a>(load: &'a LoadTable, bodies: &Bodies) -> Option<Power<'a>> {

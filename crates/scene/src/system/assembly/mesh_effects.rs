@@ -28,6 +28,9 @@ impl SceneMesh<'_> {
             (MeshModel::Impact(impact), None) if impact.damping_N_s_per_mm.is_some() => {
                 Some("STEP of the depth".to_string())
             }
+            (MeshModel::NodeToSurface(nodes), None) if nodes.damping_N_s_per_mm.is_some() => {
+                Some("STEP of the depth".to_string())
+            }
             (_, None) => None,
         };
         parts.effect(name("damping"), damping);

@@ -8,16 +8,17 @@ use gearmesh_contact::{ContactError, SliceLayout};
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::{
     BeamTeeth, BeamTooth, Damped, DrivetrainError, FlankError, Friction, GearMesh, MeshKinematics,
-    PairCurve, PathEnds, ReducedTeeth, TeethModel,
+    PairCurve, PathEnds, ReducedTeeth, SlicePressure, TeethModel, ToothPairs,
 };
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{Flank, GearPair, InputError};
+use gearmesh_geometry::point_contact::contact_modulus_pa;
+use gearmesh_geometry::{Flank, GearDefinition, GearPair, InputError};
 use gearmesh_model::ReducedGear;
 
 use super::gears::Gear;
 use crate::system::tables::gear_mesh::{GearMeshTable, PathWord, TeethTable, TouchingFlanks};
 use crate::system::tables::mesh_model::{
-    AnalyticTable, DampingTable, HybridTable, MeshKind, MeshModel,
+    AnalyticTable, DampingTable, HertzTable, HybridTable, MeshKind, MeshModel,
 };
 
 /// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene
@@ -167,10 +168,10 @@ impl SceneMesh<'_> {
         let layout = self.stated_layout()?;
         let slices = layout.slices;
         match &self.table.model {
-            // An ideal ratio has no forces of its own and is not made here.
-            MeshModel::Kinematic {} => {}
+            // An ideal ratio has no forces of its own; neither is made here.
+            MeshModel::Kinematic {} | MeshModel::NodeToSurface(_) => {}
             MeshModel::Impact(model) => {
-                let law = self.impact(model, slices)?;
+                let law = self.impact(model, slices)?.on_modes();
                 teeth.extend(
                     sides
                         .iter()
@@ -217,26 +218,34 @@ impl SceneMesh<'_> {
         for (side, model) in teeth {
             mesh = mesh.with_side(side, model).map_err(self.fault())?;
         }
+        self.with_friction(mesh)
+    }
+
+    /// Adds what the teeth say of friction.
+    pub(super) fn with_friction(&self, mesh: GearMesh) -> Result<GearMesh, InputError> {
         Ok(match self.friction()? {
             None => mesh,
             Some(friction) => mesh.with_friction(friction),
         })
     }
 
-    /// Lets the gears vibrate in their modes. Other models than `hybrid` do not feel them.
+    /// Lets the gears vibrate in their modes. `iso6336` and `analytic` do not feel them.
     pub(super) fn modal(
         &self,
         mut mesh: GearMesh,
         modes: [usize; 2],
     ) -> Result<GearMesh, InputError> {
-        if self.table.model.kind() != MeshKind::Hybrid {
+        let kind = self.table.model.kind();
+        if !matches!(
+            kind,
+            MeshKind::Hybrid | MeshKind::NodeToSurface | MeshKind::Impact
+        ) {
             return Ok(mesh);
         }
-        let models = self.models()?;
-        for gear in 0..2 {
-            if modes[gear] > 0 {
+        for (gear, count) in modes.into_iter().enumerate() {
+            if let (Some(model), true) = (&self.gears[gear].model, count > 0) {
                 mesh = mesh
-                    .with_modes(gear + 1, models[gear], modes[gear])
+                    .with_modes(gear + 1, model, count)
                     .map_err(self.fault())?;
             }
         }
@@ -304,8 +313,46 @@ impl SceneMesh<'_> {
         Ok(Box::new(damped))
     }
 
+    /// How pairs of teeth have columns: the slices of each together, with Hertz' pressure by the gears' own materials.
+    pub(super) fn tooth_pairs(&self) -> Result<Option<ToothPairs>, InputError> {
+        let Some(table) = &self.table.tooth_pairs else {
+            return Ok(None);
+        };
+        let kind = self.table.model.kind();
+        if matches!(kind, MeshKind::Kinematic | MeshKind::Iso6336) {
+            let problem = format!(
+                "is not used by kind = \"{}\", which knows no single teeth; remove it, or take another model",
+                kind.name()
+            );
+            return Err(self.keys.error("tooth_pairs", problem));
+        }
+        refuse_material(table, &self.keys)?;
+        let [first, second] = self.gears.map(|gear| &gear.definition);
+        let material = |gear: &GearDefinition| (gear.material.young_pa, gear.material.poisson);
+        let ends =
+            |gear: &GearDefinition| [gear.profile.form_roll_rad, gear.profile.flank_end_roll_rad];
+        Ok(Some(ToothPairs::Slices {
+            pressure: SlicePressure::Line(contact_modulus_pa(material(first), material(second))),
+            face_widths_m: [first.tooth.face_width_m, second.tooth.face_width_m],
+            ends: [ends(first), ends(second)],
+        }))
+    }
+
     fn friction(&self) -> Result<Option<Friction>, InputError> {
         let table = self.teeth.friction.as_ref();
         table.map(|table| table.check(&self.teeth_keys)).transpose()
     }
+}
+
+/// A material in `tooth_pairs` of gears that have their own.
+pub(super) fn refuse_material(table: &HertzTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
+    let stated = [
+        ("tooth_pairs.young_GPa", table.young_GPa.is_some()),
+        ("tooth_pairs.poisson", table.poisson.is_some()),
+    ];
+    let Some((key, _)) = stated.into_iter().find(|(_, is_stated)| *is_stated) else {
+        return Ok(());
+    };
+    let problem = "is not used: pressures follow from the materials that the model or the gears have; remove it";
+    Err(keys.error(key, problem))
 }

@@ -35,6 +35,7 @@ mod mesh_effects;
 mod mesh_frequency;
 mod mesh_model;
 mod mesh_stiffness;
+mod node_surface;
 mod operating_point;
 mod overlaps;
 mod pair_stiffness;

@@ -74,7 +74,7 @@ fn start(
     let (run, from_s) = (scene.run.kind().name(), rating.from_s());
     let end_s = match (&scene.run, rating) {
         (Run::Transient { end_s }, _) => *end_s,
-        (Run::Static { .. }, RatingTable::BearingLife(_)) => {
+        (Run::Static { .. }, RatingTable::BearingLife(_) | RatingTable::Nominal(_)) => {
             if from_s.is_some() {
                 let problem = "is not used by run.kind = \"static\", which has no time; remove it";
                 return Err(keys.error("from_s", problem));
@@ -95,7 +95,8 @@ fn start(
         }
         _ => {
             let problem = format!(
-                "is for runs in time (run.kind = \"transient\" or \"speed-sweep\"), found run.kind = \"{run}\""
+                "{}, found run.kind = \"{run}\"; change run.kind, or remove the rating",
+                allowed_runs(rating)
             );
             return Err(keys.error("kind", problem));
         }
@@ -104,6 +105,19 @@ fn start(
     let allowed = format!("0 to below {end_s}, the end of the run");
     keys.require("from_s", from_s, (0.0..end_s).contains(&from_s), &allowed)?;
     Ok(from_s)
+}
+
+/// Kinds of runs that a rating is for.
+fn allowed_runs(rating: &RatingTable) -> &'static str {
+    match rating {
+        RatingTable::Nominal(_) => {
+            "judges the largest normal force of equilibria or of a motion (run.kind = \"static\", \"transient\" or \"speed-sweep\")"
+        }
+        RatingTable::BearingLife(_) => {
+            "needs loads of equilibria or of a motion (run.kind = \"static\" or \"transient\")"
+        }
+        RatingTable::Fatigue(_) => "counts the cycles of a motion (run.kind = \"transient\")",
+    }
 }
 
 /// The channels of a mesh must be among what is written.

@@ -73,7 +73,7 @@ pub(super) fn settle_phases(
                     let least = gap(bodies, *other)?;
                     if least < -JAMMED_M {
                         notes.push(format!(
-                            "the teeth of mesh `{name}` jam: while the {} flanks touch, the {} ones stand in each other by {:.1} um; give the pair backlash, or \
+                            "the teeth of mesh `{name}` jam: while the {} flanks touch, the {} ones overlap by {:.1} um; give the pair backlash, or \
                              mount the gears farther apart",
                             side.name(),
                             other.name(),

@@ -6,7 +6,7 @@ use gearmesh_geometry::gear_file::MicrogeometryTable;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// `[[body]]` as it stands in the file.
+/// `[[body]]` as written in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyTable {
@@ -25,7 +25,7 @@ pub struct BodyTable {
     pub inertia_kg_m2: Option<Vec<f64>>,
     /// Centre of mass from the body's origin, body axes; from the gear, or [0, 0, 0].
     pub centre_of_mass_mm: Option<[f64; 3]>,
-    /// Gears: "rigid"; "reduced", the static patterns of the model give way in `hybrid` meshes; "modal", its natural
+    /// Gears: "rigid"; "reduced", the static patterns of the model deflect in `hybrid` meshes; "modal", its natural
     /// modes vibrate, too, and carry their inertia. Rigid or reduced, as the meshes need, where not given.
     pub flexibility: Option<Flexibility>,
     /// `modal`: modes up to this frequency; all of the model where not given.
@@ -47,7 +47,7 @@ pub struct BodyTable {
     pub angular_velocity_rad_per_s: Option<[f64; 3]>,
 }
 
-/// How a gear body gives way.
+/// How a gear body deflects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Flexibility {

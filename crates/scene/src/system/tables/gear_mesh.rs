@@ -10,7 +10,7 @@ use super::flank_errors::FlankErrorTable;
 use super::friction::FrictionTable;
 use super::mesh_model::{HertzTable, MeshModel};
 
-/// `[[gear_mesh]]` as it stands in the file.
+/// `[[gear_mesh]]` as written in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GearMeshTable {
@@ -32,8 +32,11 @@ pub struct GearMeshTable {
     pub model: MeshModel,
     /// What touches and how. Not with kind `kinematic`.
     pub teeth: Option<TeethTable>,
-    /// Columns of each pair of teeth that carries: tooth, force, place on both flanks, largest pressure and contact ellipse after Hertz with this
-    /// material, `{}` for steel. With `bevel_pair` only; none where not given.
+    /// Columns of each pair of teeth that carries: tooth, force, place on both flanks, largest pressure after Hertz;
+    /// none where not given. Not with
+    /// kinds `kinematic` and `iso6336`. Bevel pairs of kind `impact` have the contact ellipse, too, with this
+    /// material, `{}` for steel; elsewhere
+    /// slices are summed by pair, and the materials are those of the model or the gears: `{}`.
     pub tooth_pairs: Option<HertzTable>,
     /// Whether the microgeometry of the gears acts, as it does where nothing is said. `kinematic` and `iso6336` know no
     /// flanks: with them it must be set to false for gears that have microgeometry, but for `iso6336` with `stiffness`,

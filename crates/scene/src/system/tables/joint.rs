@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::function::FunctionTable;
 
-/// `[[joint]]` as it stands in the file. Places and axes are those of the world at the start.
+/// `[[joint]]` as written in the file. Places and axes are those of the world at the start.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointTable {
@@ -56,7 +56,7 @@ impl JointWord {
     }
 }
 
-/// `[[motion]]` as it stands in the file: exactly one of the four functions.
+/// `[[motion]]` as written in the file: exactly one of the four functions.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MotionTable {

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::function::FunctionTable;
 
-/// `[[load]]` as it stands in the file: either `torque_Nm` or `force_N`.
+/// `[[load]]` as written in the file: either `torque_Nm` or `force_N`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]

@@ -26,6 +26,8 @@ pub enum MeshModel {
     Iso6336(Iso6336Table),
     /// Each tooth a beam on its foundation, Hertz.
     Analytic(AnalyticTable),
+    /// Flanks as points on a grid: nodes of gear 1 against bilinear patches of gear 2.
+    NodeToSurface(NodeSurfaceTable),
     /// Reduced gears and the complementarity problem.
     Hybrid(HybridTable),
 }
@@ -43,6 +45,8 @@ pub enum MeshKind {
     Iso6336,
     /// See [`MeshModel::Analytic`].
     Analytic,
+    /// See [`MeshModel::NodeToSurface`].
+    NodeToSurface,
     /// See [`MeshModel::Hybrid`].
     Hybrid,
 }
@@ -56,6 +60,7 @@ impl MeshKind {
             Self::Impact => "impact",
             Self::Iso6336 => "iso6336",
             Self::Analytic => "analytic",
+            Self::NodeToSurface => "node-to-surface",
             Self::Hybrid => "hybrid",
         }
     }
@@ -70,6 +75,7 @@ impl MeshModel {
             Self::Impact(_) => MeshKind::Impact,
             Self::Iso6336(_) => MeshKind::Iso6336,
             Self::Analytic(_) => MeshKind::Analytic,
+            Self::NodeToSurface(_) => MeshKind::NodeToSurface,
             Self::Hybrid(_) => MeshKind::Hybrid,
         }
     }
@@ -78,7 +84,7 @@ impl MeshModel {
     #[must_use]
     pub fn slices(&self) -> Option<usize> {
         match self {
-            Self::Kinematic {} => None,
+            Self::Kinematic {} | Self::NodeToSurface(_) => None,
             Self::Impact(table) => table.slices,
             Self::Iso6336(table) => table.slices,
             Self::Analytic(table) => table.slices,
@@ -100,7 +106,7 @@ impl MeshModel {
     #[must_use]
     pub fn damping(&self) -> Option<&DampingTable> {
         match self {
-            Self::Kinematic {} | Self::Impact(_) => None,
+            Self::Kinematic {} | Self::Impact(_) | Self::NodeToSurface(_) => None,
             Self::Iso6336(table) => table.damping.as_ref(),
             Self::Analytic(table) => table.damping.as_ref(),
             Self::Hybrid(table) => table.damping.as_ref(),
@@ -133,6 +139,57 @@ pub struct ImpactTable {
     /// Slices across the face width, 1 where not given.
     pub slices: Option<usize>,
 }
+
+/// Keys of `kind = "node-to-surface"`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub struct NodeSurfaceTable {
+    /// K of F = K (δ/mm)^e of a pair of teeth; its unit is N/mm^e with the exponent below.
+    pub stiffness_N_per_mm_e: Bounded<Positive>,
+    /// e, at least 1.
+    pub exponent: Bounded<Within<1, 5>>,
+    /// Largest damping of a pair, shared by its nodes as K is; none where not given.
+    pub damping_N_s_per_mm: Option<Bounded<NotNegative>>,
+    /// With damping: depth from which it acts in full.
+    pub full_damping_depth_um: Option<Bounded<Positive>>,
+    /// Longest edge of a patch along the face.
+    pub along_um: Bounded<Positive>,
+    /// Longest edge of a patch up the flank.
+    pub up_um: Bounded<Positive>,
+    /// What of K a node has.
+    pub weights: NodeWeights,
+}
+
+impl NodeSurfaceTable {
+    /// Its law as `impact` states it.
+    pub(crate) fn law(&self) -> ImpactTable {
+        ImpactTable {
+            stiffness_N_per_mm_e: Some(self.stiffness_N_per_mm_e),
+            exponent: Some(self.exponent),
+            damping_N_s_per_mm: self.damping_N_s_per_mm,
+            full_damping_depth_um: self.full_damping_depth_um,
+            ..ImpactTable::default()
+        }
+    }
+}
+
+/// `weights` of `node-to-surface`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "NodeWeights")]
+#[allow(non_snake_case)]
+pub enum NodeWeights {
+    /// The share of its area in that over which the whole contact gives K δ^e at the approach of a stated force.
+    Area {
+        /// That force of a pair of teeth.
+        nominal_force_N: Bounded<Positive>,
+    },
+    /// The whole K at every node: the force grows with their number.
+    None {},
+}
+
+kinds!(NodeWeights, "kind");
 
 /// `gear_mesh.model.hertz`, `half_space` and `gear_mesh.tooth_pairs`: material of both gears.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
@@ -185,7 +242,7 @@ pub struct AnalyticTable {
 pub struct HybridTable {
     /// Local contact; "calibrated" where not given.
     pub local: Option<LocalContact>,
-    /// Bevel pairs, instead of reduced gears: rigid ones whose surfaces give way as half spaces do; their material.
+    /// Bevel pairs, instead of reduced gears: rigid ones whose surfaces deflect as half spaces do; their material.
     pub half_space: Option<HertzTable>,
     /// Slices over the overlap of the faces; those of the models where not given. Bevel pairs: along the face, 15 without models.
     pub slices: Option<usize>,

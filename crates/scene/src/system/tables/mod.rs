@@ -1,4 +1,4 @@
-//! The tables of a scene file: keys as they stand in the file, and their checks. One file per table.
+//! The tables of a scene file: keys as written in the file, and their checks. One file per table.
 
 pub mod bearing;
 pub mod body;

@@ -10,7 +10,7 @@ use super::run::Run;
 /// Rows of a result: 2³², 34 GB for each column.
 pub const MOST_ROWS: f64 = 4_294_967_296.0;
 
-/// `[output]` as it stands in the file.
+/// `[output]` as written in the file.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutputTable {

@@ -15,7 +15,7 @@ use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// `[run]` as it stands in the file.
+/// `[run]` as written in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "RunTable")]

@@ -6,7 +6,7 @@ use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// `[[shaft]]` as it stands in the file.
+/// `[[shaft]]` as written in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
@@ -43,7 +43,7 @@ pub struct ShaftTable {
 #[schemars(tag = "kind", rename = "ShaftModel")]
 #[allow(non_snake_case)]
 pub enum ShaftModel {
-    /// One body, which does not give way.
+    /// One body, which does not deflect.
     Rigid {},
     /// A body at each station, Timoshenko beams between them.
     Beam {

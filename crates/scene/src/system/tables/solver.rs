@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use super::run::Run;
 
-/// `[solver]` as it stands in the file. Used by runs that step through time.
+/// `[solver]` as written in the file. Used by runs that step through time.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolverTable {

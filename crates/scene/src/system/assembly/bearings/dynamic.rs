@@ -93,8 +93,13 @@ pub(super) fn add(
                             e,
                         )
                     })?;
-            Ok(Ok(if model.ball_loads {
+            let element = if model.ball_loads {
                 element.with_ball_loads()
+            } else {
+                element
+            };
+            Ok(Ok(if model.ball_accelerations {
+                element.with_ball_accelerations()
             } else {
                 element
             }))

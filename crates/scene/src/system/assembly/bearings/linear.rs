@@ -65,7 +65,7 @@ fn by_diagonal(
             ];
             refuse_rigid(keys, &stated)?;
             if model.axial_support.is_some() && axial == 0.0 {
-                let problem = "says which way axial_stiffness_N_per_mm bears, which is missing";
+                let problem = "says which way axial_stiffness_N_per_mm carries, which is missing";
                 return Err(keys.error("model.axial_support", problem));
             }
             let [radial_damping, axial_damping, tilt_damping] = dampings(model);

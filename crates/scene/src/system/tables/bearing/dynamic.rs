@@ -26,6 +26,9 @@ pub struct DynamicBearingTable {
     /// Whether the load of every ball is a channel.
     #[serde(default)]
     pub ball_loads: bool,
+    /// Whether the acceleration of every ball's centre is a channel, world axes.
+    #[serde(default)]
+    pub ball_accelerations: bool,
 }
 
 /// `contact`: F = max(0, K (δ/mm)^e + c STEP(δ; 0, 0, d, 1) δ̇), the impact function of multibody programs.

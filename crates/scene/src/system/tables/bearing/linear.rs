@@ -18,7 +18,7 @@ pub struct LinearBearingTable {
     pub axial_stiffness_N_per_mm: Option<f64>,
     /// Stiffness against tilting; none where not given.
     pub tilt_stiffness_Nm_per_rad: Option<f64>,
-    /// Which way the axial stiffness bears: "both" (the default), "positive" (forces on the shaft along the axis) or "negative" (against it). The
+    /// Which way the axial stiffness carries: "both" (the default), "positive" (forces on the shaft along the axis) or "negative" (against it). The
     /// axial damping acts both ways.
     pub axial_support: Option<AxialSupportWord>,
     /// Whole stiffness matrix in N/m, N/rad and N·m/rad instead of the diagonal: 5×5 (x, y, z, tilt about x, about y), or 6×6 with zeros for the
