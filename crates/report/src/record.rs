@@ -17,6 +17,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
+pub use crate::record_data::RecordColumn;
+
 /// Most revolutions of a record: the rig's 5000 pulses a turn fill the memory beyond.
 const MOST_REVOLUTIONS: usize = 1000;
 
@@ -99,19 +101,6 @@ impl RecordUncertainty {
             Quantity::Strain { .. } => self.strain_range,
         }
     }
-}
-
-/// One quantity at one torque.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RecordColumn {
-    /// Name in the head of `data.csv`.
-    pub name: String,
-    /// What it holds.
-    pub quantity: Quantity,
-    /// Torque on the driven gear, N·m.
-    pub torque_nm: f64,
-    /// Values in SI units (m; strain dimensionless), one for each angle.
-    pub values: Vec<f64>,
 }
 
 /// A reference record.

@@ -1,7 +1,6 @@
 //! `data.csv` of a reference record: heads, numbers, and errors that name the place.
 
 use crate::quantity::Quantity;
-use crate::record::RecordColumn;
 use gearmesh_geometry::input::{CsvRows, shown_field};
 
 /// The heads that are understood, for error messages.
@@ -112,6 +111,19 @@ pub enum DataError {
         /// Line of the heads.
         line: usize,
     },
+}
+
+/// One quantity at one torque.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordColumn {
+    /// Name in the head of `data.csv`.
+    pub name: String,
+    /// What it holds.
+    pub quantity: Quantity,
+    /// Torque on the driven gear, N·m.
+    pub torque_nm: f64,
+    /// Values in SI units (m; strain dimensionless), one for each angle.
+    pub values: Vec<f64>,
 }
 
 /// The parsed table, SI units.

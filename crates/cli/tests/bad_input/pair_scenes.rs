@@ -72,7 +72,12 @@ fn a_pair_that_cannot_run_is_refused() {
     scene_refused(
         (centre, "centre_distance_mm = 50.0"),
         "[pair]",
-        &["pair", "50.0000 mm", "sum of the base radii, 50.74"],
+        &[
+            "pair",
+            "50.0000 mm",
+            "sum of the base radii",
+            ", 50.7434 mm: no line of action",
+        ],
     );
     scene_refused(
         (centre, "centre_distance_mm = 53.9"),
