@@ -10,7 +10,7 @@ import studio_page
 
 PROGRAM = os.environ.get("GEARMESH_PROGRAM", "target/debug/gearmesh")
 RELIEF = "gear_1.microgeometry.tip_relief_um"
-MISSING = "no Chromium: `apt-get install -y chromium` installs it (cargo xtask prepare does, as root)"
+MISSING = "no Chromium: `apt-get install -y chromium` installs it (cargo xtask test does, as root)"
 
 if studio_page.chromium() is None:
     # Where the browser must be there, its absence is a failure and no skip.
