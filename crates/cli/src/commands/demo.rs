@@ -3,6 +3,7 @@
 use crate::arguments::DemoArguments;
 use crate::console;
 use gearmesh_geometry::GearDefinition;
+use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::write_reduced_gear;
 use gearmesh_operations::Failure;
 use gearmesh_operations::cross_section::{CROSS_SECTION, FieldCase, picture};
@@ -36,6 +37,10 @@ impl Clock {
         self.start = Instant::now();
     }
 }
+
+/// Root fillets of the demo's gears: half the default length of 0.08 modules. Root strain errs with its square, by 2 % on
+/// the default.
+const FINE_FILLETS: &str = "\n[mesh]\nfillet_mm = 0.104\n";
 
 /// Runs the command from the project's folder.
 pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
@@ -109,7 +114,9 @@ fn reduce_gear(
     name: &str,
     clock: &mut Clock,
 ) -> Result<(GearDefinition, GearBody), Failure> {
-    let gear = GearDefinition::read(&models.join(format!("{name}.toml")))?;
+    let mut document = InputDocument::read(&models.join(format!("{name}.toml")))?;
+    document.text += FINE_FILLETS;
+    let gear = GearDefinition::from_document(&document)?;
     let (model, body) = reduced(&gear, true, &console::watch())?;
     write_reduced_gear(&out.join(format!("{name}.h5")), &model).map_err(Failure::work)?;
     summary(&model).into_iter().for_each(console::note);

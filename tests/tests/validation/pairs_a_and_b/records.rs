@@ -9,7 +9,7 @@ use gearmesh_scene::SceneResult;
 /// Positions a pitch of the records.
 const RECORD_POINTS: usize = 48;
 
-/// What the project asks of the default settings: root strain within this of the record.
+/// What the project asks of the demo's gears: root strain within this of the record.
 const STRAIN_WITHIN: f64 = 0.01;
 
 fn stated(model: &ReducedGear) -> f64 {
@@ -122,20 +122,20 @@ fn against_its_record(name: &str, gauges: usize) {
 }
 
 #[test]
-#[ignore = "three gears are reduced on default meshes: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
 fn pair_a_is_its_record() {
     against_its_record("pair_a", 2);
 }
 
 #[test]
-#[ignore = "three gears are reduced on default meshes: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
 fn pair_b_is_its_record() {
     against_its_record("pair_b", 4);
 }
 
 /// With friction 0.3, as the seed's experiment.
 #[test]
-#[ignore = "three gears are reduced on default meshes: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
 fn pairs_with_friction_are_their_records() {
     against_its_record("pair_a_friction", 2);
     against_its_record("pair_b_friction", 4);
