@@ -299,7 +299,8 @@ fn a_loaded_bevel_pair_has_knobs_of_its_load() {
     };
     assert_eq!(largest("tca."), 0.0);
     assert!(largest("load.slices") > 1e-3, "{found:?}");
-    assert!(largest("load.positions") > 1e-3, "{found:?}");
+    // Positions are laid at the events, however many even ones there are: twelve of them are within 1 % of 240.
+    assert!(largest("load.positions") < 1e-2, "{found:?}");
 }
 
 /// A disc on a damped torsion spring behind a shaft whose speed is stepped: what is left of the swing decays with the

@@ -95,10 +95,20 @@ fn ball_forces(
         row.middle_z_m + ball.axial_m,
     );
     let at = |p: &Vector2<f64>| e_r * p[0] + Vector3::z() * p[1];
+    // A ball that the inner ring does not press may lie as near to it as a step of the differences: it must not reach in.
+    let pressed = ball.inner_load_n > 0.0;
+    if !pressed {
+        let reached = inner_energy(row, pose, &at(&place));
+        assert!(reached <= 1e-12 * outer_energy(row, &place), "{ball:?}");
+    }
     let along = |i: usize, h: f64| {
         let mut p = place;
         p[i] += h;
-        inner_energy(row, pose, &at(&p)) + outer_energy(row, &p)
+        let inner = match pressed {
+            true => inner_energy(row, pose, &at(&p)),
+            false => 0.0,
+        };
+        inner + outer_energy(row, &p)
     };
     let depth = |load: f64, k: f64| (load / k).cbrt().powi(2);
     let outer_m = depth(ball.outer_load_n, row.outer.contact.stiffness_n_per_m15);
@@ -265,10 +275,7 @@ fn many_fast_bearings_are_in_equilibrium() {
     let number = |name: &str, otherwise: u64| {
         std::env::var(name).map_or(otherwise, |text| text.parse().unwrap())
     };
-    many(
-        number("BEARINGS_SEED", 2),
-        number("BEARINGS", 1000) as usize,
-    );
+    many(number("BEARINGS_SEED", 2), number("BEARINGS", 100) as usize);
 }
 
 /// A model of its own (a program in Python: small tilts, Newton's method by differences, balls kept in both grooves)
