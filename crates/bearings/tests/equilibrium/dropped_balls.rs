@@ -146,7 +146,11 @@ fn ball_forces(
         slope(step, |h| {
             let mut moved = *pose;
             moved.centre_m[i] += h;
-            inner_energy(row, &moved, &at(&place))
+            if pressed {
+                inner_energy(row, &moved, &at(&place))
+            } else {
+                0.0
+            }
         })
     };
     (left, -Vector3::new(on_ring(0), on_ring(1), on_ring(2)))
