@@ -88,7 +88,7 @@ pub(crate) enum OnInterrupt {
 }
 
 /// Runs `work` on a thread of its own. `progress(stage, done, total)` is called about every 50 ms where something has
-/// changed, on the thread that called. `python` makes meshes.
+/// changed, and at the end, on the thread that called. `python` makes meshes.
 ///
 /// # Errors
 /// What `work` returns; `KeyboardInterrupt`, or what `progress` has raised; `WorkError` where the work panicked.
@@ -146,6 +146,12 @@ pub(crate) fn watched<T: Send + 'static>(
     let _ = py.detach(|| thread.join());
     if let Some((error, _)) = interrupted {
         return Err(error);
+    }
+    // Where it came to, also of work that took less than a look.
+    let mut last = Stand::default();
+    shared.with(|stand| last.clone_from(stand));
+    if let (Some(Ok(Ok(_))), Some(progress), true) = (&outcome, progress, last != told) {
+        progress.call1((&last.stage, last.done, last.total))?;
     }
     match outcome {
         Some(Ok(outcome)) => outcome.map_err(raised),
