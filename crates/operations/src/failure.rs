@@ -21,7 +21,7 @@ pub enum Fault {
     Work,
     /// The input is wrong.
     Input,
-    /// Nobody's: the operation was told to stop.
+    /// No fault: the operation was asked to stop.
     Stopped,
 }
 
@@ -71,7 +71,7 @@ impl Failure {
         }
     }
 
-    /// The operation was told to stop; `words` say what there is of its work.
+    /// The operation was asked to stop; `words` say what of its work is kept.
     pub fn stopped(words: impl std::fmt::Display) -> Self {
         Self {
             fault: Fault::Stopped,

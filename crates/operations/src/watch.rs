@@ -1,4 +1,4 @@
-//! What an operation says while it works, and how it is told to stop.
+//! What an operation reports while it works, and how it is stopped.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;

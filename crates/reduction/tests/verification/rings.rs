@@ -142,7 +142,7 @@ fn left_and_right_flanks_of_a_ring_are_mirror_images() {
     for tooth in [0, 1, 2] {
         let right = model.c_hub_block(0, Flank::Right, tooth, Flank::Right);
         let left = model.c_hub_block(0, Flank::Left, (TEETH - tooth) % TEETH, Flank::Left);
-        // Quads of the body are gmsh's and not mirrored to the bit: what they do to a coarse mesh's figures.
+        // gmsh's quads in the body are not exact mirror images: the bound is their effect on a coarse mesh.
         let off = difference(&right, &left);
         assert!(off < 5e-3, "{tooth} {off:e}");
     }

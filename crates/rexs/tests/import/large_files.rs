@@ -6,7 +6,7 @@ use std::fmt::Write;
 /// Components of each file, about.
 const COUNT: usize = 4_000;
 
-/// Imports a file of as many components as it is told, and of twice as many: what the import looks at doubles. A
+/// Imports files of a number of components and of twice that number: what the import looks at doubles. A
 /// part of it that grew with the square and made up a tenth of the smaller file's looks would add a fifth.
 fn grows_linearly(make: impl Fn(usize) -> Import) {
     let [once, twice] = [COUNT, 2 * COUNT].map(|count| make(count).visits as f64);

@@ -41,7 +41,7 @@ fn a_static_scene_turned_transient_hears_all_at_once() {
             "{error}"
         );
     }
-    // What misses one key of its own is told of that one alone.
+    // Where one key of its own is missing, the complaint names that one alone.
     let error =
         complaint("[run]\nkind = \"transient\"\nend_s = 1.0\n[output]\ninterval_s = 0.1").unwrap();
     assert!(
