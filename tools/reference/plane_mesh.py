@@ -20,8 +20,9 @@ def arc(r, a, b, n):
     return np.column_stack([r * np.cos(np.linspace(a, b, n)), r * np.sin(np.linspace(a, b, n))])
 
 
-def triangles(pieces, circle, size):
-    """Mesh between a closed outline, pieces one behind the other, and a circle; `size`: gmsh's expression of the edge length in x and y."""
+def triangles(pieces, circle, size, nodes=()):
+    """Mesh between a closed outline, pieces one behind the other, and a circle, with nodes at these angles of it; `size`: gmsh's expression of the edge
+    length in x and y."""
     gmsh.initialize(interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
     geo = gmsh.model.geo
@@ -35,8 +36,9 @@ def triangles(pieces, circle, size):
         last = ids[-1]
         lines.append(geo.addSpline(ids))
     centre = geo.addPoint(0, 0, 0)
-    quarter = [geo.addPoint(circle * np.cos(a), circle * np.sin(a), 0) for a in np.pi / 2 * np.arange(4)]
-    loops = [lines, [geo.addCircleArc(quarter[k], centre, quarter[(k + 1) % 4]) for k in range(4)]]
+    angles = np.unique(np.round(np.concatenate([np.pi / 2 * np.arange(4), np.asarray(nodes) % (2 * np.pi)]), 12))
+    round_it = [geo.addPoint(circle * np.cos(a), circle * np.sin(a), 0) for a in angles]
+    loops = [lines, [geo.addCircleArc(a, centre, b) for a, b in zip(round_it, round_it[1:] + round_it[:1])]]
     if circle > np.hypot(*pieces[0][0]):
         loops.reverse()
     geo.addPlaneSurface([geo.addCurveLoop(loop) for loop in loops])
@@ -64,15 +66,15 @@ def stiffness(u, v, w):
 
 
 class PlaneBody:
-    """A mesh that is held on its circle of radius `held`."""
+    """A mesh that is held on its circle of radius `held`, all round or where `holds` is true of an edge's polar angle."""
 
-    def __init__(self, mesh, held):
+    def __init__(self, mesh, held, holds=lambda angle: angle == angle):
         self.mesh, self.element = mesh, ElementVector(ElementTriP2())
         self.basis = Basis(mesh, self.element, intorder=4)
         self.boundary = mesh.boundary_facets()
         self.middles = mesh.p[:, mesh.facets[:, self.boundary]].mean(axis=1)
         ends = np.hypot(*mesh.p)[mesh.facets[:, self.boundary]]
-        on = self.boundary[(np.abs(ends - held) < 1e-6 * held).all(axis=0)]
+        on = self.boundary[(np.abs(ends - held) < 1e-6 * held).all(axis=0) & holds(np.arctan2(self.middles[1], self.middles[0]))]
         self.free = np.setdiff1d(np.arange(self.basis.N), self.basis.get_dofs(on).all())
         k = stiffness.assemble(self.basis).tocsc()[self.free][:, self.free]
         options = dict(SymmetricMode=True)
