@@ -91,6 +91,9 @@ fn the_analytic_tooth_of_a_ring_is_that_of_finite_elements() {
         let roll = involute::roll_angle_rad(1e-3 * radius_mm, gear.profile.base_radius_m);
         let ratio = beam_over_found(&gear, roll, 1e-6 * own_um / LINE_LOAD, 0.06e-3);
         println!("{outer_mm} at {radius_mm}: {:+.2} %", 100.0 * (ratio - 1.0));
-        assert!((1.04..1.13).contains(&ratio), "{outer_mm} {radius_mm}: {ratio}");
+        assert!(
+            (1.04..1.13).contains(&ratio),
+            "{outer_mm} {radius_mm}: {ratio}"
+        );
     }
 }

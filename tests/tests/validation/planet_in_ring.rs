@@ -74,36 +74,33 @@ fn the_transmission_error_of_a_planet_in_a_ring_agrees() {
         "kind = \"ring\"\nouter_diameter_mm = 170.0",
     );
     let base_m = |teeth: f64| 0.5 * MODULE_M * teeth * 20f64.to_radians().cos();
-    let driven = at_rest(
-        folder.path(),
-        ["planet", "ring"],
-        "right",
-        base_m(75.0),
-    );
+    let driven = at_rest(folder.path(), ["planet", "ring"], "right", base_m(75.0));
     let mut seen = [false; 2];
     for (place, pairs, approach_um) in reference() {
         seen[pairs - 1] = true;
         for (torque, reference_um) in approach_um.into_iter().enumerate() {
             let found_um = -1e6 * driven.curve(&driven.te_m, torque)[place];
             let off = found_um / reference_um - 1.0;
-            println!("{place}: {pairs} pairs, {found_um:.4} um, {:+.3} %", 100.0 * off);
+            println!(
+                "{place}: {pairs} pairs, {found_um:.4} um, {:+.3} %",
+                100.0 * off
+            );
             assert!(off.abs() < 0.005, "{place} {torque}: {off}");
         }
     }
     assert!(seen[0] && seen[1]);
     // The ring drives: the same contacts are passed from the other end, the other flanks of the planet touch as right ones of the ring. Pair 0 of the first
     // run at −θ is that of the second at +θ: both have the same approach in the pitch point, and over a pitch the same mean.
-    let back = at_rest(
-        folder.path(),
-        ["ring", "planet"],
-        "left",
-        base_m(24.0),
-    );
+    let back = at_rest(folder.path(), ["ring", "planet"], "left", base_m(24.0));
     for torque in 0..LOADS.len() {
         let [forth, back] = [&driven, &back].map(|result| result.curve(&result.te_m, torque));
         for k in 0..POINTS {
             let mirrored = back[(POINTS - k) % POINTS];
-            assert!((forth[k] / mirrored - 1.0).abs() < 1e-6, "{torque} {k}: {} {mirrored}", forth[k]);
+            assert!(
+                (forth[k] / mirrored - 1.0).abs() < 1e-6,
+                "{torque} {k}: {} {mirrored}",
+                forth[k]
+            );
         }
     }
 }

@@ -95,11 +95,10 @@ impl Case {
             }
             "analytic" => {
                 let width = layout.reference.width_m;
-                let gears =
-                    [&pair.gear_1, &pair.gear_2].map(|gear| BeamTooth {
-                        face_width_m: width,
-                        ..beam_tooth(gear)
-                    });
+                let gears = [&pair.gear_1, &pair.gear_2].map(|gear| BeamTooth {
+                    face_width_m: width,
+                    ..beam_tooth(gear)
+                });
                 Box::new(BeamTeeth::new(gears, 3, [&[], &[]]).unwrap())
             }
             _ => {

@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use gearmesh_contact::LocalContact;
-use gearmesh_geometry::{Flank, GearPair};
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::{Flank, GearPair};
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{Scene, SceneResult, load as load_pair, run};
 
@@ -167,7 +167,10 @@ impl Twin {
         let (difference, effect) = self.difference();
         assert!(effect > least_effect_m, "{:?}: {effect:e}", self.gears);
         let gears = self.gears;
-        assert!(difference < tolerance_m, "{gears:?}: {difference:e} m of {effect:e} m");
+        assert!(
+            difference < tolerance_m,
+            "{gears:?}: {difference:e} m of {effect:e} m"
+        );
     }
 }
 
@@ -224,7 +227,10 @@ fn helical_teeth_in_a_ring_are_those_of_the_bodies() {
             twin.difference().0
         });
         assert!(large < 1e-8, "{gears:?}: {large:e} m");
-        assert!(small < 0.02 * large + 1e-12, "{gears:?}: {small:e} {large:e}");
+        assert!(
+            small < 0.02 * large + 1e-12,
+            "{gears:?}: {small:e} {large:e}"
+        );
     }
 }
 

@@ -40,11 +40,20 @@ fn mean(values: &[f64]) -> f64 {
 fn the_energy_of_a_ring_pair_balances_with_every_model() {
     let folder = tempfile::tempdir().unwrap();
     for (helix_deg, model) in [
-        (0.0, "model = { kind = \"impact\", stiffness_N_per_mm_e = 1e6, exponent = 1.5, damping_N_s_per_mm = 100.0, full_damping_depth_um = 5.0 }"),
+        (
+            0.0,
+            "model = { kind = \"impact\", stiffness_N_per_mm_e = 1e6, exponent = 1.5, damping_N_s_per_mm = 100.0, full_damping_depth_um = 5.0 }",
+        ),
         (0.0, "model = { kind = \"iso6336\", slices = 3 }"),
         (0.0, "model = { kind = \"analytic\", slices = 3 }"),
-        (0.0, "model = { kind = \"hybrid\", local = \"weber-banaschek\" }"),
-        (15.0, "model = { kind = \"hybrid\", local = \"weber-banaschek\" }"),
+        (
+            0.0,
+            "model = { kind = \"hybrid\", local = \"weber-banaschek\" }",
+        ),
+        (
+            15.0,
+            "model = { kind = \"hybrid\", local = \"weber-banaschek\" }",
+        ),
     ] {
         write_planet_and_ring(folder.path(), helix_deg);
         let off = [2e-6, 1e-6].map(|step_s| {
@@ -57,7 +66,10 @@ fn the_energy_of_a_ring_pair_balances_with_every_model() {
             found.relative_energy_error().unwrap()
         });
         println!("{helix_deg} {model}: {off:?}");
-        assert!(off[1] < off[0].max(1e-9) && off[1] < 1e-3, "{model}: {off:?}");
+        assert!(
+            off[1] < off[0].max(1e-9) && off[1] < 1e-3,
+            "{model}: {off:?}"
+        );
     }
 }
 
@@ -71,7 +83,10 @@ fn a_ring_pair_in_slow_motion_is_that_at_rest() {
     let hybrid = "model = { kind = \"hybrid\", local = \"weber-banaschek\", damping = { kind = \"stiffness-proportional\", time_s = 1e-6, full_depth_um = 1.0 } }";
     let desk = Desk::new();
     let in_time = result(&scene(run_table, 5.0, hybrid), folder.path(), &desk);
-    let moving = in_time.rows.read("elements/mesh/transmission_error_m").unwrap();
+    let moving = in_time
+        .rows
+        .read("elements/mesh/transmission_error_m")
+        .unwrap();
     let text = format!(
         "title = \"at rest\"\n[pair]\ngear_1 = \"gear_24.h5\"\ngear_2 = \"gear_75.h5\"\ncentre_distance_mm = 76.5\n[run]\ntorques_Nm = [{TORQUE_NM:?}]\n\
          pitches = 1\npoints_per_pitch = 60\n[mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\n"
@@ -81,7 +96,10 @@ fn a_ring_pair_in_slow_motion_is_that_at_rest() {
     let [moving_mean, mean_at_rest] = [mean(&moving), mean(&at_rest.te_m)];
     let ends = |values: &[f64]| {
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        [least, values.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+        [
+            least,
+            values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        ]
     };
     let ([a, b], [c, d]) = (ends(&moving), ends(&at_rest.te_m));
     println!("{moving_mean:e} {mean_at_rest:e}; {a:e} {b:e}, {c:e} {d:e}");
@@ -96,11 +114,21 @@ fn the_ideal_ratio_of_a_ring_has_its_sign() {
     write_planet_and_ring(folder.path(), 0.0);
     let run_table = "[run]\nkind = \"transient\"\nend_s = 0.01\n[solver]\nstep_s = 1e-4\n[output]\ninterval_s = 1e-3";
     let desk = Desk::new();
-    let found = result(&scene(run_table, 600.0, "model.kind = \"kinematic\""), folder.path(), &desk);
+    let found = result(
+        &scene(run_table, 600.0, "model.kind = \"kinematic\""),
+        folder.path(),
+        &desk,
+    );
     let last = |name: &str| *found.rows.read(name).unwrap().last().unwrap();
     let [planet, ring] = ["planet", "ring"].map(|body| last(&format!("bodies/{body}/turn_rad")));
-    assert!((ring / planet - 24.0 / 75.0).abs() < 1e-12, "{planet} {ring}");
+    assert!(
+        (ring / planet - 24.0 / 75.0).abs() < 1e-12,
+        "{planet} {ring}"
+    );
     let motor = last("joints/drive/moment_z_Nm");
-    assert!((motor.abs() / (TORQUE_NM * 24.0 / 75.0) - 1.0).abs() < 1e-6, "{motor}");
+    assert!(
+        (motor.abs() / (TORQUE_NM * 24.0 / 75.0) - 1.0).abs() < 1e-6,
+        "{motor}"
+    );
     assert!(found.head.meshes[0].ratio() < 0.0);
 }
