@@ -59,9 +59,7 @@ impl SystemResult {
         swapped: bool,
     ) -> Result<Option<MeshAxes>, FileError> {
         let mut bodies = [&mesh.bodies[0], &mesh.bodies[1]];
-        let mut circles = BaseCircles {
-            radii_m: mesh.signed_teeth(),
-        };
+        let mut circles = mesh.circles();
         if swapped {
             bodies.swap(0, 1);
             circles.radii_m.swap(0, 1);
