@@ -15,7 +15,7 @@ const LUGS: &str = "[blank.lugs]\ncount = 6\nwidth_deg = 10.0\n";
 
 /// Outer diameter and radius of the load \[mm\]; deflection of the own tooth, of those after and before it \[µm\]; strain
 /// \[µm/m\].
-pub(super) fn reference() -> Vec<[f64; 6]> {
+fn reference() -> Vec<[f64; 6]> {
     rows("plane_ring")
 }
 
@@ -32,7 +32,7 @@ fn rows<const N: usize>(folder: &str) -> Vec<[f64; N]> {
 
 /// The ring of the reference, in plane strain.
 /// `after_blank`: further keys of the blank, and `[mesh]`.
-pub(super) fn definition(outer_mm: f64, after_blank: &str) -> GearDefinition {
+fn definition(outer_mm: f64, after_blank: &str) -> GearDefinition {
     let text = format!(
         "name = \"ring\"\n[tooth]\nteeth = -60\nmodule_mm = 3.0\naddendum = 0.8\nface_width_mm = 10.0\n\
          [tooth.cutter]\nteeth = 24\n[blank]\nkind = \"ring\"\nouter_diameter_mm = {outer_mm}\n\

@@ -95,10 +95,11 @@ impl Case {
             }
             "analytic" => {
                 let width = layout.reference.width_m;
-                let gears = [&pair.gear_1, &pair.gear_2].map(|gear| BeamTooth {
-                    face_width_m: width,
-                    ..beam_tooth(gear)
-                });
+                let gears =
+                    [(1, &pair.gear_1), (2, &pair.gear_2)].map(|(number, gear)| BeamTooth {
+                        face_width_m: width,
+                        ..beam_tooth(number, gear)
+                    });
                 Box::new(BeamTeeth::new(gears, 3, [&[], &[]]).unwrap())
             }
             _ => {

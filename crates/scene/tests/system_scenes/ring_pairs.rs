@@ -45,7 +45,6 @@ fn the_energy_of_a_ring_pair_balances_with_every_model() {
             "model = { kind = \"impact\", stiffness_N_per_mm_e = 1e6, exponent = 1.5, damping_N_s_per_mm = 100.0, full_damping_depth_um = 5.0 }",
         ),
         (0.0, "model = { kind = \"iso6336\", slices = 3 }"),
-        (0.0, "model = { kind = \"analytic\", slices = 3 }"),
         (
             0.0,
             "model = { kind = \"hybrid\", local = \"weber-banaschek\" }",

@@ -261,24 +261,16 @@ impl SceneMesh<'_> {
                 );
                 return Err(self.keys.error(key, problem));
             }
-            let rim = gear.definition.blank.rim();
-            if rim.is_some_and(|rim| rim.held_z_m.is_some() || rim.lugs.is_some()) {
-                let problem = format!(
-                    "`{}` is held by a band or lugs; model.kind = \"analytic\" holds a ring over its whole outside: choose \"hybrid\", or leave \
-                     held_band_mm and lugs out",
-                    gear.definition.name
-                );
-                return Err(self.keys.error(key, problem));
-            }
         }
         let tooth = |i: usize| {
             let gear = &self.gears[i].definition;
             BeamTooth {
+                gear: i + 1,
                 tooth: &gear.profile,
                 material: gear.material,
                 // Slices bend on their own: what stands beside the zone does not help.
                 face_width_m: self.zone_width_m(),
-                held_radius_m: gear.blank.edge_radius_m(),
+                bore_radius_m: gear.blank.bore_radius_m(),
             }
         };
         let cracks = [&model.cracks_1, &model.cracks_2];
