@@ -258,11 +258,13 @@ fn the_last_step_of_the_reference_is_told() {
 #[test]
 fn what_the_reference_may_be_off_by_covers_its_error() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("scene.toml"), OSCILLATOR).unwrap();
+    // Of longer rows only some steps are looked at, which no knob changes.
+    let oscillator = OSCILLATOR.replace("interval_s = 1e-2", "interval_s = 2e-3");
+    std::fs::write(folder.path().join("scene.toml"), &oscillator).unwrap();
     let column = "bodies/block/velocity_x_m_per_s";
     let found = found_in(folder.path(), &[&format!("{column}:deviation")]).unwrap();
     assert!(found.spread.is_empty() && found.open.is_empty());
-    let mut text = OSCILLATOR.to_owned();
+    let mut text = oscillator;
     for knob in &found.knobs {
         let (name, top) = (&knob.name, &knob.rungs.last().unwrap().label);
         match name.strip_prefix("solver.").unwrap() {
