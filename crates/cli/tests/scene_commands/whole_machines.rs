@@ -54,9 +54,9 @@ fn a_bevel_machine_has_everything_at_once() {
     for (from, to) in [
         ("../out/scenes/bevel_pinion_13_35.h5", "pinion.h5"),
         ("../out/scenes/bevel_gear_13_35.h5", "gear.h5"),
-        ("end_s = 0.06\n", "end_s = 0.002\n"),
+        ("end_s = 0.04\n", "end_s = 0.002\n"),
         (
-            "{ step = { start_s = 0.0, from = 0.0, end_s = 0.03, to = 6000.0 } }",
+            "{ step = { start_s = 0.0, from = 0.0, end_s = 0.02, to = 6000.0 } }",
             "6000.0",
         ),
         ("end_s = 0.01, to = 100.0", "end_s = 0.0005, to = 100.0"),
