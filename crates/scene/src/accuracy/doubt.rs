@@ -108,7 +108,9 @@ fn in_one_direction(knob: &Knob) -> Option<Vec<f64>> {
 /// 1/q = e₂/e₁ − 1 and c q = e₁/(1/q − 1). Times 1.25, for orders mix: Roache's grid convergence index of three grids (J. Fluids Eng. 116, 1994, 405). A 1/q below 2,
 /// slower than first order, counts as 2; where e₂ is not known it is e₁.
 fn left_over(last: f64, last_two: Option<f64>) -> f64 {
-    last_two.map_or(last, |two| 1.25 * last / ((two / last - 1.0).max(2.0) - 1.0))
+    last_two.map_or(last, |two| {
+        1.25 * last / ((two / last - 1.0).max(2.0) - 1.0)
+    })
 }
 
 #[cfg(test)]

@@ -46,7 +46,10 @@ fn joints_ask_for_damping_of_their_errors() {
     let square = 2.0 * 9.81 * 0.5 * mass * lever / inertia;
     let expected = mass * (9.81 + square * lever);
     // Rows every 10 ms: the largest lies within 5 ms of one, (ω t)²/2 = 2e-4 of it below.
-    assert!((largest / expected - 1.0).abs() < 1e-3, "{largest} {expected} N");
+    assert!(
+        (largest / expected - 1.0).abs() < 1e-3,
+        "{largest} {expected} N"
+    );
 }
 
 /// A wheel held fixed is driven, too: places fit at the start, speeds do not, and the plan names both.

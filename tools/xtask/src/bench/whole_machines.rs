@@ -1,7 +1,6 @@
 //! `cargo xtask accuracy-cost whole-machines`: scenes with everything in them, how they change with half the step, and what each part costs.
 
 use std::fmt::Write;
-use std::path::Path;
 use std::process::ExitCode;
 
 use super::bevel_machines::{Runner, Spread, reason, step};
@@ -322,6 +321,8 @@ fn page(text: &mut String, machine: &Machine, step_s: f64, rows: &[Row]) {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     /// Every edit changes its scene, so that no row is the whole by mistake.
