@@ -253,8 +253,8 @@ fn the_last_step_of_the_reference_is_told() {
     assert!(told.contains("is a series; say what of it"), "{told}");
 }
 
-/// What the reference may be off by covers its true error, and is within three times of it: v = v₀ cos ωt over the second half of a second. A run whose neighbours stay with it has no
-/// spread.
+/// What the reference may be off by covers its true error, and is within three times of it: v = v₀ cos ωt over the
+/// second half of a second. A run whose neighbours stay with it has no spread.
 #[test]
 fn what_the_reference_may_be_off_by_covers_its_error() {
     let folder = tempfile::tempdir().unwrap();
@@ -290,7 +290,8 @@ fn what_the_reference_may_be_off_by_covers_its_error() {
     );
 }
 
-/// Two rods of 0.1 m, each with its mass at the end, let go level: they swing and turn over without rule. No setting is then within a hundredth of the truth, and that is what is said.
+/// Two rods of 0.1 m, each with its mass at the end, let go level: they swing and turn over without rule. No setting is
+/// then within a hundredth of the truth, and that is what is said.
 #[test]
 fn a_chaotic_run_is_judged_by_its_spread() {
     let folder = tempfile::tempdir().unwrap();

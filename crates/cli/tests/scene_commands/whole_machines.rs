@@ -1,4 +1,5 @@
-//! Machines with everything in them: elastic gears, balls and cages that move, friction, weight, root strain. The shipped scenes with coarse gears, for some milliseconds.
+//! Machines with everything in them: elastic gears, balls and cages that move, friction, weight, root strain. The
+//! shipped scenes with coarse gears, for some milliseconds.
 
 use std::path::Path;
 

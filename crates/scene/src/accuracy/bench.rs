@@ -84,7 +84,8 @@ pub struct Measured {
     pub effort: Effort,
     /// The figures, column by column; of a gear pair each torque's.
     pub values: Vec<f64>,
-    /// Wall time of reducing the gears that it needs and the scene does not name \[s\], once, also where they were kept from before.
+    /// Wall time of reducing the gears that it needs and the scene does not name \[s\], once, also where they were kept
+    /// from before.
     pub reduction_s: f64,
 }
 
@@ -205,7 +206,8 @@ impl<'a> Bench<'a> {
         (effects, left_out)
     }
 
-    /// A case whose run begins next to that of another one, its ρ∞ changed in the fourth digit; none where nothing is integrated in time.
+    /// A case whose run begins next to that of another one, its ρ∞ changed in the fourth digit; none where nothing is
+    /// integrated in time.
     pub(super) fn beside(&self, case: &Case, number: usize) -> Option<Case> {
         self.base.value("solver")?;
         let key = "solver.rho_infinity";

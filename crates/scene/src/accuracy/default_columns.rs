@@ -1,4 +1,5 @@
-//! What is judged where the user names nothing: what a model decides. Means in motion are left out: statics fix them, whatever the step.
+//! What is judged where the user names nothing: what a model decides. Means in motion are left out: statics fix them,
+//! whatever the step.
 
 use crate::study::{FigureKinds, Wanted};
 
@@ -12,7 +13,8 @@ const IN_MOTION: [(&str, &[&str]); 6] = [
     ("/cage_1_speed_ratio", &["deviation"]),
 ];
 
-/// Ends of names of single numbers, of pairs at rest and of ratings. Of a loaded bevel pair the first of both transmission errors is rigid.
+/// Ends of names of single numbers, of pairs at rest and of ratings. Of a loaded bevel pair the first of both
+/// transmission errors is rigid.
 const AT_REST: [&str; 6] = [
     "te_peak_to_peak_um",
     "te_peak_to_peak_urad",

@@ -1,21 +1,24 @@
-//! How far the reference itself may be off: what its knobs would still change, and how far runs part that begin next to each other.
+//! How far the reference itself may be off: what its knobs would still change, and how far runs part that begin next to
+//! each other.
 
 use super::bench::{Bench, Measured};
 use super::knobs::{Knob, case_of};
 use super::ladder::{Accuracy, errors, largest, top_of};
 use crate::study::StudyError;
 
-/// Runs that begin next to each other and part by more than this, a tenth of the finest goal, are chaotic: their figures are statistics.
+/// Runs that begin next to each other and part by more than this, a tenth of the finest goal, are chaotic: their
+/// figures are statistics.
 const PARTED: f64 = 1e-4;
 
 /// Runs of a chaotic scene, the reference among them.
 const NEIGHBOURS: usize = 5;
 
-/// How far each column of a chaotic reference spreads over neighbouring runs: its standard deviation over their mean, which the reference
-/// becomes. Empty where neighbours stay together, or where nothing moves in time.
+/// How far each column of a chaotic reference spreads over neighbouring runs: its standard deviation over their mean,
+/// which the reference becomes. Empty where neighbours stay together, or where nothing moves in time.
 ///
-/// A neighbour has ρ∞ of the integrator changed by 1e-4. That changes a regular run by some 1e-4 of what its steps leave, far less than [`PARTED`]; in a
-/// chaotic one the difference grows by e in each Lyapunov time, from 1e-4 of the error of a step to the size of the motion.
+/// A neighbour has ρ∞ of the integrator changed by 1e-4. That changes a regular run by some 1e-4 of what its steps
+/// leave, far less than [`PARTED`]; in a chaotic one the difference grows by e in each Lyapunov time, from 1e-4 of the
+/// error of a step to the size of the motion.
 ///
 /// # Errors
 /// [`StudyError`] for a neighbour that cannot be run.
@@ -57,8 +60,8 @@ fn mean_and_spread(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
 }
 
 impl Accuracy {
-    /// How far each column of the reference may itself be off, relative: what the last rung of each knob leaves, added up over the knobs whose
-    /// rungs go up or down, and the spread of a chaotic run.
+    /// How far each column of the reference may itself be off, relative: what the last rung of each knob leaves, added
+    /// up over the knobs whose rungs go up or down, and the spread of a chaotic run.
     #[must_use]
     pub fn doubts(&self) -> Vec<f64> {
         let mut doubts = self.spread.clone();
@@ -94,7 +97,8 @@ impl Accuracy {
     }
 }
 
-/// Rungs as numbers, where they are numbers that grow or fall; others are choices, none of which is nearer to the truth.
+/// Rungs as numbers, where they are numbers that grow or fall; others are choices, none of which is nearer to the
+/// truth.
 fn in_one_direction(knob: &Knob) -> Option<Vec<f64>> {
     let values: Result<Vec<f64>, _> = knob.rungs.iter().map(|rung| rung.label.parse()).collect();
     let values = values.ok()?;
@@ -104,9 +108,10 @@ fn in_one_direction(knob: &Knob) -> Option<Vec<f64>> {
 
 /// What the last rung may leave, from its change e₁ and that of the last two rungs together, e₂.
 ///
-/// Where every rung leaves a share q of what the one below left, e₁ = c (1 − q) and e₂ = c (1 − q²)/q with c of the rung below the last, so that
-/// 1/q = e₂/e₁ − 1 and c q = e₁/(1/q − 1). Times 1.25, for orders mix: Roache's grid convergence index of three grids (J. Fluids Eng. 116, 1994, 405). A 1/q below 2,
-/// slower than first order, counts as 2; where e₂ is not known it is e₁.
+/// Where every rung leaves a share q of what the one below left, e₁ = c (1 − q) and e₂ = c (1 − q²)/q with c of the
+/// rung below the last, so that 1/q = e₂/e₁ − 1 and c q = e₁/(1/q − 1). Times 1.25, for orders mix: Roache's grid
+/// convergence index of three grids (J. Fluids Eng. 116, 1994, 405). A 1/q below 2, slower than first order, counts as
+/// 2; where e₂ is not known it is e₁.
 fn left_over(last: f64, last_two: Option<f64>) -> f64 {
     last_two.map_or(last, |two| {
         1.25 * last / ((two / last - 1.0).max(2.0) - 1.0)

@@ -1,8 +1,8 @@
 //! Which settings are tried, and which one to take.
 //!
-//! The reference has every knob at its top. From it each knob goes down alone: what it costs and what it saves. Errors that
-//! add up and times that multiply then say which of all combinations may lie on the front; those are run, and what is told of
-//! them is measured, not foretold.
+//! The reference has every knob at its top. From it each knob goes down alone: what it costs and what it saves. Errors
+//! that add up and times that multiply then say which of all combinations may lie on the front; those are run, and what
+//! is told of them is measured, not foretold.
 
 use super::bench::{Bench, JudgedTime, Measured};
 use super::doubt;
@@ -94,8 +94,8 @@ pub struct Accuracy {
     pub effects: Vec<EffectFound>,
     /// The time that settings are judged by.
     pub time: JudgedTime,
-    /// Of a chaotic run how far each column spreads over runs that begin next to each other, relative to their mean, which is the reference; else
-    /// empty.
+    /// Of a chaotic run how far each column spreads over runs that begin next to each other, relative to their mean,
+    /// which is the reference; else empty.
     pub spread: Vec<f64>,
     /// Goals of which no setting can be said to be within them, for the reference itself may be further off.
     pub open: Vec<Goal>,
@@ -224,8 +224,8 @@ pub(super) fn top_of(knobs: &[Knob]) -> Vec<usize> {
     knobs.iter().map(|knob| knob.rungs.len() - 1).collect()
 }
 
-/// The scene with every knob at its top. Knobs with further rungs get as many as it takes for the last step to change the columns by less
-/// than [`SETTLED`].
+/// The scene with every knob at its top. Knobs with further rungs get as many as it takes for the last step to change
+/// the columns by less than [`SETTLED`].
 fn settled_reference(bench: &Bench<'_>, knobs: &mut [Knob]) -> Result<Measured, StudyError> {
     let columns = bench.names().len();
     let mut reference = bench.measure(&case_of(knobs, &top_of(knobs)))?;
@@ -255,8 +255,8 @@ pub(super) fn largest(errors: &[f64]) -> f64 {
 }
 
 impl Accuracy {
-    /// How far the reference itself may be off: of the knobs whose rungs are numbers (steps, slices, tolerances) the one whose last rung still
-    /// changes the columns most, and by how much. None where there is no such knob.
+    /// How far the reference itself may be off: of the knobs whose rungs are numbers (steps, slices, tolerances) the
+    /// one whose last rung still changes the columns most, and by how much. None where there is no such knob.
     #[must_use]
     pub fn unsettled(&self) -> Option<(&Knob, f64)> {
         let is_number = |knob: &Knob| knob.rungs.iter().all(|r| r.label.parse::<f64>().is_ok());
@@ -389,8 +389,8 @@ fn undominated(mut all: Vec<(Vec<usize>, f64, f64)>) -> Vec<(Vec<usize>, f64, f6
     all
 }
 
-/// The measured setting that serves a goal best, the reference among them. Its error counts together with what the reference itself may be off by,
-/// `doubts`; none where that alone is too much, and where none answers in time.
+/// The measured setting that serves a goal best, the reference among them. Its error counts together with what the
+/// reference itself may be off by, `doubts`; none where that alone is too much, and where none answers in time.
 fn choice(tried: &[Tried], goal: Goal, doubts: &[f64]) -> Option<Vec<usize>> {
     let sound = || tried.iter();
     let is_within = |one: &&Tried, most: f64| {

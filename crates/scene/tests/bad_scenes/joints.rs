@@ -23,8 +23,9 @@ fn contradictory_joints_are_named() {
     }
 }
 
-/// With ρ∞ = 1 nothing damps errors of joint forces: the hinge of the pendulum, which carries 10 to 60 N, had 3e4 N after 9 s, and the run broke down at 11 s. It is refused; with 0.99 the
-/// force stays what the swing asks for: at most m (g + ω² r) with ω² = 2 g (1 − cos 60°) m r/J, J about the hinge.
+/// With ρ∞ = 1 nothing damps errors of joint forces: the hinge of the pendulum, which carries 10 to 60 N, had 3e4 N
+/// after 9 s, and the run broke down at 11 s. It is refused; with 0.99 the force stays what the swing asks for: at most
+/// m (g + ω² r) with ω² = 2 g (1 − cos 60°) m r/J, J about the hinge.
 #[test]
 fn joints_ask_for_damping_of_their_errors() {
     let pendulum = text("scene_pendulum.toml");

@@ -20,8 +20,8 @@ fn at_speed(name: &str, end_s: f64) -> String {
     changed(&scene, "end_s = 0.1\n", &format!("end_s = {end_s:?}\n"))
 }
 
-/// On linear bearings: over two revolutions the strongest line of the transmission error is the mesh frequency, the gear turns at its ratio, and the bearing beside the
-/// teeth carries more than the other one.
+/// On linear bearings: over two revolutions the strongest line of the transmission error is the mesh frequency, the
+/// gear turns at its ratio, and the bearing beside the teeth carries more than the other one.
 #[test]
 fn mesh_lines_ratio_and_bearings() {
     for (pair, teeth, frequency_hz) in [("13_35", [13, 35], 1300.0), ("31_36", [31, 36], 3100.0)] {
@@ -94,8 +94,9 @@ fn machines_run_on_balls() {
     }
 }
 
-/// Races as triangles carry what smooth ones do: single balls within 2 % of the mean load, what edges of 200 µm by 100 µm miss (decision 0018); the flanks, points against patches, are
-/// the same in both runs, and the loads of the balls go on to their rings and flanks.
+/// Races as triangles carry what smooth ones do: single balls within 2 % of the mean load, what edges of 200 µm by 100
+/// µm miss (decision 0018); the flanks, points against patches, are the same in both runs, and the loads of the balls
+/// go on to their rings and flanks.
 #[test]
 fn a_machine_runs_on_digital_surfaces() {
     let scene = text("dynamics_bevel_13_35_surfaces.toml");

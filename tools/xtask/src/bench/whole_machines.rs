@@ -1,4 +1,5 @@
-//! `cargo xtask accuracy-cost whole-machines`: scenes with everything in them, how they change with half the step, and what each part costs.
+//! `cargo xtask accuracy-cost whole-machines`: scenes with everything in them, how they change with half the step, and
+//! what each part costs.
 
 use std::fmt::Write;
 use std::process::ExitCode;
@@ -162,7 +163,8 @@ struct Found {
 /// Measures and writes docs/benchmarks/whole-machines.md.
 ///
 /// # Errors
-/// [`XtaskError`] where the program does not build, a gear cannot be reduced or the page cannot be written; a run that fails is a row of the page.
+/// [`XtaskError`] where the program does not build, a gear cannot be reduced or the page cannot be written; a run that
+/// fails is a row of the page.
 pub fn whole_machines(workspace: &Workspace, options: &Options) -> Result<ExitCode, XtaskError> {
     let bench = Bench::prepare(workspace, options)?;
     let folder = bench.scratch.join("whole-machines");
