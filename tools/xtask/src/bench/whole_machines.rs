@@ -132,22 +132,7 @@ const MACHINES: [Machine; 2] = [
                 "elements/mesh/strain_gear2_t0_compression_method2_ustrain",
             ),
         ],
-        parts: &[
-            Part {
-                name: "root strain",
-                edits: &[Paragraph("[[gauge]]")],
-            },
-            Part {
-                name: "slices and root strain: one contact a pair of teeth, rigid gears",
-                edits: &[
-                    Paragraph("[[gauge]]"),
-                    Replaced(
-                        "{ kind = \"hybrid\", damping = { kind = \"stiffness-proportional\", time_s = 2e-5, full_depth_um = 1.0 } }",
-                        "{ kind = \"impact\", stiffness_N_per_mm_e = 1e6, exponent = 1.5, damping_N_s_per_mm = 2.0, full_damping_depth_um = 1.0 }",
-                    ),
-                ],
-            },
-        ],
+        parts: &[],
     },
 ];
 
