@@ -23,7 +23,6 @@ mod pairs_at_rest;
 mod power_losses;
 mod provenance;
 mod random_bevel_pairs;
-mod ring_pairs;
 mod rolling_bearings;
 mod run_out;
 mod shafts;

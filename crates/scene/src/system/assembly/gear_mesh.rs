@@ -175,10 +175,6 @@ impl PreparedMesh {
         }
         scene.effects(parts);
         prepared.stage = Some(scene.stage());
-        let assembly = pair.assembly_words();
-        parts
-            .notes
-            .extend(assembly.map(|words| format!("mesh `{}`: {words}", table.name)));
         parts.notes.extend(scene.stiffness_note()?);
         parts.notes.extend(scene.microgeometry_note());
         Ok(prepared)
