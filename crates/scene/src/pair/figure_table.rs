@@ -1,0 +1,214 @@
+//! All figures of a torque of a pair at rest, a row each: how files, studies and people name a figure, in which unit, and
+//! where its value stands. Console, JSON, pages, overlays, exported tables, studies, Python and the studio show these rows.
+
+use super::figures::{FigureErrors, PairFigures};
+use super::result::SceneResult;
+
+/// What a figure measures. Its unit at each door follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Torque.
+    Torque,
+    /// Deflections and errors.
+    Length,
+    /// Mesh stiffness; people and studies read it over the width of the faces' overlap.
+    Stiffness,
+    /// Pressure.
+    Pressure,
+    /// Force.
+    Force,
+    /// Factors and ratios.
+    Factor,
+    /// Relative errors of the solution.
+    Residual,
+}
+
+/// Who sees a figure. JSON and exported tables have all of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Audience {
+    /// People and studies.
+    All,
+    /// The same, people only where the gears push each other along the axis.
+    Helical,
+    /// Studies.
+    Studies,
+    /// People at the console: how well the positions are solved.
+    Console,
+}
+
+/// A figure.
+#[derive(Debug, Clone, Copy)]
+pub struct Figure {
+    /// Name without unit: `te_mean`.
+    pub name: &'static str,
+    /// The same for people: "TE mean".
+    pub words: &'static str,
+    /// What it measures.
+    pub quantity: Quantity,
+    /// Who sees it.
+    pub audience: Audience,
+    /// Its value in SI units.
+    pub of: fn(&PairFigures) -> f64,
+}
+
+/// The rows, in the order in which people read them.
+pub const FIGURES: [Figure; 14] = {
+    use {Audience as A, Quantity as Q};
+    type Of = fn(&PairFigures) -> f64;
+    const fn row(name: &'static str, words: &'static str, quantity: Q, audience: A, of: Of) -> Figure {
+        Figure { name, words, quantity, audience, of }
+    }
+    [
+        row("torque", "torque", Q::Torque, A::All, |f| f.torque_nm),
+        row("te_mean", "TE mean", Q::Length, A::All, |f| f.te_mean_m),
+        row("te_peak_to_peak", "TE pk-pk", Q::Length, A::All, |f| f.te_peak_to_peak_m),
+        row("te_unloaded_peak_to_peak", "TE pk-pk without load", Q::Length, A::Studies, |f| f.unloaded_peak_to_peak_m),
+        row("stiffness_secant_mean", "secant", Q::Stiffness, A::All, |f| f.secant_mean_n_per_m),
+        row("stiffness_tangent_mean", "tangent", Q::Stiffness, A::All, |f| f.tangent_mean_n_per_m),
+        row("stiffness_tangent_peak_to_peak", "tangent pk-pk", Q::Stiffness, A::Studies, |f| f.tangent_peak_to_peak_n_per_m),
+        row("k_h_beta", "K_Hbeta", Q::Factor, A::All, |f| f.k_h_beta),
+        row("pressure_largest", "p_H max", Q::Pressure, A::All, |f| f.pressure_largest_pa),
+        row("axial_force_1_mean", "axial force gear 1", Q::Force, A::Helical, |f| f.axial_force_1_mean_n),
+        row("axial_over_normal_force", "axial over normal force", Q::Factor, A::Helical, |f| f.axial_force_1_mean_n / f.normal_force_mean_n),
+        row("torque_balance", "balance", Q::Residual, A::Console, |f| f.torque_balance),
+        row("residual", "residual", Q::Residual, A::Console, |f| f.residual),
+        row("iterations_per_position", "iter/pos", Q::Factor, A::Console, |f| f.iterations_per_position),
+    ]
+};
+
+/// Estimated errors of figures: name in files, and the share.
+pub const FIGURE_ERRORS: [(&str, fn(&FigureErrors) -> Option<f64>); 5] = [
+    ("positions_te_peak_to_peak", |e| e.te_positions),
+    ("positions_pressure", |e| e.pressure_positions),
+    ("positions_k_h_beta", |e| e.k_h_beta_positions),
+    ("slices_k_h_beta", |e| e.slices),
+    ("mesh_strain", |e| e.mesh_strain),
+];
+
+/// A unit that people read, and the factor that brings SI values there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReadUnit {
+    /// Name.
+    pub name: &'static str,
+    /// Factor.
+    pub factor: f64,
+    decimals: usize,
+}
+
+/// What mesh stiffness is read over: the width of the faces' overlap \[m\]; none where a result does not tell it.
+pub type OverWidth = Option<f64>;
+
+impl Quantity {
+    /// The unit that people and studies read.
+    #[must_use]
+    pub fn read_unit(self, over: OverWidth) -> ReadUnit {
+        let (name, factor, decimals) = match (self, over) {
+            (Self::Torque, _) => ("N m", 1.0, 1),
+            (Self::Length, _) => ("µm", 1e6, 4),
+            (Self::Stiffness, Some(width_m)) => ("N/(mm·µm)", 1e-9 / width_m, 4),
+            // Of the whole face, for results whose gear files this program does not understand.
+            (Self::Stiffness, None) => ("N/µm", 1e-6, 4),
+            (Self::Pressure, _) => ("MPa", 1e-6, 1),
+            (Self::Force, _) => ("N", 1.0, 3),
+            (Self::Factor | Self::Residual, _) => ("", 1.0, 4),
+        };
+        ReadUnit { name, factor, decimals }
+    }
+
+    /// The end of a name: in files, in SI units, and in studies.
+    const fn suffixes(self) -> [&'static str; 2] {
+        match self {
+            Self::Torque => ["_Nm", "_Nm"],
+            Self::Length => ["_m", "_um"],
+            Self::Stiffness => ["_N_per_m", "_N_per_mm_um"],
+            Self::Pressure => ["_Pa", "_MPa"],
+            Self::Force => ["_N", "_N"],
+            Self::Factor | Self::Residual => ["", ""],
+        }
+    }
+}
+
+impl Figure {
+    /// Name in files, where values are in SI units: `te_mean_m`.
+    #[must_use]
+    pub fn name_in_files(&self) -> String {
+        self.name.to_owned() + self.quantity.suffixes()[0]
+    }
+
+    /// Name of the column of a study: `te_mean_um`.
+    #[must_use]
+    pub fn name_in_studies(&self) -> String {
+        self.name.to_owned() + self.quantity.suffixes()[1]
+    }
+
+    /// Whether studies have the figure; they have a row for each torque.
+    #[must_use]
+    pub fn is_studied(&self) -> bool {
+        self.audience != Audience::Console && self.quantity != Quantity::Torque
+    }
+
+    /// Words and unit.
+    #[must_use]
+    pub fn heading(&self, over: OverWidth) -> String {
+        let unit = self.quantity.read_unit(over).name;
+        format!("{} {unit}", self.words).trim_end().to_owned()
+    }
+
+    /// The value as people read it.
+    #[must_use]
+    pub fn text(&self, figures: &PairFigures, over: OverWidth) -> String {
+        let value = (self.of)(figures);
+        let ReadUnit { factor, decimals, .. } = self.quantity.read_unit(over);
+        match self.quantity {
+            Quantity::Residual => format!("{value:.1e}"),
+            Quantity::Torque => format!("{value}"),
+            _ => format!("{:.decimals$}", factor * value),
+        }
+    }
+}
+
+/// Figures as people read them: heads, and a row of texts for each torque.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FigureTable {
+    /// Words and units.
+    pub heads: Vec<String>,
+    /// Texts under them.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl FigureTable {
+    /// Of torques of results, by their numbers, in one unit each.
+    #[must_use]
+    pub fn new(of: &[(&SceneResult, usize)], seen: impl Fn(&Figure) -> bool) -> Self {
+        let widths: Vec<OverWidth> = of.iter().map(|(r, _)| r.overlap_width_m().ok()).collect();
+        let is_known = widths.iter().all(Option::is_some);
+        let shown: Vec<Figure> = FIGURES.into_iter().filter(seen).collect();
+        let over = |k: usize| widths[k].filter(|_| is_known);
+        let first = if of.is_empty() { None } else { over(0) };
+        let row = |(k, (result, torque)): (usize, &(&SceneResult, usize))| {
+            let figures = result.figures(*torque);
+            shown.iter().map(|figure| figure.text(&figures, over(k))).collect()
+        };
+        Self {
+            heads: shown.iter().map(|figure| figure.heading(first)).collect(),
+            rows: of.iter().enumerate().map(row).collect(),
+        }
+    }
+}
+
+impl SceneResult {
+    /// Whether people see a figure of this result.
+    #[must_use]
+    pub fn shows(&self, figure: &Figure) -> bool {
+        figure.audience == Audience::All || figure.audience == Audience::Helical && self.has_axial_force()
+    }
+
+    /// All torques as people read them; `console`: with what only the console shows.
+    #[must_use]
+    pub fn figure_table(&self, console: bool) -> FigureTable {
+        let torques: Vec<(&Self, usize)> = (0..self.torque_nm.len()).map(|k| (self, k)).collect();
+        FigureTable::new(&torques, |figure| {
+            self.shows(figure) || console && figure.audience == Audience::Console
+        })
+    }
+}
