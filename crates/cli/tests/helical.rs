@@ -6,10 +6,12 @@ mod common;
 use common::{
     Desk, SOLID, THIN, argument, changed, gearmesh, largest_difference, number, refused, succeeds,
 };
-use gearmesh_scene::SceneResult;
+use gearmesh_scene::pair::figure_table::FIGURES;
 use gearmesh_scene::system_run::SystemResult;
+use gearmesh_scene::{Scene, SceneResult, load};
 use serde_json::Value;
-use std::path::PathBuf;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 
 const TORQUE_NM: f64 = 40.0;
 
@@ -70,6 +72,7 @@ fn both_hands_run_through_the_whole_chain() {
     );
     let row = &figures["rows"][0];
     assert!(number(&row["torque_balance"]) < 1e-10);
+    one_table_at_all_doors(&desk, &result, &figures);
     // T/r_b tan β_b, from the definition alone; a right-hand driver on right flanks is pushed to −z.
     let (beta, alpha_n) = (22f64.to_radians(), 20f64.to_radians());
     let alpha_t = (alpha_n.tan() / beta.cos()).atan();
@@ -177,6 +180,54 @@ fn at_rest_between_axles(desk: &Desk, pair: &SceneResult, axial_n: f64) {
         for force in read(&format!("joints/{name}/force_z_N")) {
             let off = force / (sign * axial_n) - 1.0;
             assert!(off.abs() < 0.02, "{name} {force} {axial_n}");
+        }
+    }
+}
+
+/// Figures of the first torque by `--json`, the table `torques`, a study, the page and the console: equal to the last digit that
+/// each has.
+fn one_table_at_all_doors(desk: &Desk, result: &Path, figures: &Value) {
+    let row = figures["rows"][0].as_object().unwrap();
+    let words = ["export", argument(result), "--table", "torques", "-o"];
+    let (csv, html) = (desk.path("torques.csv"), desk.path("figures.html"));
+    succeeds(&[&words[..], &[argument(&csv)]].concat());
+    let csv = std::fs::read_to_string(csv).unwrap();
+    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (heads, values) = (lines.next().unwrap(), lines.next().unwrap());
+    let exported: HashMap<_, f64> = heads
+        .into_iter()
+        .zip(values.iter().map(|v| v.parse().unwrap()))
+        .collect();
+    let study = "title = \"one\"\nscene = \"scene.toml\"\n[[parameter]]\nname = \"T\"\nkeys = [\"run.torques_Nm.0\"]\nvalues = [40.0]\n";
+    let (study, out) = (desk.file("one.toml", study), desk.path("one"));
+    let studied = succeeds(&["study", argument(&study), "-o", argument(&out), "--json"])
+        .json()
+        .to_string();
+    succeeds(&["report", argument(result), "-o", argument(&html)]);
+    let page = std::fs::read_to_string(html).unwrap();
+    let console = succeeds(&["run", argument(&desk.path("scene.toml"))]).stdout;
+    let loaded = load(Scene::read(&desk.path("scene.toml")).unwrap()).unwrap();
+    let over = Some(loaded.layout.reference.width_m);
+    let of_result = SceneResult::read(result).unwrap();
+    for figure in FIGURES {
+        let name = figure.name_in_files();
+        let value = (figure.of)(&of_result.figures(0));
+        assert_eq!(number(&row[&name]), value, "{name}");
+        assert_eq!(exported[name.as_str()], value, "{name}");
+        let text = figure.text(&of_result.figures(0), over);
+        if of_result.shows(figure) {
+            assert!(
+                page.contains(&text.replace('-', "−")) || page.contains(&text),
+                "{name} {text}"
+            );
+            assert!(console.contains(&text), "{name} {text}");
+        }
+        if figure.is_studied() {
+            let read = figure.kind.read_unit(over).factor * value;
+            assert!(
+                studied.contains(&Value::from(read).to_string()),
+                "{name} {read} {studied}"
+            );
         }
     }
 }

@@ -6,7 +6,11 @@ use crate::{periods, ratings};
 
 /// The curves' figures for people.
 pub fn table(result: &SceneResult) -> Vec<String> {
-    let mut lines = vec![format!("{}: {} positions per torque", result.title, result.angles())];
+    let mut lines = vec![format!(
+        "{}: {} positions per torque",
+        result.title,
+        result.angles()
+    )];
     let mark = periods::mark(&result.contact_coverage);
     let table = result.figure_table(true);
     let heads: Vec<String> = table.heads.iter().map(|head| in_ascii(head)).collect();

@@ -2,7 +2,7 @@
 
 use gearmesh_model::{Column, FileError};
 use gearmesh_scene::SceneResult;
-use gearmesh_scene::pair::figure_table::{FigureTable, Quantity};
+use gearmesh_scene::pair::figure_table::{FigureKind, FigureTable};
 use gearmesh_scene::system_run::{ResultKind, SystemResult, rank, stem};
 
 use crate::min_max;
@@ -24,8 +24,9 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
     };
     let last = |r: &SceneResult| r.torque_nm.len() - 1;
     let x: Vec<f64> = first.angle_rad.iter().map(|a| a.to_degrees()).collect();
-    let widths: Option<Vec<f64>> = (results.iter().map(|(_, r)| r.overlap_width_m().ok())).collect();
-    let stiffness = |k: usize| Quantity::Stiffness.read_unit(widths.as_ref().map(|all| all[k]));
+    let widths: Option<Vec<f64>> =
+        (results.iter().map(|(_, r)| r.overlap_width_m().ok())).collect();
+    let stiffness = |k: usize| FigureKind::Stiffness.read_unit(widths.as_ref().map(|all| all[k]));
     let factors: Vec<f64> = (0..results.len()).map(|k| stiffness(k).factor).collect();
     let chart = |title: &str, y: Axis, factors: &[f64], of: fn(&SceneResult) -> &Vec<f64>| {
         let axis = Axis::new("driver angle", "deg");
@@ -40,7 +41,9 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
         chart
     };
     let torques: Vec<(&SceneResult, usize)> = results.iter().map(|(_, r)| (*r, last(r))).collect();
-    let shown = FigureTable::new(&torques, |figure| results.iter().any(|(_, r)| r.shows(figure)));
+    let shown = FigureTable::new(&torques, |figure| {
+        results.iter().any(|(_, r)| r.shows(figure))
+    });
     let mut table = Table::new("At the largest torque")
         .column("file", Align::Left)
         .column("title", Align::Left);

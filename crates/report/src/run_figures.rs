@@ -13,16 +13,26 @@ use serde_json::{Map, Value, json};
 pub fn pair_figures(result: &SceneResult) -> Value {
     let row = |k: usize| {
         let f = result.figures(k);
-        let figures = FIGURES.iter().map(|row| (row.name_in_files(), json!((row.of)(&f))));
+        let figures = FIGURES
+            .iter()
+            .map(|row| (row.name_in_files(), json!((row.of)(&f))));
         let mut row: Map<String, Value> = figures.collect();
         let curve = result.averaged(&result.tangent_n_per_m, k);
         let pitches = result.contact_coverage.averaged_pitches();
         let (_, harmonics) = mesh_harmonics(curve, pitches, 5);
         let line = |(a, p): &(f64, f64)| json!({"amplitude_N_per_m": a, "phase_rad": p});
-        row.insert("stiffness_tangent_fourier".to_owned(), harmonics.iter().map(line).collect());
-        row.insert("complete".to_owned(), json!(result.contact_coverage.is_whole()));
+        row.insert(
+            "stiffness_tangent_fourier".to_owned(),
+            harmonics.iter().map(line).collect(),
+        );
+        row.insert(
+            "complete".to_owned(),
+            json!(result.contact_coverage.is_whole()),
+        );
         row.insert("mean_over_pitches".to_owned(), json!(pitches));
-        let errors = FIGURE_ERRORS.iter().map(|(name, of)| ((*name).to_owned(), json!(of(&f.errors))));
+        let errors = FIGURE_ERRORS
+            .iter()
+            .map(|(name, of)| ((*name).to_owned(), json!(of(&f.errors))));
         row.insert("errors".to_owned(), Value::Object(errors.collect()));
         Value::Object(row)
     };
@@ -31,7 +41,7 @@ pub fn pair_figures(result: &SceneResult) -> Value {
     let shown = FIGURES.iter().filter(|figure| result.shows(figure));
     let columns: Value = shown
         .map(|figure| {
-            let unit = figure.quantity.read_unit(over);
+            let unit = figure.kind.read_unit(over);
             json!({"name": figure.name_in_files(), "words": figure.words, "unit": unit.name, "factor": unit.factor})
         })
         .collect();

@@ -16,7 +16,7 @@ use crate::scene_comparison::{SceneComparisonError, compare_scene};
 use crate::system_page;
 use gearmesh_model::FileError;
 use gearmesh_scene::SceneResult;
-use gearmesh_scene::pair::figure_table::{FIGURES, Quantity};
+use gearmesh_scene::pair::figure_table::{FIGURES, FigureKind};
 use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_signal::RigSettings;
@@ -142,8 +142,12 @@ fn overview(r: &SceneResult) -> Section {
     let (f, over) = (r.figures(last), r.overlap_width_m().ok());
     let mut figures = KeyFigures::new();
     for row in FIGURES.iter().filter(|row| r.shows(row)) {
-        let mark = if row.quantity == Quantity::Torque { "" } else { mark };
-        let unit = row.quantity.read_unit(over).name;
+        let mark = if row.kind == FigureKind::Torque {
+            ""
+        } else {
+            mark
+        };
+        let unit = row.kind.read_unit(over).name;
         figures = figures.figure(format!("{}{mark}", row.words), row.text(&f, over), unit);
     }
     if let Some(s) = r.strain.first() {
@@ -157,7 +161,9 @@ fn overview(r: &SceneResult) -> Section {
     }
     let mut section = Section::new(r.title.clone()).push(figures);
     let shown = r.figure_table(false);
-    let mut table = Table::new(format!("By torque: transmission error, mean mesh stiffness (secant and tangent), face load factor, largest Hertz pressure{mark}"));
+    let mut table = Table::new(format!(
+        "By torque: transmission error, mean mesh stiffness (secant and tangent), face load factor, largest Hertz pressure{mark}"
+    ));
     for head in shown.heads {
         table = table.column(head, Align::Right);
     }
@@ -334,7 +340,7 @@ fn contact(r: &SceneResult) -> Section {
             .collect();
         sharing = sharing.series(LineSeries::new(format!("pair {pair}"), values));
     }
-    let unit = Quantity::Stiffness.read_unit(r.overlap_width_m().ok());
+    let unit = FigureKind::Stiffness.read_unit(r.overlap_width_m().ok());
     let mut stiffness = LineChart::new(
         "Mesh stiffness",
         angle_axis(),

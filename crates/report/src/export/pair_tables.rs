@@ -106,8 +106,11 @@ pub fn torque_table(result: &SceneResult) -> Table<'static> {
     let figures: Vec<PairFigures> = (0..result.torque_nm.len())
         .map(|k| result.figures(k))
         .collect();
-    for figure in &FIGURES {
-        table.numbers(figure.name_in_files(), figures.iter().map(figure.of).collect());
+    for figure in FIGURES {
+        table.numbers(
+            figure.name_in_files(),
+            figures.iter().map(figure.of).collect(),
+        );
     }
     for (name, of) in FIGURE_ERRORS {
         let errors = figures.iter().map(|f| of(&f.errors).unwrap_or(f64::NAN));

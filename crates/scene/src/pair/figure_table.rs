@@ -6,7 +6,7 @@ use super::result::SceneResult;
 
 /// What a figure measures. Its unit at each door follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum FigureKind {
     /// Torque.
     Torque,
     /// Deflections and errors.
@@ -44,36 +44,41 @@ pub struct Figure {
     /// The same for people: "TE mean".
     pub words: &'static str,
     /// What it measures.
-    pub quantity: Quantity,
+    pub kind: FigureKind,
     /// Who sees it.
     pub audience: Audience,
     /// Its value in SI units.
     pub of: fn(&PairFigures) -> f64,
 }
 
+macro_rules! figures {
+    ($($name:literal $words:literal $kind:ident $audience:ident $of:expr;)*) => {
+        &[$(Figure {
+            name: $name,
+            words: $words,
+            kind: FigureKind::$kind,
+            audience: Audience::$audience,
+            of: $of,
+        }),*]
+    };
+}
+
 /// The rows, in the order in which people read them.
-pub const FIGURES: [Figure; 14] = {
-    use {Audience as A, Quantity as Q};
-    type Of = fn(&PairFigures) -> f64;
-    const fn row(name: &'static str, words: &'static str, quantity: Q, audience: A, of: Of) -> Figure {
-        Figure { name, words, quantity, audience, of }
-    }
-    [
-        row("torque", "torque", Q::Torque, A::All, |f| f.torque_nm),
-        row("te_mean", "TE mean", Q::Length, A::All, |f| f.te_mean_m),
-        row("te_peak_to_peak", "TE pk-pk", Q::Length, A::All, |f| f.te_peak_to_peak_m),
-        row("te_unloaded_peak_to_peak", "TE pk-pk without load", Q::Length, A::Studies, |f| f.unloaded_peak_to_peak_m),
-        row("stiffness_secant_mean", "secant", Q::Stiffness, A::All, |f| f.secant_mean_n_per_m),
-        row("stiffness_tangent_mean", "tangent", Q::Stiffness, A::All, |f| f.tangent_mean_n_per_m),
-        row("stiffness_tangent_peak_to_peak", "tangent pk-pk", Q::Stiffness, A::Studies, |f| f.tangent_peak_to_peak_n_per_m),
-        row("k_h_beta", "K_Hbeta", Q::Factor, A::All, |f| f.k_h_beta),
-        row("pressure_largest", "p_H max", Q::Pressure, A::All, |f| f.pressure_largest_pa),
-        row("axial_force_1_mean", "axial force gear 1", Q::Force, A::Helical, |f| f.axial_force_1_mean_n),
-        row("axial_over_normal_force", "axial over normal force", Q::Factor, A::Helical, |f| f.axial_force_1_mean_n / f.normal_force_mean_n),
-        row("torque_balance", "balance", Q::Residual, A::Console, |f| f.torque_balance),
-        row("residual", "residual", Q::Residual, A::Console, |f| f.residual),
-        row("iterations_per_position", "iter/pos", Q::Factor, A::Console, |f| f.iterations_per_position),
-    ]
+pub const FIGURES: &[Figure] = figures! {
+    "torque" "torque" Torque All |f| f.torque_nm;
+    "te_mean" "TE mean" Length All |f| f.te_mean_m;
+    "te_peak_to_peak" "TE pk-pk" Length All |f| f.te_peak_to_peak_m;
+    "te_unloaded_peak_to_peak" "TE pk-pk without load" Length Studies |f| f.unloaded_peak_to_peak_m;
+    "stiffness_secant_mean" "secant" Stiffness All |f| f.secant_mean_n_per_m;
+    "stiffness_tangent_mean" "tangent" Stiffness All |f| f.tangent_mean_n_per_m;
+    "stiffness_tangent_peak_to_peak" "tangent pk-pk" Stiffness Studies |f| f.tangent_peak_to_peak_n_per_m;
+    "k_h_beta" "K_Hbeta" Factor All |f| f.k_h_beta;
+    "pressure_largest" "p_H max" Pressure All |f| f.pressure_largest_pa;
+    "axial_force_1_mean" "axial force gear 1" Force Helical |f| f.axial_force_1_mean_n;
+    "axial_over_normal_force" "axial over normal force" Factor Helical |f| f.axial_force_1_mean_n / f.normal_force_mean_n;
+    "torque_balance" "balance" Residual Console |f| f.torque_balance;
+    "residual" "residual" Residual Console |f| f.residual;
+    "iterations_per_position" "iter/pos" Factor Console |f| f.iterations_per_position;
 };
 
 /// Estimated errors of figures: name in files, and the share.
@@ -98,7 +103,7 @@ pub struct ReadUnit {
 /// What mesh stiffness is read over: the width of the faces' overlap \[m\]; none where a result does not tell it.
 pub type OverWidth = Option<f64>;
 
-impl Quantity {
+impl FigureKind {
     /// The unit that people and studies read.
     #[must_use]
     pub fn read_unit(self, over: OverWidth) -> ReadUnit {
@@ -112,7 +117,11 @@ impl Quantity {
             (Self::Force, _) => ("N", 1.0, 3),
             (Self::Factor | Self::Residual, _) => ("", 1.0, 4),
         };
-        ReadUnit { name, factor, decimals }
+        ReadUnit {
+            name,
+            factor,
+            decimals,
+        }
     }
 
     /// The end of a name: in files, in SI units, and in studies.
@@ -132,25 +141,25 @@ impl Figure {
     /// Name in files, where values are in SI units: `te_mean_m`.
     #[must_use]
     pub fn name_in_files(&self) -> String {
-        self.name.to_owned() + self.quantity.suffixes()[0]
+        self.name.to_owned() + self.kind.suffixes()[0]
     }
 
     /// Name of the column of a study: `te_mean_um`.
     #[must_use]
     pub fn name_in_studies(&self) -> String {
-        self.name.to_owned() + self.quantity.suffixes()[1]
+        self.name.to_owned() + self.kind.suffixes()[1]
     }
 
     /// Whether studies have the figure; they have a row for each torque.
     #[must_use]
     pub fn is_studied(&self) -> bool {
-        self.audience != Audience::Console && self.quantity != Quantity::Torque
+        self.audience != Audience::Console && self.kind != FigureKind::Torque
     }
 
     /// Words and unit.
     #[must_use]
     pub fn heading(&self, over: OverWidth) -> String {
-        let unit = self.quantity.read_unit(over).name;
+        let unit = self.kind.read_unit(over).name;
         format!("{} {unit}", self.words).trim_end().to_owned()
     }
 
@@ -158,10 +167,12 @@ impl Figure {
     #[must_use]
     pub fn text(&self, figures: &PairFigures, over: OverWidth) -> String {
         let value = (self.of)(figures);
-        let ReadUnit { factor, decimals, .. } = self.quantity.read_unit(over);
-        match self.quantity {
-            Quantity::Residual => format!("{value:.1e}"),
-            Quantity::Torque => format!("{value}"),
+        let ReadUnit {
+            factor, decimals, ..
+        } = self.kind.read_unit(over);
+        match self.kind {
+            FigureKind::Residual => format!("{value:.1e}"),
+            FigureKind::Torque => format!("{value}"),
             _ => format!("{:.decimals$}", factor * value),
         }
     }
@@ -182,12 +193,15 @@ impl FigureTable {
     pub fn new(of: &[(&SceneResult, usize)], seen: impl Fn(&Figure) -> bool) -> Self {
         let widths: Vec<OverWidth> = of.iter().map(|(r, _)| r.overlap_width_m().ok()).collect();
         let is_known = widths.iter().all(Option::is_some);
-        let shown: Vec<Figure> = FIGURES.into_iter().filter(seen).collect();
+        let shown: Vec<&Figure> = FIGURES.iter().filter(|figure| seen(figure)).collect();
         let over = |k: usize| widths[k].filter(|_| is_known);
         let first = if of.is_empty() { None } else { over(0) };
         let row = |(k, (result, torque)): (usize, &(&SceneResult, usize))| {
             let figures = result.figures(*torque);
-            shown.iter().map(|figure| figure.text(&figures, over(k))).collect()
+            shown
+                .iter()
+                .map(|figure| figure.text(&figures, over(k)))
+                .collect()
         };
         Self {
             heads: shown.iter().map(|figure| figure.heading(first)).collect(),
@@ -200,7 +214,8 @@ impl SceneResult {
     /// Whether people see a figure of this result.
     #[must_use]
     pub fn shows(&self, figure: &Figure) -> bool {
-        figure.audience == Audience::All || figure.audience == Audience::Helical && self.has_axial_force()
+        figure.audience == Audience::All
+            || figure.audience == Audience::Helical && self.has_axial_force()
     }
 
     /// All torques as people read them; `console`: with what only the console shows.

@@ -80,7 +80,7 @@ pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<RestColumn> {
     let figures: Vec<PairFigures> = torques.clone().map(|k| result.figures(k)).collect();
     let mut values = Vec::new();
     for figure in FIGURES.iter().filter(|figure| figure.is_studied()) {
-        let factor = figure.quantity.read_unit(over).factor;
+        let factor = figure.kind.read_unit(over).factor;
         values.push(figures.iter().map(|f| factor * (figure.of)(f)).collect());
     }
     let harmonics = harmonics_of(loaded);
