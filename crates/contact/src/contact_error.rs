@@ -42,11 +42,6 @@ pub enum ContactError {
         /// Teeth of the pair.
         needed: usize,
     },
-    /// Tip edges of helical teeth are not modelled.
-    #[error(
-        "helical teeth touch on the path of contact only: an extended path needs spur gears; leave the extension out"
-    )]
-    HelicalExtension,
     /// Gears beside their axes where one is a ring.
     #[error(
         "gears that stand beside or tilted to their axes are not supported at rest where one gear is a ring; leave the runout out"
