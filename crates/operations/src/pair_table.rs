@@ -12,15 +12,9 @@ pub fn table(result: &SceneResult) -> Vec<String> {
         result.angles()
     )];
     let mark = periods::mark(&result.contact_coverage);
-    let table = result.figure_table(true);
-    let heads: Vec<String> = table.heads.iter().map(|head| in_ascii(head)).collect();
-    let line = |cells: &[String]| {
-        let cells = cells.iter().zip(&heads);
-        let cells = cells.map(|(cell, head)| format!("{cell:>0$}", head.len().max(10)));
-        cells.collect::<Vec<_>>().join(" ")
-    };
-    lines.push(line(&heads));
-    lines.extend(table.rows.iter().map(|row| line(row) + mark));
+    let table = result.figure_table(true).lines();
+    lines.extend(table.iter().take(1).cloned());
+    lines.extend(table.iter().skip(1).map(|line| format!("{line}{mark}")));
     lines.push(result.means_over());
     lines.push(format!("errors: {}", result.errors_in_words()));
     lines.push(format!(
@@ -32,9 +26,4 @@ pub fn table(result: &SceneResult) -> Vec<String> {
     lines.extend(periods::lines(result));
     lines.extend(ratings::lines(&result.ratings));
     lines
-}
-
-/// Units as terminals of any kind print them.
-fn in_ascii(head: &str) -> String {
-    head.replace('µ', "u").replace('·', " ")
 }

@@ -1,5 +1,6 @@
 //! All figures of a torque of a pair at rest, a row each: how files, studies and people name a figure, in which unit, and
-//! where its value stands. Console, JSON, pages, overlays, exported tables, studies, Python and the studio show these rows.
+//! where its value stands. Console, JSON, pages, overlays, exported tables, studies, Python and the studio show these rows;
+//! those of bevel pairs: `bevel_load.rs`.
 
 use super::figures::{FigureErrors, PairFigures};
 use super::result::SceneResult;
@@ -11,6 +12,8 @@ pub enum FigureKind {
     Torque,
     /// Deflections and errors.
     Length,
+    /// Errors of bevel pairs.
+    Angle,
     /// Mesh stiffness; people and studies read it over the width of the faces' overlap.
     Stiffness,
     /// Pressure.
@@ -19,6 +22,8 @@ pub enum FigureKind {
     Force,
     /// Factors and ratios.
     Factor,
+    /// Shares of a whole, which people read in per cent.
+    Share,
     /// Relative errors of the solution.
     Residual,
 }
@@ -38,7 +43,7 @@ pub enum Audience {
 
 /// A figure.
 #[derive(Debug, Clone, Copy)]
-pub struct Figure {
+pub struct Figure<F = PairFigures> {
     /// Name without unit: `te_mean`.
     pub name: &'static str,
     /// The same for people: "TE mean".
@@ -48,23 +53,24 @@ pub struct Figure {
     /// Who sees it.
     pub audience: Audience,
     /// Its value in SI units.
-    pub of: fn(&PairFigures) -> f64,
+    pub of: fn(&F) -> f64,
 }
 
 macro_rules! figures {
     ($($name:literal $words:literal $kind:ident $audience:ident $of:expr;)*) => {
-        &[$(Figure {
+        [$($crate::pair::figure_table::Figure {
             name: $name,
             words: $words,
-            kind: FigureKind::$kind,
-            audience: Audience::$audience,
+            kind: $crate::pair::figure_table::FigureKind::$kind,
+            audience: $crate::pair::figure_table::Audience::$audience,
             of: $of,
         }),*]
     };
 }
+pub(crate) use figures;
 
 /// The rows, in the order in which people read them.
-pub const FIGURES: &[Figure] = figures! {
+pub const FIGURES: &[Figure] = &figures! {
     "torque" "torque" Torque All |f| f.torque_nm;
     "te_mean" "TE mean" Length All |f| f.te_mean_m;
     "te_peak_to_peak" "TE pk-pk" Length All |f| f.te_peak_to_peak_m;
@@ -110,6 +116,8 @@ impl FigureKind {
         let (name, factor, decimals) = match (self, over) {
             (Self::Torque, _) => ("N m", 1.0, 1),
             (Self::Length, _) => ("µm", 1e6, 4),
+            (Self::Angle, _) => ("µrad", 1e6, 3),
+            (Self::Share, _) => ("%", 100.0, 1),
             (Self::Stiffness, Some(width_m)) => ("N/(mm·µm)", 1e-9 / width_m, 4),
             // Of the whole face, for results whose gear files this program does not understand.
             (Self::Stiffness, None) => ("N/µm", 1e-6, 4),
@@ -129,15 +137,16 @@ impl FigureKind {
         match self {
             Self::Torque => ["_Nm", "_Nm"],
             Self::Length => ["_m", "_um"],
+            Self::Angle => ["_rad", "_urad"],
             Self::Stiffness => ["_N_per_m", "_N_per_mm_um"],
             Self::Pressure => ["_Pa", "_MPa"],
             Self::Force => ["_N", "_N"],
-            Self::Factor | Self::Residual => ["", ""],
+            Self::Factor | Self::Share | Self::Residual => ["", ""],
         }
     }
 }
 
-impl Figure {
+impl<F> Figure<F> {
     /// Name in files, where values are in SI units: `te_mean_m`.
     #[must_use]
     pub fn name_in_files(&self) -> String {
@@ -148,6 +157,16 @@ impl Figure {
     #[must_use]
     pub fn name_in_studies(&self) -> String {
         self.name.to_owned() + self.kind.suffixes()[1]
+    }
+
+    /// The value in the unit of studies.
+    #[must_use]
+    pub fn studied(&self, figures: &F, over: OverWidth) -> f64 {
+        let factor = match self.kind {
+            FigureKind::Share => 1.0,
+            kind => kind.read_unit(over).factor,
+        };
+        factor * (self.of)(figures)
     }
 
     /// Whether studies have the figure; they have a row for each torque.
@@ -165,7 +184,7 @@ impl Figure {
 
     /// The value as people read it.
     #[must_use]
-    pub fn text(&self, figures: &PairFigures, over: OverWidth) -> String {
+    pub fn text(&self, figures: &F, over: OverWidth) -> String {
         let value = (self.of)(figures);
         let ReadUnit {
             factor, decimals, ..
@@ -188,6 +207,22 @@ pub struct FigureTable {
 }
 
 impl FigureTable {
+    /// Lines for terminals of any kind: the heads and a line for each row, its cells to the right.
+    #[must_use]
+    pub fn lines(&self) -> Vec<String> {
+        let in_ascii = |head: &String| head.replace('µ', "u").replace('·', " ");
+        let heads: Vec<String> = self.heads.iter().map(in_ascii).collect();
+        let line = |cells: &Vec<String>| {
+            let cells = cells.iter().zip(&heads);
+            let cells = cells.map(|(cell, head)| format!("{cell:>0$}", head.len().max(10)));
+            cells.collect::<Vec<_>>().join(" ")
+        };
+        std::iter::once(&heads)
+            .chain(&self.rows)
+            .map(line)
+            .collect()
+    }
+
     /// Of torques of results, by their numbers, in one unit each.
     #[must_use]
     pub fn new(of: &[(&SceneResult, usize)], seen: impl Fn(&Figure) -> bool) -> Self {

@@ -80,8 +80,7 @@ pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<RestColumn> {
     let figures: Vec<PairFigures> = torques.clone().map(|k| result.figures(k)).collect();
     let mut values = Vec::new();
     for figure in FIGURES.iter().filter(|figure| figure.is_studied()) {
-        let factor = figure.kind.read_unit(over).factor;
-        values.push(figures.iter().map(|f| factor * (figure.of)(f)).collect());
+        values.push(figures.iter().map(|f| figure.studied(f, over)).collect());
     }
     let harmonics = harmonics_of(loaded);
     let pitches = result.contact_coverage.averaged_pitches();
