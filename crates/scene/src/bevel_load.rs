@@ -7,7 +7,7 @@ use gearmesh_drivetrain::{BevelSlices, DrivetrainError, LoadedContact, LoadedPai
 use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
-use crate::pair::figure_table::{Figure, figures};
+use crate::pair::figure_table::{RestFigure, figures};
 use crate::pair::warnings::ELASTIC_SHARE;
 
 /// Slices of rigid gears where the file says nothing, and more where a light load touches few of them.
@@ -37,7 +37,7 @@ pub struct BevelTorque<'a> {
 
 /// The figures of a torque: as those of other pairs (`pair/figure_table.rs`).
 #[must_use]
-pub fn bevel_figures<'a>() -> [Figure<BevelTorque<'a>>; 14] {
+pub fn bevel_figures<'a>() -> [RestFigure<BevelTorque<'a>>; 14] {
     figures! {
         "torque" "torque" Torque All |t| t.found.torque_nm;
         "loaded_te_mean" "TE mean" Angle All |t| t.found.mean_rad();

@@ -43,7 +43,7 @@ pub enum Audience {
 
 /// A figure.
 #[derive(Debug, Clone, Copy)]
-pub struct Figure<F = PairFigures> {
+pub struct RestFigure<F = PairFigures> {
     /// Name without unit: `te_mean`.
     pub name: &'static str,
     /// The same for people: "TE mean".
@@ -58,7 +58,7 @@ pub struct Figure<F = PairFigures> {
 
 macro_rules! figures {
     ($($name:literal $words:literal $kind:ident $audience:ident $of:expr;)*) => {
-        [$($crate::pair::figure_table::Figure {
+        [$($crate::pair::figure_table::RestFigure {
             name: $name,
             words: $words,
             kind: $crate::pair::figure_table::FigureKind::$kind,
@@ -70,7 +70,7 @@ macro_rules! figures {
 pub(crate) use figures;
 
 /// The rows, in the order in which people read them.
-pub const FIGURES: &[Figure] = &figures! {
+pub const FIGURES: &[RestFigure] = &figures! {
     "torque" "torque" Torque All |f| f.torque_nm;
     "te_mean" "TE mean" Length All |f| f.te_mean_m;
     "te_peak_to_peak" "TE pk-pk" Length All |f| f.te_peak_to_peak_m;
@@ -146,7 +146,7 @@ impl FigureKind {
     }
 }
 
-impl<F> Figure<F> {
+impl<F> RestFigure<F> {
     /// Name in files, where values are in SI units: `te_mean_m`.
     #[must_use]
     pub fn name_in_files(&self) -> String {
@@ -225,10 +225,10 @@ impl FigureTable {
 
     /// Of torques of results, by their numbers, in one unit each.
     #[must_use]
-    pub fn new(of: &[(&SceneResult, usize)], seen: impl Fn(&Figure) -> bool) -> Self {
+    pub fn new(of: &[(&SceneResult, usize)], seen: impl Fn(&RestFigure) -> bool) -> Self {
         let widths: Vec<OverWidth> = of.iter().map(|(r, _)| r.overlap_width_m().ok()).collect();
         let is_known = widths.iter().all(Option::is_some);
-        let shown: Vec<&Figure> = FIGURES.iter().filter(|figure| seen(figure)).collect();
+        let shown: Vec<&RestFigure> = FIGURES.iter().filter(|figure| seen(figure)).collect();
         let over = |k: usize| widths[k].filter(|_| is_known);
         let first = if of.is_empty() { None } else { over(0) };
         let row = |(k, (result, torque)): (usize, &(&SceneResult, usize))| {
@@ -248,7 +248,7 @@ impl FigureTable {
 impl SceneResult {
     /// Whether people see a figure of this result.
     #[must_use]
-    pub fn shows(&self, figure: &Figure) -> bool {
+    pub fn shows(&self, figure: &RestFigure) -> bool {
         figure.audience == Audience::All
             || figure.audience == Audience::Helical && self.has_axial_force()
     }

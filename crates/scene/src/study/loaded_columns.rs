@@ -13,7 +13,7 @@ use super::rest_columns;
 use super::subject::BevelSubject;
 use crate::bevel_load::{BevelTorque, LoadedBevel, bevel_figures, load_bevel};
 use crate::pair::ModelShelf;
-use crate::pair::figure_table::Figure;
+use crate::pair::figure_table::RestFigure;
 
 /// Harmonics of the mesh that are listed.
 const HARMONICS: usize = 3;
@@ -23,7 +23,7 @@ const HARMONICS: usize = 3;
 pub(super) fn names(subject: &BevelSubject) -> Vec<String> {
     let mut names = rest_columns::bevel_names();
     if subject.file.load.is_some() {
-        let studied = bevel_figures().into_iter().filter(Figure::is_studied);
+        let studied = bevel_figures().into_iter().filter(RestFigure::is_studied);
         names.extend(studied.map(|figure| figure.name_in_studies()));
         names.extend((1..=HARMONICS).map(|k| format!("loaded_te_harmonic_{k}_urad")));
     }
@@ -83,7 +83,7 @@ fn loaded(
 
 /// In the order of [`names`].
 fn of_torque(found: &LoadedContact, slices: usize) -> Vec<f64> {
-    let studied = bevel_figures().into_iter().filter(Figure::is_studied);
+    let studied = bevel_figures().into_iter().filter(RestFigure::is_studied);
     let torque = BevelTorque { found, slices };
     let mut values: Vec<f64> = studied
         .map(|figure| figure.studied(&torque, None))

@@ -2,7 +2,7 @@
 
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 
-use crate::pair::figure_table::{FIGURES, Figure};
+use crate::pair::figure_table::{FIGURES, RestFigure};
 use crate::pair::{LoadedScene, PairFigures, SceneResult};
 use crate::system::unknown;
 
@@ -50,7 +50,7 @@ fn harmonics_of(loaded: &LoadedScene) -> usize {
 #[must_use]
 pub fn names(loaded: &LoadedScene) -> Vec<String> {
     let figures = FIGURES.iter().filter(|figure| figure.is_studied());
-    let mut names: Vec<String> = figures.map(Figure::name_in_studies).collect();
+    let mut names: Vec<String> = figures.map(RestFigure::name_in_studies).collect();
     names.extend((1..=harmonics_of(loaded)).map(|k| format!("te_harmonic_{k}_um")));
     for &(gear, index) in &loaded.gauges {
         let gauge = &loaded.models[gear - 1].gauges[index].name;

@@ -1,9 +1,9 @@
 //! A figure of a pair at rest that is no row of the table: the ripple of the mesh stiffness over its mean.
 
 use gearmesh_scene::SceneResult;
-use gearmesh_scene::pair::figure_table::{Audience, Figure, FigureKind};
+use gearmesh_scene::pair::figure_table::{Audience, FigureKind, RestFigure};
 
-pub const RIPPLE: Figure = Figure {
+pub const RIPPLE: RestFigure = RestFigure {
     name: "stiffness_ripple",
     words: "stiffness ripple",
     kind: FigureKind::Factor,
