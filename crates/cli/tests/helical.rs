@@ -177,8 +177,9 @@ fn at_rest_between_axles(desk: &Desk, pair: &SceneResult, axial_n: f64) {
     }
 }
 
-/// The extended path through the same commands. More teeth carry: the mean deflection is smaller, by some per cent (6 % is the most that
-/// solid spur pairs show, docs/limits.md), and up to 2 % larger by the slices, which are whole here and shares of slices there.
+/// The extended path through the same commands. More teeth carry: the mean deflection is smaller, by some per cent (6 %
+/// is the most that solid spur pairs show, docs/limits.md), and up to 2 % larger by the slices, which are whole here
+/// and shares of slices there.
 fn with_tip_edges(desk: &Desk, rigid_path: &SceneResult) {
     let file = desk.file("extended.toml", scene("teeth.path = \"extended\""));
     let plan = succeeds(&["plan", argument(&file)]).stdout;
@@ -198,8 +199,8 @@ fn with_tip_edges(desk: &Desk, rigid_path: &SceneResult) {
     assert_eq!(again.strain[0].method_2, found.strain[0].method_2);
 }
 
-/// Figures of the first torque by `--json`, the table `torques`, a study, the page and the console: equal to the last digit that
-/// each has.
+/// Figures of the first torque by `--json`, the table `torques`, a study, the page and the console: equal to the last
+/// digit that each has.
 fn one_table_at_all_doors(desk: &Desk, scene: &str, result: &Path, figures: &Value) {
     let row = figures["rows"][0].as_object().unwrap();
     let words = ["export", argument(result), "--table", "torques", "-o"];

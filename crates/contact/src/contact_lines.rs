@@ -197,8 +197,8 @@ impl ContactLines {
         }
     }
 
-    /// A contact line in the section at `z_m`: a tip edge beyond the ends of an extended path, roll angles that go on beyond those
-    /// of the rigid one.
+    /// A contact line in the section at `z_m`: a tip edge beyond the ends of an extended path, roll angles that go on
+    /// beyond those of the rigid one.
     pub fn section(&self, line: &ContactLine, z_m: f64) -> ContactLine {
         if !self.pair.is_helical() {
             return *line;
@@ -212,8 +212,8 @@ impl ContactLines {
         })
     }
 
-    /// Share of a slice on the path and the middle of that part; none where it is off the path. On an extended path a slice is whole
-    /// and touches as its middle does, flank or tip edge, as in motion.
+    /// Share of a slice on the path and the middle of that part; none where it is off the path. On an extended path a
+    /// slice is whole and touches as its middle does, flank or tip edge, as in motion.
     fn part_on_path(&self, line: &ContactLine, centre_m: f64, width_m: f64) -> Option<(f64, f64)> {
         if !self.pair.is_helical() {
             return Some((1.0, centre_m));

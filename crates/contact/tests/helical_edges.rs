@@ -19,8 +19,8 @@ fn lines() -> ContactLines {
     ContactLines { extension, ..lines }
 }
 
-/// A point of a right flank in a frame with gear 1's axis along z through the origin and gear 2's through +x: the transverse
-/// section, turned by the helix. `turned_rad` from pair 0 at the pitch point, in the gear's own sense.
+/// A point of a right flank in a frame with gear 1's axis along z through the origin and gear 2's through +x: the
+/// transverse section, turned by the helix. `turned_rad` from pair 0 at the pitch point, in the gear's own sense.
 fn placed(
     pair: &GearPair,
     gear: usize,
@@ -72,8 +72,8 @@ fn distance_m(
     best
 }
 
-/// All edges at some angles: the gap is the distance in space, and the arms are the moments about both axes of the unit force that
-/// the patch states, at the edge.
+/// All edges at some angles: the gap is the distance in space, and the arms are the moments about both axes of the unit
+/// force that the patch states, at the edge.
 #[test]
 fn gaps_and_arms_are_those_of_the_helicoids() {
     let lines = lines();

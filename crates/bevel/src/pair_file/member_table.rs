@@ -116,8 +116,8 @@ pub(super) struct GivenTable {
     concave: SettingsTable,
     /// Settings of the convex flank.
     convex: SettingsTable,
-    /// Which tooth thickness counts. Where not given that of the settings where they are the same for both flanks but for
-    /// the blades (one operation), else that of the blank.
+    /// Which tooth thickness counts. Where not given that of the settings where they are the same for both flanks but
+    /// for the blades (one operation), else that of the blank.
     thickness: Option<ThicknessFrom>,
 }
 
@@ -127,9 +127,9 @@ pub(super) struct GivenTable {
 pub(super) struct PointsTable {
     /// Least thickness of the top land; 0 where not given.
     least_top_land_mm: Length,
-    /// Table of the concave flank's points, beside this file or with its folder: columns sector, height, x_mm, y_mm, z_mm, nx,
-    /// ny, nz (all three of these may be missing: the points make the normals); with deviation_um the points are nominal and
-    /// the flank is off them by so much added material.
+    /// Table of the concave flank's points, beside this file or with its folder: columns sector, height, x_mm, y_mm,
+    /// z_mm, nx, ny, nz (all three of these may be missing: the points make the normals); with deviation_um the points
+    /// are nominal and the flank is off them by so much added material.
     concave_points: String,
     /// Table of the convex flank's points.
     convex_points: String,

@@ -1,6 +1,6 @@
-//! All figures of a torque of a pair at rest, a row each: how files, studies and people name a figure, in which unit, and
-//! where its value stands. Console, JSON, pages, overlays, exported tables, studies, Python and the studio show these rows;
-//! those of bevel pairs: `bevel_load.rs`.
+//! All figures of a torque of a pair at rest, a row each: how files, studies and people name a figure, in which unit,
+//! and where its value stands. Console, JSON, pages, overlays, exported tables, studies, Python and the studio show
+//! these rows; those of bevel pairs: `bevel_load.rs`.
 
 use super::figures::{FigureErrors, PairFigures};
 use super::result::SceneResult;
