@@ -173,7 +173,8 @@ pub fn strain_shares(
     state: &State,
     modes: &[NaturalMode],
 ) -> Result<Vec<Vec<f64>>, DynamicsError> {
-    let mut equations = tangents(system, state)?;
+    // The elements keep the tangents that they were asked for.
+    tangents(system, state)?;
     let shares = modes.iter().map(|mode| {
         // Increments of rotation are those about body axes.
         let mut amplitudes = [0, 1].map(|part| mode.shape.iter().map(|a| a[part]).collect());
