@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from . import _native
 from .operations import operate
 from .optional import demanded
+from .pictures import curves
 from .program import options, program
 
 if TYPE_CHECKING:
@@ -244,16 +245,19 @@ class Result:
             return program("signal", analysis, self._file(folder), *words, *options(given))
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: the title, and of a pair a line of figures for each torque."""
+        """What a notebook shows: the title, and of a pair its transmission error and a line of figures for each torque."""
         title = html.escape(self.title)
         if self.kind != "pair":
             return f"<b>{title}</b><br>{html.escape(repr(self))}"
+
         def row(kind: str, cells: list[str]) -> str:
             return "<tr>" + "".join(f"<{kind}>{html.escape(cell)}</{kind}>" for cell in cells) + "</tr>"
 
         heads, *rows = self._native.figure_texts()
         table = row("th", heads) + "".join(row("td", cells) for cells in rows)
-        return f"<b>{title}</b><table>{table}</table>"
+        over = [(f"{torque:g} N m", 1e6 * te) for torque, te in zip(self["torque_Nm"], np.atleast_2d(self["te_m"]))]
+        picture = curves(np.degrees(self["angle_rad"]), over[:6], "angle of gear 1, deg", "transmission error, um")
+        return f"<b>{title}</b>{picture}<table>{table}</table>"
 
     def __repr__(self) -> str:
         if self.kind != "pair":
