@@ -109,8 +109,8 @@ fn gaps_and_arms_are_those_of_the_helicoids() {
             let force_on_2 = Vector3::from(patch.normal);
             for gear in [0, 1] {
                 let axis = Vector3::new([0.0, pair.centre_distance_m][gear], 0.0, 0.0);
-                let moment = (edge - axis).cross(&force_on_2).z;
-                // Gear 2 is driven counter-clockwise, gear 1 resists and feels the opposite force.
+                let moment = [-1.0, 1.0][gear] * (edge - axis).cross(&force_on_2).z;
+                // Both counter-clockwise: gear 2 is driven, gear 1 feels the opposite force.
                 assert!(
                     (moment / patch.balance.levers_m[gear] - 1.0).abs() < 1e-9,
                     "{gear} {moment}"
