@@ -228,7 +228,8 @@ fn one_table_at_all_doors(desk: &Desk, scene: &str, result: &Path, figures: &Val
         .to_string();
     succeeds(&["report", argument(result), "-o", argument(&html)]);
     let page = std::fs::read_to_string(html).unwrap();
-    let console = succeeds(&["run", argument(&desk.path(scene))]).stdout;
+    let (file, again) = (desk.path(scene), desk.path(&format!("{scene}.h5")));
+    let console = succeeds(&["run", argument(&file), "-o", argument(&again)]).stdout;
     let loaded = load(Scene::read(&desk.path(scene)).unwrap()).unwrap();
     let over = Some(loaded.layout.reference.width_m);
     let of_result = SceneResult::read(result).unwrap();
