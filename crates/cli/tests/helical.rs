@@ -214,7 +214,7 @@ fn one_table_at_all_doors(desk: &Desk, scene: &str, result: &Path, figures: &Val
     let (heads, values) = (lines.next().unwrap(), lines.next().unwrap());
     let exported: HashMap<_, f64> = heads
         .into_iter()
-        .zip(values.iter().map(|v| v.parse().unwrap()))
+        .zip(values.iter().map(|v| v.parse().unwrap_or(f64::NAN)))
         .collect();
     let study = format!(
         "title = \"one\"\nscene = \"{scene}\"\n[[parameter]]\nname = \"T\"\nkeys = [\"run.torques_Nm.0\"]\nvalues = [40.0]\n"
