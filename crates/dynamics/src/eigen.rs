@@ -121,7 +121,7 @@ fn tangents(system: &mut System, state: &State) -> Result<Equations, DynamicsErr
 }
 
 /// The linearised equations about a state, rotations along world axes.
-fn about(system: &mut System, state: &State) -> Result<Equations, DynamicsError> {
+pub(crate) fn about(system: &mut System, state: &State) -> Result<Equations, DynamicsError> {
     let mut equations = tangents(system, state)?;
     turn_to_world(system, state, &mut equations);
     Ok(equations)
