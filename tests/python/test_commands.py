@@ -160,7 +160,7 @@ def test_the_programs_messages_have_no_colours(monkeypatch):
 
 def test_a_result_is_a_table_in_a_notebook(pair):
     page = pair.run(progress=False)._repr_html_()
-    assert page.count("<tr>") == 3 and "TE pk-pk um" in page
+    assert page.count("<tr>") == 3 and "TE pk-pk µm" in page
     page = gm.Scene(PENDULUM).run(progress=False)._repr_html_()
     assert "Pendulum" in page and "<Result" not in page
 

@@ -207,7 +207,7 @@ def test_a_changed_body_is_reduced_in_the_background(browser, address, scene, tm
     download.value.save_as(tmp_path / "saved.toml")
     assert studio_page.printed(PROGRAM, tmp_path / "saved.toml", tmp_path) == without_clock(it.answer())
     # The bore is held: less body winds up between it and the teeth. Undo needs no reduction.
-    stiffness = [one["figures"]["rows"][-1]["tangent_stiffness_mean_N_per_m"] for one in (before, it.answer())]
+    stiffness = [one["figures"]["rows"][-1]["stiffness_tangent_mean_N_per_m"] for one in (before, it.answer())]
     assert stiffness[0] < stiffness[1] < 2.0 * stiffness[0]
     it.page.click("#undo")
     it.wait(3)

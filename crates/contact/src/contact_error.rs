@@ -42,11 +42,6 @@ pub enum ContactError {
         /// Teeth of the pair.
         needed: usize,
     },
-    /// Tip edges of helical teeth are not modelled.
-    #[error(
-        "helical teeth touch on the path of contact only: an extended path needs spur gears; leave the extension out"
-    )]
-    HelicalExtension,
     /// All flanks that could carry the load at this position are gone.
     #[error(
         "no flank is left to touch: the teeth that would carry the load there are broken off; gears turn on until others touch, \

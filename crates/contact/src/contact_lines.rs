@@ -4,7 +4,6 @@
 //! the path of contact one by one. A slice that is partly on the path touches over that part only: it has the roll angle of the part's middle
 //! and a share of the slice's length, which goes to zero with its force. The transmission error is therefore continuous where a slice enters.
 
-use crate::contact_error::ContactError;
 use crate::contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
 use crate::contact_zone::{ContactZone, SliceLayout};
 use crate::slice_part::{LEAST_SHARE, SlicePart};
@@ -66,24 +65,13 @@ pub struct ContactLines {
     pub microgeometry_1: Microgeometry,
     /// Microgeometry of gear 2.
     pub microgeometry_2: Microgeometry,
-    /// Contact beyond the ends of the path; without it pairs touch on the rigid path only. Spur teeth only.
+    /// Contact beyond the ends of the path; without it pairs touch on the rigid path only.
     pub extension: Option<PathExtension>,
     /// Where the faces overlap: how far contact lines reach. Sections are counted from halfway between the mid-faces.
     pub zone: ContactZone,
 }
 
 impl ContactLines {
-    /// Refuses an extended path of helical teeth.
-    ///
-    /// # Errors
-    /// [`ContactError::HelicalExtension`].
-    pub fn refuse_helical_edges(&self) -> Result<(), ContactError> {
-        if self.pair.is_helical() && self.extension.is_some() {
-            return Err(ContactError::HelicalExtension);
-        }
-        Ok(())
-    }
-
     /// Fills `lines` with the pairs at a driver angle that are on the path of contact or, where it is extended, near
     /// enough to its ends. A pair is on the path or at one tip, never both.
     pub fn at(&self, driver_angle_rad: f64, lines: &mut Vec<ContactLine>) {
@@ -111,6 +99,15 @@ impl ContactLines {
             path_m: self.pair.path_from_pitch_point_m(roll_1_rad),
             tip: None,
         };
+        if self.pair.is_helical() {
+            return line;
+        }
+        self.at_edge(line)
+    }
+
+    /// The line, or the section of one, with its tip edge where it is beyond an end of an extended path.
+    fn at_edge(&self, line: ContactLine) -> ContactLine {
+        let (roll_1_rad, roll_2_rad) = (line.roll_1_rad, line.roll_2_rad);
         if self.extension.is_none() {
             return line;
         }
@@ -200,21 +197,23 @@ impl ContactLines {
         }
     }
 
-    /// A contact line in the section at `z_m`. Roll angles beyond the ends of the path are continued.
+    /// A contact line in the section at `z_m`: a tip edge beyond the ends of an extended path, roll angles that go on
+    /// beyond those of the rigid one.
     pub fn section(&self, line: &ContactLine, z_m: f64) -> ContactLine {
         if !self.pair.is_helical() {
             return *line;
         }
         let roll_1_rad = line.roll_1_rad + z_m * self.pair.roll_slope_1_rad_per_m();
-        ContactLine {
+        self.at_edge(ContactLine {
             roll_1_rad,
             roll_2_rad: self.pair.roll_2_rad(roll_1_rad),
             path_m: self.pair.path_from_pitch_point_m(roll_1_rad),
             ..*line
-        }
+        })
     }
 
-    /// Share of a slice on the path and the middle of that part; none where it is off the path.
+    /// Share of a slice on the path and the middle of that part; none where it is off the path. On an extended path a
+    /// slice is whole and touches as its middle does, flank or tip edge, as in motion.
     fn part_on_path(&self, line: &ContactLine, centre_m: f64, width_m: f64) -> Option<(f64, f64)> {
         if !self.pair.is_helical() {
             return Some((1.0, centre_m));
@@ -225,6 +224,13 @@ impl ContactLines {
             high: at_rest(centre_m + 0.5 * width_m),
         };
         let slope = self.pair.roll_slope_1_rad_per_m();
+        if let Some(extension) = &self.extension {
+            let along = |from: f64, to: f64| self.pair.circles().sense(0) * (to - from);
+            let roll_1_rad = line.roll_1_rad + centre_m * slope;
+            let within = along(extension.start_1_rad, roll_1_rad) >= 0.0
+                && along(roll_1_rad, extension.end_1_rad) >= 0.0;
+            return within.then_some((1.0, centre_m));
+        }
         let at = |roll: f64| at_rest((roll - line.roll_1_rad) / slope);
         let towards_end = self.pair.circles().sense(0) * slope > 0.0;
         part.end_at(at(self.pair.roll_end_1_rad), towards_end);
@@ -281,7 +287,7 @@ impl ContactLines {
                 let away = 1f64.copysign(self.pair.circles().sum_m());
                 let slope =
                     away * tilted_axes.inclination_rad * sin + tilted_axes.deviation_rad * cos;
-                (tip.gap_m, z_m * slope)
+                (self.helix_cos() * tip.gap_m, self.helix_cos() * z_m * slope)
             }
         };
         gap + line.tilt_rad(0).cos() * removed_1 + line.tilt_rad(1).cos() * removed_2 + misalignment
@@ -297,11 +303,11 @@ impl ContactLines {
     }
 
     /// How fast the line's gap closes with the approach x = −TE of the bases at a given driver angle: cos β_b, but for gear
-    /// 2's tip edge, whose lever arm over r_b2 it is.
+    /// 2's tip edge, whose lever arm over r_b2 stands in the place of 1.
     pub fn closing(&self, line: &ContactLine) -> f64 {
         match line.tip {
             Some(tip) if tip.tip_gear == TipGear::Two => {
-                tip.tip_arm_m / self.pair.gear_2.base_radius_m
+                self.helix_cos() * tip.tip_arm_m / self.pair.gear_2.base_radius_m
             }
             _ => self.helix_cos(),
         }
@@ -321,19 +327,19 @@ impl ContactLines {
         ];
         if let Some(tip) = line.tip {
             arms[tip.tip_gear.indices().0] =
-                tip.tip_arm_m + friction_ratio * tip.tip_friction_arm_m;
+                cos * tip.tip_arm_m + friction_ratio * tip.tip_friction_arm_m;
         }
         arms
     }
 
-    /// The rounded tip edge against the flank; none on the path.
+    /// The rounded tip edge against the flank, in the plane normal to the flank's generators; none on the path.
     pub fn edge(&self, line: &ContactLine) -> Option<PatchEdge> {
         let (tip, extension) = line.tip.zip(self.extension)?;
         let [r1, r2] = self.pair.circles().radii_m;
         let flank = match tip.tip_gear {
             TipGear::One => r2 * line.roll_2_rad,
             TipGear::Two => r1 * line.roll_1_rad,
-        };
+        } / self.helix_cos();
         let edge = extension.edge_radius_m;
         Some(PatchEdge {
             gear: tip.tip_gear.indices().0,

@@ -25,24 +25,17 @@ pub struct InvoluteAtRest {
 
 impl InvoluteAtRest {
     /// The flanks of a pair on these slices; the lines reach as far as they do.
-    ///
-    /// # Errors
-    /// [`ContactError::HelicalExtension`].
-    pub fn new(
-        mut lines: ContactLines,
-        layout: SliceLayout,
-        friction: Option<Friction>,
-    ) -> Result<Self, ContactError> {
-        lines.refuse_helical_edges()?;
+    #[must_use]
+    pub fn new(mut lines: ContactLines, layout: SliceLayout, friction: Option<Friction>) -> Self {
         lines.zone = layout.reference;
-        Ok(Self {
+        Self {
             active: Vec::with_capacity(most_lines(&lines)),
             lines,
             layout,
             friction,
             deviations: FlankDeviations::default(),
             runout: None,
-        })
+        }
     }
 
     /// Contact lines at the last driver angle.

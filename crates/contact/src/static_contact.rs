@@ -89,7 +89,7 @@ impl StaticContact {
         layout: SliceLayout,
     ) -> Result<Self, ContactError> {
         let slices = Self::condensed(&lines, models, options.local, layout)?;
-        Self::of_condensed(lines, slices, options.friction)
+        Ok(Self::of_condensed(lines, slices, options.friction))
     }
 
     /// The bodies condensed to the slices of a layout: what of a contact does not depend on microgeometry, load or friction.
@@ -102,7 +102,6 @@ impl StaticContact {
         local: LocalContact,
         layout: SliceLayout,
     ) -> Result<SliceContact, ContactError> {
-        lines.refuse_helical_edges()?;
         let teeth = [lines.pair.gear_1.teeth, lines.pair.gear_2.teeth];
         let flanks = (teeth, [0, 1].map(|gear| lines.pair.flank_of(gear)));
         SliceContact::of_gears(models, flanks, (local, layout), most_lines(lines))
@@ -110,17 +109,14 @@ impl StaticContact {
 
     /// The contact of bodies that [`StaticContact::condensed`] has condensed for these lines, or for others of the same gears that are as
     /// many at most.
-    ///
-    /// # Errors
-    /// [`ContactError`] for lines that the contact does not know.
+    #[must_use]
     pub fn of_condensed(
         lines: ContactLines,
         slices: SliceContact,
         friction: Option<Friction>,
-    ) -> Result<Self, ContactError> {
-        lines.refuse_helical_edges()?;
-        let flanks = InvoluteAtRest::new(lines, *slices.layout(), friction)?;
-        Ok(Self::of_flanks(flanks, slices))
+    ) -> Self {
+        let flanks = InvoluteAtRest::new(lines, *slices.layout(), friction);
+        Self::of_flanks(flanks, slices)
     }
 
     /// Adds errors and faults of single flanks.

@@ -136,7 +136,7 @@ fn a_rigid_pair_with_hertz_is_that_by_hand() {
         let layout = SliceLayout::new([WIDTH; 2], 0.0, 1);
         let lines = lines(&pair);
         let most_lines = lines.most_pairs() + 1;
-        let flanks = InvoluteAtRest::new(lines, layout, None).unwrap();
+        let flanks = InvoluteAtRest::new(lines, layout, None);
         let bodies = HalfSpaces::new([(young, nu); 2]);
         let slices = SliceContact::of_half_spaces(layout, bodies, most_lines);
         let mut contact = StaticContact::of_flanks(flanks, slices);

@@ -105,8 +105,8 @@ pub fn natural_modes_up_to(
     Ok(modes)
 }
 
-/// The linearised equations about a state, rotations along world axes.
-pub(crate) fn about(system: &mut System, state: &State) -> Result<Equations, DynamicsError> {
+/// The linearised equations about a state, rotations along body axes.
+fn tangents(system: &mut System, state: &State) -> Result<Equations, DynamicsError> {
     let accelerations = system.accelerations(state)?;
     let mut equations = Equations::new(system);
     let at = At {
@@ -117,6 +117,12 @@ pub(crate) fn about(system: &mut System, state: &State) -> Result<Equations, Dyn
         iterate: Iterate::Single,
     };
     system.evaluate(at, Detail::Tangents, &mut equations)?;
+    Ok(equations)
+}
+
+/// The linearised equations about a state, rotations along world axes.
+pub(crate) fn about(system: &mut System, state: &State) -> Result<Equations, DynamicsError> {
+    let mut equations = tangents(system, state)?;
     turn_to_world(system, state, &mut equations);
     Ok(equations)
 }
@@ -167,16 +173,8 @@ pub fn strain_shares(
     state: &State,
     modes: &[NaturalMode],
 ) -> Result<Vec<Vec<f64>>, DynamicsError> {
-    let accelerations = system.accelerations(state)?;
-    let mut equations = Equations::new(system);
-    let at = At {
-        state,
-        acceleration: &accelerations.acceleration,
-        lambda: &accelerations.lambda,
-        load_factor: 1.0,
-        iterate: Iterate::Single,
-    };
-    system.evaluate(at, Detail::Tangents, &mut equations)?;
+    // The elements keep the tangents that they were asked for.
+    tangents(system, state)?;
     let shares = modes.iter().map(|mode| {
         // Increments of rotation are those about body axes.
         let mut amplitudes = [0, 1].map(|part| mode.shape.iter().map(|a| a[part]).collect());

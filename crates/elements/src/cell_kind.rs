@@ -19,6 +19,20 @@ pub const HEX_EDGES: [[usize; 2]; 12] = [
 /// The corners at the ends of each edge of a tetrahedron; edge k carries node 4 + k of one with ten nodes.
 pub const TET_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
 
+/// Natural coordinates of the nodes of a tetrahedron: the corners, then the middles of [`TET_EDGES`].
+pub const TET_NODES: [[f64; 3]; 10] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.5, 0.0, 0.0],
+    [0.5, 0.5, 0.0],
+    [0.0, 0.5, 0.0],
+    [0.0, 0.0, 0.5],
+    [0.5, 0.0, 0.5],
+    [0.0, 0.5, 0.5],
+];
+
 /// The corners at the ends of each edge of a wedge; edge k carries node 6 + k of one with fifteen nodes.
 pub const WEDGE_EDGES: [[usize; 2]; 9] = [
     [0, 1],

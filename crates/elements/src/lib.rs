@@ -7,5 +7,5 @@
 mod cell_kind;
 mod element;
 
-pub use cell_kind::{CellKind, HEX_EDGES, TET_EDGES, WEDGE_EDGES};
+pub use cell_kind::{CellKind, HEX_EDGES, TET_EDGES, TET_NODES, WEDGE_EDGES};
 pub use element::Element;

@@ -16,20 +16,7 @@
 //! Source: T. J. R. Hughes, *The Finite Element Method*, 1987, appendix 3.I.
 
 use gearmesh_elements::TET_EDGES;
-
-/// Natural coordinates of the ten nodes.
-pub(crate) const NODES: [[f64; 3]; 10] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [0.5, 0.0, 0.0],
-    [0.5, 0.5, 0.0],
-    [0.0, 0.5, 0.0],
-    [0.0, 0.0, 0.5],
-    [0.5, 0.0, 0.5],
-    [0.0, 0.5, 0.5],
-];
+pub(crate) use gearmesh_elements::TET_NODES as NODES;
 
 /// Gradients of the four volume coordinates L in natural coordinates.
 const L_GRADIENTS: [[f64; 3]; 4] = [

@@ -245,7 +245,7 @@ impl Meridian {
             let of_section = |n: usize| ring[n % sections].to_vec();
             return (0..self.nodes.len()).map(of_section).collect();
         }
-        let torsion = Torsion::new(self);
+        let torsion = Torsion::new(&self.quads, self.order(), &self.nodes);
         let columns = ring[0].len();
         let mut all = vec![vec![0.0; columns]; self.nodes.len()];
         for column in 0..columns {

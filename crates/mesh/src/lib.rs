@@ -57,6 +57,7 @@ pub mod mid_sides;
 pub mod plane_mesher;
 pub mod python;
 pub mod quality;
+pub mod ring_radius;
 pub mod section;
 pub mod solid_body;
 pub mod solid_mesher;
@@ -249,7 +250,7 @@ impl MeshError {
                 let key = ["flank_mm", "fillet_mm", "body_mm"][k];
                 format!("{key} {:.3}, {:.3} by default", found[k] * 1e3, defaults[k])
             };
-            let ring_mm = 1e3 * tooth_cell::ring_radius_m(gear);
+            let ring_mm = 1e3 * ring_radius::ring_radius_m(gear);
             let in_teeth = gear.profile.is_towards_tip(x_mm.hypot(*y_mm), ring_mm);
             *lengths = match in_teeth {
                 true => format!(" (there: {}; {})", told(0), told(1)),

@@ -10,9 +10,9 @@ use crate::MeshError;
 use crate::body::{element_length, region_circles, repeating_down_to_m};
 use crate::grading::{Pieces, graded};
 use crate::layers::Layers;
+use crate::ring_radius::ring_radius_m;
 use crate::solid_problem::THROUGH_WEB;
 use crate::tooth_blocks::ToothBlocks;
-use crate::tooth_cell::ring_radius_m;
 use gearmesh_geometry::{Element, GearDefinition, Openings, Web};
 use std::f64::consts::{PI, TAU};
 

@@ -6,7 +6,7 @@
 
 use crate::MeshError;
 use crate::elements::ElementList;
-use gearmesh_elements::{HEX_EDGES, TET_EDGES};
+use gearmesh_elements::{HEX_EDGES, TET_EDGES, TET_NODES};
 
 /// What the quality of a mesh comes to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,20 +76,6 @@ pub fn scaled_jacobian(nodes: &[[f64; 3]]) -> f64 {
         })
         .fold(f64::INFINITY, f64::min)
 }
-
-/// Natural coordinates of a tetrahedron's ten nodes.
-const TET_NODES: [[f64; 3]; 10] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [0.5, 0.0, 0.0],
-    [0.5, 0.5, 0.0],
-    [0.0, 0.5, 0.0],
-    [0.0, 0.0, 0.5],
-    [0.5, 0.0, 0.5],
-    [0.0, 0.5, 0.5],
-];
 
 /// Distortion of a ten-node tetrahedron: the smallest Jacobian determinant at its nodes over that of the tetrahedron
 /// with straight edges between the same corners. 1 where edges are straight with their nodes in the middle; 0 or less

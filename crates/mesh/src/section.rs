@@ -5,8 +5,9 @@ use crate::body::{BodyLengths, Span, body_problem, first_tooth, repeating_down_t
 use crate::crack_line::CrackLine;
 use crate::plane_mesher::{PlaneMesh, mesh_plane};
 use crate::python::PythonEnvironment;
+use crate::ring_radius::ring_radius_m;
 use crate::tooth_blocks::ToothBlocks;
-use crate::tooth_cell::{ToothCell, ring_radius_m};
+use crate::tooth_cell::ToothCell;
 use gearmesh_elements::CellKind;
 use gearmesh_geometry::GearDefinition;
 use std::f64::consts::TAU;

@@ -2,8 +2,8 @@
 
 use crate::MeshError;
 use crate::body::first_tooth;
+use crate::ring_radius::ring_radius_m;
 use crate::solid_mesher::{PlaneLoop, SolidMeshError, SolidProblem};
-use crate::tooth_cell::ring_radius_m;
 use gearmesh_geometry::body_outline::{OutlineEdge, body_outline};
 use gearmesh_geometry::{GearDefinition, Openings, Slots};
 use std::f64::consts::{FRAC_PI_2, TAU};

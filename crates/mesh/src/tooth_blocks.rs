@@ -15,7 +15,8 @@
 use crate::grading::{Pieces, graded};
 use crate::mid_sides::{CurvedSides, MidSides};
 use crate::plane_mesher::{PlaneMesh, PlaneProblem, Region};
-use crate::tooth_cell::{ToothCell, ring_radius_m};
+use crate::ring_radius::ring_radius_m;
+use crate::tooth_cell::ToothCell;
 use gearmesh_elements::CellKind;
 use gearmesh_geometry::{GearDefinition, ProfileCurve, RootPosition};
 use std::f64::consts::PI;

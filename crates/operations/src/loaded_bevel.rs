@@ -13,8 +13,11 @@ use gearmesh_model::{ReducedGear, read_reduced_gear};
 use gearmesh_report::page::{
     Align, Axis, FieldPicture, FieldValues, LineChart, LineSeries, Section, Table, Text,
 };
-use gearmesh_scene::bevel_load::{BevelLoadError, LoadedBevel, load_bevel};
-use serde_json::{Value, json};
+use gearmesh_scene::bevel_load::{
+    BevelLoadError, BevelTorque, LoadedBevel, bevel_figures, load_bevel,
+};
+use gearmesh_scene::pair::figure_table::FigureTable;
+use serde_json::{Map, Value, json};
 
 /// Rows of the pressure's picture up the flank.
 const ROWS: usize = 16;
@@ -136,62 +139,36 @@ fn warn_of_short_slices(found: &[LoadedContact], watch: &Watch<'_>) {
     }
 }
 
-/// Figures of one torque, by name.
-fn row(loaded: &Loaded, of: &LoadedContact) -> [String; 11] {
-    let [largest, off_tips, inside] = of.pressures_pa();
-    let [least, most] = of.load_shares();
-    let [along, up] = of.pattern(loaded.slices);
-    let range = |[low, high]: [f64; 2]| format!("{:.0} to {:.0}", 100.0 * low, 100.0 * high);
-    [
-        format!("{}", of.torque_nm),
-        format!("{:.3}", 1e6 * of.mean_rad()),
-        format!("{:.3}", 1e6 * of.peak_to_peak_rad()),
-        range([least, most]),
-        format!("{:.2}", of.mean_pairs()),
-        format!("{:.0}", 1e-6 * largest),
-        format!("{:.0}", 1e-6 * off_tips),
-        format!("{:.0}", 1e-6 * inside),
-        format!("{:.1}", 100.0 * of.tip_share()),
-        range(along),
-        range(up),
-    ]
+/// The figures of all torques as people read them.
+fn table(loaded: &Loaded) -> FigureTable {
+    let figures = bevel_figures();
+    let row = |found| {
+        let torque = BevelTorque {
+            found,
+            slices: loaded.slices,
+        };
+        figures
+            .iter()
+            .map(|figure| figure.text(&torque, None))
+            .collect()
+    };
+    FigureTable {
+        heads: figures.iter().map(|figure| figure.heading(None)).collect(),
+        rows: loaded.found.iter().map(row).collect(),
+    }
 }
-
-const NAMES: [&str; 11] = [
-    "torque N m",
-    "TE mean urad",
-    "TE pk-pk urad",
-    "best pair %",
-    "pairs",
-    "p max MPa",
-    "off tips MPa",
-    "inside MPa",
-    "on tips %",
-    "toe-heel %",
-    "root-tip %",
-];
 
 /// The first screen.
 #[must_use]
 pub fn lines(file: &PairFile, loaded: &Loaded) -> Vec<String> {
-    let line = |cells: &[String; 11]| {
-        let cells = cells
-            .iter()
-            .zip(NAMES)
-            .map(|(cell, name)| format!("{cell:>0$}", name.len().max(9)));
-        cells.collect::<Vec<_>>().join("  ")
-    };
-    let mut lines = vec![
-        format!(
-            "{} under torques on the gear, {} slices, {}: without load TE pk-pk {:.3} urad",
-            file.title,
-            loaded.slices,
-            loaded.body,
-            1e6 * loaded.found[0].unloaded_peak_to_peak_rad()
-        ),
-        line(&NAMES.map(str::to_owned)),
-    ];
-    lines.extend(loaded.found.iter().map(|of| line(&row(loaded, of))));
+    let mut lines = vec![format!(
+        "{} under torques on the gear, {} slices, {}: without load TE pk-pk {:.3} urad",
+        file.title,
+        loaded.slices,
+        loaded.body,
+        1e6 * loaded.found[0].unloaded_peak_to_peak_rad()
+    )];
+    lines.extend(table(loaded).lines());
     lines.extend(efficiency_words(loaded));
     lines.extend(bevel_gauges::lines(&loaded.strain));
     lines
@@ -213,7 +190,6 @@ fn efficiency_words(loaded: &Loaded) -> Option<String> {
 /// All of it for other programs.
 pub fn figures(loaded: &Loaded) -> Value {
     let each = loaded.found.iter().map(|of| {
-        let [largest, off_tips, inside] = of.pressures_pa();
         let positions: Vec<Value> = (of.positions.iter())
             .map(|p| {
                 let patches: Vec<Value> = (p.patches.iter())
@@ -242,21 +218,20 @@ pub fn figures(loaded: &Loaded) -> Value {
         let between: Vec<[f64; 2]> = (of.between.iter())
             .map(|p| [p.pinion_turn_rad.to_degrees(), 1e6 * p.error_rad])
             .collect();
-        json!({
-            "torque_Nm": of.torque_nm,
-            "mean_urad": 1e6 * of.mean_rad(),
-            "peak_to_peak_urad": 1e6 * of.peak_to_peak_rad(),
-            "best_pair_share": of.load_shares(),
-            "efficiency_percent": loaded.efficiency_percent(of),
-            "pairs": of.mean_pairs(),
-            "pressure_MPa": 1e-6 * largest,
-            "pressure_off_tips_MPa": 1e-6 * off_tips,
-            "pressure_inside_MPa": 1e-6 * inside,
-            "tip_share": of.tip_share(),
-            "pattern_along_and_up": of.pattern(loaded.slices),
-            "positions": positions,
-            "between_deg_urad": between,
-        })
+        let torque = BevelTorque {
+            found: of,
+            slices: loaded.slices,
+        };
+        let figures =
+            bevel_figures().map(|figure| (figure.name_in_files(), json!((figure.of)(&torque))));
+        let mut all: Map<String, Value> = figures.into_iter().collect();
+        all.insert(
+            "efficiency_percent".to_owned(),
+            json!(loaded.efficiency_percent(of)),
+        );
+        all.insert("positions".to_owned(), Value::Array(positions));
+        all.insert("between_deg_urad".to_owned(), json!(between));
+        Value::Object(all)
     });
     json!({
         "slices": loaded.slices,
@@ -269,17 +244,17 @@ pub fn figures(loaded: &Loaded) -> Value {
 
 /// The page's section.
 pub fn section(loaded: &Loaded) -> Section {
-    let mut table = NAMES
-        .iter()
-        .fold(Table::new("Under torques on the gear"), |table, name| {
-            table.column(*name, Align::Right)
-        });
-    for of in &loaded.found {
-        table.push_row(row(loaded, of));
+    let shown = table(loaded);
+    let mut table = Table::new("Under torques on the gear");
+    for head in shown.heads {
+        table = table.column(head, Align::Right);
+    }
+    for row in shown.rows {
+        table.push_row(row);
     }
     let mut section = Section::new("Under load").push(Text::paragraph(format!(
-        "{}, {} slices along the face. Best pair: share of the load that the most loaded pair of teeth carries. Off tips: pressure where no tip touches; \
-         inside: where the contact's whole width stands clear of the tips. Toe to heel, root to tip: where the pattern lies on the gear.",
+        "{}, {} slices along the face. Best pair: share of the load that the most loaded pair of teeth carries, least and largest over the positions. Off tips: pressure where no tip touches; \
+         inside: where the contact's whole width stands clear of the tips. Pattern: where it begins and ends on the gear, along the face from the toe and up the flank from the root.",
         loaded.body, loaded.slices
     )));
     section = section.push(table);

@@ -49,7 +49,7 @@ impl Ran {
     /// [`Failure`] where the result's file cannot be read.
     pub fn lines(&self) -> Result<Vec<String>, Failure> {
         match self {
-            Self::Pair(result) => pair_table::table(result),
+            Self::Pair(result) => Ok(pair_table::table(result)),
             Self::System(result) => system_table::table(result),
         }
     }

@@ -23,14 +23,6 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-# Columns of a pair's table that a notebook shows: head, factor.
-_SHOWN = {
-    "torque_Nm": ("torque N m", 1.0),
-    "te_mean_m": ("TE mean um", 1e6),
-    "te_peak_to_peak_m": ("TE pk-pk um", 1e6),
-    "k_h_beta": ("K<sub>H&beta;</sub>", 1.0),
-}
-
 # Names of axes in files as those of coordinates, and the data sets that hold these.
 _DIMENSIONS = {
     "driver angle": "angle",
@@ -257,16 +249,15 @@ class Result:
         title = html.escape(self.title)
         if self.kind != "pair":
             return f"<b>{title}</b><br>{html.escape(repr(self))}"
-        table = self._native.torque_figures()
-        shown = {name: head for name, head in _SHOWN.items() if name in table}
-        heads = "".join(f"<th>{head}</th>" for head, _ in shown.values())
-        rows = ""
-        for row in range(len(table["torque_Nm"])):
-            cells = "".join(f"<td>{scale * table[name][row]:.5g}</td>" for name, (_, scale) in shown.items())
-            rows += f"<tr>{cells}</tr>"
-        over = [(f"{torque:g} N m", 1e6 * row) for torque, row in zip(table["torque_Nm"], np.atleast_2d(self["te_m"]))]
+
+        def row(kind: str, cells: list[str]) -> str:
+            return "<tr>" + "".join(f"<{kind}>{html.escape(cell)}</{kind}>" for cell in cells) + "</tr>"
+
+        heads, *rows = self._native.figure_texts()
+        table = row("th", heads) + "".join(row("td", cells) for cells in rows)
+        over = [(f"{torque:g} N m", 1e6 * te) for torque, te in zip(self["torque_Nm"], np.atleast_2d(self["te_m"]))]
         picture = curves(np.degrees(self["angle_rad"]), over[:6], "angle of gear 1, deg", "transmission error, um")
-        return f"<b>{title}</b>{picture}<table><tr>{heads}</tr>{rows}</table>"
+        return f"<b>{title}</b>{picture}<table>{table}</table>"
 
     def __repr__(self) -> str:
         if self.kind != "pair":

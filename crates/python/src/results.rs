@@ -163,6 +163,15 @@ impl NativeResult {
         columns(py, py.detach(|| torque_table(&result)))
     }
 
+    /// A pair's figures as people read them: the heads, then a row for each torque.
+    fn figure_texts(&self, py: Python<'_>) -> PyResult<Vec<Vec<String>>> {
+        let Kept::Pair(pair) = &self.0 else {
+            return Ok(Vec::new());
+        };
+        let table = pair.result(py)?.figure_table(false);
+        Ok([vec![table.heads], table.rows].concat())
+    }
+
     /// Writes a pair's result; that of a multibody scene is a file already.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         match &self.0 {

@@ -20,6 +20,7 @@
 
 mod contact_length;
 mod damage;
+mod damage_error;
 mod flank_pressure;
 mod iso_nominal;
 mod mean_stress;
@@ -32,7 +33,8 @@ mod sn_table;
 mod virtual_gear;
 
 pub use contact_length::shortest_contact_length_m;
-pub use damage::{Damage, DamageError, history_damage, miner_damage};
+pub use damage::{Damage, history_damage, miner_damage};
+pub use damage_error::DamageError;
 pub use flank_pressure::{FlankPressure, FlankPressureError, flank_pressure};
 pub use iso_nominal::{IsoPressure, IsoRoot};
 pub use mean_stress::MeanStress;

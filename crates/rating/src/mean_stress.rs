@@ -1,6 +1,6 @@
 //! What the mean of a stress cycle does to its damage.
 
-use crate::damage::DamageError;
+use crate::damage_error::DamageError;
 use crate::rainflow::Cycle;
 
 /// The amplitude at zero mean that is as damaging as a cycle.

@@ -26,7 +26,6 @@ mod comparison_table;
 mod contact_pattern;
 pub mod export;
 pub mod measured;
-mod mesh_stiffness_unit;
 pub mod min_max;
 pub mod moving;
 pub mod optimise_page;

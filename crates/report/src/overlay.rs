@@ -2,10 +2,9 @@
 
 use gearmesh_model::{Column, FileError};
 use gearmesh_scene::SceneResult;
+use gearmesh_scene::pair::figure_table::{FigureKind, FigureTable};
 use gearmesh_scene::system_run::{ResultKind, SystemResult, rank, stem};
-use gearmesh_signal::statistics::{mean, peak_to_peak};
 
-use crate::mesh_stiffness_unit::MeshStiffness;
 use crate::min_max;
 use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table, Text};
 use crate::peak_view::PeakView;
@@ -25,7 +24,10 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
     };
     let last = |r: &SceneResult| r.torque_nm.len() - 1;
     let x: Vec<f64> = first.angle_rad.iter().map(|a| a.to_degrees()).collect();
-    let units = MeshStiffness::of_all(results.iter().map(|(_, r)| *r));
+    let widths: Option<Vec<f64>> =
+        (results.iter().map(|(_, r)| r.overlap_width_m().ok())).collect();
+    let stiffness = |k: usize| FigureKind::Stiffness.read_unit(widths.as_ref().map(|all| all[k]));
+    let factors: Vec<f64> = (0..results.len()).map(|k| stiffness(k).factor).collect();
     let chart = |title: &str, y: Axis, factors: &[f64], of: fn(&SceneResult) -> &Vec<f64>| {
         let axis = Axis::new("driver angle", "deg");
         let mut chart = LineChart::new(title, axis, y).x_values(x.clone());
@@ -38,30 +40,18 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
         }
         chart
     };
+    let torques: Vec<(&SceneResult, usize)> = results.iter().map(|(_, r)| (*r, last(r))).collect();
+    let shown = FigureTable::new(&torques, |figure| {
+        results.iter().any(|(_, r)| r.shows(figure))
+    });
     let mut table = Table::new("At the largest torque")
         .column("file", Align::Left)
-        .column("title", Align::Left)
-        .column("torque N m", Align::Right)
-        .column("TE mean µm", Align::Right)
-        .column("TE pk-pk µm", Align::Right)
-        .column(format!("tangent {}", units[0].name), Align::Right)
-        .column("p_H MPa", Align::Right)
-        .column("K_Hbeta", Align::Right);
-    for ((name, r), unit) in results.iter().zip(&units) {
-        let k = last(r);
-        let te = r.curve(&r.te_m, k);
-        let block = r.pressure_pa.len() / r.torque_nm.len();
-        let pressure = r.pressure_pa[k * block..(k + 1) * block].iter().copied();
-        table.push_row([
-            name.clone(),
-            r.title.clone(),
-            format!("{}", r.torque_nm[k]),
-            short(1e6 * mean(te).unwrap_or(f64::NAN)),
-            short(1e6 * peak_to_peak(te).unwrap_or(f64::NAN)),
-            short(unit.factor * mean(r.curve(&r.tangent_n_per_m, k)).unwrap_or(f64::NAN)),
-            short(1e-6 * pressure.fold(0.0, f64::max)),
-            format!("{:.3}", r.k_h_beta[k]),
-        ]);
+        .column("title", Align::Left);
+    for head in shown.heads {
+        table = table.column(head, Align::Right);
+    }
+    for ((name, r), texts) in results.iter().zip(shown.rows) {
+        table.push_row([vec![name.clone(), r.title.clone()], texts].concat());
     }
     let section = Section::new("Gear pairs side by side")
         .push(table)
@@ -73,8 +63,8 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
         ))
         .push(chart(
             "Tangent mesh stiffness",
-            Axis::new("stiffness", units[0].name),
-            &units.iter().map(|unit| unit.factor).collect::<Vec<_>>(),
+            Axis::new("stiffness", stiffness(0).name),
+            &factors,
             |r| &r.tangent_n_per_m,
         ));
     Some(with_root_strain(section, results))

@@ -3,36 +3,52 @@
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 use gearmesh_model::Named;
 use gearmesh_scene::SceneResult;
+use gearmesh_scene::pair::figure_table::{FIGURE_ERRORS, FIGURES};
 use gearmesh_scene::rating::RatingResult;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-/// The figures of each torque of a pair, and what to say about all of them.
+/// The figures of each torque of a pair, in SI units, and what to say about all of them; `columns`: what people read of
+/// them, in which unit.
 #[must_use]
 pub fn pair_figures(result: &SceneResult) -> Value {
-    let rows = (0..result.torque_nm.len())
-        .map(|k| {
-            let f = result.figures(k);
-            let curve = result.averaged(&result.tangent_n_per_m, k);
-            let pitches = result.contact_coverage.averaged_pitches();
-            let (_, harmonics) = mesh_harmonics(curve, pitches, 5);
-            json!({
-                "torque_Nm": f.torque_nm, "te_mean_m": f.te_mean_m, "te_peak_to_peak_m": f.te_peak_to_peak_m,
-                "tangent_stiffness_mean_N_per_m": f.tangent_mean_n_per_m,
-                "secant_stiffness_mean_N_per_m": f.secant_mean_n_per_m,
-                "tangent_stiffness_fourier": harmonics.iter().map(|(a, p)| json!({"amplitude_N_per_m": a, "phase_rad": p})).collect::<Vec<_>>(),
-                "axial_force_1_mean_N": f.axial_force_1_mean_n, "pressure_largest_Pa": f.pressure_largest_pa,
-                "k_h_beta": f.k_h_beta, "torque_balance": result.torque_balance[k],
-                "residual": result.residual[k], "iterations": result.iterations[k],
-                "complete": result.contact_coverage.is_whole(), "mean_over_pitches": pitches,
-                "errors": {
-                    "positions_te_peak_to_peak": f.errors.te_positions, "positions_pressure": f.errors.pressure_positions,
-                    "positions_k_h_beta": f.errors.k_h_beta_positions,
-                    "slices_k_h_beta": f.errors.slices, "mesh_strain": f.errors.mesh_strain,
-                },
-            })
+    let row = |k: usize| {
+        let f = result.figures(k);
+        let figures = FIGURES
+            .iter()
+            .map(|row| (row.name_in_files(), json!((row.of)(&f))));
+        let mut row: Map<String, Value> = figures.collect();
+        let curve = result.averaged(&result.tangent_n_per_m, k);
+        let pitches = result.contact_coverage.averaged_pitches();
+        let (_, harmonics) = mesh_harmonics(curve, pitches, 5);
+        let line = |(a, p): &(f64, f64)| json!({"amplitude_N_per_m": a, "phase_rad": p});
+        row.insert(
+            "stiffness_tangent_fourier".to_owned(),
+            harmonics.iter().map(line).collect(),
+        );
+        row.insert(
+            "complete".to_owned(),
+            json!(result.contact_coverage.is_whole()),
+        );
+        row.insert("mean_over_pitches".to_owned(), json!(pitches));
+        let errors = FIGURE_ERRORS
+            .iter()
+            .map(|(name, of)| ((*name).to_owned(), json!(of(&f.errors))));
+        row.insert("errors".to_owned(), Value::Object(errors.collect()));
+        Value::Object(row)
+    };
+    let rows: Value = (0..result.torque_nm.len()).map(row).collect();
+    let over = result.overlap_width_m().ok();
+    let shown = FIGURES.iter().filter(|figure| result.shows(figure));
+    let columns: Value = shown
+        .map(|figure| {
+            let unit = figure.kind.read_unit(over);
+            json!({"name": figure.name_in_files(), "words": figure.words, "unit": unit.name, "factor": unit.factor})
         })
-        .collect::<Vec<_>>();
-    json!({"title": result.title, "rows": rows, "means": result.means_over(), "errors": result.errors_in_words(), "coverage": coverage(result), "ratings": ratings(&result.ratings), "warnings": result.warnings, "seconds": result.seconds})
+        .collect();
+    json!({
+        "title": result.title, "rows": rows, "columns": columns, "means": result.means_over(), "errors": result.errors_in_words(),
+        "coverage": coverage(result), "ratings": ratings(&result.ratings), "warnings": result.warnings, "seconds": result.seconds,
+    })
 }
 
 /// Each quantity with its period; `extent` is "whole", "passage" (one passage of the gauged tooth: peak and range) or

@@ -2,7 +2,6 @@
 
 use crate::comparison_table;
 use crate::contact_pattern;
-use crate::mesh_stiffness_unit::MeshStiffness;
 use crate::page::{
     self, Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle,
     Page, PageError, Section, SeriesColour, SpectrumChart, SpectrumSeries, Table, Text,
@@ -17,7 +16,7 @@ use crate::scene_comparison::{SceneComparisonError, compare_scene};
 use crate::system_page;
 use gearmesh_model::FileError;
 use gearmesh_scene::SceneResult;
-use gearmesh_scene::pair::PairFigures;
+use gearmesh_scene::pair::figure_table::{FIGURES, FigureKind};
 use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_signal::RigSettings;
@@ -140,20 +139,17 @@ pub fn scene_page(
 fn overview(r: &SceneResult) -> Section {
     let last = r.torque_nm.len() - 1;
     let mark = mark(&r.contact_coverage);
-    let f = r.figures(last);
-    let mut figures = KeyFigures::new()
-        .figure("torque", format!("{}", f.torque_nm), "N m")
-        .figure(
-            format!("TE mean{mark}"),
-            format!("{:.3}", 1e6 * f.te_mean_m),
-            "µm",
-        )
-        .figure(
-            format!("TE peak-to-peak{mark}"),
-            format!("{:.3}", 1e6 * f.te_peak_to_peak_m),
-            "µm",
-        )
-        .figure(format!("K_Hbeta{mark}"), format!("{:.3}", f.k_h_beta), "");
+    let (f, over) = (r.figures(last), r.overlap_width_m().ok());
+    let mut figures = KeyFigures::new();
+    for row in FIGURES.iter().filter(|row| r.shows(row)) {
+        let mark = if row.kind == FigureKind::Torque {
+            ""
+        } else {
+            mark
+        };
+        let unit = row.kind.read_unit(over).name;
+        figures = figures.figure(format!("{}{mark}", row.words), row.text(&f, over), unit);
+    }
     if let Some(s) = r.strain.first() {
         let [least, most] = r.strain_ends(0, 2, last);
         let range = 1e6 * (most - least);
@@ -163,33 +159,16 @@ fn overview(r: &SceneResult) -> Section {
             "µε",
         );
     }
-    let unit = MeshStiffness::of(r);
-    let mut section = Section::new(r.title.clone()).push(stiffness_and_pressure(&f, unit, figures));
-    let mut table = Table::new(format!("By torque: transmission error, mean mesh stiffness (secant and tangent), largest Hertz pressure, face load factor{mark}"))
-        .column("torque N m", Align::Right)
-        .column("TE mean µm", Align::Right)
-        .column("TE pk-pk µm", Align::Right)
-        .column(format!("secant {}", unit.name), Align::Right)
-        .column(format!("tangent {}", unit.name), Align::Right)
-        .column("p_H MPa", Align::Right)
-        .column("K_Hbeta", Align::Right);
-    if r.has_axial_force() {
-        table = table.column("axial force gear 1 N", Align::Right);
+    let mut section = Section::new(r.title.clone()).push(figures);
+    let shown = r.figure_table(false);
+    let mut table = Table::new(format!(
+        "By torque: transmission error, mean mesh stiffness (secant and tangent), face load factor, largest Hertz pressure{mark}"
+    ));
+    for head in shown.heads {
+        table = table.column(head, Align::Right);
     }
-    for f in (0..r.torque_nm.len()).map(|k| r.figures(k)) {
-        let mut row = vec![
-            format!("{}", f.torque_nm),
-            format!("{:.3}", 1e6 * f.te_mean_m),
-            format!("{:.3}", 1e6 * f.te_peak_to_peak_m),
-            format!("{:.3}", unit.factor * f.secant_mean_n_per_m),
-            format!("{:.3}", unit.factor * f.tangent_mean_n_per_m),
-            format!("{:.0}", 1e-6 * f.pressure_largest_pa),
-            format!("{:.3}", f.k_h_beta),
-        ];
-        if r.has_axial_force() {
-            row.push(format!("{:.1}", f.axial_force_1_mean_n));
-        }
-        table = table.row(row);
+    for row in shown.rows {
+        table.push_row(row);
     }
     section = section.push(table).push(Text::paragraph(format!(
         "{}. Errors: {}. Curves are drawn over the even positions.",
@@ -214,25 +193,6 @@ fn overview(r: &SceneResult) -> Section {
         section = section.push(Text::note(format!("Warning: {warning}")));
     }
     section
-}
-
-/// What the largest torque finds, after the transmission error: mean stiffness and largest pressure.
-fn stiffness_and_pressure(
-    found: &PairFigures,
-    unit: MeshStiffness,
-    figures: KeyFigures,
-) -> KeyFigures {
-    figures
-        .figure(
-            "mesh stiffness, secant, mean",
-            format!("{:.3}", unit.factor * found.secant_mean_n_per_m),
-            unit.name,
-        )
-        .figure(
-            "largest pressure p_H",
-            format!("{:.0}", 1e-6 * found.pressure_largest_pa),
-            "MPa",
-        )
 }
 
 /// What stands behind the name of a mean or a whole curve that a longer run may change.
@@ -380,7 +340,7 @@ fn contact(r: &SceneResult) -> Section {
             .collect();
         sharing = sharing.series(LineSeries::new(format!("pair {pair}"), values));
     }
-    let unit = MeshStiffness::of(r);
+    let unit = FigureKind::Stiffness.read_unit(r.overlap_width_m().ok());
     let mut stiffness = LineChart::new(
         "Mesh stiffness",
         angle_axis(),

@@ -7,6 +7,7 @@ use gearmesh_drivetrain::{BevelSlices, DrivetrainError, LoadedContact, LoadedPai
 use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
+use crate::pair::figure_table::{RestFigure, figures};
 use crate::pair::warnings::ELASTIC_SHARE;
 
 /// Slices of rigid gears where the file says nothing, and more where a light load touches few of them.
@@ -23,6 +24,36 @@ pub struct LoadedBevel {
     pub slices: usize,
     /// One for each torque.
     pub found: Vec<LoadedContact>,
+}
+
+/// What is found under a torque, for its figures.
+#[derive(Debug, Clone, Copy)]
+pub struct BevelTorque<'a> {
+    /// Contacts.
+    pub found: &'a LoadedContact,
+    /// Slices along the face.
+    pub slices: usize,
+}
+
+/// The figures of a torque: as those of other pairs (`pair/figure_table.rs`).
+#[must_use]
+pub fn bevel_figures<'a>() -> [RestFigure<BevelTorque<'a>>; 14] {
+    figures! {
+        "torque" "torque" Torque All |t| t.found.torque_nm;
+        "loaded_te_mean" "TE mean" Angle All |t| t.found.mean_rad();
+        "loaded_te_peak_to_peak" "TE pk-pk" Angle All |t| t.found.peak_to_peak_rad();
+        "best_pair_share_least" "best pair least" Share All |t| t.found.load_shares()[0];
+        "best_pair_share_largest" "largest" Share All |t| t.found.load_shares()[1];
+        "loaded_pairs_mean" "pairs" Factor All |t| t.found.mean_pairs();
+        "pressure_largest" "p max" Pressure All |t| t.found.pressures_pa()[0];
+        "pressure_off_tips" "off tips" Pressure All |t| t.found.pressures_pa()[1];
+        "pressure_inside" "inside" Pressure All |t| t.found.pressures_pa()[2];
+        "load_on_tips_share" "on tips" Share All |t| t.found.tip_share();
+        "pattern_toe_share" "pattern toe" Share All |t| t.found.pattern(t.slices)[0][0];
+        "pattern_heel_share" "heel" Share All |t| t.found.pattern(t.slices)[0][1];
+        "pattern_root_share" "root" Share All |t| t.found.pattern(t.slices)[1][0];
+        "pattern_tip_share" "tip" Share All |t| t.found.pattern(t.slices)[1][1];
+    }
 }
 
 impl LoadedBevel {

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod made_up_gears;
+#[path = "event_positions/own_figure.rs"]
+mod own_figure;
 
 use std::path::Path;
 
@@ -88,4 +90,24 @@ fn only_the_first_period_has_further_positions() {
         one.errors_in_words()
     );
     assert_eq!(one.strain[0].between[1].len(), one.between.angle_rad.len());
+}
+
+/// What docs/extending.md shows.
+#[test]
+fn a_figure_is_a_row() {
+    let folder = tempfile::tempdir().unwrap();
+    made_up_gears::write_models(folder.path());
+    let result = ran(folder.path(), "line-of-action", 1, 12);
+    let curve = result.curve(&result.tangent_n_per_m, 0).iter();
+    let found = own_figure::at_the_doors(&result);
+    let ripple: f64 = found[1].parse().unwrap();
+    let mean = result.figures(0).tangent_mean_n_per_m;
+    let even =
+        curve.clone().fold(0.0, |a: f64, b| a.max(*b)) - curve.fold(f64::MAX, |a, b| a.min(*b));
+    // Events between the even positions may add to their range, of which the text has four decimals.
+    assert!(ripple > 0.0 && ripple >= even / mean - 5e-5, "{ripple}");
+    assert_eq!(
+        [&found[0], &found[2], &found[3]],
+        ["stiffness ripple", "stiffness_ripple", "stiffness_ripple"]
+    );
 }

@@ -2,17 +2,6 @@
 
 import { short } from "./curves.js";
 
-/** Figures of a row of `gearmesh run --json`, in the units of axes. */
-const ROWS = [
-  ["TE peak to peak", "µm", "te_peak_to_peak_m", 1e6],
-  ["TE mean", "µm", "te_mean_m", 1e6],
-  ["Pressure, largest", "MPa", "pressure_largest_Pa", 1e-6],
-  ["K_Hβ", "", "k_h_beta", 1],
-  ["Stiffness, tangent mean", "N/µm", "tangent_stiffness_mean_N_per_m", 1e-6],
-  ["Stiffness, secant mean", "N/µm", "secant_stiffness_mean_N_per_m", 1e-6],
-  ["Axial force on gear 1", "N", "axial_force_1_mean_N", 1],
-];
-
 function difference(percent) {
   const amount = Math.abs(percent).toFixed(1);
   const sign = amount === "0.0" ? "±" : percent > 0 ? "+" : "−";
@@ -63,11 +52,10 @@ export class Variants {
     const head = element("tr", {}, element("th", { scope: "col" }, `At ${short(load)} N·m`), element("th", { scope: "col" }, "unit"), element("th", { scope: "col" }, "now"));
     head.append(...this.#pinned.map((pin) => this.#head(pin)));
     const body = element("tbody");
-    for (const [label, unit, key, factor] of ROWS) {
-      if (key.startsWith("axial") && now[key] === 0) continue;
+    for (const { words, unit, name: key, factor } of answer.figures.columns) {
       const data = element("data", { value: String(now[key]) }, short(now[key] * factor));
       data.dataset.figure = key;
-      const row = element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, unit), element("td", {}, data));
+      const row = element("tr", {}, element("th", { scope: "row" }, words.replace("K_Hbeta", "K_Hβ")), element("td", {}, unit), element("td", {}, data));
       for (const pin of this.#pinned) {
         const other = pin.answer.figures.rows[torque]?.[key];
         const cell = element("td", {}, other === undefined ? "" : short(other * factor));

@@ -195,6 +195,7 @@ fn the_page_on_extending_shows_its_examples() {
         "crates/drivetrain/tests/conformance/examples/waviness.rs",
         "crates/dynamics/tests/problems/distance_sensor.rs",
         "crates/dynamics/tests/problems/maxwell.rs",
+        "crates/scene/tests/event_positions/own_figure.rs",
     ] {
         let file = read(&root().join(name));
         assert!(

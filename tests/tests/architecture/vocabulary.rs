@@ -19,7 +19,17 @@ fn the_dynamics_crate_knows_no_gear() {
 
 /// In these crates modules use each other in one direction: whoever reads a file needs those that it names, and those do
 /// not need it.
-const WITHOUT_CIRCLES: [&str; 5] = ["cli", "dynamics", "operations", "report", "signal"];
+const WITHOUT_CIRCLES: [&str; 9] = [
+    "cli",
+    "contact",
+    "dynamics",
+    "mesh",
+    "operations",
+    "python",
+    "rating",
+    "report",
+    "signal",
+];
 
 #[test]
 fn modules_form_no_circle() {

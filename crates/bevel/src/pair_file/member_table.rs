@@ -1,9 +1,9 @@
 //! `[pinion]` and `[gear]`: how a member is cut.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{Bounded, InputDocument, Positive, TableKeys, Within};
+use gearmesh_geometry::{InputError, kinds};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -24,86 +24,117 @@ type Amounts = [Bounded<Within<-1000, 1000>>; 2];
 
 /// How a member is cut. Lists of two: concave, convex flank.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "settings", rename = "MemberTable")]
+pub(super) enum MemberTable {
+    /// By the pair's crown gear: conjugate where both members are cut so.
+    Crown(BladeTable),
+    /// Generated, both flanks by one face mill.
+    Basic(BladeTable),
+    /// Not generated: the work is held.
+    Formate(BladeTable),
+    /// Pinion: each flank by local synthesis.
+    LocalSynthesis(SynthesisTable),
+    /// Pinion: each flank fitted to an ease-off.
+    EaseOff(EaseOffTable),
+    /// As stated in `concave` and `convex`.
+    Given(GivenTable),
+    /// No settings: flanks through measured or published points.
+    Points(PointsTable),
+}
+
+kinds!(MemberTable, "settings");
+
+/// Lengths of blades and lands.
+type Length = Option<Bounded<Within<0, 1000>>>;
+
+/// The blade where the settings follow from the pair.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct MemberTable {
-    /// Where the settings come from.
-    settings: SettingsWord,
-    /// Radius of the blade's edge; "given": stated with each flank.
-    edge_radius_mm: Option<Bounded<Within<0, 1000>>>,
+pub(super) struct BladeTable {
+    /// Radius of the blade's edge.
+    edge_radius_mm: Length,
     /// Width of the blade's point, to check that it fits into the slot.
-    point_width_mm: Option<Bounded<Within<0, 1000>>>,
+    point_width_mm: Length,
     /// Least thickness of the top land; 0 where not given.
-    least_top_land_mm: Option<Bounded<Within<0, 1000>>>,
-    /// "local-synthesis": mean contact point on the gear along the tooth, from the middle of the face towards the
-    /// heel; 0 where not given.
-    mean_point_along_mm: Option<[f64; 2]>,
-    /// "local-synthesis": its height above the gear's pitch cone; 0 where not given.
-    mean_point_height_mm: Option<[f64; 2]>,
-    /// "local-synthesis": direction of the path on the gear's flank, from along the tooth towards the heel to up the
-    /// profile.
-    path_angle_deg: Option<[Bounded<Within<1, 179>>; 2]>,
-    /// "local-synthesis": half length of the contact ellipse.
-    ellipse_half_length_mm: Option<[Bounded<Positive>; 2]>,
-    /// "local-synthesis": marking thickness of that ellipse; 6.35 where not given.
+    least_top_land_mm: Length,
+}
+
+/// `settings = "local-synthesis"`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SynthesisTable {
+    /// Radius of the blade's edge.
+    edge_radius_mm: Length,
+    /// Width of the blade's point, to check that it fits into the slot.
+    point_width_mm: Length,
+    /// Least thickness of the top land; 0 where not given.
+    least_top_land_mm: Length,
+    /// Mean contact point on the gear along the tooth, from the middle of the face towards the heel; 0 where not given.
+    #[serde(default)]
+    mean_point_along_mm: [f64; 2],
+    /// Its height above the gear's pitch cone; 0 where not given.
+    #[serde(default)]
+    mean_point_height_mm: [f64; 2],
+    /// Direction of the path on the gear's flank, from along the tooth towards the heel to up the profile.
+    path_angle_deg: [Bounded<Within<1, 179>>; 2],
+    /// Half length of the contact ellipse.
+    ellipse_half_length_mm: [Bounded<Positive>; 2],
+    /// Marking thickness of that ellipse; 6.35 where not given.
     marking_um: Option<Bounded<MarkingThickness>>,
-    /// "local-synthesis": second derivative of the gear's lead by the pinion's turn; negative where the gear stays
-    /// behind.
-    transmission_curvature: Option<[Bounded<Within<-1, 1>>; 2]>,
-    /// "ease-off": material left away at toe and heel.
-    lengthwise_um: Option<Amounts>,
-    /// "ease-off": at the tip and the lower end of the working depth.
-    profile_um: Option<Amounts>,
-    /// "ease-off": twist, at the tip of the heel; its negative at the tip of the toe. 0 where not given.
+    /// Second derivative of the gear's lead by the pinion's turn; negative where the gear stays behind.
+    transmission_curvature: [Bounded<Within<-1, 1>>; 2],
+}
+
+/// `settings = "ease-off"`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct EaseOffTable {
+    /// Radius of the blade's edge.
+    edge_radius_mm: Length,
+    /// Width of the blade's point, to check that it fits into the slot.
+    point_width_mm: Length,
+    /// Least thickness of the top land; 0 where not given.
+    least_top_land_mm: Length,
+    /// Material left away at toe and heel.
+    lengthwise_um: Amounts,
+    /// Material left away at the tip and the lower end of the working depth.
+    profile_um: Amounts,
+    /// Twist, at the tip of the heel; its negative at the tip of the toe. 0 where not given.
     bias_um: Option<Amounts>,
-    /// "points": table of the concave flank's points, beside this file or with its folder: columns sector, height, x_mm, y_mm,
-    /// z_mm, nx, ny, nz (all three of these may be missing: the points make the normals); with deviation_um the points are nominal and
-    /// the flank is off them by so much added material.
-    concave_points: Option<String>,
-    /// "points": table of the convex flank's points.
-    convex_points: Option<String>,
-    /// "points": place of the tables' origin on the member's axis, from the pitch apex towards the heel; 0 where not given.
-    points_origin_mm: Option<Bounded<Within<-10_000, 10_000>>>,
-    /// "given": settings of the concave flank.
-    concave: Option<SettingsTable>,
-    /// "given": settings of the convex flank.
-    convex: Option<SettingsTable>,
-    /// "given": which tooth thickness counts. Where not given that of the settings where they are the same for both
-    /// flanks but for the blades (one operation), else that of the blank.
+}
+
+/// `settings = "given"`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GivenTable {
+    /// Width of the blade's point, to check that it fits into the slot.
+    point_width_mm: Length,
+    /// Least thickness of the top land; 0 where not given.
+    least_top_land_mm: Length,
+    /// Settings of the concave flank.
+    concave: SettingsTable,
+    /// Settings of the convex flank.
+    convex: SettingsTable,
+    /// Which tooth thickness counts. Where not given that of the settings where they are the same for both flanks but
+    /// for the blades (one operation), else that of the blank.
     thickness: Option<ThicknessFrom>,
 }
 
-/// `settings`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-enum SettingsWord {
-    /// By the pair's crown gear: conjugate where both members are cut so.
-    Crown,
-    /// Generated, both flanks by one face mill.
-    Basic,
-    /// Not generated: the work is held.
-    Formate,
-    /// Pinion: each flank by local synthesis.
-    LocalSynthesis,
-    /// Pinion: each flank fitted to an ease-off.
-    EaseOff,
-    /// As stated in `concave` and `convex`.
-    Given,
-    /// No settings: flanks through measured or published points.
-    Points,
-}
-
-impl SettingsWord {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Crown => "crown",
-            Self::Basic => "basic",
-            Self::Formate => "formate",
-            Self::LocalSynthesis => "local-synthesis",
-            Self::EaseOff => "ease-off",
-            Self::Given => "given",
-            Self::Points => "points",
-        }
-    }
+/// `settings = "points"`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PointsTable {
+    /// Least thickness of the top land; 0 where not given.
+    least_top_land_mm: Length,
+    /// Table of the concave flank's points, beside this file or with its folder: columns sector, height, x_mm, y_mm,
+    /// z_mm, nx, ny, nz (all three of these may be missing: the points make the normals); with deviation_um the points
+    /// are nominal and the flank is off them by so much added material.
+    concave_points: String,
+    /// Table of the convex flank's points.
+    convex_points: String,
+    /// Place of the tables' origin on the member's axis, from the pitch apex towards the heel; 0 where not given.
+    points_origin_mm: Option<Bounded<Within<-10_000, 10_000>>>,
 }
 
 /// A member's part of a pair file.
@@ -127,100 +158,51 @@ impl MemberTable {
         blank: &PairBlank,
     ) -> Result<MemberRequest, InputError> {
         let keys = TableKeys::new(document, name);
-        self.refuse_unused(&keys)?;
-        let word = self.settings;
-        let pinion = name == "pinion";
         let straight = blank.data.form == ToothForm::Straight;
-        if matches!(word, SettingsWord::LocalSynthesis | SettingsWord::EaseOff) && !pinion {
-            return Err(keys.error("settings", format!("found \"{}\", which is for the pinion; allowed is \"crown\", \"basic\", \"formate\", \"given\" or \"points\"", word.word())));
-        }
-        let any_form = [
-            SettingsWord::Crown,
-            SettingsWord::Basic,
-            SettingsWord::Points,
-        ];
-        if straight && !any_form.contains(&word) {
-            return Err(keys.error(
-                "settings",
-                format!(
-                    "found \"{}\", allowed for straight teeth is \"crown\", \"basic\" or \"points\"",
-                    word.word()
-                ),
-            ));
-        }
-        if word == SettingsWord::Formate && pinion {
-            return Err(keys.error(
-                "settings",
-                "found \"formate\", which is for the gear: a pinion must be generated",
-            ));
-        }
-        let metres = |value: Option<Bounded<Within<0, 1000>>>| 1e-3 * value.map_or(0.0, f64::from);
-        if straight && self.edge_radius_mm.is_some() {
+        self.refuse_settings(&keys, name == "pinion", straight)?;
+        let [edge, point, land] = match self {
+            Self::Crown(t) | Self::Basic(t) | Self::Formate(t) => {
+                [t.edge_radius_mm, t.point_width_mm, t.least_top_land_mm]
+            }
+            Self::LocalSynthesis(t) => [t.edge_radius_mm, t.point_width_mm, t.least_top_land_mm],
+            Self::EaseOff(t) => [t.edge_radius_mm, t.point_width_mm, t.least_top_land_mm],
+            Self::Given(t) => [None, t.point_width_mm, t.least_top_land_mm],
+            Self::Points(t) => [None, None, t.least_top_land_mm],
+        };
+        if straight && edge.is_some() {
             return Err(keys.error(
                 "edge_radius_mm",
                 "is not used by straight teeth: their tool has no edge radius; remove it",
             ));
         }
+        let metres = |value: Length| 1e-3 * value.map_or(0.0, f64::from);
         Ok(MemberRequest {
             cutting: self.cutting(document, &keys, name, blank)?,
-            edge_radius_m: metres(self.edge_radius_mm),
-            point_width_m: metres(self.point_width_mm),
-            least_top_land_m: metres(self.least_top_land_mm),
+            edge_radius_m: metres(edge),
+            point_width_m: metres(point),
+            least_top_land_m: metres(land),
         })
     }
 
-    fn refuse_unused(&self, keys: &TableKeys<'_>) -> Result<(), InputError> {
-        const SYNTHESIS: &[&str] = &["local-synthesis"];
-        const EASE_OFF: &[&str] = &["ease-off"];
-        const GIVEN: &[&str] = &["given"];
-        const POINTS: &[&str] = &["points"];
-        const CUT: &[&str] = &[
-            "crown",
-            "basic",
-            "formate",
-            "local-synthesis",
-            "ease-off",
-            "given",
-        ];
-        const DERIVED: &[&str] = &["crown", "basic", "formate", "local-synthesis", "ease-off"];
-        keys.refuse_unused(
-            ("settings", self.settings.word()),
-            &[
-                ("edge_radius_mm", self.edge_radius_mm.is_some(), DERIVED),
-                (
-                    "mean_point_along_mm",
-                    self.mean_point_along_mm.is_some(),
-                    SYNTHESIS,
-                ),
-                (
-                    "mean_point_height_mm",
-                    self.mean_point_height_mm.is_some(),
-                    SYNTHESIS,
-                ),
-                ("path_angle_deg", self.path_angle_deg.is_some(), SYNTHESIS),
-                (
-                    "ellipse_half_length_mm",
-                    self.ellipse_half_length_mm.is_some(),
-                    SYNTHESIS,
-                ),
-                ("marking_um", self.marking_um.is_some(), SYNTHESIS),
-                (
-                    "transmission_curvature",
-                    self.transmission_curvature.is_some(),
-                    SYNTHESIS,
-                ),
-                ("lengthwise_um", self.lengthwise_um.is_some(), EASE_OFF),
-                ("profile_um", self.profile_um.is_some(), EASE_OFF),
-                ("bias_um", self.bias_um.is_some(), EASE_OFF),
-                ("point_width_mm", self.point_width_mm.is_some(), CUT),
-                ("concave_points", self.concave_points.is_some(), POINTS),
-                ("convex_points", self.convex_points.is_some(), POINTS),
-                ("points_origin_mm", self.points_origin_mm.is_some(), POINTS),
-                ("concave", self.concave.is_some(), GIVEN),
-                ("convex", self.convex.is_some(), GIVEN),
-                ("thickness", self.thickness.is_some(), GIVEN),
-            ],
-        )
+    /// Refuses settings that this member, or its form of teeth, cannot have.
+    fn refuse_settings(
+        &self,
+        keys: &TableKeys<'_>,
+        pinion: bool,
+        straight: bool,
+    ) -> Result<(), InputError> {
+        let problem = match self {
+            Self::LocalSynthesis(_) | Self::EaseOff(_) if !pinion => {
+                "is for the pinion; allowed is \"crown\", \"basic\", \"formate\", \"given\" or \"points\""
+            }
+            Self::Formate(_) if pinion => "is for the gear: a pinion must be generated",
+            Self::Crown(_) | Self::Basic(_) | Self::Points(_) => return Ok(()),
+            _ if straight => {
+                "does not cut straight teeth; allowed is \"crown\", \"basic\" or \"points\""
+            }
+            _ => return Ok(()),
+        };
+        Err(keys.error("settings", problem))
     }
 
     fn cutting(
@@ -230,71 +212,61 @@ impl MemberTable {
         name: &str,
         blank: &PairBlank,
     ) -> Result<Cutting, InputError> {
-        Ok(match self.settings {
-            SettingsWord::Crown => Cutting::Crown,
-            SettingsWord::Basic => Cutting::Basic(Process::Generated),
-            SettingsWord::Formate => Cutting::Basic(Process::Formate),
-            SettingsWord::LocalSynthesis => Cutting::Synthesis(self.synthesis(keys, blank)?),
-            SettingsWord::EaseOff => {
-                let by = "settings = \"ease-off\"";
-                let lengthwise = keys.needed("lengthwise_um", self.lengthwise_um, by)?;
-                let profile = keys.needed("profile_um", self.profile_um, by)?;
-                Cutting::EaseOff([0, 1].map(|i| AskedEaseOff {
-                    lengthwise_m: 1e-6 * *lengthwise[i],
-                    profile_m: 1e-6 * *profile[i],
-                    bias_m: 1e-6 * self.bias_um.map_or(0.0, |bias| *bias[i]),
-                }))
-            }
-            SettingsWord::Points => {
+        Ok(match self {
+            Self::Crown(_) => Cutting::Crown,
+            Self::Basic(_) => Cutting::Basic(Process::Generated),
+            Self::Formate(_) => Cutting::Basic(Process::Formate),
+            Self::LocalSynthesis(table) => Cutting::Synthesis(table.synthesis(keys, blank)?),
+            Self::EaseOff(table) => Cutting::EaseOff([0, 1].map(|i| AskedEaseOff {
+                lengthwise_m: 1e-6 * *table.lengthwise_um[i],
+                profile_m: 1e-6 * *table.profile_um[i],
+                bias_m: 1e-6 * table.bias_um.map_or(0.0, |bias| *bias[i]),
+            })),
+            Self::Points(table) => {
                 let member = &blank.members[usize::from(name == "gear")];
-                Cutting::Points(Box::new(self.points(document, keys, member)?))
+                Cutting::Points(Box::new(table.points(document, member)?))
             }
-            SettingsWord::Given => {
-                let by = "settings = \"given\"";
-                let concave = keys.needed("concave", self.concave.as_ref(), by)?;
-                let convex = keys.needed("convex", self.convex.as_ref(), by)?;
+            Self::Given(table) => {
                 let settings = [
-                    concave.settings(document, &format!("{name}.concave"))?,
-                    convex.settings(document, &format!("{name}.convex"))?,
+                    table
+                        .concave
+                        .settings(document, &format!("{name}.concave"))?,
+                    table.convex.settings(document, &format!("{name}.convex"))?,
                 ];
-                given_check::check(keys, &settings, blank, (name, self.thickness))?;
-                Cutting::Given(settings, self.thickness)
+                given_check::check(keys, &settings, blank, (name, table.thickness))?;
+                Cutting::Given(settings, table.thickness)
             }
         })
     }
+}
 
+impl PointsTable {
     /// Flanks through points.
     fn points(
         &self,
         document: &InputDocument,
-        keys: &TableKeys<'_>,
         member: &MemberBlank,
     ) -> Result<[GridSurface; 2], InputError> {
-        let by = "settings = \"points\"";
         let origin = self.points_origin_mm.map_or(0.0, f64::from);
-        let folder = Path::new(&document.file).parent();
-        let read = |key: &str, name: &Option<String>, side: FlankSide| {
-            let name = keys.needed(key, name.as_ref(), by)?;
-            let path = folder.map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
-            GridSurface::read(&path, 1e-3 * origin, member, side)
+        let folder = Path::new(&document.file).parent().unwrap_or(Path::new(""));
+        let read = |name: &str, side: FlankSide| {
+            GridSurface::read(&folder.join(name), 1e-3 * origin, member, side)
         };
         Ok([
-            read("concave_points", &self.concave_points, FlankSide::Concave)?,
-            read("convex_points", &self.convex_points, FlankSide::Convex)?,
+            read(&self.concave_points, FlankSide::Concave)?,
+            read(&self.convex_points, FlankSide::Convex)?,
         ])
     }
+}
 
+impl SynthesisTable {
     fn synthesis(
         &self,
         keys: &TableKeys<'_>,
         blank: &PairBlank,
     ) -> Result<[Synthesis; 2], InputError> {
-        let by = "settings = \"local-synthesis\"";
-        let angle = keys.needed("path_angle_deg", self.path_angle_deg, by)?;
-        let ellipse = keys.needed("ellipse_half_length_mm", self.ellipse_half_length_mm, by)?;
-        let curvature = keys.needed("transmission_curvature", self.transmission_curvature, by)?;
-        let along = self.mean_point_along_mm.unwrap_or_default();
-        let height = self.mean_point_height_mm.unwrap_or_default();
+        let (along, height) = (self.mean_point_along_mm, self.mean_point_height_mm);
+        let ellipse = self.ellipse_half_length_mm;
         let marking = self.marking_um.map_or(DEFAULT_MARKING_UM, f64::from);
         let gear = &blank.members[1];
         let half = 500.0 * blank.data.face_width_m[0].min(blank.data.face_width_m[1]);
@@ -325,10 +297,10 @@ impl MemberTable {
         }
         Ok([0, 1].map(|i| Synthesis {
             mean_point_m: [1e-3 * along[i], 1e-3 * height[i]],
-            path_angle_rad: angle[i].to_radians(),
+            path_angle_rad: self.path_angle_deg[i].to_radians(),
             ellipse_half_length_m: 1e-3 * *ellipse[i],
             marking_m: 1e-6 * marking,
-            transmission_curvature: *curvature[i],
+            transmission_curvature: *self.transmission_curvature[i],
         }))
     }
 }

@@ -175,11 +175,7 @@ web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = 
                 "diameter_mm = 38.0, z_mm = [-1.0, 3.0], fillet_radius_mm = -1.0",
             ),
             "web =",
-            &[
-                "blank.web.1.fillet_radius_mm",
-                "found -1",
-                "0 (sharp corners) or more",
-            ],
+            &["blank.web.1.fillet_radius_mm", "found -1", "0 or more"],
         ),
         (
             // The front: 3 mm of the rim's inner surface, a corner of 90 + atan(1/9) degrees.

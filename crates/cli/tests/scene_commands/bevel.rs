@@ -306,13 +306,13 @@ fn what_cannot_be_cut_is_refused() {
     for (from, to, expected) in [
         (
             "settings = \"basic\"",
-            "settings = \"ease-off\"",
-            "gear.settings: found \"ease-off\", which is for the pinion",
+            "settings = \"ease-off\"\nlengthwise_um = [1.0, 1.0]\nprofile_um = [1.0, 1.0]",
+            "gear.settings: is for the pinion",
         ),
         (
             "path_angle_deg = [100.0, 80.0]\n",
             "",
-            "pinion.path_angle_deg: missing; settings = \"local-synthesis\" needs it",
+            "pinion: missing field `path_angle_deg`",
         ),
         (
             "[8.0, 8.0]",
@@ -322,7 +322,7 @@ fn what_cannot_be_cut_is_refused() {
         (
             "edge_radius_mm = 0.5\n\n",
             "edge_radius_mm = 0.5\nbias_um = [1.0, 1.0]\n\n",
-            "gear.bias_um: is not used by settings = \"basic\"",
+            "gear.bias_um: `bias_um` belongs to settings \"ease-off\", not to \"basic\"",
         ),
         (
             "edge_radius_mm = 0.5\n\n",

@@ -20,8 +20,8 @@ fn run_balances_the_torque() {
             "the driven gear lags under load: {row}"
         );
         assert!(
-            number(&row["tangent_stiffness_mean_N_per_m"])
-                > number(&row["secant_stiffness_mean_N_per_m"]),
+            number(&row["stiffness_tangent_mean_N_per_m"])
+                > number(&row["stiffness_secant_mean_N_per_m"]),
             "{row}"
         );
     }
@@ -34,9 +34,9 @@ fn run_balances_the_torque() {
 fn run_prints_the_harmonics_of_the_mesh_cycle() {
     let (_, figures) = run_scene(&Desk::new(), "");
     for row in figures["rows"].as_array().unwrap() {
-        let first = number(&row["tangent_stiffness_fourier"][0]["amplitude_N_per_m"]);
+        let first = number(&row["stiffness_tangent_fourier"][0]["amplitude_N_per_m"]);
         assert!(
-            first > 0.01 * number(&row["tangent_stiffness_mean_N_per_m"]),
+            first > 0.01 * number(&row["stiffness_tangent_mean_N_per_m"]),
             "{row}"
         );
     }

@@ -3,7 +3,7 @@
 use super::{MM, TableKeys};
 use crate::blank::{Blank, Contour, ContourPoint, Web};
 use crate::body_outline::body_outline;
-use crate::input::InputError;
+use crate::input::{Bounded, InputError, NotNegative};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -19,8 +19,7 @@ pub(super) struct WebPointTable {
     /// Back and front of the web there.
     z_mm: [f64; 2],
     /// Fillet radius of the corners there; 0 (sharp) where not given.
-    #[serde(default)]
-    fillet_radius_mm: f64,
+    fillet_radius_mm: Option<Bounded<NotNegative>>,
 }
 
 /// What a contour must fit.
@@ -83,12 +82,6 @@ pub(super) fn check_contour(
                 room.least_mm
             ),
         )?;
-        keys.require(
-            &format!("web.{k}.fillet_radius_mm"),
-            point.fillet_radius_mm,
-            point.fillet_radius_mm >= 0.0,
-            "0 (sharp corners) or more",
-        )?;
         if step {
             let before = points[k - 1].z_mm;
             let common = before[1].min(front) - before[0].max(back);
@@ -133,7 +126,7 @@ pub(super) fn check_contour(
             .map(|point| ContourPoint {
                 radius_m: 0.5 * point.diameter_mm * MM,
                 z_m: point.z_mm.map(|z| z * MM),
-                fillet_radius_m: point.fillet_radius_mm * MM,
+                fillet_radius_m: point.fillet_radius_mm.map_or(0.0, f64::from) * MM,
             })
             .collect(),
     };

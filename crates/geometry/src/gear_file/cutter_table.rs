@@ -2,7 +2,7 @@
 
 use super::TableKeys;
 use crate::definition::{PinionCutter, ToothDefinition};
-use crate::input::{InputDocument, InputError};
+use crate::input::{Bounded, InputDocument, InputError, NotNegative, Positive, Within};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -14,13 +14,12 @@ pub(super) struct CutterTable {
     /// and whose tip runs clear of it.
     teeth: Option<usize>,
     /// Profile shift coefficient in modules; 0 where not given.
-    #[serde(default)]
-    profile_shift: f64,
+    profile_shift: Option<Bounded<Within<-2, 2>>>,
     /// Addendum in modules: its tip diameter is its reference diameter + 2 m (addendum + profile_shift); 1.25 where not
     /// given.
-    addendum: Option<f64>,
+    addendum: Option<Bounded<Positive>>,
     /// Radius of its tip edges in modules, in the transverse section; 0.25, or the largest that fits, where not given.
-    tip_radius: Option<f64>,
+    tip_radius: Option<Bounded<NotNegative>>,
 }
 
 impl CutterTable {
@@ -40,32 +39,12 @@ impl CutterTable {
                 &format!("5 to {most}, three less than the ring's"),
             )?;
         }
-        let shift = self.profile_shift;
-        keys.require("profile_shift", shift, shift.abs() <= 2.0, "-2 to 2")?;
-        for (key, value, least, allowed) in [
-            (
-                "addendum",
-                self.addendum,
-                f64::MIN_POSITIVE,
-                "more than 0 (multiples of the module)",
-            ),
-            (
-                "tip_radius",
-                self.tip_radius,
-                0.0,
-                "0 or more (multiples of the module)",
-            ),
-        ] {
-            if let Some(value) = value {
-                keys.require(key, value, value >= least, allowed)?;
-            }
-        }
         Ok(PinionCutter::suited(
             tooth,
             self.teeth,
-            shift,
-            self.addendum,
-            self.tip_radius,
+            self.profile_shift.map_or(0.0, f64::from),
+            self.addendum.map(f64::from),
+            self.tip_radius.map(f64::from),
         ))
     }
 }

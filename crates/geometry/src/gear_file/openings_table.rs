@@ -3,25 +3,31 @@
 use super::blank_table::LEAST_WALL;
 use super::{MM, TableKeys};
 use crate::blank::{Holes, Openings, Slots};
-use crate::input::{InputDocument, InputError};
+use crate::input::{Bounded, Count, End, InputDocument, InputError, Positive, Within};
+use crate::number_range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::TAU;
+
+number_range!(
+    /// Angles that a slot covers in degrees.
+    SlotWidth: End::Beyond(0.0), End::Beyond(180.0)
+);
 
 /// The keys of `[blank.slots]`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SlotsTable {
     /// Number round the axis.
-    count: usize,
+    count: Count<1, 200>,
     /// Inner radius.
-    inner_radius_mm: f64,
+    inner_radius_mm: Bounded<Positive>,
     /// Outer radius.
     outer_radius_mm: f64,
     /// Angle that one slot covers.
-    width_deg: f64,
+    width_deg: Bounded<SlotWidth>,
     /// Angle of the first one's middle from tooth 0.
-    phase_deg: f64,
+    phase_deg: Bounded<Within<-360, 360>>,
     /// Radius of the corners.
     corner_radius_mm: f64,
 }
@@ -31,13 +37,13 @@ pub(super) struct SlotsTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct HolesTable {
     /// Number round the axis.
-    count: usize,
+    count: Count<1, 200>,
     /// Diameter of the circle through the holes' centres.
     pitch_circle_diameter_mm: f64,
     /// Diameter of a hole.
     diameter_mm: f64,
     /// Angle of the first one's middle from tooth 0.
-    phase_deg: f64,
+    phase_deg: Bounded<Within<-360, 360>>,
 }
 
 impl SlotsTable {
@@ -45,44 +51,20 @@ impl SlotsTable {
     fn check(self, document: &InputDocument, least_mm: f64) -> Result<Slots, InputError> {
         let keys = TableKeys::new(document, "blank.slots");
         keys.require(
-            "count",
-            self.count as f64,
-            (1..=200).contains(&self.count),
-            "1 to 200",
-        )?;
-        keys.require(
-            "inner_radius_mm",
-            self.inner_radius_mm,
-            self.inner_radius_mm > 0.0,
-            "more than 0",
-        )?;
-        keys.require(
             "outer_radius_mm",
             self.outer_radius_mm,
-            self.outer_radius_mm >= self.inner_radius_mm + least_mm,
+            self.outer_radius_mm >= *self.inner_radius_mm + least_mm,
             &format!("at least inner_radius_mm and {least_mm:.4}, a thousandth of a module"),
         )?;
+        let narrowest_deg = (least_mm / *self.inner_radius_mm).to_degrees();
         keys.require(
             "width_deg",
-            self.width_deg,
-            self.width_deg > 0.0 && self.width_deg < 180.0,
-            "more than 0 and less than 180",
-        )?;
-        keys.require(
-            "phase_deg",
-            self.phase_deg,
-            self.phase_deg.abs() <= 360.0,
-            "-360 to 360",
-        )?;
-        let narrowest_deg = (least_mm / self.inner_radius_mm).to_degrees();
-        keys.require(
-            "width_deg",
-            self.width_deg,
-            self.width_deg >= narrowest_deg,
+            *self.width_deg,
+            *self.width_deg >= narrowest_deg,
             &format!("at least {narrowest_deg:.4}: a thousandth of a module at inner_radius_mm"),
         )?;
-        let height = self.outer_radius_mm - self.inner_radius_mm;
-        let chord = self.inner_radius_mm * self.width_deg.to_radians();
+        let height = self.outer_radius_mm - *self.inner_radius_mm;
+        let chord = *self.inner_radius_mm * self.width_deg.to_radians();
         let largest = 0.45 * height.min(chord);
         keys.require(
             "corner_radius_mm",
@@ -94,8 +76,8 @@ impl SlotsTable {
             ),
         )?;
         Ok(Slots {
-            count: self.count,
-            inner_radius_m: self.inner_radius_mm * MM,
+            count: self.count.get(),
+            inner_radius_m: *self.inner_radius_mm * MM,
             outer_radius_m: self.outer_radius_mm * MM,
             width_rad: self.width_deg.to_radians(),
             phase_rad: self.phase_deg.to_radians(),
@@ -109,12 +91,6 @@ impl HolesTable {
     fn check(self, document: &InputDocument, least_mm: f64) -> Result<Holes, InputError> {
         let keys = TableKeys::new(document, "blank.holes");
         keys.require(
-            "count",
-            self.count as f64,
-            (1..=200).contains(&self.count),
-            "1 to 200",
-        )?;
-        keys.require(
             "diameter_mm",
             self.diameter_mm,
             self.diameter_mm >= least_mm,
@@ -126,14 +102,8 @@ impl HolesTable {
             self.pitch_circle_diameter_mm > self.diameter_mm,
             "more than diameter_mm",
         )?;
-        keys.require(
-            "phase_deg",
-            self.phase_deg,
-            self.phase_deg.abs() <= 360.0,
-            "-360 to 360",
-        )?;
         Ok(Holes {
-            count: self.count,
+            count: self.count.get(),
             pitch_radius_m: 0.5 * self.pitch_circle_diameter_mm * MM,
             radius_m: 0.5 * self.diameter_mm * MM,
             phase_rad: self.phase_deg.to_radians(),

@@ -3,7 +3,8 @@
 use super::cutter_table::CutterTable;
 use super::{MM, TableKeys};
 use crate::definition::{Gearing, InternalRoot, ToothDefinition};
-use crate::input::{InputDocument, InputError};
+use crate::input::{Bounded, End, InputDocument, InputError, NotNegative, Positive, Within};
+use crate::number_range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -15,20 +16,18 @@ pub(super) struct ToothTable {
     /// Number of teeth; negative for a ring with internal teeth.
     teeth: i64,
     /// Module; of helical teeth in the normal section.
-    module_mm: f64,
+    module_mm: Bounded<Module>,
     /// Pressure angle of the rack, of helical teeth in the normal section; 20 where not given.
-    #[serde(default = "default_pressure_angle")]
-    pressure_angle_deg: f64,
+    pressure_angle_deg: Option<Bounded<Within<10, 35>>>,
     /// Profile shift coefficient x in modules, positive towards the tip; 0 where not given.
-    #[serde(default)]
-    profile_shift: f64,
+    profile_shift: Option<Bounded<Within<-2, 2>>>,
     /// Addendum of the tip in modules; 1 where not given. Not with tip_diameter_mm.
     addendum: Option<f64>,
     /// Dedendum in modules: addendum of the cutting rack; 1.25 where not given. Not where a pinion cutter makes the root
     /// of internal teeth.
-    dedendum: Option<f64>,
+    dedendum: Option<Bounded<Positive>>,
     /// Tip radius of the cutting rack in modules; 0.38 where not given. External teeth only.
-    rack_tip_radius: Option<f64>,
+    rack_tip_radius: Option<Bounded<NotNegative>>,
     /// What makes the root of internal teeth, "cutter" or "full-round"; "cutter" where not given.
     root: Option<RootWord>,
     /// The pinion cutter of internal teeth; one that suits them where not given.
@@ -39,13 +38,11 @@ pub(super) struct ToothTable {
     #[serde(default)]
     thickness_allowance_mm: f64,
     /// Chamfer of the tip edges, radially and circumferentially; 0 where not given.
-    #[serde(default)]
-    tip_chamfer_mm: f64,
+    tip_chamfer_mm: Option<Bounded<NotNegative>>,
     /// Face width.
-    face_width_mm: f64,
+    face_width_mm: Bounded<FaceWidth>,
     /// Helix angle on the reference cylinder, without sign; 0 (spur teeth) where not given.
-    #[serde(default)]
-    helix_angle_deg: f64,
+    helix_angle_deg: Option<Bounded<HelixAngle>>,
     /// Hand of helical teeth, "right" or "left"; needed with helix_angle_deg.
     hand: Option<Hand>,
 }
@@ -69,9 +66,20 @@ enum RootWord {
     FullRound,
 }
 
-fn default_pressure_angle() -> f64 {
-    20.0
-}
+number_range!(
+    /// Modules in millimetres.
+    Module: End::At(0.01), End::At(200.0)
+);
+
+number_range!(
+    /// Face widths in millimetres.
+    FaceWidth: End::At(0.01), End::At(10_000.0)
+);
+
+number_range!(
+    /// Helix angles without sign in degrees.
+    HelixAngle: End::At(0.0), End::Beyond(45.0), "the sense of the helix is set by hand"
+);
 
 impl ToothTable {
     /// The teeth, in SI units. Whether they can exist together is [`crate::ToothGeometry`]'s to say.
@@ -84,54 +92,10 @@ impl ToothTable {
             (5..=1000).contains(&self.teeth) || (-1000..=-12).contains(&self.teeth),
             "5 to 1000, or -1000 to -12 for internal teeth",
         )?;
-        keys.require(
-            "module_mm",
-            self.module_mm,
-            (0.01..=200.0).contains(&self.module_mm),
-            "0.01 to 200",
-        )?;
-        keys.require(
-            "pressure_angle_deg",
-            self.pressure_angle_deg,
-            (10.0..=35.0).contains(&self.pressure_angle_deg),
-            "10 to 35",
-        )?;
-        keys.require(
-            "profile_shift",
-            self.profile_shift,
-            self.profile_shift.abs() <= 2.0,
-            "-2 to 2",
-        )?;
-        let dedendum = self.dedendum.unwrap_or(1.25);
-        keys.require(
-            "dedendum",
-            dedendum,
-            dedendum > 0.0,
-            "more than 0 (multiples of the module)",
-        )?;
-        let rack_tip_radius = self.rack_tip_radius.unwrap_or(0.38);
-        keys.require(
-            "rack_tip_radius",
-            rack_tip_radius,
-            rack_tip_radius >= 0.0,
-            "0 or more (multiples of the module)",
-        )?;
         self.refuse_other_tools(&keys, internal)?;
-        keys.require(
-            "face_width_mm",
-            self.face_width_mm,
-            (0.01..=10_000.0).contains(&self.face_width_mm),
-            "0.01 to 10000",
-        )?;
-        keys.require(
-            "tip_chamfer_mm",
-            self.tip_chamfer_mm,
-            self.tip_chamfer_mm >= 0.0,
-            "0 or more",
-        )?;
         let helix_angle_rad = self.check_helix(&keys)?;
         // Half the transverse pitch.
-        let thickness = 0.5 * PI * self.module_mm / helix_angle_rad.cos();
+        let thickness = 0.5 * PI * *self.module_mm / helix_angle_rad.cos();
         keys.require(
             "thickness_allowance_mm",
             self.thickness_allowance_mm,
@@ -147,16 +111,16 @@ impl ToothTable {
         let mut tooth = ToothDefinition {
             teeth: self.teeth.unsigned_abs() as usize,
             gearing: Gearing::External,
-            module_m: self.module_mm * MM,
-            pressure_angle_rad: self.pressure_angle_deg.to_radians(),
-            profile_shift: self.profile_shift,
+            module_m: *self.module_mm * MM,
+            pressure_angle_rad: self.pressure_angle_deg.map_or(20.0, f64::from).to_radians(),
+            profile_shift: self.profile_shift.map_or(0.0, f64::from),
             addendum: self.addendum.unwrap_or(1.0),
-            dedendum,
-            rack_tip_radius,
+            dedendum: self.dedendum.map_or(1.25, f64::from),
+            rack_tip_radius: self.rack_tip_radius.map_or(0.38, f64::from),
             tip_diameter_m: self.tip_diameter_mm.map(|v| v * MM),
             thickness_allowance_m: self.thickness_allowance_mm * MM,
-            tip_chamfer_m: self.tip_chamfer_mm * MM,
-            face_width_m: self.face_width_mm * MM,
+            tip_chamfer_m: self.tip_chamfer_mm.map_or(0.0, f64::from) * MM,
+            face_width_m: *self.face_width_mm * MM,
             helix_angle_rad,
         };
         if internal {
@@ -210,13 +174,8 @@ impl ToothTable {
 
     /// The signed helix angle \[rad\], positive for a right hand.
     fn check_helix(&self, keys: &TableKeys) -> Result<f64, InputError> {
-        keys.require(
-            "helix_angle_deg",
-            self.helix_angle_deg,
-            (0.0..45.0).contains(&self.helix_angle_deg),
-            "0 to below 45; the sense of the helix is set by hand",
-        )?;
-        match (self.helix_angle_deg == 0.0, self.hand) {
+        let degrees = self.helix_angle_deg.map_or(0.0, f64::from);
+        match (degrees == 0.0, self.hand) {
             (true, None) => Ok(0.0),
             (true, Some(_)) => Err(keys.error(
                 "hand",
@@ -226,8 +185,8 @@ impl ToothTable {
                 "helix_angle_deg",
                 "needs hand = \"right\" or \"left\"; the gears of a pair have opposite hands",
             )),
-            (false, Some(Hand::Right)) => Ok(self.helix_angle_deg.to_radians()),
-            (false, Some(Hand::Left)) => Ok(-self.helix_angle_deg.to_radians()),
+            (false, Some(Hand::Right)) => Ok(degrees.to_radians()),
+            (false, Some(Hand::Left)) => Ok(-degrees.to_radians()),
         }
     }
 }

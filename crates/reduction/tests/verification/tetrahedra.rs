@@ -6,7 +6,7 @@ use gearmesh_geometry::body_outline::body_outline;
 use gearmesh_geometry::{GearDefinition, ProfileCurve};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_mesh::tooth_cell::ring_radius_m;
+use gearmesh_mesh::ring_radius::ring_radius_m;
 use gearmesh_reduction::gear_body::model_of;
 use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::{PI, TAU};

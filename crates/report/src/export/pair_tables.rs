@@ -2,6 +2,7 @@
 
 use gearmesh_scene::SceneResult;
 use gearmesh_scene::pair::PairFigures;
+use gearmesh_scene::pair::figure_table::{FIGURE_ERRORS, FIGURES};
 
 use super::{Table, ratings_table};
 
@@ -102,31 +103,20 @@ fn contact(result: &SceneResult) -> Table<'static> {
 #[must_use]
 pub fn torque_table(result: &SceneResult) -> Table<'static> {
     let mut table = Table::new("torques");
-    table.numbers("torque_Nm", result.torque_nm.clone());
     let figures: Vec<PairFigures> = (0..result.torque_nm.len())
         .map(|k| result.figures(k))
         .collect();
-    let mut column = |name: &str, of: fn(&PairFigures) -> f64| {
-        table.numbers(name, figures.iter().map(of).collect());
-    };
-    column("te_mean_m", |f| f.te_mean_m);
-    column("te_peak_to_peak_m", |f| f.te_peak_to_peak_m);
-    column("stiffness_secant_mean_N_per_m", |f| f.secant_mean_n_per_m);
-    column("stiffness_tangent_mean_N_per_m", |f| f.tangent_mean_n_per_m);
-    column("pressure_largest_Pa", |f| f.pressure_largest_pa);
-    column("k_h_beta", |f| f.k_h_beta);
-    let or_nan = |error: Option<f64>| error.unwrap_or(f64::NAN);
-    let errors = figures.iter().map(|f| or_nan(f.errors.te_positions));
-    table.numbers("error_positions_te_peak_to_peak", errors.collect());
-    let errors = figures.iter().map(|f| or_nan(f.errors.pressure_positions));
-    table.numbers("error_positions_pressure", errors.collect());
-    let errors = (figures.iter()).map(|f| or_nan(f.errors.k_h_beta_positions));
-    table.numbers("error_positions_k_h_beta", errors.collect());
-    let errors = figures.iter().map(|f| or_nan(f.errors.slices));
-    table.numbers("error_slices_k_h_beta", errors.collect());
+    for figure in FIGURES {
+        table.numbers(
+            figure.name_in_files(),
+            figures.iter().map(figure.of).collect(),
+        );
+    }
+    for (name, of) in FIGURE_ERRORS {
+        let errors = figures.iter().map(|f| of(&f.errors).unwrap_or(f64::NAN));
+        table.numbers(format!("error_{name}"), errors.collect());
+    }
     let pitches = result.contact_coverage.averaged_pitches() as f64;
     table.numbers("mean_over_pitches", vec![pitches; figures.len()]);
-    table.numbers("torque_balance", result.torque_balance.clone());
-    table.numbers("residual", result.residual.clone());
     table
 }

@@ -116,7 +116,7 @@ impl LoadedScene {
         let slices = self.condensed.of(key, || {
             StaticContact::condensed(&lines, models, options.local, self.layout)
         })?;
-        let contact = StaticContact::of_condensed(lines, slices, options.friction)?
+        let contact = StaticContact::of_condensed(lines, slices, options.friction)
             .with_deviations(self.deviations.clone());
         Ok(match self.runout {
             None => contact,

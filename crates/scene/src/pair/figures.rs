@@ -1,5 +1,5 @@
-//! The figures of one torque of a result: the one place where curves become numbers. Console, JSON, pages, tables,
-//! studies and Python all show these.
+//! The figures of one torque of a result: the one place where curves become numbers. How they are shown:
+//! `figure_table.rs`.
 //!
 //! Means go over the even grid and whole periods, extremes over all positions: those between the even ones, too
 //! (`between_positions.rs`).
@@ -38,6 +38,12 @@ pub struct PairFigures {
     pub axial_force_1_mean_n: f64,
     /// Normal force of all pairs of teeth \[N\].
     pub normal_force_mean_n: f64,
+    /// Largest relative error of the torque balance.
+    pub torque_balance: f64,
+    /// Largest relative residual of the contact problem.
+    pub residual: f64,
+    /// Newton iterations, mean.
+    pub iterations_per_position: f64,
     /// How far the figures may be off.
     pub errors: FigureErrors,
 }
@@ -104,6 +110,9 @@ impl SceneResult {
             k_h_beta: self.k_h_beta[torque],
             axial_force_1_mean_n: mean(&self.axial_force_1_n),
             normal_force_mean_n: self::mean(&normal[..averaged]),
+            torque_balance: self.torque_balance[torque],
+            residual: self.residual[torque],
+            iterations_per_position: f64::from(self.iterations[torque]) / self.angles() as f64,
             errors: self.errors(torque),
         }
     }

@@ -2,14 +2,15 @@
 //! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it,
 //! `model_shelf.rs` keeps models that many scenes share, `taken_misalignment.rs` takes the axes from a gearbox's
 //! result, `run.rs` computes, position by position (`position.rs`, `between_positions.rs`), `figures.rs` makes the
-//! figures of a torque of it, `contacts.rs` says where the teeth touch, `coverage.rs` says how much of each period that
-//! sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs` judges, `warnings.rs` tells where the model's
-//! assumptions are strained.
+//! figures of a torque of it, `figure_table.rs` says how all doors show them, `contacts.rs` says where the teeth touch,
+//! `coverage.rs` says how much of each period that sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs`
+//! judges, `warnings.rs` tells where the model's assumptions are strained.
 
 mod between_positions;
 mod contact_places;
 mod contacts;
 mod coverage;
+pub mod figure_table;
 mod figures;
 mod flank_effects;
 mod model_shelf;

@@ -1,6 +1,6 @@
 //! `[[rating]]` of a pair: the gauges' strain over whole revolutions and the largest normal force, at each torque.
 
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{Count, TableKeys};
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
 use gearmesh_model::ReducedGear;
 use gearmesh_rating::{NominalRating, TurningPoints};
@@ -72,7 +72,7 @@ impl RatedPair<'_> {
                         teeth,
                         materials,
                         rims,
-                        (load, table.class(&keys)?),
+                        (load, table.tolerance_class.map(Count::get)),
                     )
                     .map_err(|error| nominal_error(&error, "kind", &keys))?;
                     PairRating {

@@ -154,10 +154,6 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
     if pair.is_helical() && scene.path_by_default {
         scene.edge_radius_m = None;
     }
-    if pair.is_helical() && scene.edge_radius_m.is_some() {
-        let problem = "found \"extended\" with helical gears, whose tip edges are not modelled; allowed is \"line-of-action\"";
-        return Err(scene.document.error("mesh.teeth.path", problem).into());
-    }
     let extension = scene
         .edge_radius_m
         .map(|radius| PathExtension::new(&pair, radius));

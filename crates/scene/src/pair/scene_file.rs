@@ -116,8 +116,7 @@ kinds!(PairModel, "kind");
 #[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields, default)]
 struct PairTeethTable {
-    /// Ends of the path of contact; "extended" where not given, "line-of-action" for helical teeth, whose tip edges are
-    /// not modelled at rest.
+    /// Ends of the path of contact; "extended" where not given, "line-of-action" for helical teeth.
     path: Option<PathWord>,
     /// With path = "extended": radius of the tip edges; 100 where not given.
     edge_radius_um: Option<Bounded<Within<1, 1000>>>,

@@ -10,7 +10,7 @@
 use std::path::PathBuf;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{Bounded, Count, Positive, TableKeys, Within};
 use gearmesh_geometry::kinds;
 use gearmesh_rating::{LoadPoint, MeanStress, Passage, SurfaceState};
 use schemars::JsonSchema;
@@ -50,7 +50,7 @@ pub struct FatigueTable {
     /// Scenes of a pair: gear of the gauge, 1 or 2; needed where gauges of both have that name.
     pub gear: Option<usize>,
     /// Method of strain recovery, 1 or 2; 2 where not given.
-    pub method: Option<usize>,
+    pub method: Option<Count<1, 2>>,
     /// "plane-strain" (stress E ε/(1 − ν²), middle of a wide tooth) or "uniaxial" (E ε, near the end faces);
     /// "plane-strain" where not given.
     #[serde(default)]
@@ -59,7 +59,7 @@ pub struct FatigueTable {
     #[serde(default)]
     pub mean_stress: MeanStressWord,
     /// With "goodman": tensile strength of the material.
-    pub tensile_strength_MPa: Option<f64>,
+    pub tensile_strength_MPa: Option<Bounded<Positive>>,
     /// "repeated" (the history goes on and on, its end joined to its start) or "once"; "repeated" where not given.
     #[serde(default)]
     pub passage: PassageWord,
@@ -79,7 +79,7 @@ pub struct NominalTable {
     pub load_point: LoadPointWord,
     /// Tolerance class of ISO 1328-1, 0 to 12, the worse one of both gears: with 4 or better teeth of a virtual contact ratio above 2.05 have a deep tooth
     /// factor Y_DT below 1 (ISO 6336-3). 1 where not given.
-    pub tolerance_class: Option<usize>,
+    pub tolerance_class: Option<Count<0, 12>>,
 }
 
 /// Keys of `kind = "bearing-life"`, multibody scenes only.
@@ -93,9 +93,9 @@ pub struct BearingLifeTable {
     /// The part of the run before this time is left out; 0 where not given.
     pub from_s: Option<f64>,
     /// Viscosity of the lubricant at the bearing's temperature, for L10mr.
-    pub viscosity_mm2_per_s: Option<f64>,
+    pub viscosity_mm2_per_s: Option<Bounded<Positive>>,
     /// With a viscosity: e_C of ISO 281, 0 (heavily contaminated) to 1 (clean).
-    pub contamination: Option<f64>,
+    pub contamination: Option<Bounded<Within<0, 1>>>,
 }
 
 /// `surface`.
@@ -165,11 +165,9 @@ impl FatigueTable {
     /// # Errors
     /// [`InputError`] naming the key.
     pub fn rule(&self, keys: &TableKeys<'_>) -> Result<FatigueRule, InputError> {
-        let method = self.method.unwrap_or(2);
-        keys.require("method", method as f64, (1..=2).contains(&method), "1 or 2")?;
         Ok(FatigueRule {
             gauge: self.gauge.clone(),
-            method,
+            method: self.method.map_or(2, Count::get),
             surface: match self.surface {
                 SurfaceWord::PlaneStrain => SurfaceState::PlaneStrain,
                 SurfaceWord::Uniaxial => SurfaceState::Uniaxial,
@@ -193,9 +191,8 @@ impl FatigueTable {
             )),
             (MeanStressWord::Goodman, strength) => {
                 let strength = keys.needed(key, strength, "mean_stress = \"goodman\"")?;
-                keys.require(key, strength, strength > 0.0, "more than 0")?;
                 Ok(MeanStress::Goodman {
-                    tensile_strength_pa: MPA * strength,
+                    tensile_strength_pa: MPA * *strength,
                 })
             }
         }
@@ -203,17 +200,6 @@ impl FatigueTable {
 }
 
 impl NominalTable {
-    /// The tolerance class, where it is stated.
-    ///
-    /// # Errors
-    /// [`InputError`] for one that the standard does not have.
-    pub fn class(&self, keys: &TableKeys<'_>) -> Result<Option<usize>, InputError> {
-        if let Some(class) = self.tolerance_class {
-            keys.require("tolerance_class", class as f64, class <= 12, "0 to 12")?;
-        }
-        Ok(self.tolerance_class)
-    }
-
     /// Where the force acts for Lewis's stress.
     #[must_use]
     pub fn load_point(&self) -> LoadPoint {

@@ -11,8 +11,9 @@ use super::pair_columns::RestColumn;
 use super::rest_cases::RestFigures;
 use super::rest_columns;
 use super::subject::BevelSubject;
-use crate::bevel_load::load_bevel;
+use crate::bevel_load::{BevelTorque, LoadedBevel, bevel_figures, load_bevel};
 use crate::pair::ModelShelf;
+use crate::pair::figure_table::RestFigure;
 
 /// Harmonics of the mesh that are listed.
 const HARMONICS: usize = 3;
@@ -22,17 +23,9 @@ const HARMONICS: usize = 3;
 pub(super) fn names(subject: &BevelSubject) -> Vec<String> {
     let mut names = rest_columns::bevel_names();
     if subject.file.load.is_some() {
-        names.extend(["mean_urad", "peak_to_peak_urad"].map(|n| format!("loaded_te_{n}")));
+        let studied = bevel_figures().into_iter().filter(RestFigure::is_studied);
+        names.extend(studied.map(|figure| figure.name_in_studies()));
         names.extend((1..=HARMONICS).map(|k| format!("loaded_te_harmonic_{k}_urad")));
-        names.extend(
-            [
-                "loaded_pairs_mean",
-                "pressure_largest_MPa",
-                "pressure_off_tips_MPa",
-                "load_on_tips_share",
-            ]
-            .map(str::to_owned),
-        );
     }
     names
 }
@@ -58,9 +51,9 @@ pub(super) fn figures(
     if let Some(load) = &subject.file.load {
         let found = loaded(subject, load, shelf)?;
         let unloaded = rows.remove(0);
-        let row = |of: &LoadedContact| [unloaded.clone(), of_torque(of)].concat();
-        rows.extend(found.iter().map(row));
-        torques_nm.extend(found.iter().map(|of| of.torque_nm));
+        let row = |of: &LoadedContact| [unloaded.clone(), of_torque(of, found.slices)].concat();
+        rows.extend(found.found.iter().map(row));
+        torques_nm.extend(found.found.iter().map(|of| of.torque_nm));
     }
     let column = |(i, name): (usize, String)| RestColumn {
         name,
@@ -76,7 +69,7 @@ fn loaded(
     subject: &BevelSubject,
     load: &LoadRequest,
     shelf: &ModelShelf,
-) -> Result<Vec<LoadedContact>, StudyError> {
+) -> Result<LoadedBevel, StudyError> {
     let design = rest_columns::design(subject).map_err(StudyError::Bevel)?;
     let folder = Path::new(&subject.document.file).parent();
     let read = |file: &Path| shelf.model(&folder.unwrap_or(Path::new("")).join(file));
@@ -85,21 +78,18 @@ fn loaded(
         None => None,
     };
     let members = models.as_ref().map(|[a, b]| [&*a.model, &*b.model]);
-    Ok(load_bevel((&subject.file, &design), load, members)?.found)
+    Ok(load_bevel((&subject.file, &design), load, members)?)
 }
 
 /// In the order of [`names`].
-fn of_torque(of: &LoadedContact) -> Vec<f64> {
-    let error_rad: Vec<f64> = of.positions.iter().map(|p| p.error_rad).collect();
+fn of_torque(found: &LoadedContact, slices: usize) -> Vec<f64> {
+    let studied = bevel_figures().into_iter().filter(RestFigure::is_studied);
+    let torque = BevelTorque { found, slices };
+    let mut values: Vec<f64> = studied
+        .map(|figure| figure.studied(&torque, None))
+        .collect();
+    let error_rad: Vec<f64> = found.positions.iter().map(|p| p.error_rad).collect();
     let lines = mesh_harmonics(&error_rad, 1, HARMONICS).1;
-    let [largest, off_tips, _] = of.pressures_pa();
-    let mut values = vec![1e6 * of.mean_rad(), 1e6 * of.peak_to_peak_rad()];
     values.extend((0..HARMONICS).map(|k| 1e6 * lines.get(k).map_or(0.0, |line| line.0)));
-    values.extend([
-        of.mean_pairs(),
-        1e-6 * largest,
-        1e-6 * off_tips,
-        of.tip_share(),
-    ]);
     values
 }

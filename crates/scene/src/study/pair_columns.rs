@@ -2,6 +2,7 @@
 
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 
+use crate::pair::figure_table::{FIGURES, RestFigure};
 use crate::pair::{LoadedScene, PairFigures, SceneResult};
 use crate::system::unknown;
 
@@ -48,25 +49,9 @@ fn harmonics_of(loaded: &LoadedScene) -> usize {
 /// Names of all columns of a scene, in the order of [`columns`].
 #[must_use]
 pub fn names(loaded: &LoadedScene) -> Vec<String> {
-    let mut names: Vec<String> = [
-        "te_mean_um",
-        "te_peak_to_peak_um",
-        "te_unloaded_peak_to_peak_um",
-    ]
-    .map(str::to_owned)
-    .into();
+    let figures = FIGURES.iter().filter(|figure| figure.is_studied());
+    let mut names: Vec<String> = figures.map(RestFigure::name_in_studies).collect();
     names.extend((1..=harmonics_of(loaded)).map(|k| format!("te_harmonic_{k}_um")));
-    names.extend(
-        [
-            "k_h_beta",
-            "pressure_largest_MPa",
-            "stiffness_secant_mean_N_per_mm_um",
-            "stiffness_tangent_mean_N_per_mm_um",
-            "stiffness_tangent_peak_to_peak_N_per_mm_um",
-            "axial_force_1_mean_N",
-        ]
-        .map(str::to_owned),
-    );
     for &(gear, index) in &loaded.gauges {
         let gauge = &loaded.models[gear - 1].gauges[index].name;
         for method in [1, 2] {
@@ -90,18 +75,13 @@ pub fn place(name: &str, names: &[String]) -> Result<usize, String> {
 #[must_use]
 pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<RestColumn> {
     let torques = 0..result.torque_nm.len();
-    let width_mm = 1e3 * loaded.layout.reference.width_m;
-    let per_width = 1e-6 / width_mm;
+    let over = Some(loaded.layout.reference.width_m);
     let of_each = |of: &dyn Fn(usize) -> f64| torques.clone().map(of).collect::<Vec<f64>>();
     let figures: Vec<PairFigures> = torques.clone().map(|k| result.figures(k)).collect();
-    let figure = |of: fn(&PairFigures) -> f64, scale: f64| -> Vec<f64> {
-        figures.iter().map(|figures| scale * of(figures)).collect()
-    };
-    let mut values = vec![
-        figure(|f| f.te_mean_m, 1e6),
-        figure(|f| f.te_peak_to_peak_m, 1e6),
-        figure(|f| f.unloaded_peak_to_peak_m, 1e6),
-    ];
+    let mut values = Vec::new();
+    for figure in FIGURES.iter().filter(|figure| figure.is_studied()) {
+        values.push(figures.iter().map(|f| figure.studied(f, over)).collect());
+    }
     let harmonics = harmonics_of(loaded);
     let pitches = result.contact_coverage.averaged_pitches();
     let spectra: Vec<Vec<(f64, f64)>> = (torques.clone())
@@ -112,14 +92,6 @@ pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<RestColumn> {
             1e6 * spectra[k].get(harmonic).map_or(0.0, |line| line.0)
         }));
     }
-    values.extend([
-        figure(|f| f.k_h_beta, 1.0),
-        figure(|f| f.pressure_largest_pa, 1e-6),
-        figure(|f| f.secant_mean_n_per_m, per_width),
-        figure(|f| f.tangent_mean_n_per_m, per_width),
-        figure(|f| f.tangent_peak_to_peak_n_per_m, per_width),
-        figure(|f| f.axial_force_1_mean_n, 1.0),
-    ]);
     for series in 0..result.strain.len() {
         for method in [1, 2] {
             let ends = |k: usize| result.strain_ends(series, method, k);

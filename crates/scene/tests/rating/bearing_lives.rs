@@ -213,7 +213,7 @@ fn bad_bearing_ratings_are_told() {
         (
             "bearing = \"front\"",
             "bearing = \"front\"\nviscosity_mm2_per_s = 20.0\ncontamination = 1.5",
-            ["rating.0.contamination", "0 (heavily contaminated) to 1"],
+            ["rating.0.contamination", "0 to 1"],
         ),
         (
             "kind = \"static\"",

@@ -2,7 +2,7 @@
 
 use gearmesh_bearings::QuasiStaticBearing;
 use gearmesh_bearings::life::Lubrication;
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{Count, TableKeys};
 use gearmesh_geometry::{Flank, InputError};
 use gearmesh_rating::{LoadPoint, NominalRating};
 use nalgebra::Vector3;
@@ -47,7 +47,7 @@ pub(super) fn build(
                     let known: Vec<&str> = meshes.iter().map(|mesh| &*mesh.name).collect();
                     keys.error("mesh", names::unknown("gear mesh", &mesh, &known))
                 })?;
-                let load_and_class = (load, table.class(&keys)?);
+                let load_and_class = (load, table.tolerance_class.map(Count::get));
                 let job = nominal(prepared, load_and_class, bodies, &keys)?;
                 written(scene, &mesh, &keys)?;
                 RatingJob {
@@ -195,19 +195,10 @@ fn bearing_life(
         (None, None) => None,
         (viscosity, contamination) => {
             let viscosity = keys.needed("viscosity_mm2_per_s", viscosity, "contamination")?;
-            let allowed = "more than 0";
-            keys.require("viscosity_mm2_per_s", viscosity, viscosity > 0.0, allowed)?;
             let clean = keys.needed("contamination", contamination, "viscosity_mm2_per_s")?;
-            let allowed = "0 (heavily contaminated) to 1 (clean)";
-            keys.require(
-                "contamination",
-                clean,
-                (0.0..=1.0).contains(&clean),
-                allowed,
-            )?;
             Some(Lubrication {
-                viscosity_mm2_per_s: viscosity,
-                contamination: clean,
+                viscosity_mm2_per_s: *viscosity,
+                contamination: *clean,
             })
         }
     };

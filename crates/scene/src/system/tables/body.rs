@@ -3,8 +3,15 @@
 use std::path::PathBuf;
 
 use gearmesh_geometry::gear_file::MicrogeometryTable;
+use gearmesh_geometry::input::{Bounded, End};
+use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+number_range!(
+    /// Damping ratios below the critical one.
+    pub DampingRatio: End::At(0.0), End::Beyond(1.0)
+);
 
 /// `[[body]]` as written in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -32,7 +39,7 @@ pub struct BodyTable {
     #[serde(rename = "modes_up_to_Hz")]
     pub modes_up_to_hz: Option<f64>,
     /// `modal`: damping ratio of all modes; none where not given.
-    pub modal_damping_ratio: Option<f64>,
+    pub modal_damping_ratio: Option<Bounded<DampingRatio>>,
     /// Origin of the body in the world; [0, 0, 0], or the seat on a shaft.
     pub position_mm: Option<[f64; 3]>,
     /// Cardan angles: turned about x, then the new y, then the new z. With two angles, or none, a mesh may turn gear 2

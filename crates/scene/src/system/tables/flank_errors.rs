@@ -9,7 +9,7 @@ use gearmesh_drivetrain::errors::pitch::PitchErrors;
 use gearmesh_drivetrain::errors::spall::{Spall, SpallPatch};
 use gearmesh_drivetrain::errors::tip_chip::{FaceEnd, TipChip};
 use gearmesh_drivetrain::{FlankError, RootCrack};
-use gearmesh_geometry::input::{NumberTable, TableKeys};
+use gearmesh_geometry::input::{Bounded, NumberTable, Positive, TableKeys};
 use gearmesh_geometry::{Flank, InputError, ToothGeometry, kinds};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -53,7 +53,7 @@ pub enum FlankErrorTable {
         /// The tooth.
         tooth: usize,
         /// Radius above which it is gone.
-        above_radius_mm: f64,
+        above_radius_mm: Bounded<Positive>,
     },
     /// A chip off the tip at one end of a tooth.
     TipChip {
@@ -62,9 +62,9 @@ pub enum FlankErrorTable {
         /// The end.
         end: EndWord,
         /// How far it reaches below the tip on the face.
-        height_mm: f64,
+        height_mm: Bounded<Positive>,
         /// How far it reaches inwards along the tip.
-        length_mm: f64,
+        length_mm: Bounded<Positive>,
     },
     /// Material lost from a patch of a flank.
     Spall {
@@ -77,9 +77,9 @@ pub enum FlankErrorTable {
         /// Lower and upper axial position from mid-face.
         z_mm: [f64; 2],
         /// Depth.
-        depth_um: f64,
+        depth_um: Bounded<Positive>,
         /// Length in roll angle over which the edges fall; 0.5 where not given.
-        edge_deg: Option<f64>,
+        edge_deg: Option<Bounded<Positive>>,
     },
 }
 
@@ -110,8 +110,6 @@ impl FlankErrorTable {
         key: &str,
     ) -> Result<(), InputError> {
         let at = |name: &str| format!("{key}.{name}");
-        let positive =
-            |name: &str, value: f64| keys.require(&at(name), value, value > 0.0, "more than 0");
         let rising = |name: &str, [low, high]: [f64; 2]| match low < high {
             true => Ok(()),
             false => Err(keys.error(
@@ -134,32 +132,16 @@ impl FlankErrorTable {
                 let problem = format!("found {found} numbers, allowed are {teeth}: one a tooth");
                 Err(keys.error(&at("removed_um"), problem))
             }
-            Self::Deviation { .. } => Ok(()),
+            Self::Deviation { .. } | Self::TipChip { .. } => Ok(()),
             Self::BrokenTooth {
                 above_radius_mm, ..
             } => {
                 let tip = gear.tip_radius_m / MM;
-                let ok = *above_radius_mm > 0.0 && *above_radius_mm < tip;
-                let allowed = format!("more than 0 and less than the tip radius, {tip:.3}");
-                keys.require(&at("above_radius_mm"), *above_radius_mm, ok, &allowed)
+                let allowed = format!("less than the tip radius, {tip:.3}");
+                let found = **above_radius_mm;
+                keys.require(&at("above_radius_mm"), found, found < tip, &allowed)
             }
-            Self::TipChip {
-                height_mm,
-                length_mm,
-                ..
-            } => {
-                positive("height_mm", *height_mm)?;
-                positive("length_mm", *length_mm)
-            }
-            Self::Spall {
-                radii_mm,
-                z_mm,
-                depth_um,
-                edge_deg,
-                ..
-            } => {
-                positive("depth_um", *depth_um)?;
-                positive("edge_deg", edge_deg.unwrap_or(DEFAULT_EDGE_DEG))?;
+            Self::Spall { radii_mm, z_mm, .. } => {
                 rising("radii_mm", *radii_mm)?;
                 rising("z_mm", *z_mm)
             }
@@ -227,7 +209,7 @@ impl FlankErrorTable {
             Self::BrokenTooth {
                 tooth,
                 above_radius_mm,
-            } => Arc::new(BrokenTooth::new(gear, *tooth, MM * above_radius_mm).map_err(fault)?),
+            } => Arc::new(BrokenTooth::new(gear, *tooth, MM * *above_radius_mm).map_err(fault)?),
             Self::TipChip {
                 tooth,
                 end,
@@ -238,7 +220,7 @@ impl FlankErrorTable {
                     EndWord::Positive => FaceEnd::Positive,
                     EndWord::Negative => FaceEnd::Negative,
                 };
-                let lengths = [MM * height_mm, MM * length_mm];
+                let lengths = [MM * *height_mm, MM * *length_mm];
                 Arc::new(TipChip::new((gear, face_width_m), *tooth, end, lengths).map_err(fault)?)
             }
             Self::Spall {
@@ -254,8 +236,8 @@ impl FlankErrorTable {
                     side: *side,
                     radii_m: radii_mm.map(|r| MM * r),
                     z_m: z_mm.map(|z| MM * z),
-                    depth_m: UM * depth_um,
-                    edge_rad: edge_deg.unwrap_or(DEFAULT_EDGE_DEG).to_radians(),
+                    depth_m: UM * *depth_um,
+                    edge_rad: edge_deg.map_or(DEFAULT_EDGE_DEG, f64::from).to_radians(),
                 };
                 Arc::new(Spall::new(gear, patch).map_err(fault)?)
             }
