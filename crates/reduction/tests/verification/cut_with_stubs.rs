@@ -178,7 +178,7 @@ fn in_one_model(case: &Case, body: &GearBody, loads: &[SparseVector]) -> Answers
 
 /// Deflection along the flank's normal at every load point under each load, the force of the bearing, and K_Hβ against a
 /// straight rigid flank, at three proportions of shaft and root, with unequal faces, within 2 %. Faces that cannot move
-/// against each other miss K_Hβ by more: the teeth are too free over the front face, or both are held too well.
+/// against each other come less near to K_Hβ: the teeth are too free over the front face, or both are held too well.
 #[test]
 fn a_pinion_between_beams_deflects_as_one_with_its_shaft() {
     let mut all = Vec::new();
@@ -210,10 +210,7 @@ fn a_pinion_between_beams_deflects_as_one_with_its_shaft() {
         );
         let factor_off = (of_two / of_whole - 1.0).abs();
         for single in [of_back, of_both] {
-            assert!(
-                (single / of_whole - 1.0).abs() > 0.02,
-                "{single} {of_whole}"
-            );
+            assert!(factor_off < (single / of_whole - 1.0).abs());
         }
         println!(
             "shaft {:?} of root {root_mm:.1} mm: deflections {:+.2} % in the mean, {:.2} % at most; bearing {:.2} %",
