@@ -209,21 +209,19 @@ fn array(values: [f64; 3]) -> String {
     format!("<array>{}</array>", cells.concat())
 }
 
-fn text(gearbox: &Gearbox) -> String {
+/// Place and directions of a component.
+fn frame(place: [f64; 3]) -> Vec<(&'static str, &'static str, String)> {
+    vec![
+        ("reference_component_for_position", "none", "1".to_owned()),
+        ("support_vector", "mm", array(place)),
+        ("u_axis_vector", "mm", array([1.0, 0.0, 0.0])),
+        ("w_axis_vector", "mm", array([0.0, 0.0, 1.0])),
+    ]
+}
+
+/// Shafts 10, 11, ... with one section and two bearings each.
+fn write_shafts(file: &mut File, gearbox: &Gearbox) {
     let Gearbox { stages, shafts, .. } = gearbox;
-    let yes = |yes: bool| yes.to_string();
-    let mut file = File::default();
-    let frame = |place: [f64; 3]| {
-        vec![
-            ("reference_component_for_position", "none", "1".to_owned()),
-            ("support_vector", "mm", array(place)),
-            ("u_axis_vector", "mm", array([1.0, 0.0, 0.0])),
-            ("w_axis_vector", "mm", array([0.0, 0.0, 1.0])),
-        ]
-    };
-    file.component((1, "gear_unit", "box"), &frame([0.0; 3]));
-    file.component((2, "gear_casing", "casing"), &[]);
-    file.within(1, 2);
     for (k, shaft) in shafts.iter().enumerate() {
         let begin = shaft.bearings_mm[0] - 15.0;
         let mut attributes = frame([begin, shaft.across_mm[0], shaft.across_mm[1]]);
@@ -257,7 +255,7 @@ fn text(gearbox: &Gearbox) -> String {
                 &[
                     ("u_coordinate_on_shaft_inner_side", "mm", place.to_string()),
                     ("axial_force_absorption", "none", axial.to_owned()),
-                    ("radial_force_absorption", "none", yes(true)),
+                    ("radial_force_absorption", "none", "true".to_owned()),
                     ("radial_stiffness", "N / m", 2e9.to_string()),
                     ("axial_stiffness", "N / m", 8e8.to_string()),
                 ],
@@ -268,6 +266,10 @@ fn text(gearbox: &Gearbox) -> String {
             );
         }
     }
+}
+
+/// Gears 20, 21, ..., stages 40, 41, ...
+fn write_stages(file: &mut File, Gearbox { stages, shafts, .. }: &Gearbox) {
     for (k, stage) in stages.iter().enumerate() {
         for side in 0..2 {
             let id = 20 + 2 * k + side;
@@ -297,11 +299,15 @@ fn text(gearbox: &Gearbox) -> String {
             &[(40 + k, "stage"), (pinion, "gear_1"), (wheel, "gear_2")],
         );
     }
-    for (id, name, shaft) in [(80, "motor", 0), (81, "machine", stages.len())] {
+}
+
+/// The torque goes in at the first shaft, out at the last one.
+fn write_loads(file: &mut File, gearbox: &Gearbox) {
+    for (id, name, shaft) in [(80, "motor", 0), (81, "machine", gearbox.stages.len())] {
         let mut attributes = vec![
             ("u_coordinate_on_shaft", "mm", 0.to_string()),
-            ("transmits_torque", "none", yes(true)),
-            ("defines_torque", "none", yes(shaft == 0)),
+            ("transmits_torque", "none", "true".to_owned()),
+            ("defines_torque", "none", (shaft == 0).to_string()),
         ];
         if shaft == 0 {
             attributes.push((
@@ -313,6 +319,16 @@ fn text(gearbox: &Gearbox) -> String {
         file.component((id, "external_load", name), &attributes);
         file.within(10 + shaft, id);
     }
+}
+
+fn text(gearbox: &Gearbox) -> String {
+    let mut file = File::default();
+    file.component((1, "gear_unit", "box"), &frame([0.0; 3]));
+    file.component((2, "gear_casing", "casing"), &[]);
+    file.within(1, 2);
+    write_shafts(&mut file, gearbox);
+    write_stages(&mut file, gearbox);
+    write_loads(&mut file, gearbox);
     format!(
         "<model version=\"1.7\" applicationId=\"test\" applicationVersion=\"1\" date=\"2026-11-26T12:00:00+00:00\">\n\
          <relations>\n{}</relations>\n<components>\n{}</components>\n</model>\n",
