@@ -3,7 +3,8 @@
 //! Each ball stays in its axial plane (the cage holds it there) and has two unknowns, the place of its centre b in
 //! that plane. A groove is half a torus: a circle of radius R, the line of the groove's centres, and round it the
 //! groove's radius r, up to contact angles of 90° (in thrust bearings from 0° to 180°). With the distance ℓ of b from
-//! that circle the approach is δ = ℓ − (r − D/2), the force Q = k δ^1.5 points to the circle. Formulas (3) to (7) of
+//! that circle the approach is δ = ℓ − (r − D/2), the force Q = k δ^1.5 points to the circle. The inner groove ends in a
+//! rim: a ball beyond its end touches this edge, δ = D/2 − ℓ with the distance ℓ of b from it. Formulas (3) to (7) of
 //! docs/theory/rolling_bearings.md.
 
 mod race_control;
@@ -44,10 +45,12 @@ pub(crate) struct Ball<'a> {
 struct InnerContact {
     /// The ball's centre.
     at: FromRing,
-    /// From the groove's centre to the ball's centre.
+    /// From the groove's centre to the ball's centre; from the ball's centre to the rim where it touches that.
     n: Vector3<f64>,
     /// ∂n/∂α.
     m: Vector3<f64>,
+    /// Distance of the ball's centre from the groove's centre; negative, from the rim where it touches that: ∂n is then
+    /// what it is on a groove.
     length: f64,
     cosine: f64,
     sine: f64,
@@ -233,13 +236,21 @@ impl Ball<'_> {
         );
         // Between a micrometre and a metre: no need of `hypot`, which takes five times as long.
         let length = (out * out + up * up).sqrt().max(f64::MIN_POSITIVE);
-        let (cosine, sine) = (-out / length, -up / length);
-        // A groove is the half of its torus that faces the ball.
-        let approach = if groove.reaches(cosine, sine) {
-            length - groove.arm_m
+        let mut contact = (out, up, length);
+        let mut approach = 0.0;
+        if groove.reaches(-out / length, -up / length) {
+            approach = length - groove.arm_m;
         } else {
-            0.0
-        };
+            // A groove is the half of its torus that faces the ball, and the rim at its end.
+            let ball_radius_m = 0.5 * self.row.ball_size(self.number).0;
+            let (out, up, length) = groove.from_rim((out, up), ball_radius_m);
+            if length < ball_radius_m {
+                contact = (out, up, -length);
+                approach = ball_radius_m - length;
+            }
+        }
+        let (out, up, length) = contact;
+        let (cosine, sine) = (-out / length, -up / length);
         let (load, slope) = groove.contact.load(approach);
         InnerContact {
             n: -(at.e * cosine + a * sine),
@@ -465,9 +476,10 @@ impl Ball<'_> {
             orbit_rad_per_s: motion.map_or(0.0, |m| m.orbit_rad_per_s),
             spin_rad_per_s: motion.map_or(0.0, |m| m.spin_rad_per_s),
             controlled_by_inner: matches!(state.motion, Some((_, RaceControl::Inner))),
-            left_inner_ring: motion.is_some()
+            beyond_inner_groove: motion.is_some()
                 && row.free_angle_rad != 0.0
-                && !self.inner.reaches(state.inner.cosine, state.inner.sine),
+                && (state.inner.length < 0.0
+                    || !self.inner.reaches(state.inner.cosine, state.inner.sine)),
             ..ElementLoad::default()
         }
     }

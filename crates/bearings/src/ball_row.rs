@@ -34,6 +34,16 @@ impl Groove {
     pub(crate) fn reaches(&self, cosine: f64, sine: f64) -> bool {
         self.faces.0 * cosine + self.faces.1 * sine > 0.0
     }
+
+    /// From the nearer rim, the end of the half of the torus that is there, to a ball's centre that lies (out, up) from the
+    /// groove's centre: (out, up, distance) \[m\].
+    #[inline]
+    pub(crate) fn from_rim(&self, (out, up): (f64, f64), ball_radius_m: f64) -> (f64, f64, f64) {
+        let across = self.faces.0 * up - self.faces.1 * out;
+        let end = (self.arm_m + ball_radius_m) * across.signum();
+        let (out, up) = (out + self.faces.1 * end, up - self.faces.0 * end);
+        (out, up, (out * out + up * up).sqrt().max(f64::MIN_POSITIVE))
+    }
 }
 
 /// A row of balls.
@@ -81,16 +91,6 @@ impl BallRow {
     #[must_use]
     pub fn has(&self, ball: usize) -> bool {
         !(self.faults.as_ref()).is_some_and(|faults| faults.is_missing(ball))
-    }
-
-    /// Place (r, z) of a ball that is pressed into the bottom of the outer groove \[m\].
-    pub(crate) fn bottom(&self, force_n: f64) -> (f64, f64) {
-        let outer = &self.outer;
-        let depth_m = (force_n / outer.contact.stiffness_n_per_m15).cbrt().powi(2);
-        (
-            outer.centre_radius_m + outer.arm_m + depth_m,
-            outer.centre_z_m,
-        )
     }
 
     /// Diameter \[m\] and mass \[kg\] of a ball, which may be of another size than the others.

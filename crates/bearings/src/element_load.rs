@@ -35,14 +35,20 @@ pub struct ElementLoad {
     pub spin_rad_per_s: f64,
     /// Whether a ball rolls without spin on the inner race; otherwise on the outer one.
     pub controlled_by_inner: bool,
-    /// Whether a ball of an angular-contact bearing at speed lies beyond the end of the inner groove: it then carries its
-    /// centrifugal force on the outer ring alone.
-    pub left_inner_ring: bool,
+    /// Whether a ball of an angular-contact bearing at speed lies beyond the end of the inner groove: on the edge there, or
+    /// off it, with its centrifugal force on the outer ring alone.
+    pub beyond_inner_groove: bool,
     /// Of a four-point contact bearing: the contacts on the side that carries less.
     pub other_side: Option<OtherSide>,
 }
 
 impl ElementLoad {
+    /// Whether a ball lies beyond the end of the inner groove and does not touch its edge.
+    #[must_use]
+    pub fn has_dropped(&self) -> bool {
+        self.beyond_inner_groove && self.inner_load_n == 0.0
+    }
+
     /// Loads at the inner and outer race where contact angles are positive (or zero), or negative \[N\].
     pub(crate) fn on_track(&self, positive: bool) -> (f64, f64) {
         if self.other_side.is_none() {

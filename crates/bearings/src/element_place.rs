@@ -55,11 +55,6 @@ impl ElementPlaces {
         }
     }
 
-    /// Where the search of an element begins next.
-    pub(crate) fn set(&mut self, row: usize, element: usize, (r_m, z_m): (f64, f64)) {
-        self.rows[row][element] = Some(Vector3::new(r_m, z_m, 0.0));
-    }
-
     pub(crate) fn rows(&mut self) -> impl Iterator<Item = &mut [ElementPlace]> {
         self.rows.iter_mut().map(Vec::as_mut_slice)
     }

@@ -96,7 +96,7 @@ impl QuasiStaticBearing {
         let pose = match self.iterate(start, load, &resting, (None, None)) {
             Ok(found) => found,
             Err(error) => self
-                .settle(start, load, &resting, error)
+                .settle(start, load, &resting, (error, None))
                 .or_else(|error| self.tilt_up(load, &resting, error))?,
         };
         if operation.is_turning() {
@@ -108,13 +108,15 @@ impl QuasiStaticBearing {
     /// To rest down the potential energy, where Newton's method alone stays behind an edge of it.
     ///
     /// One proximal step after the other: each ends where the ring would rest if springs held it to where it stood. Energy falls in every step, and
-    /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it.
+    /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it. `failure`
+    /// is what the search without springs ended with; elements begin at their `places`, if given, and leave them where
+    /// they end.
     pub(crate) fn settle(
         &self,
         start: RingPose,
         load: &AppliedBearingLoad,
         operation: &Operation,
-        failure: BearingError,
+        (failure, mut places): (BearingError, Option<&mut ElementPlaces>),
     ) -> Result<RingPose, BearingError> {
         let [x, y, z] = load.force_n;
         let moments = match load.tilt {
@@ -133,12 +135,19 @@ impl QuasiStaticBearing {
                 at: pose.to_five(),
                 spring_n_per_m: spring,
             };
-            match self.iterate(pose, load, operation, (Some(&anchor), None)) {
+            let mut tried = places.as_deref().cloned();
+            match self.iterate(pose, load, operation, (Some(&anchor), tried.as_mut())) {
                 Ok(next) => {
                     pose = next;
                     spring *= 0.5;
-                    if let Ok(found) = self.iterate(pose, load, operation, (None, None)) {
-                        return Ok(found);
+                    let mut ends = tried.clone();
+                    let found = self.iterate(pose, load, operation, (None, ends.as_mut()));
+                    let kept = if found.is_ok() { &ends } else { &tried };
+                    if let (Some(places), Some(kept)) = (&mut places, kept) {
+                        places.take_from(kept);
+                    }
+                    if found.is_ok() {
+                        return found;
                     }
                 }
                 Err(_) => spring *= 10.0,

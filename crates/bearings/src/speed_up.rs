@@ -1,15 +1,16 @@
 //! From the place at rest to the one at speed: the branch that a ring follows as its speed rises.
 //!
 //! Balls of angular-contact bearings may have two equilibria at one place of the ring: carried by both grooves at a
-//! steep inner angle, or at the bottom of the outer groove, beyond the end of the inner one. Which one holds depends on
-//! what was before. Here it is the one that is reached when the speed rises from rest: a ball stays between both
-//! grooves as long as an equilibrium with it leads on, and drops where none does.
+//! steep inner angle or on the inner one's edge, or at the bottom of the outer groove, beyond the end of the inner one.
+//! Which one holds depends on what was before. Here it is the one that is reached when the speed rises from rest: a
+//! ball stays on the inner ring as long as an equilibrium with it leads on. Where none does, the ring slides down the
+//! potential energy to the next one, and balls drop on the way.
 
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlaces;
 use crate::error::BearingError;
 use crate::operation::Operation;
-use crate::quasi_static::{QuasiStaticBearing, Row};
+use crate::quasi_static::QuasiStaticBearing;
 use crate::ring_equilibrium::AppliedBearingLoad;
 use crate::ring_pose::RingPose;
 
@@ -25,8 +26,8 @@ struct Stand {
     share: f64,
     pose: RingPose,
     places: ElementPlaces,
-    /// Of each ball, whether the inner ring presses it.
-    carried: Vec<bool>,
+    /// What its elements carry.
+    loads: Vec<ElementLoad>,
     /// Balls that the inner ring pressed in the equilibrium before, and that have left it.
     dropped: usize,
 }
@@ -35,28 +36,26 @@ impl QuasiStaticBearing {
     /// From rest to speed, in shorter steps of the square of the speed where a step fails or lets balls drop.
     ///
     /// # Errors
-    /// [`BearingError`] where no equilibrium leads on, with balls dropped neither.
+    /// [`BearingError`] where none is found.
     pub(crate) fn speed_up(
         &self,
         rest: RingPose,
         load: &AppliedBearingLoad,
         operation: &Operation,
     ) -> Result<(RingPose, ElementPlaces), BearingError> {
-        let mut carried = Vec::new();
+        let mut loads = Vec::new();
         let at_rest = Operation {
             inner_rad_per_s: 0.0,
             outer_rad_per_s: 0.0,
             ..*operation
         };
         let mut unknown = ElementPlaces::unknown(&self.rows);
-        self.evaluate_each(&rest, &at_rest, &mut unknown, |ball| {
-            carried.push(ball.inner_load_n > 0.0);
-        })?;
+        self.evaluate_each(&rest, &at_rest, &mut unknown, |ball| loads.push(ball))?;
         let mut here = Stand {
             share: 0.0,
             pose: rest,
             places: ElementPlaces::unknown(&self.rows),
-            carried,
+            loads,
             dropped: 0,
         };
         let mut step = 1.0_f64;
@@ -67,7 +66,7 @@ impl QuasiStaticBearing {
                 outer_rad_per_s: operation.outer_rad_per_s * next.sqrt(),
                 ..*operation
             };
-            let found = self.stand(&here, here.places.clone(), (load, &part, next));
+            let found = self.stand(&here, (load, &part, next));
             here = match found {
                 Ok(found) if found.dropped == 0 => {
                     step *= 2.0;
@@ -79,7 +78,7 @@ impl QuasiStaticBearing {
                 }
                 other => {
                     step = STEP_AFTER_DROP;
-                    other.or_else(|error| self.let_drop(&here, (load, &part, next), error))?
+                    other.or_else(|error| self.slide(&here, (load, &part, next), error))?
                 }
             };
         }
@@ -89,56 +88,44 @@ impl QuasiStaticBearing {
     fn stand(
         &self,
         before: &Stand,
-        mut places: ElementPlaces,
         (load, operation, share): (&AppliedBearingLoad, &Operation, f64),
     ) -> Result<Stand, BearingError> {
+        let mut places = before.places.clone();
         let pose = self.iterate(before.pose, load, operation, (None, Some(&mut places)))?;
-        let (mut carried, mut dropped) = (Vec::new(), 0);
-        self.evaluate_each(&pose, operation, &mut places, |ball| {
-            let was_carried = before.carried.get(carried.len()).copied().unwrap_or(false);
-            dropped += usize::from(was_carried && ball.left_inner_ring);
-            carried.push(ball.inner_load_n > 0.0);
-        })?;
+        self.at(before, (pose, places), operation, share)
+    }
+
+    /// Where no equilibrium leads on, the one that the ring slides to down the potential energy.
+    fn slide(
+        &self,
+        before: &Stand,
+        (load, operation, share): (&AppliedBearingLoad, &Operation, f64),
+        error: BearingError,
+    ) -> Result<Stand, BearingError> {
+        let mut places = before.places.clone();
+        let pose = self.settle(before.pose, load, operation, (error, Some(&mut places)))?;
+        self.at(before, (pose, places), operation, share)
+    }
+
+    /// An equilibrium that was found.
+    fn at(
+        &self,
+        before: &Stand,
+        (pose, mut places): (RingPose, ElementPlaces),
+        operation: &Operation,
+        share: f64,
+    ) -> Result<Stand, BearingError> {
+        let mut loads = Vec::with_capacity(before.loads.len());
+        self.evaluate_each(&pose, operation, &mut places, |ball| loads.push(ball))?;
+        let dropped = (before.loads.iter().zip(&loads))
+            .filter(|(before, now)| before.inner_load_n > 0.0 && now.has_dropped())
+            .count();
         Ok(Stand {
             share,
             pose,
             places,
-            carried,
+            loads,
             dropped,
         })
-    }
-
-    /// Where no equilibrium leads on, one with the steepest balls at the bottom of the outer groove: as few of them as it
-    /// takes.
-    fn let_drop(
-        &self,
-        before: &Stand,
-        aim: (&AppliedBearingLoad, &Operation, f64),
-        error: BearingError,
-    ) -> Result<Stand, BearingError> {
-        let mut loads = Vec::new();
-        let mut places = before.places.clone();
-        let all = |ball: ElementLoad| loads.push(ball);
-        self.evaluate_each(&before.pose, aim.1, &mut places, all)?;
-        let rows = self.rows.iter().enumerate();
-        let mut carried: Vec<_> = rows
-            .flat_map(|(row, of)| (0..of.elements()).map(move |ball| (row, ball)))
-            .zip(&loads)
-            .filter(|(_, load)| load.inner_load_n > 0.0)
-            .collect();
-        let steepness = |load: &ElementLoad| load.inner_contact_angle_rad.abs();
-        carried.sort_by(|(_, a), (_, b)| steepness(b).total_cmp(&steepness(a)));
-        let mut places = before.places.clone();
-        for ((row, ball), load) in carried {
-            let Row::Ball(of) = &self.rows[row] else {
-                return Err(error);
-            };
-            places.set(row, ball, of.bottom(load.centrifugal_n));
-            match self.stand(before, places.clone(), aim) {
-                Ok(found) if found.dropped > 0 => return Ok(found),
-                _ => {}
-            }
-        }
-        Err(error)
     }
 }

@@ -45,7 +45,7 @@ impl QuasiStaticBearing {
         };
         let rest = |start: RingPose, load: &AppliedBearingLoad| {
             (self.iterate(start, load, resting, (None, None)))
-                .or_else(|error| self.settle(start, load, resting, error))
+                .or_else(|error| self.settle(start, load, resting, (error, None)))
         };
         let straight = tilted_by(0.0);
         let Ok(pose) = rest(self.first_guess(&straight), &straight) else {

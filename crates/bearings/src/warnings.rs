@@ -35,7 +35,7 @@ pub enum Concern {
     Pressure,
     /// A contact ellipse that is cut off.
     Shoulder,
-    /// Balls that centrifugal forces have dropped off the inner ring.
+    /// Balls that centrifugal forces have pressed beyond the end of the inner groove.
     DroppedBalls,
     /// Balls or rollers that may skid.
     MinimumLoad,
@@ -263,7 +263,7 @@ impl Judged<'_> {
 
     fn dropped_balls(&self, found: &mut Found) {
         let balls = || self.loads.elements.iter().flatten();
-        if !balls().any(|ball| ball.left_inner_ring) {
+        if !balls().any(|ball| ball.beyond_inner_groove) {
             return;
         }
         // A ball beside the load's zone is loose at rest, too.
@@ -282,15 +282,16 @@ impl Judged<'_> {
         let Ok((_, resting)) = resting else {
             return;
         };
-        let dropped = balls()
-            .zip(resting.elements.iter().flatten())
-            .filter(|(ball, resting)| ball.left_inner_ring && resting.inner_load_n > 0.0)
-            .count();
-        let of = balls().count();
-        found.check(Concern::DroppedBalls, dropped as f64, 0.0, || {
+        let beyond = || {
+            let all = balls().zip(resting.elements.iter().flatten());
+            all.filter(|(ball, resting)| ball.beyond_inner_groove && resting.inner_load_n > 0.0)
+        };
+        let dropped = beyond().filter(|(ball, _)| ball.has_dropped()).count();
+        let (count, of) = (beyond().count(), balls().count());
+        found.check(Concern::DroppedBalls, count as f64, 0.0, || {
             format!(
-                "dropped balls: {dropped} of {of} that carry at rest carry on the outer ring only: centrifugal forces have pressed them to the bottom of its groove, beyond \
-                 the end of the inner one; the others take their load. Give more axial load or preload, or a lower speed"
+                "dropped balls: {count} of {of} that carry at rest lie beyond the end of the inner groove ({dropped} on the outer ring alone, the others on the edge there): \
+                 centrifugal forces press them to the bottom of the outer groove, and a real ring's shoulder ends before. Give more axial load or preload, or a lower speed"
             )
         });
     }

@@ -47,10 +47,7 @@ pub fn reduce(of: &GearFile, how: Reduction, watch: &Watch<'_>) -> Result<Reduce
             None => {
                 note_element(gear, watch);
                 let even_if_short = how.even_if_memory_is_short;
-                let job = OfflineJob::Reduction {
-                    estimate_error: how.estimate_error,
-                };
-                memory::demand(gear, &of.file, job, even_if_short, watch)?;
+                memory::demand(gear, &of.file, OfflineJob::Reduction, even_if_short, watch)?;
                 Ok(reduced(gear, how.estimate_error, watch)?.0)
             }
         },

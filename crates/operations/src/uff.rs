@@ -21,7 +21,11 @@ pub fn read(path: &Path, watch: &Watch<'_>) -> Result<Vec<Function>, Failure> {
         .python()?
         .run(&task, READ, &[&path.display().to_string()], b"")
         .map_err(blame)?;
-    serde_json::from_slice(&told).map_err(Failure::work)
+    // A line each.
+    serde_json::Deserializer::from_slice(&told)
+        .into_iter()
+        .collect::<Result<_, _>>()
+        .map_err(Failure::work)
 }
 
 /// Exit code 2 of the scripts is the file's fault.

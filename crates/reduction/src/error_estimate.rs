@@ -130,10 +130,10 @@ fn by_station(grid: &FlankGrid, reading: impl Fn(usize) -> f64) -> Vec<f64> {
 pub struct Reduced<'a> {
     /// Number of teeth.
     pub teeth: usize,
-    /// Flanks that carry loads; the estimate looks at the first.
-    pub flanks: &'a [Flank],
     /// Flank grid.
     pub grid: &'a FlankGrid,
+    /// Flanks that carry loads; the estimate looks at the first.
+    pub flanks: &'a [Flank],
     /// C_hub of sector 1's teeth.
     pub c_hub: &'a [f64],
     /// C_tooth.
@@ -142,31 +142,47 @@ pub struct Reduced<'a> {
     pub gauges: &'a [GaugeRows],
 }
 
-/// Estimates the errors of a cylindrical gear's reduction.
+/// What a mesh is asked: loads on one flank of tooth 0, and the teeth that have gauges.
+struct Asked<'a> {
+    grid: &'a FlankGrid,
+    side: Flank,
+    gauge_teeth: Vec<usize>,
+}
+
+/// Figures of the coarser meshes, from the finest to the coarsest.
+///
+/// They are made before the reduction's own mesh is factorised: factors of two meshes never stand in memory side by side.
+pub struct CoarserMeshes(Vec<Figures>);
+
+/// Solves the coarser meshes of a cylindrical gear.
 ///
 /// # Errors
 /// [`ReductionError`] when a coarse mesh cannot be made or solved.
-pub fn estimate(
+pub fn coarser_meshes(
     gear: &GearDefinition,
     python: &PythonEnvironment,
-    reduced: &Reduced<'_>,
+    grid: &FlankGrid,
     progress: &dyn Progress,
-) -> Result<ErrorEstimate, ReductionError> {
+) -> Result<CoarserMeshes, ReductionError> {
     let one_step = gear.mesh.plane_strain || gear.mesh.element == Element::Tet10;
     let steps: &[bool] = if one_step { &[true] } else { &[false, true] };
-    estimated(reduced, steps, progress, |axial, progress| {
+    let asked = Asked {
+        grid,
+        side: gear.reduction.flanks[0],
+        gauge_teeth: gear.gauges.iter().map(|gauge| gauge.tooth).collect(),
+    };
+    each_mesh(steps, progress, |axial, progress| {
         let mut coarse = gear.clone();
         // The estimate is that of the sound gear.
         coarse.crack = None;
         coarse.mesh = coarsened(&gear.mesh, axial);
         let body = GearBody::new(&coarse, python, progress)?;
-        let side = reduced.flanks[0];
-        let loads = flank_loads(&coarse, &body.mesh, reduced.grid, 0, side);
+        let loads = flank_loads(&coarse, &body.mesh, grid, 0, asked.side);
         let rows = (coarse.gauges.iter())
             .map(|gauge| gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
             .collect::<Result<_, _>>()?;
         mesh_figures(
-            reduced,
+            &asked,
             &body,
             (&loads, rows),
             Deformation::of(gear),
@@ -178,25 +194,29 @@ pub fn estimate(
 /// The same of a bevel gear, whose body is meshed in one way on all meshes.
 ///
 /// # Errors
-/// As [`estimate`].
-pub fn estimate_bevel(
+/// As [`coarser_meshes`].
+pub fn coarser_bevel_meshes(
     gear: &BevelGear,
-    grid: BodyGrid,
-    reduced: &Reduced<'_>,
+    body_grid: BodyGrid,
+    grid: &FlankGrid,
     progress: &dyn Progress,
-) -> Result<ErrorEstimate, ReductionError> {
-    estimated(reduced, &[false, true], progress, |axial, progress| {
+) -> Result<CoarserMeshes, ReductionError> {
+    let asked = Asked {
+        grid,
+        side: gear.reduction.flanks[0],
+        gauge_teeth: gear.gauges.iter().map(|gauge| gauge.tooth).collect(),
+    };
+    each_mesh(&[false, true], progress, |axial, progress| {
         let mut coarse = gear.clone();
         coarse.mesh = coarsened(&gear.mesh, axial);
-        let body = bevel_body_of(&coarse, grid, progress)?;
-        let side = reduced.flanks[0];
-        let patch = flank_patch(&coarse, side)?;
-        let loads = bevel_loads(&body.mesh, &patch, side, reduced.grid);
+        let body = bevel_body_of(&coarse, body_grid, progress)?;
+        let patch = flank_patch(&coarse, asked.side)?;
+        let loads = bevel_loads(&body.mesh, &patch, asked.side, grid);
         let rows = (coarse.gauges.iter())
             .map(|gauge| bevel_gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
             .collect::<Result<_, _>>()?;
         mesh_figures(
-            reduced,
+            &asked,
             &body,
             (&loads, rows),
             Deformation::Spatial,
@@ -205,38 +225,46 @@ pub fn estimate_bevel(
     })
 }
 
-/// The estimate from the figures of coarser meshes; `steps`: whether they are coarser along the teeth, too.
-fn estimated(
-    reduced: &Reduced<'_>,
+/// One mesh after the other; `steps`: whether they are coarser along the teeth, too.
+fn each_mesh(
     steps: &[bool],
     progress: &dyn Progress,
     coarse: impl Fn(bool, &dyn Progress) -> Result<Figures, ReductionError>,
-) -> Result<ErrorEstimate, ReductionError> {
-    let mut meshes = vec![reduced_figures(reduced)];
-    for (k, &axial) in steps.iter().enumerate() {
+) -> Result<CoarserMeshes, ReductionError> {
+    let figures = steps.iter().enumerate().map(|(k, &axial)| {
         let progress = Within {
             all: progress,
             part: format!("error estimate, coarser mesh {} of {}", k + 1, steps.len()),
         };
-        meshes.push(coarse(axial, &progress)?);
+        coarse(axial, &progress)
+    });
+    Ok(CoarserMeshes(figures.collect::<Result<_, _>>()?))
+}
+
+impl CoarserMeshes {
+    /// Estimates the errors of a reduction from what the coarser meshes differ by.
+    pub fn errors_of(self, reduced: &Reduced<'_>) -> ErrorEstimate {
+        let mut meshes = self.0;
+        meshes.insert(0, reduced_figures(reduced));
+        let error = |(order, safety): (i32, f64), values: &dyn Fn(&Figures) -> Vec<f64>| -> f64 {
+            let all: Vec<Vec<f64>> = meshes.iter().map(values).collect();
+            let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let steps = all.windows(2).map(|pair| {
+                let difference: Vec<f64> =
+                    pair[0].iter().zip(&pair[1]).map(|(a, b)| a - b).collect();
+                norm(&difference)
+            });
+            safety * steps.sum::<f64>() / (COARSENING.powi(order) - 1.0) / norm(&all[0])
+        };
+        let deflection = |k: usize| error(DEFLECTION, &|figures| vec![figures.deflections[k]]);
+        ErrorEstimate {
+            loaded_tooth: deflection(0),
+            other_teeth: (1..6).map(deflection).fold(0.0, f64::max),
+            gauges: (0..reduced.gauges.len())
+                .map(|k| error(GAUGE, &|figures| figures.gauges[k].clone()))
+                .collect(),
+        }
     }
-    let error = |(order, safety): (i32, f64), values: &dyn Fn(&Figures) -> Vec<f64>| -> f64 {
-        let all: Vec<Vec<f64>> = meshes.iter().map(values).collect();
-        let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let steps = all.windows(2).map(|pair| {
-            let difference: Vec<f64> = pair[0].iter().zip(&pair[1]).map(|(a, b)| a - b).collect();
-            norm(&difference)
-        });
-        safety * steps.sum::<f64>() / (COARSENING.powi(order) - 1.0) / norm(&all[0])
-    };
-    let deflection = |k: usize| error(DEFLECTION, &|figures| vec![figures.deflections[k]]);
-    Ok(ErrorEstimate {
-        loaded_tooth: deflection(0),
-        other_teeth: (1..6).map(deflection).fold(0.0, f64::max),
-        gauges: (0..reduced.gauges.len())
-            .map(|k| error(GAUGE, &|figures| figures.gauges[k].clone()))
-            .collect(),
-    })
 }
 
 /// The figures of the reduction.
@@ -265,16 +293,15 @@ fn reduced_figures(reduced: &Reduced<'_>) -> Figures {
 
 /// The same of another mesh; `loads` on the first flank of tooth 0, and the gauges' rows.
 fn mesh_figures<M: RepeatedMesh + ToothParts>(
-    reduced: &Reduced<'_>,
+    asked: &Asked<'_>,
     body: &GearBody<M>,
     (loads, gauge_rows): (&[GridLoad], Vec<SparseVector>),
     deformation: Deformation,
     progress: &dyn Progress,
 ) -> Result<Figures, ReductionError> {
     progress.stage("solving");
-    let (grid, count) = (reduced.grid, reduced.grid.len());
-    let side = reduced.flanks[0];
-    let submodel = ToothSubmodel::new(&body.model, &body.mesh, side, loads, deformation)?;
+    let (grid, count) = (asked.grid, asked.grid.len());
+    let submodel = ToothSubmodel::new(&body.model, &body.mesh, asked.side, loads, deformation)?;
     let weights = line_load(grid, grid.roll_angles_rad.len() / 2);
     let shares = weights.iter().flat_map(|&(load, share)| {
         let normal = &loads[load].normal;
@@ -298,9 +325,9 @@ fn mesh_figures<M: RepeatedMesh + ToothParts>(
         value
     };
     let of_gauge = |(k, tooth): (usize, usize)| by_station(grid, |load| own(k + 1, tooth)[load]);
-    let teeth = reduced.gauges.iter().map(|gauge| gauge.tooth).enumerate();
+    let teeth = asked.gauge_teeth.iter().copied().enumerate();
     Ok(Figures {
-        deflections: teeth_looked_at(reduced.teeth).map(deflection).to_vec(),
+        deflections: teeth_looked_at(body.mesh.teeth()).map(deflection).to_vec(),
         gauges: teeth.map(of_gauge).collect(),
     })
 }

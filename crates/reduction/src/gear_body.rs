@@ -53,6 +53,65 @@ pub fn model_of(gear: &GearDefinition, mesh: &GearMesh) -> Result<FeModel, Reduc
     )?)
 }
 
+/// A gear's mesh and its finite element model, not yet factorised.
+pub(crate) struct MeshedGear {
+    pub mesh: GearMesh,
+    model: FeModel,
+    meshed_s: f64,
+}
+
+impl MeshedGear {
+    /// Meshes a gear.
+    ///
+    /// # Errors
+    /// [`ReductionError`] when it cannot be meshed.
+    pub fn new(
+        gear: &GearDefinition,
+        python: &PythonEnvironment,
+        progress: &dyn Progress,
+    ) -> Result<Self, ReductionError> {
+        let clock = Instant::now();
+        progress.stage("meshing");
+        let mesh = GearMesh::new(gear, python)?;
+        let meshed_s = clock.elapsed().as_secs_f64();
+        let model = model_of(gear, &mesh)?;
+        Ok(Self {
+            mesh,
+            model,
+            meshed_s,
+        })
+    }
+
+    /// Holds it at its bore, or the ends of its shaft, in plane strain where its definition says so, and factorises it.
+    ///
+    /// # Errors
+    /// [`ReductionError`] when it is not held.
+    pub fn held(
+        self,
+        gear: &GearDefinition,
+        progress: &dyn Progress,
+    ) -> Result<GearBody, ReductionError> {
+        let held = self.mesh.held(&gear.blank);
+        let bore: Vec<usize> = held.into_iter().map(|n| n as usize).collect();
+        let deformation = Deformation::of(gear);
+        // A plane problem is small: its whole factor takes less than the ring's frames.
+        let symmetry = match deformation {
+            Deformation::Spatial => gear.reduction.symmetry,
+            Deformation::PlaneStrain => Symmetry::Off,
+        };
+        let of_stubs = self.mesh.stub_elements();
+        let stubs = (!of_stubs.is_empty()).then(|| Part::new(&self.model, &of_stubs));
+        let stubs = stubs.transpose()?;
+        let body = GearBody::held(
+            (self.mesh, self.model, &bore),
+            (symmetry, deformation),
+            self.meshed_s,
+            progress,
+        )?;
+        Ok(GearBody { stubs, ..body })
+    }
+}
+
 impl GearBody {
     /// Meshes and factorises a gear with its bore, or the ends of its shaft, fixed, in plane strain where its
     /// definition says so.
@@ -64,29 +123,7 @@ impl GearBody {
         python: &PythonEnvironment,
         progress: &dyn Progress,
     ) -> Result<Self, ReductionError> {
-        let clock = Instant::now();
-        progress.stage("meshing");
-        let mesh = GearMesh::new(gear, python)?;
-        let meshed_s = clock.elapsed().as_secs_f64();
-        let model = model_of(gear, &mesh)?;
-        let held = mesh.held(&gear.blank);
-        let bore: Vec<usize> = held.into_iter().map(|n| n as usize).collect();
-        let deformation = Deformation::of(gear);
-        // A plane problem is small: its whole factor takes less than the ring's frames.
-        let symmetry = match deformation {
-            Deformation::Spatial => gear.reduction.symmetry,
-            Deformation::PlaneStrain => Symmetry::Off,
-        };
-        let of_stubs = mesh.stub_elements();
-        let stubs = (!of_stubs.is_empty()).then(|| Part::new(&model, &of_stubs));
-        let stubs = stubs.transpose()?;
-        let body = Self::held(
-            (mesh, model, &bore),
-            (symmetry, deformation),
-            meshed_s,
-            progress,
-        )?;
-        Ok(Self { stubs, ..body })
+        MeshedGear::new(gear, python, progress)?.held(gear, progress)
     }
 }
 

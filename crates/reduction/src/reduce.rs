@@ -1,13 +1,13 @@
 //! The reduction: compliance of the flanks, gauge rows, and the identities they must fulfil.
 
 use crate::dynamics::{DynamicsRequest, dynamics};
-use crate::error_estimate::{Reduced, estimate};
+use crate::error_estimate::{Reduced, coarser_meshes};
 use crate::flank_compliance::{
     AskedGauge, FlankCase, FlankCompliance, ROWS_BY_FIELDS, flank_compliance, gauge_readings,
 };
 use crate::flank_loads::{GridLoad, SparseVector, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
-use crate::gear_body::GearBody;
+use crate::gear_body::{GearBody, MeshedGear};
 use crate::near_field::calibrate;
 use crate::root_crack::{CRACK_SYMMETRY, root_crack};
 use crate::shaft_faces::HeldFaces;
@@ -41,14 +41,25 @@ pub fn reduce(
     options: ReductionOptions,
     progress: &dyn Progress,
 ) -> Result<(ReducedGear, GearBody), ReductionError> {
-    let body = GearBody::new(gear, python, progress)?;
-    let mut stage_seconds = body.stage_seconds.clone();
+    // Meshed first, so that a mesh that is refused is so at once; factorised after the coarser ones, so that factors of
+    // two meshes never stand in memory side by side.
+    let meshed = MeshedGear::new(gear, python, progress)?;
+    let grid = flank_grid(gear);
     let mut clock = Instant::now();
+    let coarser = (options.estimate_error)
+        .then(|| coarser_meshes(gear, python, &grid, progress))
+        .transpose()?;
+    let coarser_s = clock.elapsed().as_secs_f64();
+    let body = meshed.held(gear, progress)?;
+    let mut stage_seconds = body.stage_seconds.clone();
+    if coarser.is_some() {
+        stage_seconds.push(("error estimate".to_string(), coarser_s));
+    }
+    clock = Instant::now();
     let mut lap = |name: &str| {
         stage_seconds.push((name.to_string(), clock.elapsed().as_secs_f64()));
         clock = Instant::now();
     };
-    let grid = flank_grid(gear);
     let flanks = &gear.reduction.flanks;
     let loads: Vec<Vec<GridLoad>> = flanks
         .iter()
@@ -112,7 +123,7 @@ pub fn reduce(
     }
     let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
     further.extend(dynamics.checks);
-    if options.estimate_error {
+    if let Some(coarser) = coarser {
         let reduced = Reduced {
             teeth: gear.tooth.teeth,
             flanks,
@@ -121,9 +132,8 @@ pub fn reduce(
             c_tooth: &c_tooth,
             gauges: &gauges,
         };
-        let errors = estimate(gear, python, &reduced, progress)?;
+        let errors = coarser.errors_of(&reduced);
         errors.state(&mut further, &mut gauges);
-        lap("error estimate");
     }
     if let Some(faces) = &faces {
         faces.hold(grid.len(), &mut c_hub, &mut gauges);

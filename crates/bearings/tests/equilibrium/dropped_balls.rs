@@ -59,14 +59,18 @@ fn from_inner_circle(row: &BallRow, pose: &RingPose, point: &Vector3<f64>) -> Ve
     )
 }
 
-/// Energy of a ball's contact with the inner ring, 2/5 k δ^5/2.
-fn inner_energy(row: &BallRow, pose: &RingPose, point: &Vector3<f64>) -> f64 {
+/// Energy of a ball's contact with the inner ring, 2/5 k δ^5/2: with the groove, or `beyond` its end with the edge there, a
+/// groove's radius above or below the circle of its centres. Differences keep to one of them: where they meet, forces are
+/// equal and their slopes are not.
+fn inner_energy(row: &BallRow, pose: &RingPose, point: &Vector3<f64>, beyond: bool) -> f64 {
     let apart = from_inner_circle(row, pose, point);
-    if apart[0] >= 0.0 {
-        return 0.0;
-    }
-    let depth = (apart.norm() - row.inner.arm_m).max(0.0);
-    0.4 * row.inner.contact.stiffness_n_per_m15 * depth.powf(2.5)
+    let radius = 0.5 * row.ball_diameter_m;
+    let depth = if beyond {
+        radius - apart[0].hypot(row.inner.arm_m + radius - apart[1].abs())
+    } else {
+        apart.norm() - row.inner.arm_m
+    };
+    0.4 * row.inner.contact.stiffness_n_per_m15 * depth.max(0.0).powf(2.5)
 }
 
 fn outer_energy(row: &BallRow, place: &Vector2<f64>) -> f64 {
@@ -97,15 +101,17 @@ fn ball_forces(
     let at = |p: &Vector2<f64>| e_r * p[0] + Vector3::z() * p[1];
     // A ball that the inner ring does not press may lie as near to it as a step of the differences: it must not reach in.
     let pressed = ball.inner_load_n > 0.0;
+    let apart = from_inner_circle(row, pose, &at(&place));
+    let beyond = apart[0] >= 0.0;
     if !pressed {
-        let reached = inner_energy(row, pose, &at(&place));
+        let reached = inner_energy(row, pose, &at(&place), beyond);
         assert!(reached <= 1e-12 * outer_energy(row, &place), "{ball:?}");
     }
     let along = |i: usize, h: f64| {
         let mut p = place;
         p[i] += h;
         let inner = match pressed {
-            true => inner_energy(row, pose, &at(&p)),
+            true => inner_energy(row, pose, &at(&p), beyond),
             false => 0.0,
         };
         inner + outer_energy(row, &p)
@@ -123,10 +129,12 @@ fn ball_forces(
     // Harris: outer-race control, tan β = sin α_o / (cos α_o + γ).
     let out = place - Vector2::new(row.outer.centre_radius_m, row.outer.centre_z_m);
     let alpha_o = out[1].atan2(out[0]);
-    let apart = from_inner_circle(row, pose, &at(&place));
-    // A ball beyond the inner groove turns as one that both grooves face alike.
-    let alpha_i = if apart[0] < 0.0 {
+    // On the edge the contact angle is that of the edge; a ball beyond it turns as one that both grooves face alike.
+    let alpha_i = if !beyond {
         (-apart[1]).atan2(-apart[0])
+    } else if pressed {
+        let radius = 0.5 * row.ball_diameter_m;
+        ((row.inner.arm_m + radius - apart[1].abs()) * -apart[1].signum()).atan2(apart[0])
     } else {
         alpha_o
     };
@@ -147,7 +155,7 @@ fn ball_forces(
             let mut moved = *pose;
             moved.centre_m[i] += h;
             if pressed {
-                inner_energy(row, &moved, &at(&place))
+                inner_energy(row, &moved, &at(&place), beyond)
             } else {
                 0.0
             }
@@ -157,11 +165,11 @@ fn ball_forces(
 }
 
 /// Every ball and the ring are in equilibrium by the second formulation, from rest to twice the speed at which the first
-/// balls drop; dropped balls do not touch the inner ring.
+/// balls reach the edge of the inner groove; balls beyond it that it does not press do not touch it.
 #[test]
 fn rings_with_dropped_balls_are_in_equilibrium() {
     let (bearing, row) = (bearing(LARGE), row());
-    let mut most_dropped = 0;
+    let mut most_beyond = 0;
     for rpm in [
         1.0,
         1500.0,
@@ -177,13 +185,13 @@ fn rings_with_dropped_balls_are_in_equilibrium() {
         let found = bearing
             .equilibrium_with_places(&load(), &at_rpm(rpm))
             .unwrap_or_else(|e| panic!("{rpm} rpm: {e}"));
-        let dropped = check(&bearing, (&row, found), rpm, FORCE_N);
-        most_dropped = most_dropped.max(dropped);
+        let beyond = check(&bearing, (&row, found), rpm, FORCE_N);
+        most_beyond = most_beyond.max(beyond);
     }
-    assert!(most_dropped > 0);
+    assert!(most_beyond > 0);
 }
 
-/// Demands that ball by ball and of the ring forces vanish; how many balls have left the inner ring.
+/// Demands that ball by ball and of the ring forces vanish; how many balls lie beyond the end of the inner groove.
 fn check(
     bearing: &QuasiStaticBearing,
     (row, (pose, mut places)): (&BallRow, (RingPose, ElementPlaces)),
@@ -194,7 +202,7 @@ fn check(
         .loads_from(&pose, &at_rpm(rpm), &mut places)
         .unwrap();
     let mut sum = Vector3::from(force_n);
-    let (mut dropped, mut size) = (0, sum.norm());
+    let (mut beyond, mut size) = (0, sum.norm());
     for ball in &loads.elements[0] {
         let (left, on_ring) = ball_forces(row, &pose, rpm, ball);
         let scale = ball.inner_load_n + ball.outer_load_n;
@@ -204,8 +212,8 @@ fn check(
         );
         sum += on_ring;
         size += ball.inner_load_n;
-        if ball.left_inner_ring {
-            dropped += 1;
+        beyond += usize::from(ball.beyond_inner_groove);
+        if ball.has_dropped() {
             assert_eq!(on_ring.norm(), 0.0);
             assert_eq!(ball.inner_load_n, 0.0, "{ball:?}");
             // Friction that carries the gyroscopic moment tilts the force by a little.
@@ -213,7 +221,7 @@ fn check(
         }
     }
     assert!(sum.norm() < 1e-6 * size, "{rpm} rpm: {sum:?} of {size}");
-    dropped
+    beyond
 }
 
 /// Angular-contact bearings drawn at random, to speeds at which centrifugal forces are as large as loads: the second
@@ -221,7 +229,7 @@ fn check(
 fn many(seed: u64, count: usize) {
     let mut numbers = fastrand::Rng::with_seed(seed);
     let mut between = |low: f64, high: f64| low + (high - low) * numbers.f64();
-    let (mut with_dropped, mut refused) = (0, Vec::new());
+    let (mut with_beyond, mut refused) = (0, Vec::new());
     for number in 0..count {
         let ball_mm = between(4.0, 30.0);
         let pitch_mm = ball_mm / between(0.1, 0.25);
@@ -248,7 +256,7 @@ fn many(seed: u64, count: usize) {
         };
         match bearing.equilibrium_with_places(&load, &at_rpm(rpm)) {
             Ok(found) => {
-                with_dropped += usize::from(check(&bearing, (row, found), rpm, force_n) > 0)
+                with_beyond += usize::from(check(&bearing, (row, found), rpm, force_n) > 0)
             }
             Err(error) => {
                 // Near a fold the search may stop short of its tolerance: it says what is left.
@@ -261,10 +269,13 @@ fn many(seed: u64, count: usize) {
         }
     }
     println!(
-        "{count} bearings, seed {seed}: {with_dropped} with balls off the inner ring, {} refused",
+        "{count} bearings, seed {seed}: {with_beyond} with balls beyond the inner groove, {} refused",
         refused.len()
     );
     println!("{}", refused.join("\n"));
+    // Where several balls reach the end of the groove together the ring may have no equilibrium beside it: one bearing in a
+    // hundred may be refused, none of the few that every run draws.
+    assert!(100 * refused.len() <= count, "{} refused", refused.len());
 }
 
 #[test]
@@ -272,9 +283,6 @@ fn fast_bearings_drawn_at_random_are_in_equilibrium() {
     many(1, 40);
 }
 
-/// Not more than 800 by default: among the 1000 of seed 2 one ends with a ball without equilibrium, which is no refusal of
-/// the bearing (docs/limits.md). Of the 800, 16 are refused.
-///
 /// `BEARINGS=1000 BEARINGS_SEED=2 cargo test --workspace --test equilibrium -- --ignored --nocapture many_fast_bearings`
 #[test]
 #[ignore = "minutes"]
@@ -282,7 +290,10 @@ fn many_fast_bearings_are_in_equilibrium() {
     let number = |name: &str, otherwise: u64| {
         std::env::var(name).map_or(otherwise, |text| text.parse().unwrap())
     };
-    many(number("BEARINGS_SEED", 2), number("BEARINGS", 800) as usize);
+    many(
+        number("BEARINGS_SEED", 2),
+        number("BEARINGS", 1000) as usize,
+    );
 }
 
 /// A model of its own (a program in Python: small tilts, Newton's method by differences, balls kept in both grooves)
@@ -343,11 +354,11 @@ fn dropped_balls_are_warned_of() {
         let found = found.iter().find(|w| w.concern == Concern::DroppedBalls);
         assert_eq!(found.is_some(), warned, "{rpm}");
         if let Some(found) = found {
-            let zero = loads.elements[0].iter().filter(|b| b.inner_load_n == 0.0);
-            let count = zero.count();
+            let beyond = loads.elements[0].iter().filter(|b| b.beyond_inner_groove);
+            let count = beyond.count();
             assert_eq!(found.value, count as f64);
             assert!(found.text.contains(&format!(
-                "{count} of 15 that carry at rest carry on the outer ring only"
+                "{count} of 15 that carry at rest lie beyond the end of the inner groove"
             )));
         }
     }

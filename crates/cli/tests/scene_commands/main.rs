@@ -26,6 +26,7 @@ mod pages;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;
 mod plan;
+mod random_gearboxes;
 mod recover;
 mod report;
 mod run;

@@ -14,7 +14,7 @@ use super::gauge::{bevel_gauge_row, describe_bevel_gauge};
 use super::loads::{area_m2, bevel_grid, bevel_loads};
 use super::near_field::{opposite_distances_m, section_fields};
 use crate::dynamics::{DynamicsRequest, dynamics};
-use crate::error_estimate::{Reduced, estimate_bevel};
+use crate::error_estimate::{Reduced, coarser_bevel_meshes};
 use crate::flank_compliance::{
     AskedGauge, FlankCase, FlankCompliance, ROWS_BY_FIELDS, flank_compliance, gauge_readings,
 };
@@ -180,7 +180,8 @@ pub fn reduce_bevel(
             c_tooth: &c_tooth,
             gauges: &gauges,
         };
-        let errors = estimate_bevel(gear, body.mesh.body_grid(), &reduced, progress)?;
+        let coarser = coarser_bevel_meshes(gear, body.mesh.body_grid(), &grid, progress)?;
+        let errors = coarser.errors_of(&reduced);
         errors.state(&mut further, &mut gauges);
         lap("error estimate");
     }
