@@ -53,6 +53,7 @@ pub mod report;
 pub mod result_stress;
 pub mod run;
 mod scratch;
+mod sets;
 mod stages;
 pub mod stressed_gear;
 pub mod study;

@@ -7,6 +7,7 @@ use std::time::Duration;
 use gearmesh_dynamics::{Params, StepControl, System};
 use gearmesh_model::bytes_digest;
 
+use crate::system::planetary::PlanetarySet;
 use crate::system::{RatingJob, StageSummary, Start};
 
 use super::error::SystemRunError;
@@ -162,6 +163,8 @@ pub struct RunHead {
     pub notes: Vec<String>,
     /// Gear meshes.
     pub meshes: Vec<MeshRecord>,
+    /// Planetary sets.
+    pub sets: Vec<PlanetarySet>,
 }
 
 impl RunHead {

@@ -146,17 +146,17 @@ pub(super) fn settle_phases(
     Ok(())
 }
 
-/// The side that touches at the start: right where gear 1 turns clockwise or stands.
+/// The side that touches at the start, where the scene does not say: right where gear 1 turns clockwise or stands.
 fn driven_side(mesh: &PreparedMesh, bodies: &Bodies) -> Flank {
     let spin = bodies.list[mesh.bodies[0]]
         .body
         .angular_velocity_rad_per_s
         .z;
-    let wanted = if spin > 0.0 {
+    let wanted = mesh.touching_at_start.unwrap_or(if spin > 0.0 {
         Flank::Left
     } else {
         Flank::Right
-    };
+    });
     let known = mesh.sides.iter().find(|side| **side == wanted);
     known.or(mesh.sides.first()).copied().unwrap_or(wanted)
 }
