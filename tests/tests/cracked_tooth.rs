@@ -60,11 +60,10 @@ fn section_loss_and_doubled_nodes_are_of_one_order() {
             ..model.clone()
         });
         let tooth = BeamTooth {
-            gear: 1,
             tooth: profile,
             material: gear.material,
             face_width_m: WIDTH,
-            bore_radius_m: gear.blank.bore_radius_m(),
+            held_radius_m: gear.blank.bore_radius_m(),
         };
         let fillet = ProfileCurve::new(profile)
             .arc_length_at(gear.crack.unwrap().start)

@@ -47,11 +47,6 @@ pub enum ContactError {
         "helical teeth touch on the path of contact only: an extended path needs spur gears; leave the extension out"
     )]
     HelicalExtension,
-    /// Gears beside their axes where one is a ring.
-    #[error(
-        "gears that stand beside or tilted to their axes are not supported at rest where one gear is a ring; leave the runout out"
-    )]
-    RingRunout,
     /// All flanks that could carry the load at this position are gone.
     #[error(
         "no flank is left to touch: the teeth that would carry the load there are broken off; gears turn on until others touch, \

@@ -234,18 +234,15 @@ impl ContactLines {
     }
 
     /// Direction of the normal force on gear 2, x along the line of centres from gear 1 to gear 2, z along gear 1's axis:
-    /// (cos β_b sin α, ∓cos β_b cos α, ±sin β_b), upper signs on right flanks; α: α_w or the angle of a tip edge's force.
-    /// A ring touches on the far side of its mate: there sin α is negative, and the upper sign of cos α that of the hand.
+    /// (cos β_b w, ±sin β_b), upper sign on right flanks, w: [`gearmesh_geometry::BaseCircles::action`] at α_w or the angle of a tip edge's force.
     fn normal(&self, line: &ContactLine) -> [f64; 3] {
         let angle_rad = (line.tip).map_or(self.pair.working_pressure_angle_rad, |tip| {
             tip.force_angle_rad
         });
-        let (sin, cos) = angle_rad.sin_cos();
-        let (sigma, helix) = (self.pair.flank.mirror(), self.pair.base_helix_angle_rad());
-        let circles = self.pair.circles();
-        let along = 1f64.copysign(circles.sum_m()) * helix.cos();
-        let hand = circles.hand(self.pair.flank);
-        [along * sin, -hand * along * cos, sigma * helix.sin()]
+        let flank = self.pair.flank;
+        let (sin, cos) = self.pair.base_helix_angle_rad().sin_cos();
+        let [x, y] = self.pair.circles().action(angle_rad, flank);
+        [cos * x, cos * y, flank.mirror() * sin]
     }
 
     /// Roll angles on gear 1 at mid-face between which pairs are looked for.

@@ -91,9 +91,6 @@ impl FlanksAtRest for InvoluteAtRest {
         driver_angle_rad: f64,
         patches: &mut Vec<ContactPatch>,
     ) -> Result<(), ContactError> {
-        if self.runout.is_some() && self.lines.pair.has_ring() {
-            return Err(ContactError::RingRunout);
-        }
         let placement = (self.runout).map_or_else(Placement::default, |runout| {
             runout.at(&self.lines.pair, driver_angle_rad)
         });

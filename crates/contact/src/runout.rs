@@ -3,23 +3,22 @@
 //!
 //! Gear k's axis stands at e_k from the axis of its body and turns with it, so that the gears have the distance and
 //! direction d = (a, 0) + e₂ − e₁ = a′ (cos β, sin β), seen along gear 1's z with the driver turning clockwise (the
-//! mirror image on left flanks). With cos α′ = R/a′, R = r_b1 + r_b2, and tooth 0 of each gear at the place that
-//! conventions.md gives it,
+//! mirror image on left flanks). With cos α′ = |R|/a′, R = r_b1 + r_b2 and the signs s_k of rings ([`gearmesh_geometry::BaseCircles`]), and tooth 0 of
+//! each gear at the place that conventions.md gives it,
 //!
 //! ```text
-//! ξ₁ = tan α + θ₁ + β + α′ − α          as of a pair at a′ whose driver stands at θ₁ + β − (inv α′ − inv α)
-//! g  = R (inv α′ − inv α − β) + TE       ideal flanks; to first order w·(e₂ − e₁) + TE
+//! ξ₁ = tan α + s₁ (θ₁ + β) + α′ − α     as of a pair at a′ whose driver stands at θ₁ + β − s₁ (inv α′ − inv α)
+//! g  = R (inv α′ − inv α − s₁ β) + TE       ideal flanks; to first order w·(e₂ − e₁) + TE
 //! ```
 //!
-//! with w the direction of the force on gear 2, (sin α′, −cos α′) turned by β. Torques are those about the bodies'
-//! axes: the lever arms grow by e₂ × w on gear 2 and by −e₁ × w on gear 1, which are the derivatives of g by the
+//! with w the direction of the force on gear 2 at α′, turned by β. Torques are those about the bodies'
+//! axes in their senses of turning: the lever arms grow by s₁ s₂ e₂ × w on gear 2 and by −e₁ × w on gear 1, which are the derivatives of g by the
 //! angles. Tilted axes misalign the pair by an amount that turns with them. Gear 2's angle is that of rigid ideal
 //! flanks, TE = −opening, about which the gap is linear in TE; what deflection turns e₂ further is some 10⁻⁴ of it.
 
 use crate::contact_lines::ContactLines;
 use crate::tip_contact::PathExtension;
-use gearmesh_geometry::{GearPair, Misalignment};
-use std::f64::consts::{FRAC_PI_2, PI};
+use gearmesh_geometry::{Flank, GearPair, Misalignment};
 
 /// Place of a gear on its body.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -78,27 +77,22 @@ impl Runout {
     }
 
     /// The gears' places at angles of both.
-    fn at_angles(&self, pair: &GearPair, [angle_1_rad, angle_2_rad]: [f64; 2]) -> Placement {
-        let bases = [pair.gear_1.base_radius_m, pair.gear_2.base_radius_m];
-        let sum = bases[0] + bases[1];
-        let nominal = (sum / self.centre_distance_m).acos();
+    fn at_angles(&self, pair: &GearPair, angles_rad: [f64; 2]) -> Placement {
+        let circles = pair.circles();
+        let (sum, sense) = (circles.sum_m(), circles.sense(0));
+        let nominal = (sum.abs() / self.centre_distance_m).acos();
         // +1 on right flanks, −1 on left ones, which are seen in the mirror.
         let hand = pair.flank.mirror();
-        let roll = nominal.tan();
-        // Middle of tooth 0 in the mirror's frame.
-        let middles = [
-            pair.gear_1.half_angle_rad(roll) - angle_1_rad,
-            PI + pair.gear_2.half_angle_rad(roll) + angle_2_rad,
-        ];
+        let middles = pair.tooth_middles_rad((self.centre_distance_m, angles_rad));
         let offset = |k: usize| {
             let seat = &self.seats[k];
-            let (sin, cos) = (middles[k] + hand * seat.direction_rad).sin_cos();
-            [seat.offset_m * cos, seat.offset_m * sin]
+            let (sin, cos) = (middles[k] + seat.direction_rad).sin_cos();
+            [seat.offset_m * cos, hand * seat.offset_m * sin]
         };
         // How the axis leans, per metre of z.
         let slope = |k: usize| {
             let seat = &self.seats[k];
-            let (sin, cos) = (hand * middles[k] + seat.tilt_direction_rad).sin_cos();
+            let (sin, cos) = (middles[k] + seat.tilt_direction_rad).sin_cos();
             [seat.tilt_rad * sin, -hand * seat.tilt_rad * cos]
         };
         let (e, s) = ([offset(0), offset(1)], [slope(0), slope(1)]);
@@ -107,22 +101,26 @@ impl Runout {
             e[1][1] - e[0][1],
         ];
         let (distance, turned) = (d[0].hypot(d[1]), d[1].atan2(d[0]));
-        let alpha = (sum / distance).acos();
+        let alpha = (sum.abs() / distance).acos();
         let involute = (alpha.tan() - alpha) - (nominal.tan() - nominal);
-        let (w_y, w_x) = (alpha - FRAC_PI_2 + turned).sin_cos();
-        let moment = |e: [f64; 2]| e[0] * w_y - e[1] * w_x;
         // Along the line of centres and across it.
         let (sin, cos) = turned.sin_cos();
+        let [along, across] = circles.action(alpha, Flank::Right);
+        let (w_x, w_y) = (cos * along - sin * across, sin * along + cos * across);
+        let moment = |e: [f64; 2]| e[0] * w_y - e[1] * w_x;
+        // Right flanks open where gear 2's axis moves so across the line of centres.
+        let opens = across.signum();
         let lean = [s[1][0] - s[0][0], s[1][1] - s[0][1]];
         let misalignment = Misalignment {
             inclination_rad: self.misalignment.inclination_rad + lean[0] * cos + lean[1] * sin,
-            deviation_rad: self.misalignment.deviation_rad + lean[0] * sin - lean[1] * cos,
+            deviation_rad: self.misalignment.deviation_rad
+                + opens * (lean[1] * cos - lean[0] * sin),
         };
         Placement {
             pair: Some((distance, misalignment)),
-            ahead_rad: turned - involute,
-            opening_m: sum * (involute - turned),
-            arms_m: [-moment(e[0]), moment(e[1])],
+            ahead_rad: turned - sense * involute,
+            opening_m: sum * (involute - sense * turned),
+            arms_m: [-moment(e[0]), sense * circles.sense(1) * moment(e[1])],
         }
     }
 }

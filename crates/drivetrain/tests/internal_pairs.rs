@@ -1,6 +1,5 @@
 //! A ring and the gear inside it, either driving: the gap against the least distance of the profiles, exchange of the
-//! gears, a rigid pair by hand,
-//! friction, and what is refused. What holds for all pairs alike is checked with external ones (`kinematics.rs`,
+//! gears, a rigid pair by hand, friction. What holds for all pairs alike is checked with external ones (`kinematics.rs`,
 //! `helical/`, `static_scene.rs`).
 #![allow(clippy::unwrap_used)]
 
@@ -8,8 +7,8 @@ mod mesh_common;
 
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{
-    ContactLines, ContactOptions, ContactZone, Drive, GearSeat, HalfSpaces, InvoluteAtRest,
-    LocalContact, Runout, SliceLayout, StaticContact,
+    ContactLines, ContactOptions, ContactZone, Drive, HalfSpaces, InvoluteAtRest, LocalContact,
+    SliceLayout, StaticContact,
 };
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
@@ -241,32 +240,4 @@ fn friction_takes_power_and_turns_round_in_the_pitch_point() {
             }
         }
     }
-}
-
-/// Beams for a ring's teeth and gears beside their axes at rest are refused by name;
-/// [`GearPair::new`] takes external gears only.
-#[test]
-fn what_is_not_supported_with_a_ring_is_refused() {
-    let pair = ring_pair(0.0, false);
-    let beams = [beam_tooth(1, &pair.gear_1), beam_tooth(2, &pair.gear_2)];
-    let refused = BeamTeeth::new(beams, SLICES, [&[], &[]]).unwrap_err();
-    assert!(
-        refused.to_string().contains("gear 2 is a ring"),
-        "{refused}"
-    );
-    let models = [&pair.gear_1, &pair.gear_2].map(made_up_gear);
-    let beside = GearSeat {
-        offset_m: 1e-5,
-        ..GearSeat::default()
-    };
-    let runout = Runout::new(&pair, [beside, GearSeat::default()]);
-    let options = pair_common::FRICTIONLESS;
-    let contact = StaticContact::new(lines(&pair), &models[0], &models[1], options).unwrap();
-    let mut contact = contact.with_runout(runout);
-    let refused = contact.solve(0.0, Drive::Torque(10.0)).unwrap_err();
-    assert!(refused.to_string().contains("ring"), "{refused}");
-    let a = pair.centre_distance_m;
-    let scene = GearPair::new(pair.gear_1, pair.gear_2, a, Default::default());
-    let refused = scene.unwrap_err().to_string();
-    assert!(refused.contains("internal teeth"), "{refused}");
 }

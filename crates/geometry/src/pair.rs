@@ -6,7 +6,7 @@ use crate::involute;
 use crate::tip_in_fillet;
 use crate::tip_sweep::{self, RollingPinion};
 use crate::tooth::ToothGeometry;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Why two gears do not run together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -34,14 +34,6 @@ pub enum PairError {
         helix_2_deg: f64,
         /// Hand of gear 2.
         hand_2: &'static str,
-    },
-    /// Teeth inside a ring, where their contact is not computed.
-    #[error(
-        "gear {gear} is a ring with internal teeth: its contact with another gear is not supported; meshing, reduction and compliance of the ring alone are"
-    )]
-    Ring {
-        /// The ring.
-        gear: usize,
     },
     /// Two rings.
     #[error("both gears have internal teeth; one of them must have external teeth")]
@@ -179,29 +171,12 @@ pub struct GearPair {
 }
 
 impl GearPair {
-    /// Checks that two external gears run together and derives the path of contact, right flanks in contact.
-    ///
-    /// # Errors
-    /// [`PairError`] with the numbers that make it impossible; [`PairError::Ring`] for internal teeth.
-    pub fn new(
-        gear_1: ToothGeometry,
-        gear_2: ToothGeometry,
-        centre_distance_m: f64,
-        misalignment: Misalignment,
-    ) -> Result<Self, PairError> {
-        for (gear, tooth) in [(1, &gear_1), (2, &gear_2)] {
-            if tooth.internal {
-                return Err(PairError::Ring { gear });
-            }
-        }
-        Self::on_parallel_axes(gear_1, gear_2, centre_distance_m, misalignment)
-    }
-
-    /// As [`GearPair::new`], where either gear may be a ring around the other. The centre distance has no sign.
+    /// Checks that two gears on parallel axes run together and derives the path of contact, right flanks of gear 1 in contact. Either
+    /// may be a ring around the other. The centre distance has no sign.
     ///
     /// # Errors
     /// [`PairError`] with the numbers that make it impossible.
-    pub fn on_parallel_axes(
+    pub fn new(
         gear_1: ToothGeometry,
         gear_2: ToothGeometry,
         centre_distance_m: f64,
@@ -447,6 +422,24 @@ impl GearPair {
     /// Transverse contact ratio ε_α.
     pub fn contact_ratio(&self) -> f64 {
         (self.roll_end_1_rad - self.roll_start_1_rad).abs() / self.pitch_1_rad()
+    }
+
+    /// Polar angles of the middles of teeth 0 at mid-face \[rad\], from each gear's own axis, x from gear 1's axis to gear 2's, where both have turned by
+    /// these angles in their own senses from where their flanks touch in the pitch point at the centre distance \[m, rad\].
+    #[must_use]
+    pub fn tooth_middles_rad(&self, (distance_m, angles_rad): (f64, [f64; 2])) -> [f64; 2] {
+        let circles = self.circles();
+        let roll = (circles.sum_m().abs() / distance_m).acos().tan();
+        let away = 1f64.copysign(circles.sum_m());
+        [(0, &self.gear_1), (1, &self.gear_2)].map(|(gear, tooth)| {
+            // The pitch point lies towards the mate, but for a gear inside a ring.
+            let towards_2 = away * circles.sense(gear) * [1.0, -1.0][gear];
+            let pitch_point = if towards_2 > 0.0 { 0.0 } else { PI };
+            // Gear 1 drives: it turns to where its flanks face, gear 2 the other way.
+            let side = self.flank_of(gear).mirror();
+            let driven = [1.0, -1.0][gear];
+            pitch_point + side * (tooth.half_angle_rad(roll) - driven * angles_rad[gear])
+        })
     }
 
     /// Circumferential backlash on the working pitch circles \[m\].

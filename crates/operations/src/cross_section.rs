@@ -39,7 +39,7 @@ pub fn field_of(
         .into_iter()
         .map(|f| GridForce {
             tooth: f.tooth,
-            side: loaded.scene.flank,
+            side: loaded.lines.pair.flank_of(case.gear - 1),
             load: f.load,
             normal_n: f.normal_n,
             tangential_n: f.tangential_n,

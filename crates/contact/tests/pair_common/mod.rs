@@ -66,7 +66,7 @@ pub fn ring_pair(helix_deg: f64, ring_drives: bool) -> GearPair {
     } else {
         [planet, ring]
     };
-    GearPair::on_parallel_axes(gear_1, gear_2, centre, Misalignment::default()).unwrap()
+    GearPair::new(gear_1, gear_2, centre, Misalignment::default()).unwrap()
 }
 
 /// A pair with its extended path, unmodified flanks.

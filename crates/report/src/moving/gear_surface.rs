@@ -101,7 +101,8 @@ impl GearSurface {
                 teeth.push((column / whole.len()) as i32);
             }
         }
-        let bore = gear.blank.bore_radius_m();
+        // Where the faces end: at the bore, or at a ring's outside.
+        let edge = (gear.blank.rim()).map_or(gear.blank.bore_radius_m(), |rim| rim.outer_radius_m);
         let rings: Vec<u32> = [0, layers - 1]
             .into_iter()
             .map(|layer| {
@@ -109,7 +110,7 @@ impl GearSurface {
                 for column in 0..columns {
                     let [x, y, z] = points[at(column, layer) as usize];
                     let radius = x.hypot(y);
-                    points.push([bore * x / radius, bore * y / radius, z]);
+                    points.push([edge * x / radius, edge * y / radius, z]);
                 }
                 first
             })
@@ -122,10 +123,14 @@ impl GearSurface {
             quads.push([at(column, top), at(next, top), on(1, next), on(1, column)]);
             teeth.extend([-1; 2]);
             // A gear cut into its shaft has no bore: its faces end at the axis.
-            if bore > 0.0 {
+            if edge > 0.0 {
                 quads.push([on(0, column), on(1, column), on(1, next), on(0, next)]);
                 teeth.push(-1);
             }
+        }
+        if tooth.internal {
+            // The material lies on the other side of the outline.
+            quads.iter_mut().for_each(|quad| quad.reverse());
         }
         Self {
             points_m: points,

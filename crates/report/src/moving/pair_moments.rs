@@ -4,7 +4,6 @@ use super::gear_surface::flank_directions;
 use super::{FlankLoad, GearSurface, Moment, Placement};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_scene::{LoadedScene, SceneResult};
-use std::f64::consts::PI;
 
 /// The surfaces of both gears, with sections between the slices.
 #[must_use]
@@ -40,11 +39,7 @@ pub fn pair_turns(
     let [base_1, base_2] = [&pair.gear_1, &pair.gear_2].map(|gear| gear.base_radius_m);
     let turn_1 = result.angle_rad[angle];
     let turn_2 = (result.curve(&result.te_m, torque)[angle] + base_1 * turn_1) / base_2;
-    let roll = pair.working_pressure_angle_rad.tan();
-    let half_1 = pair.gear_1.half_angle_rad(roll);
-    let half_2 = pair.gear_2.half_angle_rad(pair.roll_2_rad(roll));
-    let sense = pair.flank.mirror();
-    [sense * (half_1 - turn_1), PI + sense * (half_2 + turn_2)]
+    pair.tooth_middles_rad((pair.centre_distance_m, [turn_1, turn_2]))
 }
 
 /// Gear 1 stands at the origin, gear 2 beside it on +x; both turn about z as the transmission error says. Misalignment and axes beside the bores
@@ -80,7 +75,8 @@ pub fn pair_moment(
         }
         for gear in 0..2 {
             let place = patch.places[gear];
-            let flank = (patch.teeth[gear], pair.flank);
+            let side = pair.flank_of(gear);
+            let flank = (patch.teeth[gear], side);
             let tooth = &gears[gear].profile;
             let [normal, tip] = flank_directions(tooth, flank, place.u, place.v);
             let [a, b] = patch.force_components(gear).map(|part| part * forces[at]);
@@ -88,7 +84,7 @@ pub fn pair_moment(
             loads.push(FlankLoad {
                 gear,
                 tooth: patch.teeth[gear],
-                side: pair.flank,
+                side,
                 roll_rad: place.u,
                 height_m: place.v,
                 width_m: loaded.layout.width_m(),

@@ -67,15 +67,15 @@ pub(super) fn runout(scene: &Scene, pair: &GearPair) -> Result<Option<Runout>, I
     }
     let keys = TableKeys::new(&scene.document, "mesh.teeth");
     // Half of what the line of action leaves, for each gear.
-    let sum = pair.gear_1.base_radius_m + pair.gear_2.base_radius_m;
-    let most_um = 0.25 * (pair.centre_distance_m - sum) / UM;
+    let least_m = pair.circles().sum_m().abs();
+    let most_um = 0.25 * (pair.centre_distance_m - least_m) / UM;
     for (number, table) in [1, 2].into_iter().zip(&tables) {
         let at = |name: &str| format!("eccentricity_{number}.{name}");
         keys.require(
             &at("offset_um"),
             table.offset_um,
             table.offset_um.abs() <= most_um,
-            &format!("-{most_um:.0} to {most_um:.0}, a quarter of the centre distance less the base radii"),
+            &format!("-{most_um:.0} to {most_um:.0}, a quarter of the centre distance less its smallest value, the sum (with a ring the difference) of the base radii"),
         )?;
         keys.require(
             &at("tilt_mrad"),

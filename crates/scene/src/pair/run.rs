@@ -163,9 +163,10 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         .map(|radius| PathExtension::new(&pair, radius));
     let model_digests = [model_1.digest, model_2.digest];
     let models = [model_1.model, model_2.model];
-    for (key, model) in ["pair.gear_1", "pair.gear_2"].iter().zip(&models) {
+    let sides = [0, 1].map(|gear| pair.flank_of(gear));
+    for ((key, model), side) in ["pair.gear_1", "pair.gear_2"].iter().zip(&models).zip(sides) {
         model
-            .flank_index(scene.flank)
+            .flank_index(side)
             .map_err(|e| scene.document.error(key, e))?;
     }
     let mut gauges = Vec::new();
@@ -212,8 +213,8 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         pair,
         extension,
         zone: layout.reference,
-        microgeometry_1: gear_1.microgeometry.of(scene.flank).clone(),
-        microgeometry_2: gear_2.microgeometry.of(scene.flank).clone(),
+        microgeometry_1: gear_1.microgeometry.of(sides[0]).clone(),
+        microgeometry_2: gear_2.microgeometry.of(sides[1]).clone(),
     };
     refuse_too_many_forces(&scene, lines.most_pairs() * layout.slices)?;
     Ok(LoadedScene {
@@ -505,7 +506,6 @@ pub fn strain(
     if gauges.is_empty() {
         return Ok(Vec::new());
     }
-    let flank = loaded.scene.flank;
     let patches = |angles: &[f64]| -> Vec<Vec<ContactPatch>> {
         angles.iter().map(|&a| loaded.patches_at(a)).collect()
     };
@@ -516,6 +516,7 @@ pub fn strain(
         .map(|&(gear, index)| {
             let model = &loaded.models[gear - 1];
             let rows = &model.gauges[index];
+            let flank = loaded.lines.pair.flank_of(gear - 1);
             let reader = GaugeReader::new(model, rows, flank, &loaded.spreads[gear - 1])?;
             let read = |patches: &[ContactPatch], forces: &[f64]| {
                 reader.read(loaded.loaded_slices(gear, patches, forces))

@@ -69,7 +69,7 @@ pub struct BuiltMesh {
     pub gears: [String; 2],
     /// Numbers of teeth.
     pub teeth: [usize; 2],
-    /// Base radii \[m\].
+    /// Base radii \[m\], negative of a ring.
     pub base_radii_m: [f64; 2],
     /// Model as in the scene.
     pub model: &'static str,
@@ -83,6 +83,16 @@ pub struct BuiltMesh {
     /// Of bevel pairs the corners of a flank of gear 1, then gear 2 \[m\]: cone distance and height above the pitch
     /// cone of lower line and tip at the toe, tip and lower line at the heel; empty for others.
     pub flank_corners_m: Vec<f64>,
+}
+
+impl BuiltMesh {
+    /// u: teeth of gear 2 over those of gear 1, negative with a ring.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        let [z1, z2] = self.teeth.map(|teeth| teeth as f64);
+        let [r1, r2] = self.base_radii_m;
+        (z2 / z1).copysign(r1 * r2)
+    }
 }
 
 /// A gauge on a reduced gear. Each of its meshes has it as two channels: `strain_gear1_NAME_method1_ustrain` and

@@ -92,7 +92,7 @@ impl SystemPlan {
                 mesh.model,
                 mesh.gears[0],
                 mesh.gears[1],
-                z2 as f64 / z1 as f64,
+                mesh.ratio(),
                 mesh.frequency_hz
             ));
             let stage = mesh.stage.as_ref().map(StageSummary::words);

@@ -11,7 +11,7 @@ const N_PER_MM_UM: f64 = 1e9;
 /// Figures of a stage, whatever the model of its mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct StageSummary {
-    /// Teeth of gear 2 over those of gear 1.
+    /// u: teeth of gear 2 over those of gear 1, negative with a ring (ISO 21771).
     pub ratio: f64,
     /// Transverse contact ratio ε_α.
     pub contact_ratio: f64,
@@ -39,7 +39,7 @@ impl Record for StageSummary {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         let mut number =
             |name: &str, value: &mut f64, unit: &str, what: &str| f.number(name, value, unit, what);
-        let what = "teeth of gear 2 over those of gear 1";
+        let what = "teeth of gear 2 over those of gear 1, negative with a ring";
         number("ratio", &mut self.ratio, "1", what)?;
         let what = "transverse contact ratio";
         number("contact_ratio", &mut self.contact_ratio, "1", what)?;
@@ -83,7 +83,7 @@ impl StageSummary {
         let tangential = 1.0 / pitch_radius_1_m;
         let [single, mesh] = stiffness_n_per_m2;
         Self {
-            ratio: second.teeth as f64 / first.teeth as f64,
+            ratio: (second.teeth as f64 / first.teeth as f64).copysign(pair.circles().sense(0) * pair.circles().sense(1)),
             contact_ratio: pair.contact_ratio(),
             overlap_ratio: pair.overlap_ratio(width_m),
             single_stiffness_n_per_m2: single,

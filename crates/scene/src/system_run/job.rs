@@ -150,6 +150,25 @@ pub struct MeshRecord {
     pub speeds_rad_per_s: Option<[f64; 2]>,
 }
 
+impl MeshRecord {
+    /// u: teeth of gear 2 over those of gear 1, negative with a ring.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        let of_teeth = self.teeth[1] as f64 / self.teeth[0] as f64;
+        self.stage.map_or(of_teeth, |stage| stage.ratio)
+    }
+
+    /// Teeth of gear 1 and 2, those of a ring negative: it is the gear with more of them.
+    #[must_use]
+    pub fn signed_teeth(&self) -> [f64; 2] {
+        let mut teeth = self.teeth.map(|teeth| teeth as f64);
+        if self.ratio() < 0.0 {
+            teeth[usize::from(teeth[1] > teeth[0])] *= -1.0;
+        }
+        teeth
+    }
+}
+
 /// Where a result comes from; kept in it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunHead {

@@ -1,6 +1,6 @@
 //! How the axes of two gears in mesh stand to each other in a result, as bending shafts and bearings leave them.
 
-use gearmesh_geometry::{Flank, Misalignment};
+use gearmesh_geometry::{BaseCircles, Flank, Misalignment};
 use gearmesh_model::FileError;
 use nalgebra::{Rotation3, Vector3};
 
@@ -15,11 +15,17 @@ pub struct MeshAxes {
     /// Slopes of gear 2's axis against gear 1's, per length of z: along the line of centres from gear 1 to gear 2, and
     /// across it (z of gear 1 × that line) \[rad\].
     pub slopes_rad: [f64; 2],
+    /// Base circles of both, over those of one tooth.
+    circles: BaseCircles,
 }
 
 impl MeshAxes {
     /// Axes of gears at these places: origins \[m\] and unit vectors of their z.
-    fn new(origins_m: [Vector3<f64>; 2], axes: [Vector3<f64>; 2]) -> Self {
+    fn new(
+        origins_m: [Vector3<f64>; 2],
+        axes: [Vector3<f64>; 2],
+        circles: BaseCircles,
+    ) -> Self {
         let [z, other] = axes;
         let apart = origins_m[1] - origins_m[0];
         let centres = apart - z * apart.dot(&z);
@@ -29,16 +35,17 @@ impl MeshAxes {
         Self {
             centre_distance_m: centres.norm(),
             slopes_rad: [slope.dot(&along), slope.dot(&across)],
+            circles,
         }
     }
 
-    /// Inclination and deviation of a pair in contact on these flanks: the axis that moves away across the line of
-    /// centres opens the right flanks where it moves backwards, the left ones where it moves forwards.
+    /// Inclination and deviation of a pair in contact on these flanks of gear 1: they open where gear 2's axis moves across the line of centres as the
+    /// normal force pushes it.
     #[must_use]
     pub fn misalignment(&self, flank: Flank) -> Misalignment {
         Misalignment {
             inclination_rad: self.slopes_rad[0],
-            deviation_rad: -flank.mirror() * self.slopes_rad[1],
+            deviation_rad: self.circles.action(0.0, flank)[1] * self.slopes_rad[1],
         }
     }
 }
@@ -56,8 +63,12 @@ impl SystemResult {
         swapped: bool,
     ) -> Result<Option<MeshAxes>, FileError> {
         let mut bodies = [&mesh.bodies[0], &mesh.bodies[1]];
+        let mut circles = BaseCircles {
+            radii_m: mesh.signed_teeth(),
+        };
         if swapped {
             bodies.swap(0, 1);
+            circles.radii_m.swap(0, 1);
         }
         let mut places = [(Vector3::zeros(), Vector3::zeros()); 2];
         for (body, place) in bodies.into_iter().zip(&mut places) {
@@ -86,7 +97,7 @@ impl SystemResult {
             *place = (origin, turn * Vector3::z());
         }
         let [(origin_1, axis_1), (origin_2, axis_2)] = places;
-        Ok(Some(MeshAxes::new([origin_1, origin_2], [axis_1, axis_2])))
+        Ok(Some(MeshAxes::new([origin_1, origin_2], [axis_1, axis_2], circles)))
     }
 
     /// The flanks that carry more of a mesh at a row; none where nothing is known or nothing is carried.
@@ -137,10 +148,14 @@ mod tests {
         let frame = Rotation3::from_euler_angles(0.7, -0.3, 2.1);
         let origin_2 = Vector3::new(0.15, 0.0, 3e-3);
         let lean = Vector3::new(2e-4, -5e-4, 1.0).normalize();
-        let found = MeshAxes::new(
-            [Vector3::zeros(), frame * origin_2],
-            [frame * Vector3::z(), frame * lean],
-        );
+        let with_teeth = |radii_m: [f64; 2]| {
+            MeshAxes::new(
+                [Vector3::zeros(), frame * origin_2],
+                [frame * Vector3::z(), frame * lean],
+                BaseCircles { radii_m },
+            )
+        };
+        let found = with_teeth([20.0, 30.0]);
         assert!((found.centre_distance_m - 0.15).abs() < 1e-15);
         assert!((found.slopes_rad[0] - 2e-4).abs() < 1e-15);
         assert!((found.slopes_rad[1] + 5e-4).abs() < 1e-15);
@@ -150,5 +165,10 @@ mod tests {
         let left = found.misalignment(Flank::Left);
         assert!((left.deviation_rad + 5e-4).abs() < 1e-15);
         assert_eq!(right.inclination_rad, left.inclination_rad);
+        // The gear inside a ring pushes it on the far side, to +y where it drives; a ring that drives pushes the gear inside as one outside would.
+        for (teeth, sign) in [([20.0, -30.0], -1.0), ([-30.0, 20.0], 1.0)] {
+            let right = with_teeth(teeth).misalignment(Flank::Right);
+            assert!((right.deviation_rad - sign * 5e-4).abs() < 1e-15);
+        }
     }
 }

@@ -75,7 +75,7 @@ impl StageLoad {
         // A ratio: what it puts on gear 2, and by the numbers of teeth on gear 1.
         let joint = format!("joints/{}/moment_z_Nm", mesh.name.replace('/', "_"));
         Ok(read(&joint)?.map(|second| Self {
-            moments_nm: [second * mesh.teeth[0] as f64 / mesh.teeth[1] as f64, second],
+            moments_nm: [second / mesh.ratio(), second],
             ..Self::default()
         }))
     }
@@ -140,7 +140,7 @@ impl StageTable {
             Some(if is_rounding { 0.0 } else { forces[way] })
         };
         let of_teeth = |row: &StageRow| row.mesh.stage;
-        let ratio = |row: &StageRow| Some(row.mesh.teeth[1] as f64 / row.mesh.teeth[0] as f64);
+        let ratio = |row: &StageRow| Some(row.mesh.ratio());
         let all = vec![
             line("ratio", "ratio z2/z1", "", &ratio),
             line("contact_ratio", "eps_alpha", "", &|r| {
@@ -214,9 +214,8 @@ impl StageTable {
                 continue;
             };
             // Where the line of centres is carried round, power goes through the carrier, too.
-            let ratio = row.mesh.teeth[0] as f64 / row.mesh.teeth[1] as f64;
             let [into, out] = [load.moments_nm[0] * first, load.moments_nm[1] * second];
-            let is_held = (second + ratio * first).abs() <= LOST * second.abs();
+            let is_held = (second + first / row.mesh.ratio()).abs() <= LOST * second.abs();
             let largest = into.abs().max(out.abs());
             if is_held && (into + out).abs() > LOST * largest && largest > 1e-6 {
                 found.push(format!(

@@ -45,6 +45,30 @@ pub fn write_models(folder: &Path) {
     }
 }
 
+/// Writes `gear_24.h5` and `gear_75.h5`: a planet and its ring ([`pair_common::ring_pair`]) of one hand.
+pub fn write_planet_and_ring(folder: &Path, helix_deg: f64) {
+    let pair = pair_common::ring_pair(helix_deg, false);
+    let helix = match helix_deg {
+        0.0 => String::new(),
+        right if right > 0.0 => format!("helix_angle_deg = {right:?}\nhand = \"right\"\n"),
+        left => format!("helix_angle_deg = {:?}\nhand = \"left\"\n", -left),
+    };
+    let planet = gear_file(24, 0.2).replace("[blank]", &format!("{helix}[blank]"));
+    let ring = format!(
+        "name = \"made up ring\"\n[tooth]\nteeth = -75\nmodule_mm = 3.0\nprofile_shift = -0.2\naddendum = 0.75\nthickness_allowance_mm = 0.1\n\
+         face_width_mm = 20.0\n{helix}[tooth.cutter]\nteeth = 27\nprofile_shift = 0.1\naddendum = 1.25\ntip_radius = 0.25\n[blank]\n\
+         kind = \"ring\"\nouter_diameter_mm = 260.0\n[material]\nyoung_GPa = 210.0\npoisson = 0.3\ndensity_kg_per_m3 = 7850.0\n"
+    );
+    for (teeth, file, profile) in [(24, planet, &pair.gear_1), (75, ring, &pair.gear_2)] {
+        let model = ReducedGear {
+            input: StoredGear::of_older_file(file),
+            near_field: None,
+            ..modal_gear(&format!("made up {teeth}"), profile)
+        };
+        write_reduced_gear(&folder.join(format!("gear_{teeth}.h5")), &model).unwrap();
+    }
+}
+
 /// Gear 1 drives at `speed_rpm` against 100 N m on gear 2; `of_gear_2` is put into its `[[body]]`, `further` at the
 /// end.
 pub fn scene(run: &str, speed_rpm: f64, of_gear_2: &str, further: &str) -> String {

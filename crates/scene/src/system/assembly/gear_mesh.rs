@@ -130,7 +130,7 @@ impl PreparedMesh {
             model: kind,
             bodies: numbers,
             teeth: [pair.gear_1.teeth, pair.gear_2.teeth],
-            base_radii_m: [pair.gear_1.base_radius_m, pair.gear_2.base_radius_m],
+            base_radii_m: pair.circles().radii_m,
             seats,
             mesh: None,
             sides: teeth.flanks.flanks().to_vec(),
@@ -181,6 +181,13 @@ impl PreparedMesh {
         parts.notes.extend(scene.stiffness_note()?);
         parts.notes.extend(scene.microgeometry_note());
         Ok(prepared)
+    }
+
+    /// u: teeth of gear 2 over those of gear 1, negative with a ring.
+    pub(super) fn ratio(&self) -> f64 {
+        let [z1, z2] = self.teeth.map(|teeth| teeth as f64);
+        let [r1, r2] = self.base_radii_m;
+        (z2 / z1).copysign(r1 * r2)
     }
 
     /// The reduced bevel gear of a body, where this mesh names one.
@@ -251,7 +258,8 @@ impl PreparedMesh {
             }
             None => {
                 let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
-                builder.joint(kinematic_mesh(&self.name, markers, self.teeth));
+                let teeth = [0, 1].map(|i: usize| (self.teeth[i] as i64) * self.base_radii_m[i].signum() as i64);
+                builder.joint(kinematic_mesh(&self.name, markers, teeth));
                 parts.joint(&self.name, "kinematic mesh", bodies, ends);
             }
         }

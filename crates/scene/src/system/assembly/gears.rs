@@ -184,13 +184,6 @@ impl BodyGear {
                 ));
             }
         };
-        if gear.definition.profile.internal {
-            let problem = format!(
-                "{} is a ring with internal teeth, which no system takes yet; it can be meshed and reduced, and its compliance read",
-                path.display()
-            );
-            return Err(keys.error("gear", problem));
-        }
         Ok(Self::Cylindrical(Arc::new(gear)))
     }
 }

@@ -7,7 +7,7 @@ use gearmesh_contact::SliceLayout;
 use gearmesh_drivetrain::models::iso6336::blank_factor;
 use gearmesh_drivetrain::{DrivetrainError, Impact, MeshSpring, PowerStiffness, SingleStiffness};
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{Flank, InputError};
+use gearmesh_geometry::{Flank, GearDefinition, InputError};
 
 use super::mesh_model::{REFERENCE_LINE_LOAD_N_PER_M, SceneMesh};
 use crate::system::stage_summary::StageSummary;
@@ -150,7 +150,7 @@ impl SceneMesh<'_> {
     }
 
     /// The single stiffness after ISO 6336-1 method B; the pinion is the gear with fewer teeth, the softer blank
-    /// counts.
+    /// counts. A ring has infinitely many teeth in its formula (ISO 6336-1:2006, clause 9).
     fn iso_stiffness(&self, line_load_n_per_m: f64) -> SingleStiffness {
         let [mut pinion, mut wheel] = self.gears.map(|gear| &gear.definition);
         if pinion.profile.teeth > wheel.profile.teeth {
@@ -164,11 +164,25 @@ impl SceneMesh<'_> {
             })
         });
         let [e1, e2] = [pinion.material.young_pa, wheel.material.young_pa];
+        // Of a ring's cutter no dedendum is stated; that of the teeth it makes.
+        let dedendum = |gear: &GearDefinition| {
+            let (tooth, profile) = (&gear.tooth, &gear.profile);
+            match profile.internal {
+                true => {
+                    let below_m = profile.root_radius_m - profile.reference_radius_m;
+                    below_m / tooth.module_m + tooth.profile_shift
+                }
+                false => tooth.dedendum,
+            }
+        };
         SingleStiffness {
-            virtual_teeth: [pinion, wheel].map(|gear| gear.profile.virtual_teeth()),
+            virtual_teeth: [pinion, wheel].map(|gear| match gear.profile.internal {
+                true => f64::INFINITY,
+                false => gear.profile.virtual_teeth(),
+            }),
             profile_shifts: [pinion, wheel].map(|gear| gear.tooth.profile_shift),
             helix_angle_rad: pinion.tooth.helix_angle_rad.abs(),
-            rack_dedendum: 0.5 * (pinion.tooth.dedendum + wheel.tooth.dedendum),
+            rack_dedendum: 0.5 * (dedendum(pinion) + dedendum(wheel)),
             rack_pressure_angle_rad: pinion.tooth.pressure_angle_rad,
             blank_factor: blanks[0].min(blanks[1]),
             young_pa: 2.0 * e1 * e2 / (e1 + e2),

@@ -144,7 +144,7 @@ impl SceneMesh<'_> {
             (extended && !pair.is_helical()).then(|| PathExtension::new(&pair, EDGE_RADIUS_M));
         let on = self.table.microgeometry.unwrap_or(true);
         let microgeometry = |i: usize| {
-            let own = self.gears[i].definition.microgeometry.of(side);
+            let own = self.gears[i].definition.microgeometry.of(pair.flank_of(i));
             if on { own.clone() } else { Default::default() }
         };
         let base_2 = pair.gear_2.base_radius_m;

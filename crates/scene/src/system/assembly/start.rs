@@ -53,8 +53,8 @@ pub(super) fn settle_phases(
                 if !least.is_finite() || least.abs() < TOUCHING_M {
                     break;
                 }
-                // Seen along z, the gap grows with gear 2's turn by σ r_b2; gear 1's opens the other way round.
-                let slope = side.mirror() * mesh.base_radii_m[i];
+                // Seen along z, the gap grows with either gear's turn by σ r_b, with the signs of rings.
+                let slope = teeth.kinematics().hand(side) * mesh.base_radii_m[i];
                 bodies.list[mesh.bodies[i]].turn(-least / slope);
                 least = gap(bodies, side)?;
             }

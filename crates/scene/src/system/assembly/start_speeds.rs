@@ -209,7 +209,11 @@ fn fitting_spin(bodies: &Bodies, mesh: &PreparedMesh, (from, to): (usize, usize)
         .body
         .angular_velocity_rad_per_s
         .z;
-    carrier - (spin - carrier) * mesh.teeth[from] as f64 / mesh.teeth[to] as f64
+    let against_carrier = spin - carrier;
+    match to {
+        1 => carrier - against_carrier / mesh.ratio(),
+        _ => carrier - against_carrier * mesh.ratio(),
+    }
 }
 
 /// Tells of bodies whose speed nobody states and that a torsion spring joins to one that turns: they start at rest, and
