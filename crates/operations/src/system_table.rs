@@ -228,15 +228,11 @@ fn modes(result: &SystemResult, found: &EigenResult) -> Vec<String> {
             "mode", "frequency Hz", "damping %", "share of the kinetic energy"
         ),
     ];
-    let of_sets = found.set_modes(&result.bodies, &result.head.sets);
+    let kinds = found.kinds_in_words(&result.bodies, &result.head.sets);
     let mut overdamped = Vec::new();
     for (k, mode) in found.modes.iter().enumerate() {
-        let kinds = of_sets.iter().map(|set| match of_sets.len() {
-            1 => format!("{}: ", set.kinds[k].name()),
-            _ => format!("{} {}: ", set.set, set.kinds[k].name()),
-        });
         let moves = shares_in_words(&result.bodies, &found.participation[k], MOST_SHARES);
-        let moves = kinds.collect::<String>() + &moves;
+        let moves = format!("{}{moves}", kinds[k]);
         let strain = found.strain.get(k);
         let strained = strain.map_or(String::new(), |shares| {
             shares_in_words(&result.elements, shares, MOST_SHARES)

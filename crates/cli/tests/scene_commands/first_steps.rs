@@ -101,6 +101,7 @@ fn a_planetary_set_to_start_with_says_how_its_planets_share_the_load() {
     ] {
         assert!(plan.contains(part), "`{part}` is not in {plan}");
     }
+    assert!(!plan.contains("warning"), "{plan}");
     let told = succeeds(&[
         "run",
         argument(&scene),

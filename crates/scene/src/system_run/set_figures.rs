@@ -55,6 +55,30 @@ pub struct SetFigures {
     pub transmission_error_rad: Option<f64>,
 }
 
+impl SetFigures {
+    /// Names of its single figures.
+    pub const NAMES: [&str; 4] = [
+        "sun_mesh_load_factor",
+        "ring_mesh_load_factor",
+        "sun_orbit_m",
+        "transmission_error_rad",
+    ];
+
+    /// Its single figures: name, unit, value; those that the result has.
+    pub fn figures(&self) -> impl Iterator<Item = (&'static str, &'static str, f64)> {
+        let factor =
+            |shares: &Option<MeshShares>| shares.as_ref().map(MeshShares::mesh_load_factor);
+        let values = [
+            (factor(&self.sun), "1"),
+            (factor(&self.ring), "1"),
+            (self.sun_orbit_m, "m"),
+            (self.transmission_error_rad, "rad"),
+        ];
+        let named = Self::NAMES.into_iter().zip(values);
+        named.filter_map(|(name, (value, unit))| Some((name, unit, value?)))
+    }
+}
+
 impl SystemResult {
     /// Figures of all planetary sets, of runs in time with rows and of equilibria.
     ///

@@ -75,6 +75,20 @@ impl EigenResult {
         };
         sets.iter().map(of_set).collect()
     }
+
+    /// The kinds of each mode as the begin of a line, "rotational: "; empty of a scene without sets.
+    #[must_use]
+    pub fn kinds_in_words(&self, bodies: &[String], sets: &[PlanetarySet]) -> Vec<String> {
+        let modes = self.set_modes(bodies, sets);
+        let of_mode = |k: usize| match &modes[..] {
+            [only] => format!("{}: ", only.kinds[k].name()),
+            all => all
+                .iter()
+                .map(|set| format!("{} {}: ", set.set, set.kinds[k].name()))
+                .collect(),
+        };
+        (0..self.modes.len()).map(of_mode).collect()
+    }
 }
 
 fn kind(mode: &NaturalMode, bodies: &[String], set: &PlanetarySet) -> SetModeKind {

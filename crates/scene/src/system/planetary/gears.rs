@@ -94,7 +94,7 @@ impl SetGears {
         ];
         for (central, planet, which) in pairs {
             let Some(central) = central else { continue };
-            let pair = GearPair::on_parallel_axes(
+            let pair = GearPair::new(
                 planet.clone(),
                 central.clone(),
                 distance_m,

@@ -4,11 +4,15 @@
 //! | --- | --- |
 //! | angles at which planets fit, phases of the meshes | `layout.rs` |
 //! | gears of the set and whether they fit between each other | `gears.rs` |
-//! | bodies, joints, bearings and meshes as a scene would state them | `expansion.rs` |
+//! | keys that contradict each other | `keys.rs` |
+//! | bodies, joints, bearings and meshes as a scene would state them | `expansion.rs`, `pins.rs`, `meshes.rs` |
 
 mod expansion;
 mod gears;
+mod keys;
 pub mod layout;
+mod meshes;
+mod pins;
 
 pub(super) use expansion::expand;
 

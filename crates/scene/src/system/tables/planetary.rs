@@ -119,6 +119,8 @@ pub enum SupportWord {
     Floating,
     /// Bearings alone.
     Bearings,
+    /// By other tables of the scene, such as a joint to another set.
+    Free,
 }
 
 impl SupportWord {
@@ -130,6 +132,7 @@ impl SupportWord {
             Self::Turning => "turning",
             Self::Floating => "floating",
             Self::Bearings => "bearings",
+            Self::Free => "free",
         }
     }
 }
