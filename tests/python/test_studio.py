@@ -180,3 +180,36 @@ def test_columns_of_a_system(browser, tmp_path):
         it.until("[...document.querySelectorAll('#plots figcaption')].every((one) => one.textContent.includes('Hz'))")
         it.keep("columns")
         assert it.complaints == []
+
+
+def test_a_changed_body_is_reduced_in_the_background(browser, address, scene, tmp_path):
+    it = studio_page.Page(browser, address)
+    it.wait()
+    it.open_groups()
+    before = it.answer()
+    field = it.field("pair.gear_1:blank.bore_diameter_mm")
+    slider = field.locator("input[type=range]")
+    # From the schema and what is stated: half to one and a half times the bore.
+    assert [float(slider.get_attribute(end)) for end in ("min", "max")] == [12.5, 37.5]
+    drawn = it.page.locator("#scene").screenshot()
+    it.slide("pair.gear_1:blank.bore_diameter_mm", 35)
+    # The old curves stay, greyed, and how far it is can be read.
+    it.until("document.querySelector('#pair').classList.contains('stale')")
+    it.until("document.querySelector('#status').textContent.includes('reduced')")
+    it.keep("reducing")
+    it.wait(2)
+    assert it.page.locator("#pair.stale").count() == 0 and it.page.locator("#stop").is_hidden()
+    it.page.wait_for_timeout(500)
+    assert it.page.locator("#scene").screenshot() != drawn
+    assert it.answer()["models"][0] != before["models"][0] and it.answer()["models"][1] == before["models"][1]
+    with it.page.expect_download() as download:
+        it.page.click("#save")
+    download.value.save_as(tmp_path / "saved.toml")
+    assert studio_page.printed(PROGRAM, tmp_path / "saved.toml", tmp_path) == without_clock(it.answer())
+    # The bore is held: less body winds up between it and the teeth. Undo needs no reduction.
+    stiffness = [one["figures"]["rows"][-1]["tangent_stiffness_mean_N_per_m"] for one in (before, it.answer())]
+    assert stiffness[0] < stiffness[1] < 2.0 * stiffness[0]
+    it.page.click("#undo")
+    it.wait(3)
+    assert it.answer()["models"] == before["models"]
+    assert all("409" in one for one in it.complaints), it.complaints

@@ -49,6 +49,7 @@ from .program import program
 from .reduced import ReducedGear, reduce
 from .result import Result, compare
 from .scene import Pair, Scene, run
+from .studio import Studio, studio
 from .study import Study, StudyResult, study
 
 __all__ = [
@@ -63,6 +64,7 @@ __all__ = [
     "Result",
     "STEEL",
     "Scene",
+    "Studio",
     "Study",
     "StudyResult",
     "WorkError",
@@ -90,6 +92,7 @@ __all__ = [
     "solve",
     "stiffness",
     "strain",
+    "studio",
     "study",
     "write_mesh",
 ]

@@ -6,8 +6,9 @@ import tempfile
 from pathlib import Path
 from typing import Any, Sequence
 
+from .pictures import rolling_elements, table, titled
 from .program import options, program
-from .toml_text import Tables, to_toml
+from .toml_text import Tables, from_toml, to_toml
 
 
 class Bearing:
@@ -31,6 +32,16 @@ class Bearing:
     def frequencies(self, **given: Any) -> dict[str, Any]:
         """Frequencies of cage, elements and passing of the races; options of `gearmesh bearing-frequencies`."""
         return self._ask("bearing-frequencies", **given)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: its rolling elements where the file states them, and the keys of the file."""
+        tables = self._file if isinstance(self._file, dict) else from_toml(Path(self._file).read_text(encoding="utf-8"), str(self._file))
+        rows = [(key, str(value)) for key, value in tables.items() if not isinstance(value, (dict, list)) and key != "name"]
+        element = next((word for word in ("ball", "roller") if f"{word}s" in tables), None)
+        picture = ""
+        if element and {"pitch_diameter_mm", f"{element}_diameter_mm"} <= tables.keys():
+            picture = rolling_elements(tables["pitch_diameter_mm"], tables[f"{element}_diameter_mm"], tables[f"{element}s"])
+        return titled(str(tables.get("name", "bearing")), picture, table(rows))
 
     def _ask(self, command: str, *words: str, **given: Any) -> dict[str, Any]:
         if not isinstance(self._file, dict):

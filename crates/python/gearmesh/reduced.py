@@ -9,8 +9,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from . import _native
 from .gear import Gear
+from .pictures import curves, table, titled
 from .progress import Bar, Progress
 from .toml_text import Tables, from_toml
 
@@ -55,6 +58,21 @@ class ReducedGear:
 
     def __fspath__(self) -> str:
         return str(self.path)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the compliance of a loaded flank over the diameter, and what it was made of."""
+        made, z = self["provenance"], len(self["z_m"])
+        stations = len(self["roll_angles_rad"])
+        diameter_mm = 2e3 * self["base_radius_m"] * np.sqrt(1.0 + np.asarray(self["roll_angles_rad"]) ** 2)
+        # Line load over the face: of each station the mean deflection under equal loads at all its places.
+        flank = np.asarray(self["c_hub"])[0, 0, 0, 0].reshape(stations, z, stations, z)
+        micro = [1e9 * flank[k, :, k, :].mean() for k in range(stations)]
+        order = np.argsort(diameter_mm)
+        picture = curves(diameter_mm[order], [("loaded flank, bore held", np.asarray(micro)[order])], "diameter, mm", "compliance, um/kN")
+        rows = [("teeth", str(self.teeth)), ("degrees of freedom", f"{made['dofs']} ({made['element']})"), ("repeating sectors", str(self["sectors"]))]
+        if self.gauges:
+            rows.append(("gauges", ", ".join(self.gauges)))
+        return titled(self.name, picture, table(rows))
 
     def __repr__(self) -> str:
         made = self._parts["provenance"]

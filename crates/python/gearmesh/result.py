@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from . import _native
 from .operations import operate
 from .optional import demanded
+from .pictures import curves
 from .program import options, program
 
 if TYPE_CHECKING:
@@ -252,7 +253,7 @@ class Result:
             return program("signal", analysis, self._file(folder), *words, *options(given))
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: the title, and of a pair a line of figures for each torque."""
+        """What a notebook shows: the title, and of a pair its transmission error and a line of figures for each torque."""
         title = html.escape(self.title)
         if self.kind != "pair":
             return f"<b>{title}</b><br>{html.escape(repr(self))}"
@@ -263,7 +264,9 @@ class Result:
         for row in range(len(table["torque_Nm"])):
             cells = "".join(f"<td>{scale * table[name][row]:.5g}</td>" for name, (_, scale) in shown.items())
             rows += f"<tr>{cells}</tr>"
-        return f"<b>{title}</b><table><tr>{heads}</tr>{rows}</table>"
+        over = [(f"{torque:g} N m", 1e6 * row) for torque, row in zip(table["torque_Nm"], np.atleast_2d(self["te_m"]))]
+        picture = curves(np.degrees(self["angle_rad"]), over[:6], "angle of gear 1, deg", "transmission error, um")
+        return f"<b>{title}</b>{picture}<table><tr>{heads}</tr>{rows}</table>"
 
     def __repr__(self) -> str:
         if self.kind != "pair":

@@ -13,6 +13,7 @@ from typing import Any, Callable, Iterator, Mapping, Sequence, Union
 import numpy as np
 
 from . import _native
+from .pictures import circles, table, titled
 from .progress import Bar, Progress
 from .reduced import ReducedGear
 from .result import Result
@@ -246,6 +247,16 @@ class Pair(Scene):
             merged = isinstance(value, dict) and isinstance(scene.get(key), dict)
             scene[key] = {**scene[key], **value} if merged else value
         super().__init__(scene)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: both gears as their circles (tip, reference, root), and what is run."""
+        distance_mm = self.tables["pair"]["centre_distance_mm"]
+        folder = Path(self.folder or "")
+        gears = [ReducedGear(folder / self.tables["pair"][key]).gear for key in ("gear_1", "gear_2")]
+        drawn = [(place, [1e3 * gear.tip_radius_m, 1e3 * gear.reference_radius_m, 1e3 * gear.root_radius_m], gear.teeth) for place, gear in zip((0.0, distance_mm), gears)]
+        torques = ", ".join(f"{torque:g}" for torque in self.tables["run"]["torques_Nm"])
+        rows = [("gears", " and ".join(gear.name for gear in gears)), ("centre distance", f"{distance_mm:g} mm"), ("torques", f"{torques} N m")]
+        return titled(self.title, circles(drawn, "both gears along their axes"), table(rows))
 
 
 def run(

@@ -2,11 +2,11 @@
 
 import { ask } from "./server.js";
 import { Chart, short } from "./curves.js";
+import { byId, fail } from "./said.js";
 
 const MOST = 16;
-const byId = (id) => document.getElementById(id);
 
-export async function showColumns(failed) {
+export async function showColumns() {
   const description = await ask("/api/columns");
   byId("title").textContent = description.title;
   byId("file").textContent = `${description.kind} result, ${description.rows} rows`;
@@ -47,9 +47,9 @@ export async function showColumns(failed) {
       }
       const drawn = !isSpectrum && answer.x.length < answer.rows ? `, drawn by ${answer.x.length} least and largest values` : "";
       byId("rows").textContent = range ? `${answer.rows} rows from ${short(range[0])} to ${short(range[1])}${drawn}` : `${answer.rows} rows${drawn}`;
-      failed(null);
+      fail(null);
     } catch (problem) {
-      if (problem.kind !== "overtaken") failed(problem);
+      if (problem.kind !== "overtaken") fail(problem);
     }
   }
 

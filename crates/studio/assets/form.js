@@ -1,7 +1,7 @@
 // The keys of the scene as fields and sliders. Everything about a key comes from the server.
 
 /** Groups in this order, the first ones open. */
-const ORDER = ["run", "pair", "gear_1.microgeometry", "gear_2.microgeometry", "mesh.teeth.friction", "mesh.model", "mesh.teeth"];
+const ORDER = ["run", "pair", "gear_1.microgeometry", "gear_2.microgeometry", "gear_1_body.tooth", "gear_1_body.blank", "gear_2_body.tooth", "gear_2_body.blank", "mesh.teeth.friction", "mesh.model", "mesh.teeth"];
 const OPEN = 3;
 /** Width of a window in which all are closed [px]. */
 const NARROW = 760;
@@ -53,6 +53,18 @@ export class Form {
     return removed.includes(key) ? null : (this.#fields.get(key).stated ?? null);
   }
 
+  /** Other gears suit other values: what is set with a key, and where its slider goes. */
+  update(fields) {
+    for (const { key, with: others, reach } of fields) {
+      const field = this.#fields.get(key);
+      const { slider } = this.#rows.get(key) ?? {};
+      if (!field) continue;
+      Object.assign(field, { with: others, reach });
+      if (slider && reach) Object.assign(slider, { min: reach[0], max: reach[1] });
+    }
+    this.show();
+  }
+
   /** Brings all fields to the state. */
   show() {
     const { settings, removed } = this.state.change;
@@ -61,7 +73,7 @@ export class Form {
       const isChanged = key in settings || removed.includes(key);
       const field = this.#fields.get(key);
       row.place.classList.toggle("changed", isChanged);
-      row.place.classList.toggle("given", isChanged || (this.value(key) !== null && !field.needed));
+      row.place.classList.toggle("given", isChanged || (this.value(key) !== null && !field.needed && !field.reduces));
       row.clear.title = key in settings ? "Back to the file" : "Take it away";
       row.show(this.value(key));
       if (isChanged) counts.set(field.group, (counts.get(field.group) ?? 0) + 1);
@@ -85,7 +97,7 @@ export class Form {
     // Keys that mean nothing without this one: its shape, its start.
     const stem = field.key.replace(/_(um|mm)$/, "");
     const others = [...this.#fields.keys()].filter((key) => key in field.with || (field.key.endsWith("_um") && key.startsWith(`${stem}_`)));
-    const isSet = field.key in this.state.change.settings;
+    const isSet = field.reduces || field.key in this.state.change.settings;
     const tables = field.group.endsWith("friction") ? [...this.#fields.keys()].filter((key) => key.startsWith(`${field.group}.`)) : [];
     const keys = [...new Set([field.key, ...others, ...tables])];
     this.state.clear(keys, (key) => !isSet && (this.#fields.get(key).stated ?? null) !== null, performance.now());
@@ -97,24 +109,32 @@ export class Form {
     const clear = element("button", { type: "button", className: "clear", ariaLabel: `Clear ${field.label}` }, "×");
     const place = element("div", { className: "field", title: field.key }, element("div", { className: "head" }, label, clear));
     place.dataset.key = field.key;
-    const make = { number: this.#number, whole: this.#number, word: this.#word, numbers: this.#numbers, names: this.#names, pitch_errors: this.#pitch };
+    const make = { number: this.#number, whole: this.#number, word: this.#word, numbers: this.#numbers, counts: this.#numbers, names: this.#names, pitch_errors: this.#pitch };
     const show = make[kindOf(field)].call(this, field, id, place);
+    const slider = kindOf(field) === "numbers" ? null : place.querySelector("input[type=range]");
     if (field.help) place.append(element("p", { className: "help" }, field.help));
     clear.addEventListener("click", () => this.#clear(field));
-    this.#rows.set(field.key, { place, clear, show });
+    this.#rows.set(field.key, { place, clear, show, slider });
     return place;
   }
 
   /** A number and its slider. `read` and `write` where it is one of several. */
   #pairOfInputs(field, id, name, write) {
-    const number = element("input", { type: "number", id, step: "any", ariaLabel: name });
+    const [least, largest] = field.allowed;
+    const number = element("input", { type: "number", id, step: "any", min: least ?? "", max: largest ?? "", ariaLabel: name });
     const row = element("div", { className: "row" }, number);
     let slider = null;
     if (field.reach) {
-      const by = kindOf(field) === "whole" ? 1 : step(field.reach);
+      const by = ["whole", "counts"].includes(kindOf(field)) ? 1 : step(field.reach);
       slider = element("input", { type: "range", min: field.reach[0], max: field.reach[1], step: by, ariaLabel: `${name}, slider` });
-      slider.addEventListener("input", () => write(slider.valueAsNumber, false));
-      slider.addEventListener("change", () => this.state.keep());
+      if (field.reduces) {
+        // A gear is reduced for one value, not for all on the way to it.
+        slider.addEventListener("input", () => (number.value = slider.value));
+        slider.addEventListener("change", () => write(slider.valueAsNumber, true));
+      } else {
+        slider.addEventListener("input", () => write(slider.valueAsNumber, false));
+        slider.addEventListener("change", () => this.state.keep());
+      }
       row.append(slider);
     }
     number.addEventListener("change", () => {

@@ -71,12 +71,8 @@ export class Scene3d {
     lamp.position.set(-0.4, 0.7, 1);
     this.scene.add(lamp);
     this.materials = gears.map(() => new THREE.MeshStandardMaterial({ flatShading: true, roughness: 0.75, metalness: 0.1, side: THREE.DoubleSide }));
-    this.bodies = gears.map((gear, k) => {
-      const body = new THREE.Group();
-      for (const ring of gear.rings) body.add(new THREE.Mesh(ringGeometry(gear, ring), this.materials[k]));
-      this.scene.add(body);
-      return body;
-    });
+    this.bodies = gears.map(() => new THREE.Group());
+    this.scene.add(...this.bodies);
     this.view = { turn: -0.5, tilt: 0.45, distance: 1, target: new THREE.Vector3() };
     const box = new THREE.BoxGeometry(1, 1, 1);
     const lit = (depthTest) => new THREE.MeshBasicMaterial({ depthTest, toneMapped: false });
@@ -84,11 +80,23 @@ export class Scene3d {
     this.lines = new THREE.InstancedMesh(box, lit(false), 512);
     this.lines.renderOrder = 2;
     this.trace.frustumCulled = this.lines.frustumCulled = false;
-    this.bodies[0].add(this.trace, this.lines);
+    this.replace(gears);
     this.seeThrough(true);
     this.restyle();
     this.#controls();
     new ResizeObserver(() => this.draw()).observe(canvas);
+  }
+
+  /** Other gears in the place of those that are drawn. */
+  replace(gears) {
+    this.gears = gears;
+    this.bodies.forEach((body, k) => {
+      for (const old of body.children) if (!old.isInstancedMesh) old.geometry.dispose();
+      body.clear();
+      for (const ring of gears[k].rings) body.add(new THREE.Mesh(ringGeometry(gears[k], ring), this.materials[k]));
+    });
+    this.bodies[0].add(this.trace, this.lines);
+    this.draw();
   }
 
   restyle() {

@@ -71,6 +71,8 @@ pub struct PairAnswer {
     pub axial_offset_mm: f64,
     /// Root strain of the gauges.
     pub strain: Vec<GaugeCurve>,
+    /// Digests of the models: others have other shapes.
+    pub models: [String; 2],
     /// Contact ratio in the transverse plane.
     pub contact_ratio: f64,
     /// Seconds of the solution and of the strain.
@@ -137,6 +139,7 @@ impl PairAnswer {
             centre_distance_mm: MM * pair.centre_distance_m,
             axial_offset_mm: MM * loaded.scene.axial_offset_m,
             strain: result.strain.iter().map(gauge).collect(),
+            models: loaded.model_digests.clone(),
             contact_ratio: pair.contact_ratio(),
             seconds: result.seconds,
         })

@@ -32,11 +32,14 @@ macro_rules! own {
     };
 }
 
-const OWN: [Asset; 14] = own!(
+const OWN: [Asset; 17] = own!(
     "index.html" PAGE,
     "studio.css" STYLE,
     "icon.svg" PICTURE,
     "main.js" SCRIPT,
+    "pair.js" SCRIPT,
+    "said.js" SCRIPT,
+    "job.js" SCRIPT,
     "server.js" SCRIPT,
     "state.js" SCRIPT,
     "form.js" SCRIPT,

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::{ResultFile, SceneFile};
 
 use crate::columns::ColumnsSession;
@@ -33,9 +32,7 @@ impl Opened {
         if path.extension().is_some_and(|ending| ending == "h5") {
             return match ResultFile::open(path)? {
                 ResultFile::Pair(result) => {
-                    let scene = InputDocument::new(shown.to_string(), result.scene_toml.clone());
-                    let models = result.model_files.clone();
-                    Ok(Self::Pair(Box::new(PairSession::of_models(scene, models)?)))
+                    Ok(Self::Pair(Box::new(PairSession::of_result(path, &result)?)))
                 }
                 ResultFile::System(result) => {
                     Ok(Self::Columns(Box::new(ColumnsSession::new(*result)?)))

@@ -1,14 +1,14 @@
-//! A gear pair whose scene is changed again and again: models are read once, flanks condensed once for each number of
-//! slices.
+//! A gear pair whose scene, and whose gears, the page changes again and again.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::ReducedGear;
-use gearmesh_scene::pair::{ModelShelf, PairWatch, load_from, run_watched};
-use gearmesh_scene::study::{BaseScene, Case, MadeFiles, Setting, Subject, VaryError};
-use gearmesh_scene::{LoadedScene, Scene, named_files, renamed_files};
+use gearmesh_operations::Watch;
+use gearmesh_operations::changed_pair::ChangedPair;
+use gearmesh_scene::pair::PairWatch;
+use gearmesh_scene::study::{Case, Setting};
+use gearmesh_scene::{LoadedScene, SceneResult};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -24,7 +24,7 @@ const MOST_BYTES: f64 = 30e6;
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
-    /// Keys of the scene and their values.
+    /// Keys of the scene and their values; those of a gear's body as `pair.gear_1:blank.bore_diameter_mm`.
     #[serde(default)]
     pub settings: BTreeMap<String, Value>,
     /// Keys that the scene states and that are taken away.
@@ -32,17 +32,27 @@ pub struct Change {
     pub removed: Vec<String>,
 }
 
+impl Change {
+    /// The part of it that gears are reduced for, as a text.
+    pub fn of_bodies(&self) -> String {
+        let of_bodies = self.settings.iter().filter(|(key, _)| key.contains(':'));
+        let all: BTreeMap<&String, &Value> = of_bodies.collect();
+        json!(all).to_string()
+    }
+}
+
 /// A pair scene and its models, in memory.
 #[derive(Debug)]
 pub struct PairSession {
-    base: BaseScene,
-    /// As the file has it, files by their absolute names: what is saved works from any folder.
-    names: BTreeMap<String, String>,
+    pair: ChangedPair,
     flank: String,
     title: String,
-    shelf: ModelShelf,
+    /// Of the scene as it is.
     form: Form,
-    shapes: [GearShape; 2],
+    gauges: [Vec<String>; 2],
+    files: [toml::Value; 2],
+    /// Where models of changed bodies are kept when a state is saved.
+    models: PathBuf,
 }
 
 impl PairSession {
@@ -51,81 +61,71 @@ impl PairSession {
     /// # Errors
     /// [`Problem`] for a scene or a model that is wrong.
     pub fn read(path: &Path) -> Result<Self, Problem> {
-        let folder = path.parent().unwrap_or(Path::new(""));
-        Self::new(InputDocument::read(path)?, folder)
+        Self::new(ChangedPair::read(path)?, path)
     }
 
     /// The scene of a result; its models stand where the result says.
     ///
     /// # Errors
     /// As [`PairSession::read`].
-    pub fn of_models(scene: InputDocument, models: [String; 2]) -> Result<Self, Problem> {
-        let table: toml::Table = scene.glance()?;
-        let names = ["gear_1", "gear_2"]
-            .into_iter()
-            .zip(models)
-            .filter_map(|(gear, model)| {
-                let named = table.get("pair")?.get(gear)?.as_str()?;
-                Some((named.to_owned(), model))
-            });
-        let text = renamed_files(&scene.text, &names.collect()).map_err(Problem::Input)?;
-        Self::new(InputDocument::new(scene.file, text), Path::new(""))
+    pub fn of_result(path: &Path, result: &SceneResult) -> Result<Self, Problem> {
+        Self::new(ChangedPair::of_result(path, result)?, path)
     }
 
-    fn new(document: InputDocument, folder: &Path) -> Result<Self, Problem> {
-        let named = named_files(&document.text, folder).into_iter();
-        let names = named.map(|(name, path)| {
-            let path = std::path::absolute(&path).unwrap_or(path);
-            (name, path.display().to_string())
-        });
-        let names = names.collect();
-        // A key of each gear begins its whole microgeometry.
-        let begun = [
-            "gear_1.microgeometry.tip_relief_um",
-            "gear_2.microgeometry.tip_relief_um",
-        ];
-        let scene = Scene::from_document(document.clone(), folder)?;
-        let base = BaseScene::from_document(document, folder, begun.into_iter(), None)?;
-        let shelf = ModelShelf::default();
-        let (flank, title) = (scene.flank.name().to_owned(), scene.title.clone());
-        let loaded = load_from(scene, &shelf)?;
-        let [model_1, model_2] = &loaded.models;
-        let definitions = [
-            model_1.input.definition_in("gear 1")?,
-            model_2.input.definition_in("gear 2")?,
-        ];
-        let gauges = [model_1, model_2].map(|model| gauge_names(model));
-        let gears = Gears {
-            definitions,
-            gauges: [&gauges[0], &gauges[1]],
+    fn new(pair: ChangedPair, path: &Path) -> Result<Self, Problem> {
+        let loaded = pair.loaded(&Case::default())?;
+        let read = |model: &ReducedGear| -> Result<toml::Value, Problem> {
+            let file = toml::from_str(&model.input.text);
+            file.map_err(|error| Problem::Input(format!("{}: {error}", model.name)))
         };
-        let form = Form::of_pair(&base, gears);
-        let shapes = definitions.map(GearShape::of);
-        Ok(Self {
-            base,
-            names,
-            flank,
-            title,
-            shelf,
-            form,
-            shapes,
-        })
+        let [model_1, model_2] = &loaded.models;
+        let folder = path.parent().unwrap_or(Path::new("")).join("models");
+        let mut this = Self {
+            flank: loaded.scene.flank.name().to_owned(),
+            title: loaded.scene.title.clone(),
+            form: Form { fields: Vec::new() },
+            gauges: [gauge_names(model_1), gauge_names(model_2)],
+            files: [read(model_1)?, read(model_2)?],
+            models: std::path::absolute(&folder).unwrap_or(folder),
+            pair,
+        };
+        this.form = this.form(&Case::default())?.0;
+        Ok(this)
     }
 
-    /// What the page is made of: the keys, the gears.
-    pub fn description(&self) -> Value {
-        json!({
+    /// The keys, for the gears of a case, and the shapes of these.
+    fn form(&self, case: &Case) -> Result<(Form, [GearShape; 2]), Problem> {
+        let gears = self.pair.gears(case)?;
+        let form = Form::of_pair(
+            self.pair.base(),
+            Gears {
+                definitions: [&gears[0], &gears[1]],
+                gauges: [&self.gauges[0], &self.gauges[1]],
+                files: [&self.files[0], &self.files[1]],
+            },
+        );
+        Ok((form, [GearShape::of(&gears[0]), GearShape::of(&gears[1])]))
+    }
+
+    /// What the page is made of: the keys, the gears, of a changed pair.
+    ///
+    /// # Errors
+    /// [`Problem`] for what the scene or a gear refuses.
+    pub fn description(&self, change: &Change) -> Result<Value, Problem> {
+        let (form, shapes) = self.form(&self.case(change)?)?;
+        Ok(json!({
             "title": self.title,
-            "file": self.base.file(),
-            "fields": self.form,
-            "gears": self.shapes,
-        })
+            "file": self.pair.base().file(),
+            "fields": form,
+            "gears": shapes,
+        }))
     }
 
     /// The changed pair, computed.
     ///
     /// # Errors
-    /// [`Problem`] for what the scene refuses, for a run that is too long for a page, and once `watch` stops it.
+    /// [`Problem`] for what the scene refuses, for a run that is too long for a page, for bodies that are not reduced yet,
+    /// and once `watch` stops it.
     pub fn answer(&self, change: &Change, watch: &PairWatch) -> Result<PairAnswer, Problem> {
         let loaded = self.loaded(change)?;
         let bytes = loaded.result_bytes();
@@ -139,8 +139,17 @@ impl PairSession {
                 1e-6 * MOST_BYTES
             )));
         }
-        let result = run_watched(&loaded, &|_, _| (), watch)?;
+        let result = ChangedPair::solve(&loaded, watch)?;
         PairAnswer::new(&loaded, &result)
+    }
+
+    /// Reduces the changed bodies.
+    ///
+    /// # Errors
+    /// [`Problem`] for a body that cannot be reduced, and once `watch` stops it.
+    pub fn reduce(&self, change: &Change, watch: &Watch<'_>) -> Result<Value, Problem> {
+        self.pair.reduce(&self.case(change)?, watch)?;
+        Ok(Value::Null)
     }
 
     /// The changed scene as a file.
@@ -148,27 +157,22 @@ impl PairSession {
     /// # Errors
     /// [`Problem`] for what the scene refuses.
     pub fn toml(&self, change: &Change) -> Result<String, Problem> {
-        let scene = self.scene(change)?;
-        renamed_files(&scene.document.text, &self.names).map_err(Problem::Work)
+        let case = self.case(change)?;
+        self.demand_reduced(&case)?;
+        Ok(self.pair.toml(&case, &self.models)?)
     }
 
     fn loaded(&self, change: &Change) -> Result<LoadedScene, Problem> {
-        Ok(load_from(self.scene(change)?, &self.shelf)?)
+        let case = self.case(change)?;
+        self.demand_reduced(&case)?;
+        Ok(self.pair.loaded(&case)?)
     }
 
-    fn scene(&self, change: &Change) -> Result<Scene, Problem> {
-        let case = self.case(change)?;
-        let mut files = MadeFiles::new();
-        let subject = self.base.scene(&case, &mut files, &PathBuf::new());
-        let subject = subject.map_err(|error| match error {
-            VaryError::Key { problem, .. } => Problem::Input(problem),
-            VaryError::Scene(error) => error.into(),
-        })?;
-        match subject {
-            Subject::Pair(scene) => Ok(*scene),
-            _ => Err(Problem::Work(
-                "the changed scene is no pair any more".to_owned(),
-            )),
+    fn demand_reduced(&self, case: &Case) -> Result<(), Problem> {
+        let unreduced = self.pair.unreduced(case)?;
+        match unreduced.is_empty() {
+            true => Ok(()),
+            false => Err(Problem::Unreduced(unreduced.join(", "))),
         }
     }
 
@@ -193,6 +197,10 @@ impl PairSession {
         }
         for key in &change.removed {
             let field = self.form.field(key)?;
+            if field.reduces {
+                let problem = format!("{key}: keys of a body are not taken away here; set it");
+                return Err(Problem::Input(problem));
+            }
             if let Kind::PitchErrors(_) = field.kind {
                 // Other errors of the gear stay.
                 case.settings
@@ -212,7 +220,7 @@ impl PairSession {
 
     /// The errors that the scene states, with these of the pitch, or with none of it.
     fn with_pitch_errors(&self, key: &str, removed: Option<toml::Value>) -> toml::Value {
-        let stated = self.base.value(key);
+        let stated = self.pair.base().value(key);
         let place = stated
             .as_ref()
             .and_then(pitch_errors)

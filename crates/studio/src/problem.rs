@@ -5,8 +5,8 @@ use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use gearmesh_geometry::InputError;
 use gearmesh_model::FileError;
-use gearmesh_scene::RunError;
-use serde_json::json;
+use gearmesh_operations::{Failure, Fault};
+use serde_json::{Value, json};
 
 /// A request or a start that failed.
 #[derive(Debug, thiserror::Error)]
@@ -20,6 +20,9 @@ pub enum Problem {
     /// A newer request has taken its place.
     #[error("a newer request has taken the place of this one")]
     Overtaken,
+    /// Bodies of gears were changed, and are not reduced yet.
+    #[error("{0}: the body has changed and is not reduced yet")]
+    Unreduced(String),
     /// It was asked to stop.
     #[error("stopped; nothing is kept")]
     Stopped,
@@ -38,10 +41,16 @@ impl Problem {
             Self::Input(_) => "input",
             Self::Work(_) => "work",
             Self::Overtaken => "overtaken",
+            Self::Unreduced(_) => "unreduced",
             Self::Stopped => "stopped",
             Self::Forbidden(_) => "forbidden",
             Self::Absent => "absent",
         }
+    }
+
+    /// What the page hears.
+    pub(crate) fn body(&self) -> Value {
+        json!({"kind": self.kind(), "error": self.to_string()})
     }
 
     /// Whether the input is to blame.
@@ -56,12 +65,21 @@ impl IntoResponse for Problem {
         let status = match self {
             Self::Input(_) => StatusCode::UNPROCESSABLE_ENTITY,
             Self::Work(_) => StatusCode::INTERNAL_SERVER_ERROR,
-            Self::Overtaken | Self::Stopped => StatusCode::CONFLICT,
+            Self::Overtaken | Self::Unreduced(_) | Self::Stopped => StatusCode::CONFLICT,
             Self::Forbidden(_) => StatusCode::FORBIDDEN,
             Self::Absent => StatusCode::NOT_FOUND,
         };
-        let body = json!({"kind": self.kind(), "error": self.to_string()});
-        (status, Json(body)).into_response()
+        (status, Json(self.body())).into_response()
+    }
+}
+
+impl From<Failure> for Problem {
+    fn from(failure: Failure) -> Self {
+        match failure.fault {
+            Fault::Input => Self::Input(failure.message),
+            Fault::Work => Self::Work(failure.message),
+            Fault::Stopped => Self::Stopped,
+        }
     }
 }
 
@@ -74,15 +92,5 @@ impl From<InputError> for Problem {
 impl From<FileError> for Problem {
     fn from(error: FileError) -> Self {
         Self::Input(error.to_string())
-    }
-}
-
-impl From<RunError> for Problem {
-    fn from(error: RunError) -> Self {
-        match error {
-            RunError::Stopped => Self::Stopped,
-            error if error.is_input() => Self::Input(error.to_string()),
-            error => Self::Work(error.to_string()),
-        }
     }
 }

@@ -13,11 +13,13 @@ use axum::middleware::{from_fn_with_state, map_response};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
+use gearmesh_operations::Watch;
 use serde_json::{Value, json};
 
 use crate::assets;
 use crate::columns::CurvesAsked;
 use crate::guard::{self, Address};
+use crate::job::Job;
 use crate::latest::Latest;
 use crate::opened::Opened;
 use crate::pair::Change;
@@ -45,6 +47,7 @@ pub struct ServeOptions {
 struct Studio {
     opened: Opened,
     latest: Latest,
+    job: Job,
     stop: Arc<AtomicBool>,
 }
 
@@ -79,6 +82,7 @@ pub fn serve(
         let studio = Arc::new(Studio {
             opened,
             latest: Latest::default(),
+            job: Job::default(),
             stop: Arc::clone(&options.stop),
         });
         let app = router(Arc::clone(&studio), Arc::new(address));
@@ -88,6 +92,7 @@ pub fn serve(
                 tokio::time::sleep(LOOK).await;
             }
             studio.latest.stop();
+            studio.job.stop();
         };
         let ended = async {
             asked.await;
@@ -121,9 +126,13 @@ fn router(studio: Arc<Studio>, address: Arc<Address>) -> Router {
         .route("/session", get(session))
         .route("/pair", get(pair).post(change))
         .route("/pair/toml", post(toml))
+        .route("/pair/gears", post(gears))
+        .route("/pair/reduce", post(reduce))
         .route("/columns", get(columns).post(curves))
         .route("/progress", get(progress))
         .route("/stop", post(stop))
+        .route("/job", get(job))
+        .route("/job/stop", post(stop_job))
         .route("/quit", post(quit))
         .fallback(absent)
         .layer(DefaultBodyLimit::max(MOST_BYTES))
@@ -185,7 +194,7 @@ async fn session(State(studio): Shared) -> Json<Value> {
 }
 
 async fn pair(State(studio): Shared) -> Result<Json<Value>, Problem> {
-    Ok(Json(studio.opened.pair()?.description()))
+    Ok(Json(studio.opened.pair()?.description(&Change::default())?))
 }
 
 /// The calculation and its text, both off the loop that answers.
@@ -202,6 +211,29 @@ async fn change(State(studio): Shared, Body(change): Body<Change>) -> Result<Res
 
 async fn toml(State(studio): Shared, Body(change): Body<Change>) -> Result<String, Problem> {
     studio.opened.pair()?.toml(&change)
+}
+
+/// The keys and the shapes of changed gears; they may not be reduced yet.
+async fn gears(State(studio): Shared, Body(change): Body<Change>) -> Result<Json<Value>, Problem> {
+    Ok(Json(studio.opened.pair()?.description(&change)?))
+}
+
+async fn reduce(State(studio): Shared, Body(change): Body<Change>) -> Result<Json<Value>, Problem> {
+    studio.opened.pair()?;
+    let worker = Arc::clone(&studio);
+    let name = format!("reduce {}", change.of_bodies());
+    let work = move |watch: &Watch<'_>| worker.opened.pair()?.reduce(&change, watch);
+    studio.job.begin(name, work);
+    Ok(Json(studio.job.progress()))
+}
+
+async fn job(State(studio): Shared) -> Json<Value> {
+    Json(studio.job.progress())
+}
+
+async fn stop_job(State(studio): Shared) -> Json<Value> {
+    studio.job.stop();
+    Json(json!({}))
 }
 
 async fn columns(State(studio): Shared) -> Result<Json<Value>, Problem> {

@@ -172,15 +172,15 @@ fn no_file_names_a_private_path_or_a_registry_host() {
     assert_no_faults(&faults);
 }
 
-/// What README's tutorial prints of a file is the file.
+/// What the tutorial prints of a file is the file.
 #[test]
 fn the_tutorial_shows_the_files_that_are_shipped() {
-    let readme = read(&root().join("README.md"));
+    let tutorial = read(&root().join("docs/first-pair.md"));
     for name in ["pinion.toml", "pair.toml"] {
         let file = read(&root().join("fe_models/first_pair").join(name));
         assert!(
-            readme.contains(&format!("```toml\n{file}```")),
-            "{name} is not what README.md shows"
+            tutorial.contains(&format!("```toml\n{file}```")),
+            "{name} is not what docs/first-pair.md shows"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! The project's own commands: `cargo xtask test`, `demo`, `bench`, `accuracy-cost`, `figures` and `hard-cases`.
+//! The project's own commands: `cargo xtask test`, `demo`, `docs`, `bench`, `accuracy-cost`, `figures` and `hard-cases`.
 //!
 //! All begin with the same preparation ([`prepare::prepare`]), so that each works on a clean clone: the Python
 //! environment `.venv` from the locked requirements, the shared libraries that gmsh needs, the Python module.
@@ -7,6 +7,7 @@
 
 mod bench;
 mod console;
+mod docs;
 mod error;
 mod figures;
 mod hard_cases;
@@ -61,6 +62,7 @@ Usage: cargo xtask <COMMAND>
                   --quick     the development build instead, to try the wheel out
   release [--quick]
                   the wheel, and an archive of it, program, documentation, examples, completions and manual pages in target/archive
+  docs            the documentation as one site with search, which opens without a network, into target/docs/site
   prepare         only makes what the others need
   help            this text
 
@@ -95,6 +97,7 @@ enum Command {
     Figures(figures::Which),
     Wheel(wheel::Build),
     Release(wheel::Build),
+    Docs,
     Prepare,
     Help,
 }
@@ -118,15 +121,16 @@ impl Command {
             ("wheel", ["--quick"]) => Ok(Self::Wheel(wheel::Build::Quick)),
             ("release", []) => Ok(Self::Release(wheel::Build::Release)),
             ("release", ["--quick"]) => Ok(Self::Release(wheel::Build::Quick)),
+            ("docs", []) => Ok(Self::Docs),
             ("prepare", []) => Ok(Self::Prepare),
             ("help" | "--help" | "-h", _)
             | (
-                "test" | "rust-tests" | "prepare" | "wheel" | "release" | "bench" | "accuracy-cost"
-                | "figures" | "hard-cases",
+                "test" | "rust-tests" | "docs" | "prepare" | "wheel" | "release" | "bench"
+                | "accuracy-cost" | "figures" | "hard-cases",
                 ["--help" | "-h"],
             ) => Ok(Self::Help),
             ("figures", rest) => figures::Which::parse(rest).map(Self::Figures),
-            ("test" | "rust-tests" | "prepare" | "wheel" | "release", rest) => {
+            ("test" | "rust-tests" | "docs" | "prepare" | "wheel" | "release", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
             ("bench" | "accuracy-cost" | "hard-cases", _) => {
@@ -187,6 +191,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         }
         Command::Wheel(build) => wheel::wheel(&workspace, &venv, build).map(|_| ExitCode::SUCCESS),
         Command::Release(build) => release::release(&workspace, &venv, build),
+        Command::Docs => docs::docs(&workspace, &venv),
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
         Command::Prepare | Command::Help | Command::Page(..) | Command::Figures(_) => {
             Ok(ExitCode::SUCCESS)

@@ -25,14 +25,24 @@ pub struct Venv {
 }
 
 impl Venv {
-    /// Returns the environment, making it first where it is absent or stale. The caller holds the preparation lock.
+    /// Returns `.venv`, making it first where it is absent or stale. The caller holds the preparation lock.
     ///
     /// # Errors
     /// [`XtaskError::Io`] for files that cannot be read or written, [`XtaskError::Failed`] where pip fails.
     pub fn ensure(workspace: &Workspace, python: &BasePython) -> Result<Self, XtaskError> {
-        let dir = workspace.venv_dir();
-        let requirements = workspace.requirements();
-        let lock = fs::read(&requirements).map_err(XtaskError::io(|| {
+        Self::in_folder(workspace.venv_dir(), &workspace.requirements(), python)
+    }
+
+    /// The same of an environment in another folder, from another lock.
+    ///
+    /// # Errors
+    /// As [`Venv::ensure`].
+    pub fn in_folder(
+        dir: PathBuf,
+        requirements: &Path,
+        python: &BasePython,
+    ) -> Result<Self, XtaskError> {
+        let lock = fs::read(requirements).map_err(XtaskError::io(|| {
             format!("reading {}", requirements.display())
         }))?;
         let venv = Self { dir };
@@ -40,7 +50,7 @@ impl Venv {
         if venv.is_current(&stamp, &python.version) {
             return Ok(venv);
         }
-        venv.make(workspace, python, &stamp)?;
+        venv.make(requirements, python, &stamp)?;
         Ok(venv)
     }
 
@@ -68,12 +78,13 @@ impl Venv {
 
     fn make(
         &self,
-        workspace: &Workspace,
+        requirements: &Path,
         python: &BasePython,
         stamp: &str,
     ) -> Result<(), XtaskError> {
         console::say(&format!(
-            "making .venv with Python {} (downloads about 200 MB)",
+            "making {} with Python {} (.venv downloads about 200 MB)",
+            self.dir.display(),
             python.version
         ));
         if self.dir.symlink_metadata().is_ok() {
@@ -98,7 +109,7 @@ impl Venv {
                 ])
                 // Wheels only: a source build would need tools that nobody asked for.
                 .args(["--require-hashes", "--only-binary=:all:", "-r"])
-                .arg(workspace.requirements()),
+                .arg(requirements),
         )?;
         let stamp_path = self.dir.join(STAMP_NAME);
         fs::write(&stamp_path, format!("{stamp}\n")).map_err(XtaskError::io(|| {

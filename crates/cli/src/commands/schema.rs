@@ -9,6 +9,7 @@ use super::{data_set_page, schema_page};
 use crate::arguments::{SchemaArguments, SchemaKind};
 use crate::console;
 use gearmesh_operations::Failure;
+use gearmesh_operations::schema::{TextKind, schema};
 
 /// What is known of a kind of file.
 enum Contents {
@@ -21,29 +22,15 @@ enum Contents {
 /// Runs the command.
 pub fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
     use Contents::{DataSets, Keys};
+    let keys = |kind| Keys(schema(kind));
     let (contents, kind) = match arguments.kind {
-        SchemaKind::Scene => (Keys(gearmesh_scene::schema::scene().to_value()), "scene"),
-        SchemaKind::Study => (Keys(gearmesh_scene::schema::study().to_value()), "study"),
-        SchemaKind::Optimise => (
-            Keys(gearmesh_scene::schema::optimise().to_value()),
-            "optimise",
-        ),
-        SchemaKind::Bearing => (
-            Keys(gearmesh_bearings::bearing_file::schema().to_value()),
-            "bearing",
-        ),
-        SchemaKind::Bevel => (
-            Keys(gearmesh_bevel::pair_file::schema().to_value()),
-            "bevel",
-        ),
-        SchemaKind::BevelGear => (
-            Keys(gearmesh_bevel::gear_file::gear_schema().to_value()),
-            "bevel-gear",
-        ),
-        SchemaKind::Gear => (
-            Keys(gearmesh_geometry::gear_file::schema().to_value()),
-            "gear",
-        ),
+        SchemaKind::Scene => (keys(TextKind::Scene), "scene"),
+        SchemaKind::Study => (keys(TextKind::Study), "study"),
+        SchemaKind::Optimise => (keys(TextKind::Optimise), "optimise"),
+        SchemaKind::Bearing => (keys(TextKind::Bearing), "bearing"),
+        SchemaKind::Bevel => (keys(TextKind::Bevel), "bevel"),
+        SchemaKind::BevelGear => (keys(TextKind::BevelGear), "bevel-gear"),
+        SchemaKind::Gear => (keys(TextKind::Gear), "gear"),
         SchemaKind::Model => (DataSets(list_record::<ReducedGear>()), "model"),
         SchemaKind::PairResult => (DataSets(list_record::<SceneResult>()), "pair-result"),
         SchemaKind::SystemResult => (DataSets(SystemResult::data_sets()), "system-result"),

@@ -1,6 +1,7 @@
 //! A JSON Schema as a page of Markdown: `gearmesh schema KIND --markdown`, the pages in docs/reference.
 
 use gearmesh_geometry::input::NumberRange;
+use gearmesh_operations::schema::followed;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -38,20 +39,7 @@ struct Page<'a> {
 impl<'a> Page<'a> {
     /// What a schema stands for: its reference followed, `null` beside it left out.
     fn resolved(&self, schema: &'a Value) -> (&'a Value, Option<&'a str>) {
-        if let Some(reference) = schema["$ref"].as_str() {
-            let name = reference.rsplit('/').next().unwrap_or_default();
-            return (&self.definitions[name], Some(name));
-        }
-        for list in ["anyOf", "allOf"] {
-            let Some(parts) = schema[list].as_array() else {
-                continue;
-            };
-            let mut others = parts.iter().filter(|part| part["type"] != "null");
-            if let (Some(only), None) = (others.next(), others.next()) {
-                return self.resolved(only);
-            }
-        }
-        (schema, None)
+        followed(self.definitions, schema)
     }
 
     /// A section with the keys of a table, then those of the tables in it. `path` is empty for the file itself.

@@ -169,7 +169,7 @@ fn shipped_scenes_are_built() {
     );
 }
 
-/// The scenes of README's tutorial are read, and name the models that its commands make of the gear files beside them.
+/// The scenes of the tutorial are read, and name the models that its commands make of the gear files beside them.
 #[test]
 fn the_scenes_of_the_tutorial_name_its_gears() {
     let folder = fe_models().join("first_pair");

@@ -197,7 +197,7 @@ fn what_cannot_be_resampled_is_refused() {
     }
 }
 
-/// The drive of the README: 0.94 turns in the second half of its run.
+/// The drive of the tutorial: 0.94 turns in the second half of its run.
 #[test]
 fn rows_begin_early_enough_for_a_turn() {
     let rows = 4000;

@@ -1,4 +1,4 @@
-//! What README and docs/lightweight-gears.md print of pairs A and B is what is computed.
+//! What docs/demo.md and docs/lightweight-gears.md print of pairs A and B is what is computed.
 
 use super::{TEETH, amplitude, pair, root};
 use gearmesh_report::comparison::BothSides;
@@ -6,10 +6,10 @@ use gearmesh_report::scene_comparison::compare_scene;
 use gearmesh_report::{Quantity, ReferenceRecord};
 use gearmesh_scene::SceneResult;
 
-/// The rows of README's table of a pair: torque, mean, its deviation, peak to peak, its deviation, two orders.
+/// The rows of the demo page's table of a pair: torque, mean, its deviation, peak to peak, its deviation, two orders.
 fn printed(title: &str) -> Vec<Vec<f64>> {
-    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
-    let table = readme.split(&format!("{title} against `")).nth(1).unwrap();
+    let page = std::fs::read_to_string(root().join("docs/demo.md")).unwrap();
+    let table = page.split(&format!("{title} against `")).nth(1).unwrap();
     let numbers = |line: &str| -> Option<Vec<f64>> {
         line.split_whitespace()
             .map(|word| word.parse().ok())
@@ -19,11 +19,11 @@ fn printed(title: &str) -> Vec<Vec<f64>> {
     rows.take_while(|row| !row.is_empty()).collect()
 }
 
-/// What README prints of pairs A and B is what the demo computes, to the digits that are printed (one more in the last for
+/// What docs/demo.md prints of pairs A and B is what the demo computes, to the digits that are printed (one more in the last for
 /// another processor's rounding).
 #[test]
 #[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
-fn readme_prints_what_the_demo_computes() {
+fn the_demo_page_prints_what_the_demo_computes() {
     let mut is_right = true;
     for (name, title) in [("pair_a", "Pair A"), ("pair_b", "Pair B")] {
         let (_, result) = pair(name, &[]);
@@ -55,7 +55,7 @@ fn readme_prints_what_the_demo_computes() {
             is_right &= row.iter().zip(expected).all(close);
         }
     }
-    assert!(is_right, "README's tables are not these");
+    assert!(is_right, "the tables of docs/demo.md are not these");
 }
 
 /// Rows of the table below a heading of docs/lightweight-gears.md: the words of each row's first cell, and its numbers.
