@@ -19,7 +19,7 @@ mod wording;
 pub use bounded::{Bounded, Count, End, NotNegative, Positive, Range, UpTo, Within};
 pub use csv_rows::{CsvRows, separator_hint, shown_field};
 pub use derived_tables::DerivedTable;
-use derived_tables::DerivedTables;
+use derived_tables::{Derived, DerivedTables};
 pub use file_schema::file_schema;
 use former_keys::Renewed;
 pub use former_keys::{FormerTable, Move};
@@ -193,7 +193,7 @@ impl InputDocument {
     fn complaint(&self, mut path: Vec<String>, error: &toml::de::Error) -> InputError {
         let (deeper, message) = kinds::told_below(error.message().trim());
         path.extend(deeper.iter().map(|part| (*part).to_owned()));
-        if self.origin(&path.join(".")).is_some() {
+        if self.derived_place(&path.join(".")).is_some() {
             let (key, problem) = wording::in_plain_words(path, message);
             return self.error(&key, problem);
         }
@@ -214,12 +214,11 @@ impl InputDocument {
 
     /// A complaint about the value of `key` (dotted path; array items by number: `gauge.0.tooth`).
     pub fn error(&self, key: &str, problem: impl Display) -> InputError {
-        let (key, problem) = match self.origin(key) {
+        let (key, problem) = match self.derived_place(key) {
             None => (key, problem.to_string()),
-            Some(origin) => (
-                origin,
-                format!("in {key}, which follows from it: {problem}"),
-            ),
+            Some(Derived { from, place }) => {
+                (from, format!("in {place}, which follows from it: {problem}"))
+            }
         };
         InputError {
             file: self.file.clone(),
@@ -229,9 +228,9 @@ impl InputDocument {
         }
     }
 
-    /// The table from which the item at a dotted path follows, where it is not in the text.
-    fn origin(&self, path: &str) -> Option<&str> {
-        self.derived.as_ref()?.origin(path)
+    /// Where a dotted path leads, if that is not in the text.
+    fn derived_place(&self, path: &str) -> Option<Derived<'_>> {
+        self.derived.as_ref()?.place(path)
     }
 
     /// Whether a dotted key is in the file.

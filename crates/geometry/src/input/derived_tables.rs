@@ -25,7 +25,18 @@ pub(super) struct DerivedTables {
     /// The items as a text of their own.
     text: Arc<str>,
     /// For each list the number of items that the document's text has, and where the further ones come from.
-    origins: Arc<BTreeMap<&'static str, (usize, Vec<String>)>>,
+    origins: Arc<Origins>,
+}
+
+/// By the list: number of items in the document's text, and origin and name of each further one.
+type Origins = BTreeMap<&'static str, (usize, Vec<(String, String)>)>;
+
+/// A place in an item that is not in the text.
+pub(super) struct Derived<'a> {
+    /// Dotted path of the table from which the item follows.
+    pub from: &'a str,
+    /// The place in words: "mass_kg of [[body]] `set carrier`".
+    pub place: String,
 }
 
 impl InputDocument {
@@ -35,7 +46,7 @@ impl InputDocument {
     /// [`InputError`] for a text that is no TOML.
     pub fn with_derived(self, items: Vec<DerivedTable>) -> Result<Self, InputError> {
         let own: toml::Table = self.glance()?;
-        let mut lists: BTreeMap<&'static str, (usize, Vec<String>)> = BTreeMap::new();
+        let mut lists = Origins::new();
         let mut all = toml::Table::new();
         for item in items {
             let count = || {
@@ -45,7 +56,8 @@ impl InputDocument {
             let (_, origins) = lists
                 .entry(item.list)
                 .or_insert_with(|| (count(), Vec::new()));
-            origins.push(item.from);
+            let name = item.table.get("name").and_then(toml::Value::as_str);
+            origins.push((item.from, name.unwrap_or_default().to_owned()));
             let list = all.entry(item.list);
             let list = list.or_insert_with(|| toml::Value::Array(Vec::new()));
             if let toml::Value::Array(list) = list {
@@ -89,11 +101,61 @@ impl DerivedTables {
         Ok(())
     }
 
-    /// The table from which the item at a dotted path follows, where it is not in the text.
-    pub(super) fn origin(&self, path: &str) -> Option<&str> {
-        let mut parts = path.split('.');
-        let (own, origins) = self.origins.get(parts.next()?)?;
+    /// Where a dotted path leads, if that is not in the text.
+    pub(super) fn place(&self, path: &str) -> Option<Derived<'_>> {
+        let mut parts = path.splitn(3, '.');
+        let list = parts.next()?;
+        let (own, origins) = self.origins.get(list)?;
         let place: usize = parts.next()?.parse().ok()?;
-        origins.get(place.checked_sub(*own)?).map(String::as_str)
+        let (from, name) = origins.get(place.checked_sub(*own)?)?;
+        let item = format!("[[{list}]] `{name}`");
+        let place = parts
+            .next()
+            .map_or_else(|| item.clone(), |key| format!("{key} of {item}"));
+        Some(Derived { from, place })
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Items that follow from a table are read behind those of the text; a complaint about one stands at the line of that table.
+    #[test]
+    fn complaints_about_derived_items_point_at_their_origin() {
+        let text = "[[set]]\nname = 'x'\n[[body]]\nname = 'a'\n";
+        let item = |list| DerivedTable {
+            list,
+            table: "name = 'x b'\nmass_kg = 2.0".parse().unwrap(),
+            from: "set.0".to_owned(),
+        };
+        let document = InputDocument::new("s.toml", text);
+        let document = document
+            .with_derived(vec![item("body"), item("joint")])
+            .unwrap();
+        let read: toml::Table = document.glance().unwrap();
+        let names = |list: &str| -> Vec<String> {
+            let items = read[list].as_array().unwrap().iter();
+            items
+                .map(|item| item["name"].as_str().unwrap().to_owned())
+                .collect()
+        };
+        assert_eq!(names("body"), ["a", "x b"]);
+        assert_eq!(names("joint"), ["x b"]);
+        assert_eq!(document.text, text);
+        for (key, expected) in [
+            (
+                "body.1.mass_kg",
+                "s.toml:1: set.0: in mass_kg of [[body]] `x b`, which follows from it: no",
+            ),
+            (
+                "joint.0",
+                "s.toml:1: set.0: in [[joint]] `x b`, which follows from it: no",
+            ),
+            ("body.0.name", "s.toml:4: body.0.name: no"),
+        ] {
+            assert_eq!(document.error(key, "no").to_string(), expected);
+        }
     }
 }
