@@ -14,8 +14,6 @@ use gearmesh_scene::system_run::{RunJob, RunOptions, SystemResult, run};
 
 const IMPACT: &str = "{ kind = \"impact\", stiffness_N_per_mm_e = 1e6, exponent = 1.5, damping_N_s_per_mm = 100.0, full_damping_depth_um = 5.0 }";
 const ISO: &str = "{ kind = \"iso6336\", stiffness_amplitude = 0.1, damping = { kind = \"stiffness-proportional\", time_s = 2e-6, full_depth_um = 1.0 } }";
-const ANALYTIC: &str = "{ kind = \"analytic\", damping = { kind = \"stiffness-proportional\", time_s = 2e-6, full_depth_um = 1.0 } }";
-
 const IN_TIME: &str = "[run]\nkind = \"transient\"\nend_s = 0.05\n[solver]\nstep_s = 1e-5\nstart = \"equilibrium\"\n[output]\ninterval_s = 1e-3\n";
 
 /// Teeth 28, 24, 76: (28 + 76)/4 is whole.
@@ -70,7 +68,7 @@ fn result(text: &str, folder: &Path) -> (SystemResult, Duration) {
 fn main() {
     let folder = tempfile::tempdir().unwrap();
     write_gears(folder.path());
-    for (name, model) in [("iso6336", ISO), ("impact", IMPACT), ("analytic", ANALYTIC)] {
+    for (name, model) in [("iso6336", ISO), ("impact", IMPACT)] {
         let (found, _) = result(&scene(model, IN_TIME), folder.path());
         let record = found.record.unwrap();
         println!(
@@ -89,12 +87,10 @@ fn main() {
         "[run]\nkind = \"static\"\nmotion = \"set sun speed\"\nangles_deg = [{}]\n",
         angles.join(", ")
     );
-    for (name, model) in [("iso6336", ISO), ("analytic", ANALYTIC)] {
-        let model = model.split(", damping").next().unwrap();
-        let (_, wall) = result(&scene(&format!("{model} }}"), &series), folder.path());
-        println!(
-            "{name:<10} {:8.1} ms for 60 equilibria over a mesh period, with building and writing",
-            1e3 * wall.as_secs_f64()
-        );
-    }
+    // The amplitude of the stiffness varies the equilibria; damping does nothing at rest.
+    let (_, wall) = result(&scene(ISO, &series), folder.path());
+    println!(
+        "iso6336    {:8.1} ms for 60 equilibria over a mesh period, with building and writing",
+        1e3 * wall.as_secs_f64()
+    );
 }
