@@ -303,9 +303,11 @@ fn phases_of_the_meshes_say_what_they_excite() {
                 "",
             ],
         )
-        .replace(
+        // Sun and ring meshes that both vary cancel in some sets: the sun's alone.
+        .replacen(
             "stiffness_N_per_mm_um = 20.0",
             "stiffness_N_per_mm_um = 20.0, stiffness_amplitude = 0.2",
+            1,
         );
         let result = run(&text, folder.path());
         let set = &result.head.sets[0];
