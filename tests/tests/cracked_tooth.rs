@@ -60,10 +60,11 @@ fn section_loss_and_doubled_nodes_are_of_one_order() {
             ..model.clone()
         });
         let tooth = BeamTooth {
+            gear: 1,
             tooth: profile,
             material: gear.material,
             face_width_m: WIDTH,
-            held_radius_m: gear.blank.bore_radius_m(),
+            bore_radius_m: gear.blank.bore_radius_m(),
         };
         let fillet = ProfileCurve::new(profile)
             .arc_length_at(gear.crack.unwrap().start)

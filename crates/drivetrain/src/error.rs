@@ -106,6 +106,14 @@ pub enum DrivetrainError {
         "the iso6336 mesh is one spring at the pitch point, which these flanks do not have: take another mesh model"
     )]
     NoCommonGap,
+    /// Beams for the teeth of a ring.
+    #[error(
+        "gear {gear} is a ring with internal teeth, which the analytic mesh has no beams for: take impact, or hybrid with reduced gears"
+    )]
+    RingBeams {
+        /// Gear 1 or 2.
+        gear: usize,
+    },
     /// Errors of single teeth with a model that has no single teeth.
     #[error(
         "flank errors are given, but the iso6336 mesh is one spring that knows no single tooth: take another mesh model, or leave them out"

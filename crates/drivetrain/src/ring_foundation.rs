@@ -1,6 +1,6 @@
-//! What the body below a tooth deflects: an elastic ring, held at the bore, or at the outside of internal teeth, under the stresses of the tooth's root.
+//! What the body below a tooth deflects: an elastic ring, held at the bore, under the stresses of the tooth's root.
 //!
-//! The ring reaches from there to the root circle, r_f, in plane stress. On the arc |θ| ≤ θ_f that the tooth covers it carries what the tooth as a
+//! The ring reaches from the bore to the root circle, r_f, in plane stress. On the arc |θ| ≤ θ_f that the tooth covers it carries what the tooth as a
 //! beam has there: normal stress m θ/θ_f and p (bending, compression), shear stress τ (constant). A force on the tooth along the normal at
 //! the angle α_F to the perpendicular of its centre line, which its line crosses at the distance x from the gear's centre, has with X = x/r_f, per
 //! unit width and r_f = 1,
@@ -42,13 +42,12 @@ pub struct RingFoundation {
 }
 
 impl RingFoundation {
-    /// Half the angle that the tooth covers on the root circle, root radius over that of the circle that is held (below 1 for internal teeth), Poisson's
-    /// ratio.
+    /// Half the angle that the tooth covers on the root circle, root radius over bore radius (above 1), Poisson's ratio.
     #[must_use]
     pub fn new(half_angle_rad: f64, radius_ratio: f64, poisson: f64) -> Self {
         let theta = half_angle_rad;
         let ring = Ring {
-            held: 1.0 / radius_ratio,
+            inner: 1.0 / radius_ratio,
             kappa: (3.0 - poisson) / (1.0 + poisson),
             twice_shear_modulus: 1.0 / (1.0 + poisson),
         };
@@ -73,13 +72,6 @@ impl RingFoundation {
             foundation.shear += constant * constant * by_stress[(1, 1)] / PI;
             foundation.radial += constant * constant * by_stress[(0, 0)] / PI;
         }
-        if ring.held > 1.0 {
-            // The material lies outside: what presses on it is the stress with the other sign.
-            foundation.bending *= -1.0;
-            foundation.bending_shear *= -1.0;
-            foundation.shear *= -1.0;
-            foundation.radial *= -1.0;
-        }
         foundation
     }
 
@@ -97,9 +89,9 @@ impl RingFoundation {
     }
 }
 
-/// An annulus between the radii 1, where the tooth stands, and `held`, E = 1.
+/// An annulus with the outer radius 1, E = 1.
 struct Ring {
-    held: f64,
+    inner: f64,
     kappa: f64,
     twice_shear_modulus: f64,
 }
@@ -107,23 +99,23 @@ struct Ring {
 impl Ring {
     /// u_θ at the rim under a uniform shear stress 1.
     fn twist(&self) -> f64 {
-        (self.held.powi(-2) - 1.0) / self.twice_shear_modulus
+        (self.inner.powi(-2) - 1.0) / self.twice_shear_modulus
     }
 
     /// u_r at the rim under a uniform normal stress 1: φ = a z, ψ = d/z.
     fn swelling(&self) -> f64 {
-        let (k, square) = (self.kappa - 1.0, self.held * self.held);
-        // 2 a + d = 1, a k r − d/r = 0 where it is held.
+        let (k, square) = (self.kappa - 1.0, self.inner * self.inner);
+        // 2 a + d = 1, a k r − d/r = 0 at the bore.
         let a = 1.0 / (2.0 + k * square);
         (a * k - (1.0 - 2.0 * a)) / self.twice_shear_modulus
     }
 
-    /// (u_r, u_θ) on cos nθ and sin nθ at the rim, one column for each of (σ_r, τ_rθ) there; none where it is held.
+    /// (u_r, u_θ) on cos nθ and sin nθ at the rim, one column for each of (σ_r, τ_rθ) there; none at the bore.
     fn displacements(&self, n: usize) -> Matrix2<f64> {
-        let [at_held, _] = self.field(n, self.held);
+        let [at_bore, _] = self.field(n, self.inner);
         let [at_rim, stresses] = self.field(n, 1.0);
         let mut conditions = Matrix4::zeros();
-        conditions.fixed_rows_mut::<2>(0).copy_from(&at_held);
+        conditions.fixed_rows_mut::<2>(0).copy_from(&at_bore);
         conditions.fixed_rows_mut::<2>(2).copy_from(&stresses);
         let mut given = SMatrix::<f64, 4, 2>::zeros();
         (given[(2, 0)], given[(3, 1)]) = (1.0, 1.0);
@@ -132,14 +124,13 @@ impl Ring {
         at_rim * constants
     }
 
-    /// Displacements (u_r, u_θ) and stresses (σ_r, τ_rθ) of the four fields a, b, c, d at a radius; a and c scaled to the outer circle, b and d to
-    /// the inner one.
+    /// Displacements (u_r, u_θ) and stresses (σ_r, τ_rθ) of the four fields a, b, c, d at a radius; b and d scaled to the bore.
     fn field(&self, n: usize, r: f64) -> [SMatrix<f64, 2, 4>; 2] {
         let (k, order) = (self.kappa, n as f64);
         let exponent = n as i32;
-        let (inwards, outwards) = (r / self.held.max(1.0), self.held.min(1.0) / r);
-        let (a, c) = (inwards.powi(exponent + 1), inwards.powi(exponent - 1));
-        let (b, d) = (outwards.powi(exponent - 1), outwards.powi(exponent + 1));
+        let (a, c) = (r.powi(exponent + 1), r.powi(exponent - 1));
+        let from_bore = self.inner / r;
+        let (b, d) = (from_bore.powi(exponent - 1), from_bore.powi(exponent + 1));
         let (mut u_b, mut s_b) = (
             [b * (k - 1.0 + order), -b * (k + 1.0 - order)],
             [b * (1.0 - order) * (2.0 + order), b * order * (1.0 - order)],
@@ -197,7 +188,7 @@ mod tests {
     fn every_harmonic_is_reciprocal_and_stiff() {
         for radius_ratio in [1.1, 2.0, 7.0] {
             let ring = Ring {
-                held: 1.0 / radius_ratio,
+                inner: 1.0 / radius_ratio,
                 kappa: 2.7 / 1.3,
                 twice_shear_modulus: 1.0 / 1.3,
             };

@@ -9,8 +9,7 @@
 //! shear     ∫ 1.2 cos²α_F/(G A) dx,   compression  ∫ sin²α_F/(E A) dx,   A = 2 y b
 //! ```
 //!
-//! and the foundation, an elastic ring between root circle and bore (ring_foundation.rs). Of internal teeth x counts against the radius, towards the tip, and
-//! α_F = ξ + ψ_b; the ring below them ends at their outside. A root crack takes the part of the section behind it
+//! and the foundation, an elastic ring between root circle and bore (ring_foundation.rs). A root crack takes the part of the section behind it
 //! out of I and A.
 //!
 //! Sources: D. C. H. Yang, J. Y. Lin, J. Mech. Trans. Autom. 109 (1987) 189-196; X. Tian, thesis, University of Alberta (2004), for shear;
@@ -36,7 +35,7 @@ pub struct RootCrack {
     pub start_radius_m: f64,
     /// Its depth \[m\].
     pub depth_m: f64,
-    /// Angle to the tooth's centre line \[rad\]: 0 runs away from the tip, π/2 straight across.
+    /// Angle to the tooth's centre line \[rad\]: 0 runs towards the centre of the gear, π/2 straight across.
     pub angle_rad: f64,
 }
 
@@ -54,8 +53,7 @@ impl RootCrack {
         let owner = "root crack";
         positive(owner, "the depth in m", self.depth_m)?;
         let end = tooth.fillet.point_m(tooth.fillet_end);
-        let (root, form) = (tooth.root_radius_m, end[0].hypot(end[1]));
-        let fillet = root.min(form)..=root.max(form);
+        let fillet = tooth.root_radius_m..=end[0].hypot(end[1]);
         let out_of_range = |what, found, allowed| DrivetrainError::Value {
             owner,
             what,
@@ -95,7 +93,7 @@ pub struct ToothCompliance {
     m_per_n: Vec<f64>,
 }
 
-/// A section of the tooth: place along its centre line, from the gear's centre, rising towards the tip; half thickness on each side \[m\].
+/// A section of the tooth: distance from the gear's centre along the tooth's centre line, half thickness on each side \[m\].
 #[derive(Debug, Clone, Copy)]
 struct Section {
     x: f64,
@@ -126,14 +124,16 @@ impl ComplianceParts {
 /// A gear body as the energy method sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamTooth<'a> {
+    /// Gear 1 or 2, for messages.
+    pub gear: usize,
     /// The tooth.
     pub tooth: &'a ToothGeometry,
     /// Material.
     pub material: Material,
     /// Face width \[m\].
     pub face_width_m: f64,
-    /// Radius of the bore, or of a ring's outside, where the body is held \[m\].
-    pub held_radius_m: f64,
+    /// Bore radius \[m\], where the body is held.
+    pub bore_radius_m: f64,
 }
 
 impl BeamTooth<'_> {
@@ -145,7 +145,7 @@ impl BeamTooth<'_> {
 
     /// The ring below the tooth.
     fn foundation(&self) -> RingFoundation {
-        let ratio = self.tooth.root_radius_m / self.held_radius_m;
+        let ratio = self.tooth.root_radius_m / self.bore_radius_m;
         RingFoundation::new(self.root_half_angle_rad(), ratio, self.material.poisson)
     }
 
@@ -163,7 +163,7 @@ impl BeamTooth<'_> {
         });
         let mut sections: Vec<Section> = (fillet.chain(flank))
             .map(|p| Section {
-                x: t.tip_direction() * p[0],
+                x: p[0],
                 half: [-p[1]; 2],
             })
             .collect();
@@ -186,10 +186,9 @@ impl BeamTooth<'_> {
         crack: Option<RootCrack>,
     ) -> ComplianceParts {
         let t = self.tooth;
-        let sense = t.tip_direction();
-        let (sin, cos) = (roll_rad - sense * t.base_half_angle_rad).sin_cos();
-        let [x, minus_y_f] = t.flank_point_m(Flank::Right, roll_rad);
-        let (x_f, y_f) = (sense * x, -minus_y_f);
+        let (sin, cos) = (roll_rad - t.base_half_angle_rad).sin_cos();
+        let [x_f, minus_y_f] = t.flank_point_m(Flank::Right, roll_rad);
+        let y_f = -minus_y_f;
         let (young, width) = (self.material.young_pa, self.face_width_m);
         let shear_modulus = young / (2.0 * (1.0 + self.material.poisson));
         let flexibility = |s: &Section| {
@@ -213,7 +212,7 @@ impl BeamTooth<'_> {
             }
         }
         // The line of the force crosses the centre line at this distance from the gear's centre.
-        let crossing = sense * (x_f - y_f * sin / cos);
+        let crossing = x_f - y_f * sin / cos;
         let foundation = ring.compliance(crossing / t.root_radius_m, [sin, cos]) / (young * width);
         ComplianceParts {
             bending: sums[0],

@@ -241,3 +241,15 @@ fn friction_takes_power_and_turns_round_in_the_pitch_point() {
         }
     }
 }
+
+/// Beams for a ring's teeth are refused by name.
+#[test]
+fn beams_of_a_ring_are_refused() {
+    let pair = ring_pair(0.0, false);
+    let beams = [beam_tooth(1, &pair.gear_1), beam_tooth(2, &pair.gear_2)];
+    let refused = BeamTeeth::new(beams, SLICES, [&[], &[]]).unwrap_err();
+    assert!(
+        refused.to_string().contains("gear 2 is a ring"),
+        "{refused}"
+    );
+}

@@ -211,7 +211,7 @@ fn faults_act_where_they_are() {
 #[test]
 fn cracks_soften_their_tooth() {
     let pair = spur_pair();
-    let gears = [beam_tooth(&pair.gear_1), beam_tooth(&pair.gear_2)];
+    let gears = [beam_tooth(1, &pair.gear_1), beam_tooth(2, &pair.gear_2)];
     let t = &pair.gear_1;
     let stiffness = |depth_m: f64| {
         let crack = RootCrack {
@@ -239,7 +239,7 @@ fn cracks_soften_their_tooth() {
 #[test]
 fn analytic_teeth_soften_towards_the_tip() {
     let pair = spur_pair();
-    let tooth = beam_tooth(&pair.gear_1);
+    let tooth = beam_tooth(1, &pair.gear_1);
     let mut last = 0.0;
     for k in 0..=10 {
         let (low, high) = (pair.gear_1.form_roll_rad, pair.gear_1.flank_end_roll_rad);
@@ -261,7 +261,7 @@ fn analytic_teeth_soften_towards_the_tip() {
     // A thin ring below the teeth, far from any published fit.
     let roll = pair.gear_1.flank_end_roll_rad;
     let thin = BeamTooth {
-        held_radius_m: 0.9 * pair.gear_1.root_radius_m,
+        bore_radius_m: 0.9 * pair.gear_1.root_radius_m,
         ..tooth
     };
     assert!(thin.parts(roll, None).total() < tooth.parts(roll, None).total());

@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// Outer diameter and radius of the load \[mm\]; deflection of the own tooth, of those after and before it \[µm\]; strain
 /// \[µm/m\].
-pub(super) fn reference() -> Vec<[f64; 6]> {
+fn reference() -> Vec<[f64; 6]> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reference/plane_ring/data.csv");
     let text = std::fs::read_to_string(path).unwrap();
     let row = |line: &str| {
@@ -23,7 +23,7 @@ pub(super) fn reference() -> Vec<[f64; 6]> {
 }
 
 /// The ring of the reference, in plane strain.
-pub(super) fn definition(outer_mm: f64, mesh: &str) -> GearDefinition {
+fn reduced(outer_mm: f64, mesh: &str, estimate_error: bool) -> ReducedGear {
     let text = format!(
         "name = \"ring\"\n[tooth]\nteeth = -60\nmodule_mm = 3.0\naddendum = 0.8\nface_width_mm = 10.0\n\
          [tooth.cutter]\nteeth = 24\n[blank]\nkind = \"ring\"\nouter_diameter_mm = {outer_mm}\n\
@@ -31,11 +31,7 @@ pub(super) fn definition(outer_mm: f64, mesh: &str) -> GearDefinition {
          [reduction]\nflanks = [\"right\"]\n\
          [[gauge]]\nname = \"root\"\ntooth = 0\nside = \"right\"\ntangent_deg = 45.0\nlength_mm = 0.4\nwidth_mm = 10.0\n"
     );
-    GearDefinition::from_document(&InputDocument::new("ring.toml", text)).unwrap()
-}
-
-fn reduced(outer_mm: f64, mesh: &str, estimate_error: bool) -> ReducedGear {
-    let gear = definition(outer_mm, mesh);
+    let gear = GearDefinition::from_document(&InputDocument::new("ring.toml", text)).unwrap();
     let options = ReductionOptions { estimate_error };
     reduce(&gear, &PythonEnvironment::find().unwrap(), options, &Silent)
         .unwrap()

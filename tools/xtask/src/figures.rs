@@ -76,7 +76,7 @@ pub const PAGES: [Page; 9] = [
         path: "docs/benchmarks/whole-machines.md",
         make: bench::whole_machines,
         has_options: true,
-        long: Some("half an hour"),
+        long: Some("a quarter of an hour"),
     },
     Page {
         words: &["accuracy-cost"],

@@ -65,12 +65,16 @@ impl BeamTeeth {
     ///
     /// # Errors
     /// [`DrivetrainError::Tooth`] for a crack in a tooth that does not exist, [`DrivetrainError::Value`] for a crack
-    /// off the fillet or too deep.
+    /// off the fillet or too deep,
+    /// [`DrivetrainError::RingBeams`].
     pub fn new(
         gears: [BeamTooth<'_>; 2],
         slices: usize,
         cracks: [&[(usize, RootCrack)]; 2],
     ) -> Result<Self, DrivetrainError> {
+        if let Some(ring) = gears.iter().find(|gear| gear.tooth.internal) {
+            return Err(DrivetrainError::RingBeams { gear: ring.gear });
+        }
         let width = gears[0].face_width_m.min(gears[1].face_width_m);
         let teeth = |gear: &BeamTooth<'_>, cracks: &[(usize, RootCrack)]| {
             let common = Arc::new(gear.table(None));

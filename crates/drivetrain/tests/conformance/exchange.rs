@@ -96,9 +96,9 @@ impl Case {
             "analytic" => {
                 let width = layout.reference.width_m;
                 let gears =
-                    [&pair.gear_1, &pair.gear_2].map(|gear| BeamTooth {
+                    [(1, &pair.gear_1), (2, &pair.gear_2)].map(|(number, gear)| BeamTooth {
                         face_width_m: width,
-                        ..beam_tooth(gear)
+                        ..beam_tooth(number, gear)
                     });
                 Box::new(BeamTeeth::new(gears, 3, [&[], &[]]).unwrap())
             }

@@ -21,9 +21,9 @@ fn unequal_mesh(name: &str, pair: &GearPair, displacement_m: f64, ends: PathEnds
     let teeth: Box<dyn TeethModel> = match name {
         "analytic" => {
             let width = layout.reference.width_m;
-            let teeth = gears.map(|gear| BeamTooth {
+            let teeth = [(1, gears[0]), (2, gears[1])].map(|(number, gear)| BeamTooth {
                 face_width_m: width,
-                ..beam_tooth(gear)
+                ..beam_tooth(number, gear)
             });
             Box::new(BeamTeeth::new(teeth, SLICES, [&[], &[]]).unwrap())
         }

@@ -119,12 +119,13 @@ pub fn kinematics(pair: &GearPair) -> MeshKinematics {
     kinematics_with(pair, [Vec::new(), Vec::new()], PathEnds::Extended)
 }
 
-pub fn beam_tooth(tooth: &ToothGeometry) -> BeamTooth<'_> {
+pub fn beam_tooth(gear: usize, tooth: &ToothGeometry) -> BeamTooth<'_> {
     BeamTooth {
+        gear,
         tooth,
         material: STEEL,
         face_width_m: WIDTH,
-        held_radius_m: if tooth.internal { 1.1 } else { 0.4 } * tooth.root_radius_m,
+        bore_radius_m: 0.4 * tooth.root_radius_m,
     }
 }
 
@@ -187,7 +188,7 @@ pub fn own_spring(pair: &GearPair, side: Flank) -> MeshSpring {
 }
 
 pub fn beam_teeth(pair: &GearPair) -> BeamTeeth {
-    let gears = [beam_tooth(&pair.gear_1), beam_tooth(&pair.gear_2)];
+    let gears = [beam_tooth(1, &pair.gear_1), beam_tooth(2, &pair.gear_2)];
     BeamTeeth::new(gears, SLICES, [&[], &[]]).unwrap()
 }
 

@@ -164,7 +164,11 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
     let model_digests = [model_1.digest, model_2.digest];
     let models = [model_1.model, model_2.model];
     let sides = [0, 1].map(|gear| pair.flank_of(gear));
-    for ((key, model), side) in ["pair.gear_1", "pair.gear_2"].iter().zip(&models).zip(sides) {
+    for ((key, model), side) in ["pair.gear_1", "pair.gear_2"]
+        .iter()
+        .zip(&models)
+        .zip(sides)
+    {
         model
             .flank_index(side)
             .map_err(|e| scene.document.error(key, e))?;

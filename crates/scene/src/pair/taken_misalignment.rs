@@ -103,6 +103,8 @@ impl MisalignmentFrom {
             return Err(at("point", problem));
         }
         let loaded = result.loaded_flank(&self.mesh, point).map_err(unreadable)?;
+        // Sides are those of the mesh's gear 1, which is the pair's gear 2 where both are swapped.
+        let loaded = loaded.map(|side| mesh.circles().side_of(usize::from(swapped), side));
         if let Some(other) = loaded.filter(|side| *side != flank) {
             let problem = format!(
                 "`{}` carries on its {} flanks there, the pair on its {} ones; set pair.flank = \"{}\"",

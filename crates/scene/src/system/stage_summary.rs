@@ -83,7 +83,8 @@ impl StageSummary {
         let tangential = 1.0 / pitch_radius_1_m;
         let [single, mesh] = stiffness_n_per_m2;
         Self {
-            ratio: (second.teeth as f64 / first.teeth as f64).copysign(pair.circles().sense(0) * pair.circles().sense(1)),
+            ratio: (second.teeth as f64 / first.teeth as f64)
+                .copysign(pair.circles().sense(0) * pair.circles().sense(1)),
             contact_ratio: pair.contact_ratio(),
             overlap_ratio: pair.overlap_ratio(width_m),
             single_stiffness_n_per_m2: single,

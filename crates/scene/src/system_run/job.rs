@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use gearmesh_dynamics::{Params, StepControl, System};
+use gearmesh_geometry::BaseCircles;
 use gearmesh_model::bytes_digest;
 
 use crate::system::planetary::PlanetarySet;
@@ -158,14 +159,14 @@ impl MeshRecord {
         self.stage.map_or(of_teeth, |stage| stage.ratio)
     }
 
-    /// Teeth of gear 1 and 2, those of a ring negative: it is the gear with more of them.
+    /// Base circles of both, in parts of what one tooth has of the radius. A ring is the gear with more teeth.
     #[must_use]
-    pub fn signed_teeth(&self) -> [f64; 2] {
-        let mut teeth = self.teeth.map(|teeth| teeth as f64);
+    pub fn circles(&self) -> BaseCircles {
+        let mut radii_m = self.teeth.map(|teeth| teeth as f64);
         if self.ratio() < 0.0 {
-            teeth[usize::from(teeth[1] > teeth[0])] *= -1.0;
+            radii_m[usize::from(radii_m[1] > radii_m[0])] *= -1.0;
         }
-        teeth
+        BaseCircles { radii_m }
     }
 }
 

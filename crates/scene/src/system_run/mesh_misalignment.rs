@@ -21,11 +21,7 @@ pub struct MeshAxes {
 
 impl MeshAxes {
     /// Axes of gears at these places: origins \[m\] and unit vectors of their z.
-    fn new(
-        origins_m: [Vector3<f64>; 2],
-        axes: [Vector3<f64>; 2],
-        circles: BaseCircles,
-    ) -> Self {
+    fn new(origins_m: [Vector3<f64>; 2], axes: [Vector3<f64>; 2], circles: BaseCircles) -> Self {
         let [z, other] = axes;
         let apart = origins_m[1] - origins_m[0];
         let centres = apart - z * apart.dot(&z);
@@ -63,9 +59,7 @@ impl SystemResult {
         swapped: bool,
     ) -> Result<Option<MeshAxes>, FileError> {
         let mut bodies = [&mesh.bodies[0], &mesh.bodies[1]];
-        let mut circles = BaseCircles {
-            radii_m: mesh.signed_teeth(),
-        };
+        let mut circles = mesh.circles();
         if swapped {
             bodies.swap(0, 1);
             circles.radii_m.swap(0, 1);
@@ -97,7 +91,11 @@ impl SystemResult {
             *place = (origin, turn * Vector3::z());
         }
         let [(origin_1, axis_1), (origin_2, axis_2)] = places;
-        Ok(Some(MeshAxes::new([origin_1, origin_2], [axis_1, axis_2], circles)))
+        Ok(Some(MeshAxes::new(
+            [origin_1, origin_2],
+            [axis_1, axis_2],
+            circles,
+        )))
     }
 
     /// The flanks that carry more of a mesh at a row; none where nothing is known or nothing is carried.

@@ -170,8 +170,10 @@ fn natural_frequencies_are_those_of_lin_and_parker() {
         );
         let result = run(&text, folder.path());
         let point = &result.eigen[0];
-        let found: Vec<f64> = point.modes.iter().map(|mode| mode.frequency_hz()).collect();
-        let expected = equations_of_lin_and_parker(planets);
+        // The turn of the whole set, which nothing resists, is not among what vibrates: its eigenvalues are 0 but for the load.
+        let all = point.modes.iter().map(|mode| mode.frequency_hz());
+        let found: Vec<f64> = all.filter(|hz| *hz > 1.0).collect();
+        let expected = equations_of_lin_and_parker(planets).split_off(1);
         assert_eq!(found.len(), expected.len());
         for (found, expected) in found.iter().zip(&expected) {
             assert!(
@@ -181,7 +183,7 @@ fn natural_frequencies_are_those_of_lin_and_parker() {
         }
         if planets == 3 {
             let published = [
-                0.0, 743.2, 743.2, 1102.4, 1102.4, 1475.7, 1896.0, 1896.0, 1930.3, 2276.4, 2276.4,
+                743.2, 743.2, 1102.4, 1102.4, 1475.7, 1896.0, 1896.0, 1930.3, 2276.4, 2276.4,
                 2658.3, 6986.3, 6986.3, 7462.8, 9647.9, 9647.9, 11775.3,
             ];
             for (found, published) in found.iter().zip(published) {
@@ -189,8 +191,12 @@ fn natural_frequencies_are_those_of_lin_and_parker() {
             }
         }
         let kinds = &point.set_modes(&result.bodies, &result.head.sets)[0].kinds;
-        let count = |kind| kinds.iter().filter(|found| **found == kind).count();
-        assert_eq!(count(SetModeKind::Rotational), 6, "{kinds:?}");
+        let count = |kind| {
+            let modes = kinds.iter().zip(&point.modes);
+            let own = modes.filter(|(found, mode)| **found == kind && mode.frequency_hz() > 1.0);
+            own.count()
+        };
+        assert_eq!(count(SetModeKind::Rotational), 5, "{kinds:?}");
         assert_eq!(count(SetModeKind::Translational), 12);
         assert_eq!(count(SetModeKind::Planet), 3 * (planets - 3));
     }

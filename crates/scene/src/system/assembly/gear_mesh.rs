@@ -258,7 +258,8 @@ impl PreparedMesh {
             }
             None => {
                 let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
-                let teeth = [0, 1].map(|i: usize| (self.teeth[i] as i64) * self.base_radii_m[i].signum() as i64);
+                let teeth = [0, 1]
+                    .map(|i: usize| (self.teeth[i] as i64) * self.base_radii_m[i].signum() as i64);
                 builder.joint(kinematic_mesh(&self.name, markers, teeth));
                 parts.joint(&self.name, "kinematic mesh", bodies, ends);
             }

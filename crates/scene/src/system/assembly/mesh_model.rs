@@ -265,11 +265,12 @@ impl SceneMesh<'_> {
         let tooth = |i: usize| {
             let gear = &self.gears[i].definition;
             BeamTooth {
+                gear: i + 1,
                 tooth: &gear.profile,
                 material: gear.material,
                 // Slices bend on their own: what stands beside the zone does not help.
                 face_width_m: self.zone_width_m(),
-                held_radius_m: gear.blank.edge_radius_m(),
+                bore_radius_m: gear.blank.bore_radius_m(),
             }
         };
         let cracks = [&model.cracks_1, &model.cracks_2];

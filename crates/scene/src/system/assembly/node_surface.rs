@@ -144,7 +144,11 @@ impl SceneMesh<'_> {
             let problem = "found \"line-of-action\"; nodes touch wherever they stand, remove it";
             return Err(self.teeth_keys.error("path", problem));
         }
-        if let Some(ring) = self.gears.iter().find(|gear| gear.definition.profile.internal) {
+        if let Some(ring) = self
+            .gears
+            .iter()
+            .find(|gear| gear.definition.profile.internal)
+        {
             let problem = format!(
                 "found \"node-to-surface\" with {}, a ring with internal teeth, whose flanks have no digital surface; take \"impact\" or \"hybrid\"",
                 ring.file.display()

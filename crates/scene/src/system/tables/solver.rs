@@ -13,7 +13,7 @@ use super::run::Run;
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolverTable {
-    /// What is left of the highest frequencies after a step, 0 to 1; 0.8 where not given.
+    /// What is left of the highest frequencies after a step, 0 to 1, with joints below 1; 0.8 where not given.
     pub rho_infinity: Option<Bounded<Within<0, 1>>>,
     /// Fixed step.
     pub step_s: Option<Bounded<Positive>>,
