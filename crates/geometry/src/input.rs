@@ -2,6 +2,7 @@
 
 mod bounded;
 mod csv_rows;
+mod derived_tables;
 mod file_schema;
 mod former_keys;
 mod given;
@@ -17,6 +18,8 @@ mod wording;
 
 pub use bounded::{Bounded, Count, End, NotNegative, Positive, Range, UpTo, Within};
 pub use csv_rows::{CsvRows, separator_hint, shown_field};
+pub use derived_tables::DerivedTable;
+use derived_tables::{Derived, DerivedTables};
 pub use file_schema::file_schema;
 use former_keys::Renewed;
 pub use former_keys::{FormerTable, Move};
@@ -60,6 +63,8 @@ pub struct InputDocument {
     pub text: String,
     /// Tables that had another form in earlier files.
     former: &'static [FormerTable],
+    /// Items of lists that follow from other tables.
+    derived: Option<DerivedTables>,
 }
 
 impl InputDocument {
@@ -95,6 +100,7 @@ impl InputDocument {
             file: file.into(),
             text: text.into(),
             former: &[],
+            derived: None,
         }
     }
 
@@ -152,6 +158,9 @@ impl InputDocument {
         for former in self.former {
             former.renew(tree.get_mut(), &self.text);
         }
+        if let Some(derived) = &self.derived {
+            derived.append_to(tree.get_mut())?;
+        }
         Ok(tree)
     }
 
@@ -184,6 +193,10 @@ impl InputDocument {
     fn complaint(&self, mut path: Vec<String>, error: &toml::de::Error) -> InputError {
         let (deeper, message) = kinds::told_below(error.message().trim());
         path.extend(deeper.iter().map(|part| (*part).to_owned()));
+        if self.derived_place(&path.join(".")).is_some() {
+            let (key, problem) = wording::in_plain_words(path, message);
+            return self.error(&key, problem);
+        }
         // A span is that of the place that serde knows.
         let span = error.span().filter(|_| deeper.is_empty());
         let line = match span {
@@ -201,12 +214,23 @@ impl InputDocument {
 
     /// A complaint about the value of `key` (dotted path; array items by number: `gauge.0.tooth`).
     pub fn error(&self, key: &str, problem: impl Display) -> InputError {
+        let (key, problem) = match self.derived_place(key) {
+            None => (key, problem.to_string()),
+            Some(Derived { from, place }) => {
+                (from, format!("in {place}, which follows from it: {problem}"))
+            }
+        };
         InputError {
             file: self.file.clone(),
             line: self.locate(key),
             key: key.to_string(),
-            problem: problem.to_string(),
+            problem,
         }
+    }
+
+    /// Where a dotted path leads, if that is not in the text.
+    fn derived_place(&self, path: &str) -> Option<Derived<'_>> {
+        self.derived.as_ref()?.place(path)
     }
 
     /// Whether a dotted key is in the file.

@@ -55,6 +55,7 @@ pub mod result_stress;
 pub mod run;
 pub mod schema;
 mod scratch;
+mod sets;
 mod stages;
 pub mod stressed_gear;
 pub mod study;

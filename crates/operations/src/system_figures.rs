@@ -6,7 +6,7 @@ use gearmesh_scene::system_run::{ResultKind, SystemResult, is_overdamped};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
-use crate::{losses, stages};
+use crate::{losses, sets, stages};
 
 /// All figures of a run.
 ///
@@ -26,6 +26,9 @@ pub fn figures(result: &SystemResult) -> Result<Value, Failure> {
     }
     value["ratings"] = gearmesh_report::run_figures::ratings(&result.ratings);
     value["warnings"] = json!(result.warnings().map_err(Failure::work)?);
+    if let sets @ Value::Object(_) = sets::json(result)? {
+        value["planetary"] = sets;
+    }
     if let stages @ Value::Object(_) = stages::json(result)? {
         value["stages"] = stages;
     }
@@ -84,9 +87,12 @@ pub fn figures(result: &SystemResult) -> Result<Value, Failure> {
         }
         ResultKind::Eigen => {
             let points = result.eigen.iter().map(|found| {
-                let modes = found.modes.iter().zip(&found.participation);
-                let modes = modes.map(|(mode, shares)| {
+                let of_sets = found.set_modes(&result.bodies, &result.head.sets);
+                let modes = found.modes.iter().zip(&found.participation).enumerate();
+                let modes = modes.map(|(k, (mode, shares))| {
+                    let kinds = of_sets.iter().map(|set| (set.set.clone(), json!(set.kinds[k].name())));
                     json!({
+                        "kind_in_set": kinds.collect::<serde_json::Map<_, _>>(),
                         "frequency_Hz": mode.frequency_hz(), "damping_ratio": mode.damping_ratio(), "growth_per_s": mode.growth_per_s,
                         "overdamped": is_overdamped(mode),
                         "participation": result.bodies.iter().zip(shares).map(|(b, s)| (b.clone(), json!(s))).collect::<serde_json::Map<_, _>>(),

@@ -11,7 +11,7 @@ use gearmesh_scene::system_run::{
 
 use crate::failure::Failure;
 use crate::periods::MARK;
-use crate::{losses, mesh_axes, ratings, stages};
+use crate::{losses, mesh_axes, ratings, sets, stages};
 
 /// Lines of the table of columns; all are in the JSON and in the file.
 const MOST_LINES: usize = 40;
@@ -31,6 +31,7 @@ pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
         ResultKind::Static => [equilibria(result)?, mesh_axes::lines(result)?].concat(),
         ResultKind::Eigen => result.eigen.iter().flat_map(|p| modes(result, p)).collect(),
     });
+    lines.extend(sets::lines(result)?);
     lines.extend(stages::lines(result)?);
     lines.extend(losses::lines(result)?);
     lines.extend(ratings::lines(&result.ratings));
@@ -227,9 +228,11 @@ fn modes(result: &SystemResult, found: &EigenResult) -> Vec<String> {
             "mode", "frequency Hz", "damping %", "share of the kinetic energy"
         ),
     ];
+    let kinds = found.kinds_in_words(&result.bodies, &result.head.sets);
     let mut overdamped = Vec::new();
     for (k, mode) in found.modes.iter().enumerate() {
         let moves = shares_in_words(&result.bodies, &found.participation[k], MOST_SHARES);
+        let moves = format!("{}{moves}", kinds[k]);
         let strain = found.strain.get(k);
         let strained = strain.map_or(String::new(), |shares| {
             shares_in_words(&result.elements, shares, MOST_SHARES)

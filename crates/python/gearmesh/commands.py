@@ -51,7 +51,7 @@ def doctor() -> dict[str, Any]:
     return program("doctor")
 
 
-def init(kind: Literal["gear", "pair", "gearbox", "bevel"], folder: str | os.PathLike[str] = ".") -> list[Path]:
+def init(kind: Literal["gear", "pair", "gearbox", "planetary", "bevel"], folder: str | os.PathLike[str] = ".") -> list[Path]:
     """Writes commented files to start from; their paths. Raises InputError where a file is there already."""
     return [Path(file) for file in program("init", kind, "-o", folder)["files"]]
 

@@ -10,6 +10,7 @@
 //! | pairs of teeth: forces, contact pattern, path | `tooth_pairs.rs` |
 //! | orbits of gears, lines of shafts and cages | `orbits.rs` |
 //! | curves over the speed | `sweep.rs` |
+//! | planetary sets: shares of the planets, a picture | `sets.rs` |
 //! | the stages, their loads beside what follows from their teeth | `stages.rs` |
 //! | what friction takes, part by part | `losses.rs` |
 //! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
@@ -23,6 +24,7 @@ mod eigen;
 mod equilibria;
 mod losses;
 mod orbits;
+mod sets;
 mod stages;
 mod sweep;
 mod tooth_pairs;
@@ -43,6 +45,7 @@ pub(crate) fn sections(
 ) -> Result<Vec<Section>, FileError> {
     let passings = r.mesh_passings()?;
     let mut sections = vec![overview(r, &passings)?];
+    sections.extend(sets::section(r)?);
     match r.kind {
         ResultKind::Transient => {
             sections.push(transient::histories(r)?);

@@ -26,6 +26,7 @@ struct Marks {
     pair: Option<IgnoredAny>,
     body: Option<IgnoredAny>,
     shaft: Option<IgnoredAny>,
+    planetary: Option<IgnoredAny>,
     tooth: Option<IgnoredAny>,
     scene: Option<IgnoredAny>,
     parameter: Option<IgnoredAny>,
@@ -38,7 +39,7 @@ struct Marks {
 /// What a TOML file is meant as; the kind decides which complaints its reader sees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InputKind {
-    /// Has `[pair]`, `[[body]]` or `[[shaft]]`.
+    /// Has `[pair]`, `[[body]]`, `[[shaft]]` or `[[planetary]]`.
     Scene,
     /// Has `[[objective]]`.
     Optimisation,
@@ -60,21 +61,23 @@ impl InputKind {
     pub fn of(document: &InputDocument) -> Result<Self, InputError> {
         let marks: Marks = document.glance()?;
         let any = |marks: &[&Option<IgnoredAny>]| marks.iter().any(|mark| mark.is_some());
-        Ok(if any(&[&marks.pair, &marks.body, &marks.shaft]) {
-            Self::Scene
-        } else if any(&[&marks.tooth]) {
-            Self::Gear
-        } else if any(&[&marks.objective]) {
-            Self::Optimisation
-        } else if any(&[&marks.scene, &marks.parameter]) {
-            Self::Study
-        } else if any(&[&marks.cycles, &marks.stress_amplitude_MPa]) {
-            Self::SnTable
-        } else if any(&[&marks.angle_origin]) {
-            Self::Record
-        } else {
-            Self::Gear
-        })
+        Ok(
+            if any(&[&marks.pair, &marks.body, &marks.shaft, &marks.planetary]) {
+                Self::Scene
+            } else if any(&[&marks.tooth]) {
+                Self::Gear
+            } else if any(&[&marks.objective]) {
+                Self::Optimisation
+            } else if any(&[&marks.scene, &marks.parameter]) {
+                Self::Study
+            } else if any(&[&marks.cycles, &marks.stress_amplitude_MPa]) {
+                Self::SnTable
+            } else if any(&[&marks.angle_origin]) {
+                Self::Record
+            } else {
+                Self::Gear
+            },
+        )
     }
 }
 
@@ -94,7 +97,7 @@ impl SceneFile {
     /// As [`SceneFile::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let marks: Marks = document.glance()?;
-        match (marks.pair, marks.body.or(marks.shaft)) {
+        match (marks.pair, marks.body.or(marks.shaft).or(marks.planetary)) {
             (Some(_), None) => Ok(Self::Pair(Box::new(Scene::from_document(document, folder)?))),
             (None, Some(_)) => Ok(Self::System(Box::new(SystemScene::from_document(document, folder)?))),
             (Some(_), Some(_)) => Err(document.error(

@@ -26,6 +26,8 @@ pub enum InitKind {
     Pair,
     /// Two gears on shafts in bearings
     Gearbox,
+    /// Sun, planets and ring on a carrier
+    Planetary,
     /// A bevel pair, its members as bodies, the pair running
     Bevel,
 }

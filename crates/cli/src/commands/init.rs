@@ -29,6 +29,23 @@ const BEVEL_DRIVE: (&str, &str) = (
     include_str!("../../templates/bevel_drive.toml"),
 );
 
+const PLANETARY: (&str, &str) = (
+    "planetary.toml",
+    include_str!("../../templates/planetary.toml"),
+);
+const PLANETARY_SUN: (&str, &str) = (
+    "planetary_sun.toml",
+    include_str!("../../templates/planetary_sun.toml"),
+);
+const PLANETARY_PLANET: (&str, &str) = (
+    "planetary_planet.toml",
+    include_str!("../../templates/planetary_planet.toml"),
+);
+const PLANETARY_RING: (&str, &str) = (
+    "planetary_ring.toml",
+    include_str!("../../templates/planetary_ring.toml"),
+);
+
 /// Runs the command.
 pub fn run(a: &InitArguments) -> Result<(), Failure> {
     let (files, next): (&[(&str, &str)], &str) = match a.kind {
@@ -40,6 +57,10 @@ pub fn run(a: &InitArguments) -> Result<(), Failure> {
         InitKind::Gearbox => (
             &[PINION, WHEEL, GEARBOX],
             "gearmesh run gearbox.toml -o gearbox.h5",
+        ),
+        InitKind::Planetary => (
+            &[PLANETARY_SUN, PLANETARY_PLANET, PLANETARY_RING, PLANETARY],
+            "gearmesh run planetary.toml -o planetary.h5",
         ),
         InitKind::Bevel => (
             &[BEVEL_PAIR, BEVEL_PINION, BEVEL_GEAR, BEVEL_DRIVE],

@@ -27,6 +27,15 @@ fn what_init_writes_passes_check_and_runs() {
             &["gearbox.toml", "pinion.toml", "wheel.toml"][..],
         ),
         (
+            "planetary",
+            &[
+                "planetary.toml",
+                "planetary_planet.toml",
+                "planetary_ring.toml",
+                "planetary_sun.toml",
+            ][..],
+        ),
+        (
             "bevel",
             &[
                 "bevel_drive.toml",
@@ -69,11 +78,59 @@ fn what_init_writes_passes_check_and_runs() {
         "check",
         argument(&desk.file("pair_of_the_workshop.toml", text)),
     ]);
-    let (scene, result) = (
-        desk.path("gearbox").join("gearbox.toml"),
-        desk.path("gearbox.h5"),
-    );
-    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+    for kind in ["gearbox", "planetary"] {
+        let scene = desk.path(kind).join(format!("{kind}.toml"));
+        let result = desk.path(&format!("{kind}.h5"));
+        succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+    }
+}
+
+/// What a set prints first: how its planets share the load; the same in the JSON. One pin is 20 um ahead.
+#[test]
+fn a_planetary_set_to_start_with_says_how_its_planets_share_the_load() {
+    let desk = Desk::new();
+    let folder = desk.path("planetary");
+    succeeds(&["init", "planetary", "-o", argument(&folder)]);
+    let scene = folder.join("planetary.toml");
+    let plan = succeeds(&["plan", argument(&scene)]).stdout;
+    for part in [
+        "planetary  set: z 27 (sun), 24 (planet), 75 (ring), 3 planets at 0, 120, 240 deg",
+        "ratio 3.777778",
+        "in phase",
+        "set planet 3",
+    ] {
+        assert!(plan.contains(part), "`{part}` is not in {plan}");
+    }
+    assert!(!plan.contains("warning"), "{plan}");
+    let told = succeeds(&[
+        "run",
+        argument(&scene),
+        "-o",
+        argument(&desk.path("set.h5")),
+    ])
+    .stdout;
+    for part in [
+        "planetary set set, over the 12 equilibria",
+        "K_gamma",
+        "sun share",
+    ] {
+        assert!(told.contains(part), "`{part}` is not in {told}");
+    }
+    let told = succeeds(&[
+        "run",
+        argument(&scene),
+        "-o",
+        argument(&desk.path("again.h5")),
+        "--json",
+    ])
+    .json();
+    let shares = told["planetary"]["set"]["sun"]["share_mean"]
+        .as_array()
+        .unwrap();
+    let sum: f64 = shares.iter().map(|share| share.as_f64().unwrap()).sum();
+    assert!((sum - 3.0).abs() < 1e-9, "{shares:?}");
+    // The pin that is ahead carries less.
+    assert!(shares[0].as_f64().unwrap() < 0.9, "{shares:?}");
 }
 
 /// The pair's contact under its torques, and the pair in motion, both from what `init` wrote.

@@ -44,8 +44,10 @@ fn modes_tables(r: &SystemResult, found: &EigenResult) -> [Table; 2] {
             .column("share of the kinetic energy", Align::Left)
             .column("share of the strain energy", Align::Left)
     });
+    let kinds = found.kinds_in_words(&r.bodies, &r.head.sets);
     for (k, mode) in found.modes.iter().enumerate() {
         let moves = shares_in_words(&r.bodies, &found.participation[k], MOST_SHARES);
+        let moves = format!("{}{moves}", kinds[k]);
         let strain = found.strain.get(k);
         let strained = strain.map_or("-".to_owned(), |shares| {
             shares_in_words(&r.elements, shares, MOST_SHARES)

@@ -89,6 +89,9 @@ impl Figure {
 /// Begin of the columns that are figures of ratings: `ratings/NAME/FIGURE`.
 pub(super) const RATINGS: &str = "ratings/";
 
+/// Begin of the columns that are figures of planetary sets: `planetary/NAME/FIGURE`.
+pub(super) const SETS: &str = "planetary/";
+
 /// A column, and what of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wanted {
@@ -124,6 +127,12 @@ impl Wanted {
         self.column.starts_with(RATINGS)
     }
 
+    /// Whether it is a figure of a `[[planetary]]` of the scene.
+    #[must_use]
+    pub fn is_of_set(&self) -> bool {
+        self.column.starts_with(SETS)
+    }
+
     /// The figure; none where the whole series is meant.
     #[must_use]
     pub fn figure(&self) -> Option<Figure> {
@@ -141,9 +150,9 @@ impl Wanted {
         if self.word.is_empty() {
             return Ok(());
         }
-        if self.is_of_rating() {
+        if self.is_of_rating() || self.is_of_set() {
             let problem = format!(
-                "`{}`: a rating is one number; remove `:{}`",
+                "`{}`: a figure of a rating or a planetary set is one number; remove `:{}`",
                 self.name(),
                 self.word
             );

@@ -9,14 +9,14 @@ use gearmesh_model::FileError;
 
 use super::cases::{Selected, SelectedValue, StudyError};
 use super::elsewhere::SentCase;
-use super::figure::{Figure, FigureKinds, RATINGS, Wanted, line_amplitude, resonance};
+use super::figure::{Figure, FigureKinds, RATINGS, SETS, Wanted, line_amplitude, resonance};
 use super::study_file::Study;
 use super::subject::Subject;
 use crate::rating::figure_names;
 use crate::system::{SystemScene, unknown};
 use crate::system_run::{
-    Figures, Outcome, ResultKind, ResultSize, RunHead, RunJob, RunKind, RunOptions, SystemResult,
-    SystemRunError, Window, inputs, recorded_columns, run,
+    Figures, Outcome, ResultKind, ResultSize, RunHead, RunJob, RunKind, RunOptions, SetFigures,
+    SystemResult, SystemRunError, Window, inputs, recorded_columns, run,
 };
 
 /// Wall time between checkpoints of a case.
@@ -53,7 +53,11 @@ pub(super) fn column_names(scene: &SystemScene) -> Result<(Vec<String>, FigureKi
         let names = figure_names(&rating.rule).into_iter();
         names.map(|figure| rating_column(&rating.name, figure))
     });
+    let of_sets = job.head.sets.iter();
+    let of_sets = of_sets.flat_map(|set| SetFigures::NAMES.map(|name| set_column(&set.name, name)));
+    let of_sets = of_sets.filter(|_| kinds != FigureKinds::OfSweep);
     let all = columns.map(|column| column.name).chain(of_ratings);
+    let all = all.chain(of_sets);
     Ok((all.collect(), kinds))
 }
 
@@ -193,6 +197,7 @@ fn selected_of(
     }
     let of = |one: &Wanted| match result.kind {
         _ if one.is_of_rating() => of_rating(result, one),
+        _ if one.is_of_set() => of_set(result, one),
         ResultKind::SpeedSweep => of_sweep(result, one),
         ResultKind::Eigen => of_modes(result, one),
         ResultKind::Transient | ResultKind::Static => of_rows(result, one, from_s),
@@ -218,6 +223,31 @@ fn told(one: &Wanted, unit: &str, figures: Figures) -> Selected {
 /// Name of the column of a rating's figure.
 fn rating_column(rating: &str, figure: &str) -> String {
     format!("{RATINGS}{rating}/{figure}")
+}
+
+/// Name of the column of a planetary set's figure.
+fn set_column(set: &str, figure: &str) -> String {
+    format!("{SETS}{set}/{figure}")
+}
+
+/// A figure of a planetary set of the run.
+fn of_set(result: &SystemResult, one: &Wanted) -> Result<Selected, String> {
+    for found in result.sets().map_err(say)? {
+        for (name, unit, value) in found.figures() {
+            if set_column(&found.set.name, name) == one.column {
+                return Ok(Selected {
+                    column: one.name(),
+                    unit: unit.to_owned(),
+                    torque_nm: None,
+                    value: SelectedValue::Single(value),
+                });
+            }
+        }
+    }
+    let column = &one.column;
+    Err(format!(
+        "the run has no {column}: its parts are not recorded, or the set carries no load"
+    ))
 }
 
 /// A figure of a rating of the run.

@@ -15,6 +15,7 @@ pub mod host_functions;
 pub(crate) mod names;
 mod other_run_kind;
 pub mod plan;
+pub mod planetary;
 pub mod scene;
 mod stage_summary;
 pub mod tables;

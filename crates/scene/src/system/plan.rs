@@ -51,6 +51,8 @@ impl SystemPlan {
             format!("scene      {}", scene.title),
             format!("run        {}", run_in_words(&scene.run)),
         ];
+        let sets = scene.sets.iter();
+        lines.extend(sets.map(|set| format!("planetary  {}: {}", set.name, set.words())));
         let system = &built.system;
         let (degrees_of_freedom, equations, mobility) = (
             system.degrees_of_freedom(),

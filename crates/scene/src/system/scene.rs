@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::host_functions::HostFunctions;
+use super::planetary::{self, PlanetarySet};
 use super::tables::bearing::BearingTable;
 use super::tables::body::BodyTable;
 use super::tables::connection::{BushingTable, SpringTable, TorsionSpringTable};
@@ -15,6 +16,7 @@ use super::tables::gear_mesh::GearMeshTable;
 use super::tables::joint::{JointTable, MotionTable};
 use super::tables::load::LoadTable;
 use super::tables::output::{Output, OutputTable};
+use super::tables::planetary::PlanetaryTable;
 use super::tables::python_element::PythonElementTable;
 use super::tables::run::{Run, RunTable};
 use super::tables::shaft::ShaftTable;
@@ -71,6 +73,9 @@ pub struct SystemTables {
     /// Gear meshes.
     #[serde(default)]
     pub gear_mesh: Vec<GearMeshTable>,
+    /// Planetary sets; their bodies, joints, bearings, motions, loads and meshes stand behind those of the file.
+    #[serde(default)]
+    pub planetary: Vec<PlanetaryTable>,
     /// Strain gauges of reduced gears.
     #[serde(default)]
     pub gauge: Vec<GaugeTable>,
@@ -100,7 +105,9 @@ pub struct SystemScene {
     pub solver: Solver,
     /// What is written.
     pub output: Output,
-    /// The tables of the file.
+    /// Its planetary sets.
+    pub sets: Vec<PlanetarySet>,
+    /// The tables of the file, and what follows from its planetary sets.
     pub tables: SystemTables,
     /// What to tell about the file beside its sense: tables in a former form.
     pub notes: Vec<String>,
@@ -128,11 +135,16 @@ impl SystemScene {
     /// As [`SystemScene::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let document = document.with_former(SYSTEM);
-        let checked = Self::checked(document.clone(), folder);
+        let expanded = planetary::expand(document.clone(), folder);
+        let checked = expanded.and_then(|(document, sets)| Self::checked(document, sets, folder));
         checked.map_err(|error| super::other_run_kind::explained(error, &document))
     }
 
-    fn checked(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
+    fn checked(
+        document: InputDocument,
+        sets: Vec<PlanetarySet>,
+        folder: &Path,
+    ) -> Result<Self, InputError> {
         let tables: SystemTables = document.parse()?;
         super::names::check_names(&document)?;
         if tables.body.is_empty() && tables.shaft.is_empty() {
@@ -176,6 +188,7 @@ impl SystemScene {
             run,
             solver,
             output,
+            sets,
             tables,
             host: HostFunctions::default(),
             document,

@@ -252,6 +252,7 @@ fn head(loaded: &LoadedSystem, built: &BuiltSystem) -> RunHead {
         inputs: inputs(scene),
         notes: [built.notes.clone(), slips].concat(),
         meshes: meshes.collect(),
+        sets: scene.sets.clone(),
     }
 }
 

@@ -8,6 +8,7 @@ use gearmesh_dynamics::{Params, StepControl, System};
 use gearmesh_geometry::BaseCircles;
 use gearmesh_model::bytes_digest;
 
+use crate::system::planetary::PlanetarySet;
 use crate::system::{RatingJob, StageSummary, Start};
 
 use super::error::SystemRunError;
@@ -182,6 +183,8 @@ pub struct RunHead {
     pub notes: Vec<String>,
     /// Gear meshes.
     pub meshes: Vec<MeshRecord>,
+    /// Planetary sets.
+    pub sets: Vec<PlanetarySet>,
 }
 
 impl RunHead {

@@ -11,6 +11,7 @@
 //! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
 //! | what is judged after the run | [`RatingResult`](crate::rating::RatingResult) | `rating.rs` |
 //! | the stages, their loads beside what follows from their teeth | [`StageTable`] | `stages.rs` |
+//! | how planets share the load of a set, what kind its modes are | [`SetFigures`], [`SetMode`] | `set_figures.rs`, `set_modes.rs` |
 //! | what friction takes, part by part | [`PowerLosses`] | `losses.rs` |
 //! | its figures at a glance, what of each period it saw | [`ColumnSummary`], [`MeshPassing`] | `summary.rs`, `column_names.rs`, `mesh_passing.rs` |
 
@@ -37,6 +38,8 @@ mod result;
 mod result_kind;
 mod result_record;
 mod run_record;
+mod set_figures;
+mod set_modes;
 mod speed_plan;
 mod stages;
 mod static_series;
@@ -68,6 +71,8 @@ pub(crate) use recorder::{body_column, element_column};
 pub use result::{EigenResult, FOLDED_SHARE, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
 pub use result_kind::ResultKind;
 pub use run_record::RunRecord;
+pub use set_figures::{MeshShares, SetFigures};
+pub use set_modes::{SetMode, SetModeKind};
 pub use speed_plan::{SpeedPlan, Window};
 pub use stages::{StageLine, StageLoad, StageRow, StageTable};
 pub use summary::{ColumnSummary, foremost};

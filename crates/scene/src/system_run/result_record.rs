@@ -15,6 +15,7 @@ use super::speed_plan::Window;
 use super::stages::StageLoad;
 use crate::rating::RatingResult;
 use crate::system::StageSummary;
+use crate::system::planetary::PlanetarySet;
 
 /// The first version in which channels and columns state their units.
 pub(super) const STATED_UNITS: u32 = 2;
@@ -98,7 +99,47 @@ impl Record for RunHead {
         let what = "names and digests of the files that the scene names";
         f.lines("inputs", &mut self.inputs, what)?;
         f.lines("notes", &mut self.notes, "assumptions and warnings")?;
-        f.list("meshes", &mut self.meshes, MeshRecord::fields)
+        f.list("meshes", &mut self.meshes, MeshRecord::fields)?;
+        f.list("planetary", &mut self.sets, PlanetarySet::fields)
+    }
+}
+
+impl Record for PlanetarySet {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.text("name", &mut self.name, "name of the planetary set")?;
+        let (teeth, members) = (&mut self.teeth, &mut self.members);
+        for (name, count) in [
+            ("teeth_planet", &mut teeth.planet),
+            ("teeth_planet_to_ring", &mut teeth.planet_to_ring),
+        ] {
+            f.count(
+                name,
+                count,
+                "teeth of the planet to the sun and to the ring",
+            )?;
+        }
+        for (name, count, body, own) in [
+            ("sun", &mut teeth.sun, "teeth_sun", &mut members.sun),
+            ("ring", &mut teeth.ring, "teeth_ring", &mut members.ring),
+        ] {
+            let mut names: Vec<String> = own.take().into_iter().collect();
+            f.lines(name, &mut names, "body, where the set has one")?;
+            *own = names.pop();
+            let mut number = count.unwrap_or(0);
+            f.count(body, &mut number, "its teeth, 0 without it")?;
+            *count = (number > 0).then_some(number);
+        }
+        f.text("carrier", &mut members.carrier, "body of the carrier")?;
+        f.lines("planets", &mut self.planets, "bodies of the planets")?;
+        let what = "meshes of sun and planets";
+        f.lines("sun_meshes", &mut self.sun_meshes, what)?;
+        let what = "meshes of planets and ring";
+        f.lines("ring_meshes", &mut self.ring_meshes, what)?;
+        let axes = [("planet", self.planets.len())];
+        let what = "angles of the planets from x";
+        f.numbers("angles_rad", &mut self.angles_rad, &axes, "rad", what)?;
+        let what = "distance of the pins from the axis";
+        f.number("centre_distance_m", &mut self.centre_distance_m, "m", what)
     }
 }
 

@@ -309,7 +309,7 @@ impl SystemResult {
     }
 
     /// What the stages' figures are of, in words and as a part of the result.
-    fn span(&self) -> Result<(String, Span), FileError> {
+    pub(super) fn span(&self) -> Result<(String, Span), FileError> {
         match self.kind {
             ResultKind::Eigen => {
                 let factor = |i: &usize| self.eigen[*i].point.load_factor;
@@ -391,8 +391,10 @@ impl SystemResult {
 }
 
 /// Part of a result.
-enum Span {
+pub(super) enum Span {
+    /// Some rows.
     Rows(Vec<usize>),
+    /// Window of a sweep.
     Window(usize),
     /// Operating point of natural frequencies.
     Point(usize),

@@ -20,6 +20,7 @@ mod node_surface;
 mod other_run_kinds;
 mod pair_stiffness;
 mod pairs_at_rest;
+mod planetary;
 mod power_losses;
 mod provenance;
 mod random_bevel_pairs;

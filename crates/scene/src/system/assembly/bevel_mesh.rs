@@ -135,6 +135,7 @@ impl SceneBevel<'_> {
             seats,
             mesh: Some(mesh),
             sides,
+            touching_at_start: self.teeth.touching_at_start,
             slice_width_m,
             models,
             tooth_pairs,

@@ -37,6 +37,8 @@ pub(super) struct PreparedMesh {
     pub mesh: Option<GearMesh>,
     /// The sides that can touch.
     pub sides: Vec<Flank>,
+    /// The side that the scene wants to touch at the start.
+    pub touching_at_start: Option<Flank>,
     /// Width of a slice \[m\]; zero for `kinematic`.
     pub slice_width_m: f64,
     /// Reduced bevel gears, which the mesh names itself.
@@ -132,6 +134,7 @@ impl PreparedMesh {
             seats,
             mesh: None,
             sides: teeth.flanks.flanks().to_vec(),
+            touching_at_start: teeth.touching_at_start,
             slice_width_m: 0.0,
             models: None,
             tooth_pairs: None,
@@ -285,7 +288,19 @@ fn teeth(table: &GearMeshTable, keys: &TableKeys<'_>) -> Result<TeethTable, Inpu
         MeshKind::Iso6336 if teeth.as_ref().is_some_and(|t| !t.errors_2.is_empty()) => {
             ("teeth.errors_2", "no single teeth")
         }
-        _ => return Ok(teeth.unwrap_or_default()),
+        _ => {
+            let teeth = teeth.unwrap_or_default();
+            if let Some(side) = teeth.touching_at_start
+                && !teeth.flanks.flanks().contains(&side)
+            {
+                let problem = format!(
+                    "is not used: teeth.flanks leaves the {} flanks out; remove one of the two",
+                    side.name()
+                );
+                return Err(keys.error("teeth.touching_at_start", problem));
+            }
+            return Ok(teeth);
+        }
     };
     let problem = format!(
         "is not used by kind = \"{}\", which knows {}; remove it",

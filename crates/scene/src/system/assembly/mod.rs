@@ -6,7 +6,7 @@
 //! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
 //! | shafts; gears that are cut into them | `shafts.rs`, `cut_into_shaft.rs` |
 //! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs`; of bevel gears `bevel_mesh.rs` |
-//! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `carriers.rs` |
+//! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `willis.rs`, `carriers.rs` |
 //! | angles that nobody states | `start.rs` |
 //! | a start in equilibrium where balls move | `start_at_rest.rs` |
 //! | bearings that are linear about an operating point | `operating_point.rs` |
@@ -47,6 +47,7 @@ mod start_at_rest;
 mod start_speeds;
 mod stated_speeds;
 mod stiffness;
+mod willis;
 
 pub(super) use self::bearings::cages::PlacedCage;
 pub(super) use self::bearings::tangent::TangentSeat;
@@ -249,7 +250,9 @@ impl LoadedSystem {
         start_speeds::settle_speeds(&mut fastest, holds, moved, &meshes, &mut Vec::new());
         mesh_frequency::refuse_long_steps(&self.scene, &meshes, [&bodies, &fastest])?;
         stated_speeds::check(&tables.body, &bodies, &joints, document)?;
-        start::settle_phases(&mut bodies, &meshes, document, &mut parts.notes)?;
+        let seeks_rest = at_rest || self.scene.solver.start == Start::Equilibrium;
+        let at = (document, seeks_rest);
+        start::settle_phases(&mut bodies, &meshes, at, &mut parts.notes)?;
         overlaps::note(&bodies, &mut parts.notes);
         load_powers::note(tables, &motions, &bodies, &mut parts.notes);
         // Gears have been turned: frames along their axes are the same, others follow.

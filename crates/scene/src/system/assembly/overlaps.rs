@@ -1,5 +1,7 @@
 //! Gears on one axis whose faces overlap: no gearbox has them, and no equation of a scene would show them.
 
+use gearmesh_geometry::ToothGeometry;
+
 use super::bodies::{Bodies, PlacedBody};
 use crate::system::tables::MM;
 
@@ -28,12 +30,20 @@ pub(super) fn note(bodies: &Bodies, notes: &mut Vec<String>) {
     }
 }
 
-/// How far two gears about one axis overlap \[m\]; none where they do not.
+/// How far two gears about one axis overlap \[m\]; none where they do not, and of a sun within its ring.
 fn overlap_m(first: &PlacedBody, second: &PlacedBody) -> Option<f64> {
     let (axis, other) = (first.axis(), second.axis());
     let apart = second.body.position_m - first.body.position_m;
     let along = apart.dot(&axis);
     if axis.dot(&other).abs() < PARALLEL || (apart - axis * along).norm() > SAME_M {
+        return None;
+    }
+    let gears = [first.cylindrical()?, second.cylindrical()?];
+    let [one, two] = gears.map(|gear| &gear.definition.profile);
+    let fits_inside = |gear: &ToothGeometry, ring: &ToothGeometry| {
+        !gear.internal && ring.internal && gear.tip_radius_m < ring.tip_radius_m
+    };
+    if fits_inside(one, two) || fits_inside(two, one) {
         return None;
     }
     let width = |body: &PlacedBody| Some(body.cylindrical()?.definition.tooth.face_width_m);

@@ -11,21 +11,25 @@ use crate::system::tables::UM;
 
 /// Touching is met to this gap \[m\]: far below any deflection, well above rounding.
 const TOUCHING_M: f64 = 1e-13;
+/// Overlap at least with which an equilibrium of a planetary set is looked for \[m\]: far above rounding, a small part of deflections.
+const PRESSED_M: f64 = UM;
 /// Overlap of the coast flanks while the others touch, from which teeth are said to jam: pairs without backlash have some rounding.
 const JAMMED_M: f64 = UM;
 /// Part of a pitch that the gaps of both sides are together where a tooth stands in a tooth.
 const TOOTH_ON_TOOTH: f64 = 0.9;
 
 /// Turns gears whose angle nobody states so that their teeth touch, gear 2 where both are free; says what it did and
-/// where teeth stand whose angles are stated.
+/// where teeth stand whose angles are stated. `seeks_rest`: the start is where an equilibrium is looked for. Teeth of planetary sets that
+/// would be open there are then pressed into each other, so that all planets carry from the first iteration on.
 pub(super) fn settle_phases(
     bodies: &mut Bodies,
     meshes: &[PreparedMesh],
-    document: &InputDocument,
+    (document, seeks_rest): (&InputDocument, bool),
     notes: &mut Vec<String>,
 ) -> Result<(), InputError> {
     // A gear that an earlier mesh has turned, or turned others against, stays.
     let mut meshed: Vec<usize> = Vec::new();
+    let mut closed: Vec<&PreparedMesh> = Vec::new();
     for mesh in meshes {
         let Some(teeth) = &mesh.mesh else {
             continue;
@@ -36,16 +40,7 @@ pub(super) fn settle_phases(
         let turned = [1, 0].into_iter().find(|&i| free(i));
         let side = driven_side(mesh, bodies);
         let keys = TableKeys::new(document, &mesh.key);
-        let gap = |bodies: &Bodies, side: Flank| {
-            let mut found = FlankContacts::default();
-            let pose = mesh.pose(bodies);
-            teeth
-                .kinematics()
-                .contacts_at(&pose, side, &mut found)
-                .map_err(|e| keys.error("", e))?;
-            let gaps = found.contacts.iter().map(|contact| contact.gap_m);
-            Ok::<f64, InputError>(gaps.fold(f64::INFINITY, f64::min))
-        };
+        let gap = |bodies: &Bodies, side: Flank| least_gap_m(mesh, bodies, side, &keys);
         let name = &mesh.name;
         if let Some(i) = turned {
             let mut least = gap(bodies, side)?;
@@ -85,6 +80,7 @@ pub(super) fn settle_phases(
                 return Err(keys.error("", format!("no angle of body `{}` was found at which the {} flanks touch (gap {least:.3e} m); state cardan_deg of both gears", bodies.list[mesh.bodies[i]].body.name, side.name())));
             }
         } else {
+            closed.push(mesh);
             let mut stand = Vec::new();
             for side in &mesh.sides {
                 let least = gap(bodies, *side)?;
@@ -143,20 +139,90 @@ pub(super) fn settle_phases(
         }
         meshed.extend(mesh.bodies);
     }
+    if seeks_rest {
+        press_sets(bodies, meshes, &closed, document)?;
+    }
     Ok(())
 }
 
-/// The side that touches at the start: right where gear 1 turns clockwise or stands.
+/// The least gap of the flanks of one side \[m\]; infinite where none face each other.
+fn least_gap_m(
+    mesh: &PreparedMesh,
+    bodies: &Bodies,
+    side: Flank,
+    keys: &TableKeys<'_>,
+) -> Result<f64, InputError> {
+    let Some(teeth) = &mesh.mesh else {
+        return Ok(f64::INFINITY);
+    };
+    let mut found = FlankContacts::default();
+    let contacts = teeth
+        .kinematics()
+        .contacts_at(&mesh.pose(bodies), side, &mut found);
+    contacts.map_err(|e| keys.error("", e))?;
+    let gaps = found.contacts.iter().map(|contact| contact.gap_m);
+    Ok(gaps.fold(f64::INFINITY, f64::min))
+}
+
+/// Turns the rings of planetary sets so that all planets overlap with them, and the planets so that sun and ring have the same overlap. From
+/// planets that are open an equilibrium is not found: nothing holds them. `closed`: meshes whose gears were turned by others.
+fn press_sets(
+    bodies: &mut Bodies,
+    meshes: &[PreparedMesh],
+    closed: &[&PreparedMesh],
+    document: &InputDocument,
+) -> Result<(), InputError> {
+    let gap = |mesh: &PreparedMesh, bodies: &Bodies| {
+        let keys = TableKeys::new(document, &mesh.key);
+        least_gap_m(mesh, bodies, driven_side(mesh, bodies), &keys)
+    };
+    // How far a gap grows with a turn of gear 1 or gear 2.
+    let slope = |mesh: &PreparedMesh, bodies: &Bodies, gear: usize| {
+        let hand = mesh.mesh.as_ref().map_or(0.0, |teeth| {
+            teeth.kinematics().hand(driven_side(mesh, bodies))
+        });
+        hand * mesh.base_radii_m[gear]
+    };
+    let is_of_set = |mesh: &PreparedMesh| mesh.touching_at_start.is_some();
+    let mut rings: Vec<usize> = Vec::new();
+    for mesh in closed.iter().filter(|mesh| is_of_set(mesh)) {
+        let ring = mesh.bodies[1];
+        if rings.contains(&ring) || !bodies.list[ring].turn_is_free {
+            continue;
+        }
+        rings.push(ring);
+        let mut widest_m = 0.0_f64;
+        for other in closed.iter().filter(|other| other.bodies[1] == ring) {
+            widest_m = widest_m.max(gap(other, bodies)?);
+        }
+        if widest_m.is_finite() {
+            let slope = slope(mesh, bodies, 1);
+            bodies.list[ring].turn(-(widest_m + PRESSED_M) / slope);
+        }
+    }
+    let of_rings = |mesh: &&PreparedMesh| is_of_set(mesh) && rings.contains(&mesh.bodies[1]);
+    for mesh in meshes.iter().filter(of_rings) {
+        let overlap_m = -gap(mesh, bodies)?;
+        let planet = mesh.bodies[0];
+        if overlap_m > 0.0 && bodies.list[planet].turn_is_free {
+            let slope = slope(mesh, bodies, 0);
+            bodies.list[planet].turn(0.5 * overlap_m / slope);
+        }
+    }
+    Ok(())
+}
+
+/// The side that touches at the start, where the scene does not say: right where gear 1 turns clockwise or stands.
 fn driven_side(mesh: &PreparedMesh, bodies: &Bodies) -> Flank {
     let spin = bodies.list[mesh.bodies[0]]
         .body
         .angular_velocity_rad_per_s
         .z;
-    let wanted = if spin > 0.0 {
+    let wanted = mesh.touching_at_start.unwrap_or(if spin > 0.0 {
         Flank::Left
     } else {
         Flank::Right
-    };
+    });
     let known = mesh.sides.iter().find(|side| **side == wanted);
     known.or(mesh.sides.first()).copied().unwrap_or(wanted)
 }

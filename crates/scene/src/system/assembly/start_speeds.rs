@@ -17,6 +17,7 @@ use super::gear_mesh::PreparedMesh;
 use super::joints::{PlacedJoint, PlacedMotion};
 use super::mesh_frequency::carrier_rad_per_s;
 use super::shafts::PlacedShaft;
+use super::willis::Planets;
 use crate::system::tables::bearing::BearingTable;
 use crate::system::tables::connection::TorsionSpringTable;
 use crate::system::tables::joint::JointWord;
@@ -27,7 +28,7 @@ use crate::system::tables::mesh_model::MeshKind;
 const RATIO_IS_MET: f64 = 1e-6;
 
 /// Distance from an axis that counts as none \[m\]: rounding of places.
-const ON_AXIS_M: f64 = 1e-12;
+pub(super) const ON_AXIS_M: f64 = 1e-12;
 
 /// The speed about its joint's axis that a motion gives \[rad/s\], where it drives an angle.
 type SpinOf<'a> = &'a dyn Fn(&PlacedMotion) -> Option<f64>;
@@ -51,6 +52,8 @@ pub(super) fn settle_speeds(
 ) {
     let carried = carriers::find(bodies, holds.joints, holds.bearings, holds.shafts);
     let groups = fixed_groups(&holds);
+    let planets = Planets::find(bodies, &carried, meshes);
+    stand_on_the_ground(bodies, &holds);
     loop {
         let mut settled = false;
         for motion in motions {
@@ -72,6 +75,10 @@ pub(super) fn settle_speeds(
             {
                 settled |= follow_mesh(bodies, mesh, notes);
             }
+        }
+        if let Some((carrier, spin)) = planets.first_settled(bodies) {
+            let name = || "the meshes of its planets".to_owned();
+            settled |= settle(bodies, carrier, spin, name, notes);
         }
         if settled {
             continue;
@@ -106,6 +113,17 @@ fn place_is_known(bodies: &Bodies, carried: &[Carried], body: usize) -> bool {
         }
     }
     true
+}
+
+/// What is fixed to the ground does not turn.
+fn stand_on_the_ground(bodies: &mut Bodies, holds: &Holds<'_>) {
+    for joint in holds.joints {
+        if let (JointWord::Fixed, [None, Some(body)] | [Some(body), None]) =
+            (joint.table.kind, joint.ends)
+        {
+            bodies.list[body].speed_is_free = false;
+        }
+    }
 }
 
 /// Bodies that turn as one, and what joins them.

@@ -137,6 +137,19 @@ impl<'de> Visitor<'de> for NumberOrForm {
 }
 
 impl FunctionTable {
+    /// A value that shows its sign: a constant, the end of a step, a slope; none of other forms.
+    pub(crate) fn first_value(&self) -> Option<f64> {
+        match self {
+            Self::Constant(value) => Some(*value),
+            Self::Form(form) => match form.as_ref() {
+                FunctionForm::Linear { at_zero, .. } if *at_zero != 0.0 => Some(*at_zero),
+                FunctionForm::Linear { slope_per_s, .. } => Some(*slope_per_s),
+                FunctionForm::Step { from, to, .. } => Some(if *from != 0.0 { *from } else { *to }),
+                _ => None,
+            },
+        }
+    }
+
     /// The function in SI units: values times `unit`.
     ///
     /// # Errors

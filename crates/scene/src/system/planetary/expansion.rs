@@ -1,0 +1,378 @@
+//! `[[planetary]]` to the tables that a scene would state without it: bodies, joints, bearings, motions, loads, meshes.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{DerivedTable, InputDocument, TableKeys};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use toml::{Table, Value};
+
+use super::gears::{SetGears, teeth_of};
+use super::{PlanetarySet, SetMembers, keys};
+use crate::system::names;
+use crate::system::tables::MM;
+use crate::system::tables::planetary::{MemberTable, PlanetaryTable, SupportWord};
+
+/// Keys of `[[body]]` that members and planets have.
+pub(super) const BODY_KEYS: [&str; 8] = [
+    "gear",
+    "microgeometry",
+    "mass_kg",
+    "inertia_kg_m2",
+    "centre_of_mass_mm",
+    "flexibility",
+    "modes_up_to_Hz",
+    "modal_damping_ratio",
+];
+
+#[derive(Deserialize)]
+struct Marks {
+    planetary: Option<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+struct Sets {
+    planetary: Vec<PlanetaryTable>,
+}
+
+/// The document with all that follows from its planetary sets, and the sets.
+///
+/// # Errors
+/// [`InputError`] in the table of a set, or in a file of its gears.
+pub(in crate::system) fn expand(
+    document: InputDocument,
+    folder: &Path,
+) -> Result<(InputDocument, Vec<PlanetarySet>), InputError> {
+    if document.glance::<Marks>()?.planetary.is_none() {
+        return Ok((document, Vec::new()));
+    }
+    let tables = document.parse::<Sets>()?.planetary;
+    let raw: Table = document.glance()?;
+    let mut gears = gears_of_bodies(&raw);
+    let (mut items, mut sets) = (Vec::new(), Vec::new());
+    for (i, table) in tables.iter().enumerate() {
+        let key = format!("planetary.{i}");
+        let raw = item(&raw, "planetary", i).cloned().unwrap_or_default();
+        let mut expansion = Expansion {
+            table,
+            raw: &raw,
+            keys: TableKeys::new(&document, &key),
+            key: &key,
+            items: Vec::new(),
+        };
+        let set = expansion.run(&mut gears, folder)?;
+        items.append(&mut expansion.items);
+        sets.push(set);
+    }
+    Ok((document.with_derived(items)?, sets))
+}
+
+fn item<'a>(table: &'a Table, list: &str, i: usize) -> Option<&'a Table> {
+    table.get(list)?.as_array()?.get(i)?.as_table()
+}
+
+/// The gears of the bodies that stand in the file, by the bodies' names; none of those without.
+fn gears_of_bodies(raw: &Table) -> BTreeMap<String, Option<PathBuf>> {
+    let bodies = raw.get("body").and_then(Value::as_array);
+    let text = |body: &Value, key: &str| body.get(key)?.as_str().map(str::to_owned);
+    let bodies = bodies.into_iter().flatten();
+    bodies
+        .filter_map(|body| Some((text(body, "name")?, text(body, "gear").map(PathBuf::from))))
+        .collect()
+}
+
+/// A set on its way.
+pub(super) struct Expansion<'a> {
+    pub table: &'a PlanetaryTable,
+    /// Its table as written.
+    pub raw: &'a Table,
+    pub keys: TableKeys<'a>,
+    key: &'a str,
+    items: Vec<DerivedTable>,
+}
+
+/// A table of the given keys.
+pub(super) fn made<const N: usize>(keys: [(&str, Value); N]) -> Table {
+    keys.into_iter()
+        .map(|(key, value)| (key.to_owned(), value))
+        .collect()
+}
+
+pub(super) fn numbers(values: &[f64]) -> Value {
+    Value::Array(values.iter().map(|value| Value::Float(*value)).collect())
+}
+
+pub(super) fn copied(table: &Table, keys: &[&str]) -> Table {
+    let own = table.iter().filter(|(key, _)| keys.contains(&key.as_str()));
+    own.map(|(key, value)| (key.clone(), value.clone()))
+        .collect()
+}
+
+impl Expansion<'_> {
+    pub(super) fn push(&mut self, list: &'static str, table: Table) {
+        self.items.push(DerivedTable {
+            list,
+            table,
+            from: self.key.to_owned(),
+        });
+    }
+
+    fn called(&self, part: &str) -> String {
+        format!("{} {part}", self.table.name)
+    }
+
+    /// The part of the table below a key.
+    pub(super) fn below(&self, key: &str) -> Table {
+        let part = self.raw.get(key).and_then(Value::as_table);
+        part.cloned().unwrap_or_default()
+    }
+
+    fn run(
+        &mut self,
+        gears: &mut BTreeMap<String, Option<PathBuf>>,
+        folder: &Path,
+    ) -> Result<PlanetarySet, InputError> {
+        let table = self.table;
+        keys::check(table, &self.keys)?;
+        let members = SetMembers {
+            sun: self.member_name("sun", table.sun.as_ref(), gears)?,
+            ring: self.member_name("ring", table.ring.as_ref(), gears)?,
+            carrier: self
+                .member_name("carrier", Some(&table.carrier), gears)?
+                .unwrap_or_default(),
+        };
+        let of_member = |name: &Option<String>, key: &str| {
+            let Some(name) = name else { return Ok(None) };
+            let key = format!("{key}.gear");
+            match gears.get(name).cloned().flatten() {
+                Some(file) => teeth_of(&folder.join(file), (&self.keys, &key)).map(Some),
+                None => Err(self
+                    .keys
+                    .error(&key, format!("missing; `{name}` needs teeth"))),
+            }
+        };
+        let of_planet = |file: &Path, key| teeth_of(&folder.join(file), (&self.keys, key));
+        let second = table.planets.second.as_ref();
+        let teeth = SetGears {
+            sun: of_member(&members.sun, "sun")?,
+            ring: of_member(&members.ring, "ring")?,
+            planet: of_planet(&table.planets.gear, "planets.gear")?,
+            second: second
+                .map(|second| of_planet(&second.gear, "planets.second.gear"))
+                .transpose()?,
+        };
+        let angles_rad = self.angles(&teeth)?;
+        teeth.check(table, &angles_rad, &self.keys)?;
+        for (key, member) in [
+            ("sun", table.sun.as_ref()),
+            ("ring", table.ring.as_ref()),
+            ("carrier", Some(&table.carrier)),
+        ] {
+            if let Some(member) = member.filter(|member| member.body.is_none()) {
+                self.add_member(key, member)?;
+            }
+        }
+        let planets: Vec<String> = (1..=angles_rad.len())
+            .map(|n| self.called(&format!("planet {n}")))
+            .collect();
+        for (planet, angle_rad) in angles_rad.iter().enumerate() {
+            self.add_planet(&planets[planet], &members.carrier, (planet, *angle_rad))?;
+        }
+        let sun_meshes = self.add_sun_meshes(&members, &planets, &teeth);
+        let ring_meshes = self.add_ring_meshes(&members, &planets, &teeth);
+        Ok(PlanetarySet {
+            name: table.name.clone(),
+            teeth: teeth.teeth(),
+            angles_rad,
+            centre_distance_m: MM * f64::from(table.centre_distance_mm),
+            members,
+            planets,
+            sun_meshes,
+            ring_meshes,
+        })
+    }
+
+    /// Name of the body that is a member; its gear is put among the known ones.
+    fn member_name(
+        &self,
+        key: &str,
+        member: Option<&MemberTable>,
+        gears: &mut BTreeMap<String, Option<PathBuf>>,
+    ) -> Result<Option<String>, InputError> {
+        let Some(member) = member else {
+            return Ok(None);
+        };
+        let Some(body) = &member.body else {
+            let name = self.called(key);
+            gears.insert(name.clone(), member.gear.clone());
+            return Ok(Some(name));
+        };
+        if !gears.contains_key(body) {
+            let known: Vec<&String> = gears.keys().collect();
+            let problem = names::unknown("body", body, &known);
+            return Err(self.keys.error(&format!("{key}.body"), problem));
+        }
+        let own = self.below(key);
+        let others = own
+            .keys()
+            .find(|other| !["body", "out_of_round"].contains(&other.as_str()));
+        match others {
+            None => Ok(Some(body.clone())),
+            Some(other) => {
+                let problem =
+                    format!("is not used with `body`: `{body}` states it; remove one of the two");
+                Err(self.keys.error(&format!("{key}.{other}"), problem))
+            }
+        }
+    }
+
+    /// The angles of the planets, where they fit \[rad\].
+    fn angles(&self, gears: &SetGears) -> Result<Vec<f64>, InputError> {
+        let planets = &self.table.planets;
+        let (key, angles): (_, Vec<f64>) = match (planets.count, &planets.angles_deg) {
+            (Some(count), None) => {
+                let angle = |n| n as f64 / count.get() as f64 * std::f64::consts::TAU;
+                ("planets.count", (0..count.get()).map(angle).collect())
+            }
+            (None, Some(angles)) if (1..=24).contains(&angles.len()) => {
+                let angles = angles.iter().map(|angle| angle.to_radians());
+                ("planets.angles_deg", angles.collect())
+            }
+            (None, Some(angles)) => {
+                let problem = format!("found {} angles, allowed are 1 to 24", angles.len());
+                return Err(self.keys.error("planets.angles_deg", problem));
+            }
+            _ => {
+                let problem = "give either count (equal angles) or angles_deg";
+                return Err(self.keys.error("planets", problem));
+            }
+        };
+        for (i, deviation) in planets.deviation.iter().enumerate() {
+            let number = deviation.planet.get();
+            let twice = planets.deviation[..i]
+                .iter()
+                .any(|other| other.planet.get() == number);
+            if number > angles.len() || twice {
+                let problem = match twice {
+                    true => format!("planet {number} has a deviation already; join the two"),
+                    false => format!("found {number}, the set has planets 1 to {}", angles.len()),
+                };
+                return Err(self
+                    .keys
+                    .error(&format!("planets.deviation.{i}.planet"), problem));
+            }
+        }
+        let fitted = gears.teeth().fitted(&angles);
+        fitted.map_err(|misfit| self.keys.error(key, misfit))
+    }
+
+    /// Middle of the set in the world, at a height above the sun's mid-face \[mm\].
+    pub(super) fn axis_mm(&self, z_mm: f64) -> [f64; 3] {
+        let [x, y, z] = self.table.position_mm.unwrap_or_default();
+        [x, y, z + z_mm]
+    }
+
+    fn add_member(&mut self, key: &'static str, member: &MemberTable) -> Result<(), InputError> {
+        let name = self.called(key);
+        let raw = self.below(key);
+        let second = self.table.planets.second.as_ref().filter(|_| key == "ring");
+        let at_mm = self.axis_mm(second.map_or(0.0, |second| second.z_mm));
+        let mut body = copied(&raw, &BODY_KEYS);
+        body.insert("name".to_owned(), name.clone().into());
+        body.insert("position_mm".to_owned(), numbers(&at_mm));
+        self.push("body", body);
+        let support = member.support().unwrap_or(SupportWord::Bearings);
+        let used = |key: &str, users: &[SupportWord]| {
+            if raw.contains_key(key) && !users.contains(&support) {
+                let problem = format!("is not used by support = \"{}\"; remove it", support.name());
+                return Err(self.keys.error(
+                    &format!("{}.{key}", &name[self.table.name.len() + 1..]),
+                    problem,
+                ));
+            }
+            Ok(())
+        };
+        use SupportWord::{Bearings, Floating, Free, Held, Turning};
+        used("bearings", &[Bearings, Floating])?;
+        used("speed_rpm", &[Turning, Floating])?;
+        used("torque_Nm", &[Turning, Floating, Bearings, Free])?;
+        if support == Bearings && member.bearings.is_empty() {
+            return Err(self.keys.error(
+                key,
+                "support = \"bearings\" needs bearings; give one or more",
+            ));
+        }
+        let joint = self.called(&format!("{key} axis"));
+        let kind = match support {
+            Held => Some("fixed"),
+            Turning => Some("revolute"),
+            Floating => Some("planar"),
+            Bearings | Free => None,
+        };
+        if let Some(kind) = kind {
+            self.push(
+                "joint",
+                made([
+                    ("name", joint.clone().into()),
+                    ("kind", kind.into()),
+                    ("body_2", name.clone().into()),
+                ]),
+            );
+        }
+        let places = member
+            .bearings
+            .iter()
+            .map(|b| self.axis_mm(b.z_mm))
+            .collect();
+        self.add_bearings((None, &name), places, &raw);
+        if let Some(speed) = raw.get("speed_rpm") {
+            let motion = self.called(&format!("{key} speed"));
+            self.push(
+                "motion",
+                made([
+                    ("name", motion.into()),
+                    ("joint", joint.into()),
+                    ("speed_rpm", speed.clone()),
+                ]),
+            );
+        }
+        if let Some(torque) = raw.get("torque_Nm") {
+            let load = self.called(&format!("{key} torque"));
+            self.push(
+                "load",
+                made([
+                    ("name", load.into()),
+                    ("body", name.into()),
+                    ("torque_Nm", torque.clone()),
+                ]),
+            );
+        }
+        Ok(())
+    }
+
+    /// The bearings of a body at places in the world \[mm\]; `raw`: its table.
+    pub(super) fn add_bearings(
+        &mut self,
+        (on, body): (Option<&str>, &str),
+        places: Vec<[f64; 3]>,
+        raw: &Table,
+    ) {
+        let written = raw.get("bearings").and_then(Value::as_array);
+        let written = written.into_iter().flatten().filter_map(Value::as_table);
+        for (i, (own, at_mm)) in written.zip(places).enumerate() {
+            let mut bearing = copied(own, &["model", "housing"]);
+            bearing.insert(
+                "name".to_owned(),
+                format!("{body} bearing {}", i + 1).into(),
+            );
+            bearing.insert("body_2".to_owned(), body.into());
+            bearing.insert("at_mm".to_owned(), numbers(&at_mm));
+            if let Some(on) = on {
+                bearing.insert("body_1".to_owned(), on.into());
+            }
+            self.push("bearing", bearing);
+        }
+    }
+}

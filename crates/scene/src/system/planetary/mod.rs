@@ -1,0 +1,135 @@
+//! Planetary sets: what follows from `[[planetary]]`.
+//!
+//! | what | file |
+//! | --- | --- |
+//! | angles at which planets fit, phases of the meshes | `layout.rs` |
+//! | gears of the set and whether they fit between each other | `gears.rs` |
+//! | keys that contradict each other | `keys.rs` |
+//! | bodies, joints, bearings and meshes as a scene would state them | `expansion.rs`, `pins.rs`, `meshes.rs` |
+
+mod expansion;
+mod gears;
+mod keys;
+pub mod layout;
+mod meshes;
+mod pins;
+
+pub(super) use expansion::expand;
+
+use std::f64::consts::TAU;
+
+use layout::{SetTeeth, harmonic_shares, phasing};
+
+/// Harmonics of the mesh whose effect is printed.
+const HARMONICS: usize = 6;
+
+/// A set with the names of its parts.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PlanetarySet {
+    /// Name.
+    pub name: String,
+    /// Numbers of teeth.
+    pub teeth: SetTeeth,
+    /// Angles of the planets, counter-clockwise from x \[rad\].
+    pub angles_rad: Vec<f64>,
+    /// Distance of the pins from the axis \[m\].
+    pub centre_distance_m: f64,
+    /// Bodies of sun, ring and carrier.
+    pub members: SetMembers,
+    /// Bodies of the planets.
+    pub planets: Vec<String>,
+    /// Meshes of the sun, by planet; none without a sun.
+    pub sun_meshes: Vec<String>,
+    /// Meshes of the ring, by planet; none without a ring.
+    pub ring_meshes: Vec<String>,
+}
+
+/// Names of the central bodies.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SetMembers {
+    /// The sun, where there is one.
+    pub sun: Option<String>,
+    /// The ring, where there is one.
+    pub ring: Option<String>,
+    /// The carrier.
+    pub carrier: String,
+}
+
+impl PlanetarySet {
+    /// What is to be known of a set before it runs: teeth, ratios, phases of the meshes and what follows from them.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let teeth = &self.teeth;
+        let planet = match (teeth.planet, teeth.planet_to_ring) {
+            (a, b) if a == b => format!("{a}"),
+            (a, b) => format!("{a} and {b}"),
+        };
+        let count = |teeth: Option<usize>| teeth.map_or("none".to_owned(), |z| z.to_string());
+        let mut words = vec![format!(
+            "z {} (sun), {planet} (planet), {} (ring), {} planets at {} deg",
+            count(teeth.sun),
+            count(teeth.ring),
+            self.angles_rad.len(),
+            list(self.angles_rad.iter().map(|angle| angle.to_degrees()))
+        )];
+        if let Some(ratio) = teeth.carrier_held_ratio() {
+            words.push(format!(
+                "ratio {:.6} from sun to carrier with the ring held, {ratio:.6} turns of the ring for one of the sun with the carrier held",
+                1.0 - 1.0 / ratio
+            ));
+        }
+        for (which, phases) in [
+            ("sun", teeth.sun_phases(&self.angles_rad)),
+            ("ring", teeth.ring_phases(&self.angles_rad)),
+        ] {
+            if !phases.is_empty() {
+                words.push(format!(
+                    "{which} meshes {}: ahead by {} mesh periods; {}",
+                    phasing(&phases).name(),
+                    list(phases.iter().copied()),
+                    self.harmonics_in_words(&phases)
+                ));
+            }
+        }
+        if let (Some(periods), Some(sun)) = (teeth.hunting_periods(), teeth.sun) {
+            words.push(format!(
+                "all teeth meet again as before after {periods} mesh periods, {} turns of the sun against the carrier",
+                periods / sun
+            ));
+        }
+        words.join("; ")
+    }
+
+    fn harmonics_in_words(&self, phases: &[f64]) -> String {
+        let shares = (1..=HARMONICS).map(|l| (l, harmonic_shares(l, phases, &self.angles_rad)));
+        let shares: Vec<_> = shares.collect();
+        let of = |wanted: &dyn Fn(f64, f64) -> bool| {
+            let found = shares.iter().filter(|(_, s)| wanted(s.turns, s.pushes));
+            let found: Vec<String> = found.map(|(l, _)| l.to_string()).collect();
+            if found.is_empty() {
+                "none".to_owned()
+            } else {
+                found.join(", ")
+            }
+        };
+        format!(
+            "of its first {HARMONICS} harmonics turn sun, ring and carrier: {}, push them sideways: {}, cancel: {}",
+            of(&|turns, _| turns > 0.0),
+            of(&|_, pushes| pushes > 0.0),
+            of(&|turns, pushes| turns == 0.0 && pushes == 0.0)
+        )
+    }
+
+    /// Where a planet stands in the set, from its axis \[m\].
+    #[must_use]
+    pub fn planet_at_m(&self, planet: usize) -> [f64; 2] {
+        let (sin, cos) = (self.angles_rad[planet] % TAU).sin_cos();
+        [self.centre_distance_m * cos, self.centre_distance_m * sin]
+    }
+}
+
+fn list(values: impl Iterator<Item = f64>) -> String {
+    let rounded = |value: f64| format!("{}", (value * 1e4).round() / 1e4);
+    let words: Vec<String> = values.map(rounded).collect();
+    words.join(", ")
+}

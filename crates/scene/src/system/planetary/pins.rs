@@ -1,0 +1,126 @@
+//! Planets on their pins: places and tilts, bodies, joints and bearings.
+
+use gearmesh_geometry::InputError;
+use toml::Value;
+
+use super::expansion::{BODY_KEYS, Expansion, copied, made, numbers};
+use crate::system::tables::planetary::{PlanetDeviationTable, SupportWord};
+
+/// Where a pin is.
+struct Pin {
+    /// Its middle at the sun's mid-face \[mm\].
+    at_mm: [f64; 3],
+    /// Its axis (t_x, t_y, 1).
+    lean: [f64; 2],
+}
+
+impl Pin {
+    /// The point of its axis at a height above the sun's mid-face \[mm\].
+    fn above_mm(&self, z_mm: f64) -> [f64; 3] {
+        let ([x, y, z], [t_x, t_y]) = (self.at_mm, self.lean);
+        [x + t_x * z_mm, y + t_y * z_mm, z + z_mm]
+    }
+
+    /// Cardan angles that turn z into its axis: about x first, then about the new y.
+    fn cardan_deg(&self) -> [f64; 2] {
+        let [t_x, t_y] = self.lean;
+        let length = t_x.hypot(t_y).hypot(1.0);
+        [
+            (-t_y).atan2(1.0).to_degrees(),
+            (t_x / length).asin().to_degrees(),
+        ]
+    }
+}
+
+impl Expansion<'_> {
+    pub(super) fn deviation(&self, planet: usize) -> Option<&PlanetDeviationTable> {
+        let mut all = self.table.planets.deviation.iter();
+        all.find(|deviation| deviation.planet.get() == planet + 1)
+    }
+
+    /// Where the pin of a planet is.
+    fn pin(&self, planet: usize, angle_rad: f64) -> Pin {
+        let table = self.table;
+        let (sin, cos) = angle_rad.sin_cos();
+        let deviation = self.deviation(planet);
+        let of = |part: fn(&PlanetDeviationTable) -> f64| 1e-3 * deviation.map_or(0.0, part);
+        let turned = |out: f64, on: f64| [cos * out - sin * on, sin * out + cos * on];
+        let out_mm = f64::from(table.centre_distance_mm) + of(|d| d.radial_um);
+        let [x, y] = turned(out_mm, of(|d| d.tangential_um));
+        let shift = table.carrier_eccentricity.map_or([0.0; 2], |e| {
+            let (sin, cos) = e.direction_deg.to_radians().sin_cos();
+            [1e-3 * e.offset_um * cos, 1e-3 * e.offset_um * sin]
+        });
+        let [x0, y0, z0] = self.axis_mm(0.0);
+        Pin {
+            at_mm: [x0 + x + shift[0], y0 + y + shift[1], z0],
+            lean: turned(of(|d| d.tilt_radial_mrad), of(|d| d.tilt_tangential_mrad)),
+        }
+    }
+
+    pub(super) fn add_planet(
+        &mut self,
+        name: &str,
+        carrier: &str,
+        (planet, angle_rad): (usize, f64),
+    ) -> Result<(), InputError> {
+        let planets = &self.table.planets;
+        let pin = self.pin(planet, angle_rad);
+        let raw = self.below("planets");
+        let mut bodies = vec![(name.to_owned(), copied(&raw, &BODY_KEYS), 0.0)];
+        let second = raw.get("second").and_then(Value::as_table);
+        if let (Some(second), Some(own)) = (&planets.second, second) {
+            bodies.push((
+                format!("{name} second"),
+                copied(own, &BODY_KEYS),
+                second.z_mm,
+            ));
+        }
+        for (name, mut body, z_mm) in bodies.clone() {
+            body.insert("name".to_owned(), name.into());
+            body.insert("position_mm".to_owned(), numbers(&pin.above_mm(z_mm)));
+            if pin.lean != [0.0; 2] {
+                body.insert("cardan_deg".to_owned(), numbers(&pin.cardan_deg()));
+            }
+            self.push("body", body);
+        }
+        let joint = |name: String, kind: &str, on: &str, body: &str| {
+            made([
+                ("name", name.into()),
+                ("kind", kind.into()),
+                ("body_1", on.into()),
+                ("body_2", body.into()),
+            ])
+        };
+        if let Some((second, ..)) = bodies.get(1) {
+            self.push(
+                "joint",
+                joint(format!("{name} shaft"), "fixed", name, second),
+            );
+        }
+        if let Some(kind) = self.planet_joint()? {
+            self.push("joint", joint(format!("{name} pin"), kind, carrier, name));
+        }
+        let places = planets.bearings.iter().map(|b| pin.above_mm(b.z_mm));
+        self.add_bearings((Some(carrier), name), places.collect(), &raw);
+        Ok(())
+    }
+
+    /// The joint between carrier and planet; none where bearings alone hold it.
+    fn planet_joint(&self) -> Result<Option<&'static str>, InputError> {
+        let planets = &self.table.planets;
+        match (planets.support, planets.bearings.is_empty()) {
+            (Some(SupportWord::Floating), _) => Ok(Some("planar")),
+            (Some(SupportWord::Bearings) | None, false) => Ok(None),
+            (Some(SupportWord::Bearings), true) => Err(self.keys.error(
+                "planets.support",
+                "found \"bearings\", which needs bearings; give one or more",
+            )),
+            (_, false) => Err(self.keys.error(
+                "planets.bearings",
+                "is not used by support = \"turning\"; remove it",
+            )),
+            (_, true) => Ok(Some("revolute")),
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! How the planets of a set share its load, over the rows that the stages' figures are of.
+//!
+//! ```text
+//! s_n = N M_n/Σ_k M_k           share of planet n: moment of its mesh on sun or ring over the mean of all N
+//! K_γ = max_n max_rows s_n      mesh load factor (ISO 6336-1: uneven load of several paths)
+//! e   = φ_c − (z_s φ_s + z_r φ_r)/(z_s + z_r)      transmission error of the carrier, after Willis
+//! ```
+//!
+//! The moments on sun and ring about their axes are those of the meshes alone: friction included, inertia left out.
+
+use gearmesh_model::FileError;
+
+use super::column_statistics::Figures;
+use super::recorder::{body_column, element_column};
+use super::result::SystemResult;
+use super::result_kind::ResultKind;
+use super::stages::Span;
+use crate::system::planetary::PlanetarySet;
+
+/// The meshes of one central member.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshShares {
+    /// Share of each planet, mean over the rows; 1 where all carry the same.
+    pub mean: Vec<f64>,
+    /// The largest share of each planet.
+    pub largest: Vec<f64>,
+    /// Normal force of each planet's mesh, mean over the rows \[N\]; that of both flanks together.
+    pub normal_force_n: Vec<f64>,
+}
+
+impl MeshShares {
+    /// K_γ.
+    #[must_use]
+    pub fn mesh_load_factor(&self) -> f64 {
+        self.largest.iter().copied().fold(0.0, f64::max)
+    }
+}
+
+/// Figures of a set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SetFigures {
+    /// The set.
+    pub set: PlanetarySet,
+    /// What the figures are of.
+    pub over: String,
+    /// Sun meshes; none where they are not recorded or do not carry.
+    pub sun: Option<MeshShares>,
+    /// Ring meshes.
+    pub ring: Option<MeshShares>,
+    /// Largest distance of the sun from the middle of its orbit \[m\], of a sun that is recorded.
+    pub sun_orbit_m: Option<f64>,
+    /// Radial force of the pin on each planet, largest of the rows \[N\]: of its bearings together, or of its joint.
+    pub pin_force_n: Option<Vec<f64>>,
+    /// Peak-to-peak transmission error of the carrier \[rad\].
+    pub transmission_error_rad: Option<f64>,
+}
+
+impl SetFigures {
+    /// Names of its single figures.
+    pub const NAMES: [&str; 4] = [
+        "sun_mesh_load_factor",
+        "ring_mesh_load_factor",
+        "sun_orbit_m",
+        "transmission_error_rad",
+    ];
+
+    /// Its single figures: name, unit, value; those that the result has.
+    pub fn figures(&self) -> impl Iterator<Item = (&'static str, &'static str, f64)> {
+        let factor =
+            |shares: &Option<MeshShares>| shares.as_ref().map(MeshShares::mesh_load_factor);
+        let values = [
+            (factor(&self.sun), "1"),
+            (factor(&self.ring), "1"),
+            (self.sun_orbit_m, "m"),
+            (self.transmission_error_rad, "rad"),
+        ];
+        let named = Self::NAMES.into_iter().zip(values);
+        named.filter_map(|(name, (value, unit))| Some((name, unit, value?)))
+    }
+}
+
+impl SystemResult {
+    /// Figures of all planetary sets, of runs in time with rows and of equilibria.
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn sets(&self) -> Result<Vec<SetFigures>, FileError> {
+        if !matches!(self.kind, ResultKind::Transient | ResultKind::Static) {
+            return Ok(Vec::new());
+        }
+        let (over, span) = self.span()?;
+        let Span::Rows(rows) = span else {
+            return Ok(Vec::new());
+        };
+        let over = over.replacen("mean over", "over", 1);
+        let columns = Columns {
+            result: self,
+            rows: &rows,
+        };
+        let of_set = |set: &PlanetarySet| {
+            Ok(SetFigures {
+                sun: columns.shares(&set.sun_meshes, "moment_1_Nm")?,
+                ring: columns.shares(&set.ring_meshes, "moment_2_Nm")?,
+                sun_orbit_m: columns.orbit_m(set.members.sun.as_deref())?,
+                pin_force_n: columns.pin_forces_n(set)?,
+                transmission_error_rad: columns.transmission_error_rad(set)?,
+                over: over.clone(),
+                set: set.clone(),
+            })
+        };
+        self.head.sets.iter().map(of_set).collect()
+    }
+}
+
+/// The columns of a result in some of its rows.
+struct Columns<'a> {
+    result: &'a SystemResult,
+    rows: &'a [usize],
+}
+
+impl Columns<'_> {
+    /// A column; none that is not recorded.
+    fn read(&self, name: &str) -> Result<Option<Vec<f64>>, FileError> {
+        let rows = &self.result.rows;
+        if self.rows.is_empty() || !rows.columns().iter().any(|c| c.name == name) {
+            return Ok(None);
+        }
+        let all = rows.read(name)?;
+        Ok(Some(self.rows.iter().map(|&row| all[row]).collect()))
+    }
+
+    fn read_all(
+        &self,
+        names: impl Iterator<Item = String>,
+    ) -> Result<Option<Vec<Vec<f64>>>, FileError> {
+        names.map(|name| self.read(&name)).collect()
+    }
+
+    fn shares(&self, meshes: &[String], channel: &str) -> Result<Option<MeshShares>, FileError> {
+        let of = |channel: &str| {
+            let names = meshes.iter().map(|mesh| element_column(mesh, channel));
+            self.read_all(names)
+        };
+        let Some(moments) = of(channel)? else {
+            return Ok(None);
+        };
+        let count = moments.len() as f64;
+        let sums: Vec<f64> = (0..self.rows.len())
+            .map(|row| moments.iter().map(|m| m[row]).sum())
+            .collect();
+        if moments.is_empty() || sums.iter().any(|sum| *sum == 0.0) {
+            return Ok(None);
+        }
+        let shares = |moment: &Vec<f64>| -> Vec<f64> {
+            moment
+                .iter()
+                .zip(&sums)
+                .map(|(m, sum)| count * m / sum)
+                .collect()
+        };
+        let figures: Vec<Figures> = moments.iter().map(|m| Figures::of(&shares(m))).collect();
+        let mut normal_force_n = vec![0.0; meshes.len()];
+        for flank in ["normal_force_right_N", "normal_force_left_N"] {
+            let forces = of(flank)?.unwrap_or_default();
+            let sums = normal_force_n.iter_mut().zip(&forces);
+            sums.for_each(|(sum, force)| *sum += Figures::of(force).mean);
+        }
+        Ok(Some(MeshShares {
+            mean: figures.iter().map(|f| f.mean).collect(),
+            largest: figures.iter().map(|f| f.largest).collect(),
+            normal_force_n,
+        }))
+    }
+
+    fn orbit_m(&self, sun: Option<&str>) -> Result<Option<f64>, FileError> {
+        let Some(sun) = sun else { return Ok(None) };
+        let places = self.read_all(["x_m", "y_m"].iter().map(|part| body_column(sun, part)))?;
+        Ok(places.map(|places| {
+            let middle = [&places[0], &places[1]].map(|values| Figures::of(values).mean);
+            let distance =
+                |row: usize| (places[0][row] - middle[0]).hypot(places[1][row] - middle[1]);
+            (0..self.rows.len()).map(distance).fold(0.0, f64::max)
+        }))
+    }
+
+    fn pin_forces_n(&self, set: &PlanetarySet) -> Result<Option<Vec<f64>>, FileError> {
+        let mut forces = Vec::new();
+        for planet in &set.planets {
+            let joint = |axis: &str| format!("joints/{planet} pin/force_{axis}_N");
+            let mut parts = self.read_all(["x", "y"].into_iter().map(joint))?;
+            let mut number = 1;
+            while let Some(more) = self.read_all(["x", "y"].into_iter().map(|axis| {
+                element_column(
+                    &format!("{planet} bearing {number}"),
+                    &format!("force_{axis}_N"),
+                )
+            }))? {
+                parts = Some(match parts {
+                    None => more,
+                    Some(sum) => sum
+                        .iter()
+                        .zip(&more)
+                        .map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + b).collect())
+                        .collect(),
+                });
+                number += 1;
+            }
+            let Some(parts) = parts else { return Ok(None) };
+            let radial = (0..self.rows.len()).map(|row| parts[0][row].hypot(parts[1][row]));
+            forces.push(radial.fold(0.0, f64::max));
+        }
+        Ok(Some(forces))
+    }
+
+    fn transmission_error_rad(&self, set: &PlanetarySet) -> Result<Option<f64>, FileError> {
+        let Some(ratio) = set.teeth.carrier_held_ratio() else {
+            return Ok(None);
+        };
+        let members = [
+            set.members.sun.as_ref(),
+            set.members.ring.as_ref(),
+            Some(&set.members.carrier),
+        ];
+        let names = members
+            .into_iter()
+            .flatten()
+            .map(|body| body_column(body, "turn_rad"));
+        let Some(turns) = self.read_all(names)? else {
+            return Ok(None);
+        };
+        // φ_r − φ_c = i (φ_s − φ_c), i the ratio with the carrier held.
+        let carrier =
+            |row: usize| turns[2][row] - (turns[1][row] - ratio * turns[0][row]) / (1.0 - ratio);
+        let errors: Vec<f64> = (0..self.rows.len()).map(carrier).collect();
+        Ok((errors.len() > 1).then(|| Figures::of(&errors).peak_to_peak()))
+    }
+}
