@@ -1,6 +1,7 @@
 // The table of figures, and states that are kept beside the present one.
 
 import { short } from "./curves.js";
+import { element } from "./dom.js";
 
 /** Figures of a row of `gearmesh run --json`, in the units of axes. */
 const ROWS = [
@@ -17,12 +18,6 @@ function difference(percent) {
   const amount = Math.abs(percent).toFixed(1);
   const sign = amount === "0.0" ? "±" : percent > 0 ? "+" : "−";
   return `${sign}${amount} %`;
-}
-
-function element(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
 }
 
 export class Variants {
