@@ -106,7 +106,7 @@ pub fn natural_modes_up_to(
 }
 
 /// The linearised equations about a state, rotations along world axes.
-fn about(system: &mut System, state: &State) -> Result<Equations, DynamicsError> {
+pub(crate) fn about(system: &mut System, state: &State) -> Result<Equations, DynamicsError> {
     let accelerations = system.accelerations(state)?;
     let mut equations = Equations::new(system);
     let at = At {

@@ -19,6 +19,7 @@
 //! | does the energy balance | [`EnergyBalance`] | `energy.rs` |
 //! | where does the system stand still, and why not | [`equilibrium`] | `statics.rs`, `static_correction.rs`, `unbalanced.rs` |
 //! | natural frequencies, damping and shapes about a motion | [`natural_modes`] | `eigen.rs`, `krylov.rs` |
+//! | which matrices do small motions have, for other programs | [`Linearised`] | `linearised.rs` |
 //!
 //! Everything is in absolute coordinates: place and unit quaternion of each body. Joints are equations, not reduced
 //! coordinates, so every reaction is at hand. Matrices hold what bodies, joints and elements connect, and are
@@ -46,6 +47,7 @@ mod integrator;
 pub mod joint;
 mod kept_iterate;
 mod krylov;
+mod linearised;
 mod matrix;
 mod metric;
 mod pattern;
@@ -85,6 +87,7 @@ pub use error::{DynamicsError, ElementFailure};
 pub use host_function::{HostFunction, TimeCall};
 pub use initial::Accelerations;
 pub use joint::{Joint, JointKind, Motion};
+pub use linearised::Linearised;
 pub use probe::Probe;
 pub use redundancy::Redundancy;
 pub use relative_motion::{Marker, MarkerPair, RelativeMotion};

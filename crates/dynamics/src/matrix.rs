@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
+use sprs::CsMatView;
 
 use crate::pattern::Pattern;
 
@@ -168,6 +169,17 @@ impl Matrix {
     /// The columns one after the other.
     pub(crate) fn values(&self) -> &[f64] {
         &self.values
+    }
+
+    /// By compressed columns, nothing copied.
+    pub(crate) fn view(&self) -> CsMatView<'_, f64> {
+        let size = (self.pattern.rows(), self.pattern.columns());
+        CsMatView::new_csc(
+            size,
+            self.pattern.starts(),
+            self.pattern.indices(),
+            &self.values,
+        )
     }
 
     /// With all its zeros, for systems small enough.

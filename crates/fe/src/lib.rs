@@ -15,6 +15,7 @@
 //! FeModel + DofMap                   -> NodeGraph          which nodes share an element
 //!                                    -> assemble_stiffness sparse K over the free DOFs
 //!                                    -> assemble_mass      consistent M, same pattern
+//! K or M                             -> compressed_columns a view by sprs: products, slices, Matrix Market files
 //! NodeGraph                          -> DofOrdering        METIS nested dissection
 //! K + DofOrdering                    -> SymbolicFactor     pattern of L, once per mesh and constraints
 //!                                    -> Factor             values of L, then any number of solves
@@ -82,6 +83,7 @@
 //! [`Element::Hex8`] and has not been studied with the incompatible modes.
 
 mod assembly;
+mod compressed_columns;
 mod constraints;
 mod cyclic;
 mod cylindrical;
@@ -121,6 +123,7 @@ mod wedge6;
 pub use assembly::{
     SparseMatrix, StiffnessMatrix, assemble_stiffness, assemble_stiffness_with_graph,
 };
+pub use compressed_columns::compressed_columns;
 pub use constraints::DofMap;
 pub use cyclic::CyclicInterface;
 pub use cylindrical::CylindricalFrames;

@@ -6,34 +6,31 @@
 
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
+use sprs::CsMatI;
 
 use crate::assembly::SparseMatrix;
+use crate::compressed_columns::compressed_columns;
 
 /// Columns that are summed together: they fill the vector registers.
 const WIDTH: usize = 8;
 
 /// A matrix A = Aᵀ, its non-zeros row by row.
 #[derive(Debug, Clone)]
-pub struct SymmetricRows {
-    offsets: Vec<usize>,
-    entries: Vec<(u32, f64)>,
-}
+pub struct SymmetricRows(CsMatI<f64, u32, usize>);
 
 impl SymmetricRows {
     /// The non-zeros of a symmetric matrix of which both triangles are stored.
     pub fn new(matrix: &SparseMatrix) -> Self {
-        let mut offsets = vec![0];
-        let mut entries = Vec::new();
-        for i in 0..matrix.ncols() {
-            let column = matrix.row_idx_of_col(i).zip(matrix.val_of_col(i));
-            entries.extend(
-                column
-                    .filter(|(_, v)| **v != 0.0)
-                    .map(|(r, v)| (r as u32, *v)),
-            );
-            offsets.push(entries.len());
+        let (mut starts, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
+        for column in compressed_columns(matrix).outer_iterator() {
+            for (row, &value) in column.iter().filter(|(_, value)| **value != 0.0) {
+                columns.push(row as u32);
+                values.push(value);
+            }
+            starts.push(values.len());
         }
-        Self { offsets, entries }
+        let size = (matrix.nrows(), matrix.ncols());
+        Self(CsMatI::new(size, starts, columns, values))
     }
 
     /// A X; the same to the last bit for any number of threads.
@@ -41,11 +38,13 @@ impl SymmetricRows {
     /// # Panics
     /// If X does not have the rows of A.
     pub fn product(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        let (n, columns) = (x.nrows(), x.ncols());
-        assert_eq!(self.offsets.len(), n + 1, "rows of the vectors");
-        let mut result = Mat::zeros(n, columns);
-        for first in (0..columns).step_by(WIDTH) {
-            let count = WIDTH.min(columns - first);
+        let (n, vectors) = (x.nrows(), x.ncols());
+        assert_eq!(self.0.rows(), n, "rows of the vectors");
+        let starts = self.0.proper_indptr();
+        let (columns, values) = (self.0.indices(), self.0.data());
+        let mut result = Mat::zeros(n, vectors);
+        for first in (0..vectors).step_by(WIDTH) {
+            let count = WIDTH.min(vectors - first);
             // Row by row, so that one entry of A meets neighbouring numbers; columns beyond the last are zero.
             let mut rows = vec![[0.0; WIDTH]; n];
             for c in 0..count {
@@ -58,8 +57,9 @@ impl SymmetricRows {
                 .with_min_len(256)
                 .map(|i| {
                     let mut sum = [0.0; WIDTH];
-                    for &(row, value) in &self.entries[self.offsets[i]..self.offsets[i + 1]] {
-                        let x = &rows[row as usize];
+                    let places = starts[i]..starts[i + 1];
+                    for (&column, &value) in columns[places.clone()].iter().zip(&values[places]) {
+                        let x = &rows[column as usize];
                         for c in 0..WIDTH {
                             sum[c] += value * x[c];
                         }

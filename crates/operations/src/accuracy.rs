@@ -25,8 +25,8 @@ const REPEATED_FOR_S: f64 = 0.2;
 pub struct AccuracyRequest {
     /// Scene file.
     pub scene: PathBuf,
-    /// Columns as those of a study; of series COLUMN:FIGURE.
-    #[serde(deserialize_with = "crate::one_or_many::read")]
+    /// Columns as those of a study; of series COLUMN:FIGURE. None: what the model decides.
+    #[serde(default, deserialize_with = "crate::one_or_many::read")]
     pub columns: Vec<String>,
     /// Figures of multibody runs from this time on.
     #[serde(default)]
@@ -138,6 +138,9 @@ pub fn figures(found: &Accuracy) -> Value {
         "effects": found.effects.iter().map(effect).collect::<Vec<_>>(),
         "judged_by": found.time.words(),
         "last_step_of_reference": found.unsettled().map(|(knob, error)| json!({"knob": knob.name, "change": error})),
+        "reference_may_be_off": by_column(&found.doubts()),
+        "chaotic": !found.spread.is_empty(), "spread": by_column(&found.spread),
+        "no_setting_within": found.open.iter().map(|goal| goal_in_words(*goal)).collect::<Vec<_>>(),
         "not_varied": found.left_out, "failed": found.failed,
     })
 }

@@ -15,6 +15,39 @@ pub fn goal_in_words(goal: Goal) -> String {
     }
 }
 
+/// How far the reference itself may be off, and what therefore cannot be said, in sentences.
+#[must_use]
+pub fn doubts_in_words(found: &Accuracy) -> Vec<String> {
+    let mut told = Vec::new();
+    if let Some((knob, error)) = found.unsettled() {
+        told.push(format!(
+            "The reference itself: the last step of {} still changes the columns by up to {} %.",
+            knob.name,
+            percent(error)
+        ));
+    }
+    if !found.spread.is_empty() {
+        let spreads = found.columns.iter().zip(&found.spread);
+        let spreads = spreads.map(|(column, spread)| format!("{column} by {} %", percent(*spread)));
+        let spreads: Vec<String> = spreads.collect();
+        told.push(format!(
+            "The run is chaotic: runs that begin next to each other part. The reference is the mean of five of them, which spread (standard deviation): {}. A longer run, or figures from later on, spread less.",
+            spreads.join(", ")
+        ));
+    }
+    let doubts = found.doubts();
+    let worst = found.columns.iter().zip(&doubts);
+    let worst = worst.max_by(|a, b| a.1.total_cmp(b.1));
+    for (goal, (column, doubt)) in found.open.iter().zip(worst.into_iter().cycle()) {
+        told.push(format!(
+            "{}: of no setting can it be said, for the reference itself may be off by {} % in {column}.",
+            goal_in_words(*goal),
+            percent(*doubt)
+        ));
+    }
+    told
+}
+
 /// The page of an outcome; `scene` names it.
 #[must_use]
 pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
@@ -53,12 +86,8 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
         found.tried.len()
     );
     let mut section = Section::new("What accuracy costs").push(Text::paragraph(told));
-    if let Some((knob, error)) = found.unsettled() {
-        section = section.push(Text::paragraph(format!(
-            "The reference itself: the last step of `{}` still changes the columns by up to {} %.",
-            knob.name,
-            short(100.0 * error)
-        )));
+    for sentence in doubts_in_words(found) {
+        section = section.push(Text::paragraph(sentence));
     }
     if found.tried.iter().any(is_drawn) {
         section = section.push(chart);

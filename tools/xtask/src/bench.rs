@@ -15,6 +15,7 @@ mod elements;
 mod elements_page;
 mod host;
 mod page;
+mod whole_machines;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -37,6 +38,7 @@ pub use chain::chain;
 pub use elements::elements;
 pub use host::Host;
 use page::{Figures, MeshSize, Row, STATED_LOADS};
+pub use whole_machines::whole_machines;
 
 /// Which cases run, and with what.
 #[derive(Debug, PartialEq, Eq, Default)]

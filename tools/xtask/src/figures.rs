@@ -28,7 +28,7 @@ pub struct Page {
 }
 
 /// All pages; of two whose words begin alike the longer one comes first.
-pub const PAGES: [Page; 8] = [
+pub const PAGES: [Page; 9] = [
     Page {
         words: &["bench", "chain"],
         path: "docs/benchmarks/chain.md",
@@ -70,6 +70,13 @@ pub const PAGES: [Page; 8] = [
         make: bench::bevel_machines,
         has_options: true,
         long: Some("a quarter of an hour"),
+    },
+    Page {
+        words: &["accuracy-cost", "whole-machines"],
+        path: "docs/benchmarks/whole-machines.md",
+        make: bench::whole_machines,
+        has_options: true,
+        long: Some("half an hour"),
     },
     Page {
         words: &["accuracy-cost"],

@@ -53,6 +53,9 @@ Usage: cargo xtask <COMMAND>
                   the models of a bearing beside each other, into docs/benchmarks/bearing-models.md
   accuracy-cost bevel-machines
                   seed 000's machines with each model of their bearings, into docs/benchmarks/bevel-machines.md
+  accuracy-cost whole-machines
+                  scenes with everything in them, whole, with half the step and without one part at a time, into
+                  docs/benchmarks/whole-machines.md
   figures [--made | PAGE...]
                   lists the pages above with commit, day and processor, and which of them are stale
                   --made      makes the stale ones again that take minutes; PAGE: those named, such as `accuracy-cost`

@@ -4,7 +4,7 @@ use crate::arguments::{AccuracyArguments, TimeWord};
 use crate::{console, interrupt};
 use gearmesh_operations::accuracy::{AccuracyRequest, accuracy, demand_kept, figures};
 use gearmesh_operations::{Failure, Watch};
-use gearmesh_report::accuracy_page::goal_in_words;
+use gearmesh_report::accuracy_page::{doubts_in_words, goal_in_words};
 use gearmesh_report::short;
 use gearmesh_scene::accuracy::{Accuracy, Advice, EffectFound, JudgedTime, words};
 use gearmesh_scene::study::Effort;
@@ -47,13 +47,7 @@ fn table(found: &Accuracy) -> Vec<String> {
         found.time.words(),
         found.tried.len()
     )];
-    if let Some((knob, error)) = found.unsettled() {
-        lines.push(format!(
-            "the reference itself: the last step of {} still changes the columns by up to {} %",
-            knob.name,
-            percent(error)
-        ));
-    }
+    lines.extend(doubts_in_words(found));
     for Advice { goal, tried, toml } in &found.advice {
         lines.push(format!(
             "# {}: error {} %, {} s, {} times faster than the reference (run once more)",

@@ -33,6 +33,7 @@ mod schema;
 mod shipped_gearboxes;
 mod studio;
 mod unequal_pair;
+mod whole_machines;
 
 use common::{Desk, argument, succeeds, workshop};
 use gearmesh_scene::{SceneResult, StrainSeries};

@@ -7,14 +7,16 @@ use std::time::Instant;
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::{ReducedGear, write_text};
 
+use super::default_columns::default_columns;
 use super::effects::{Effect, of_scene};
 use super::element_knob;
 use super::knobs::{Knob, Rung, case_of_rung, of_bevel, of_pair};
 use super::system_knobs::of_system;
 use crate::pair::ModelShelf;
 use crate::study::{
-    BaseScene, Case, Effort, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, StudyError,
-    StudyOptions, Subject, VaryError, Wanted, evaluate, known_columns, make_files, number,
+    BaseScene, Case, Effort, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, Setting,
+    StudyError, StudyOptions, Subject, VaryError, Wanted, evaluate, known_columns, make_files,
+    number,
 };
 
 /// Runs of a setting at most.
@@ -55,7 +57,7 @@ pub type Reduce<'a> = &'a (dyn Fn(&GearDefinition) -> Result<ReducedGear, String
 
 /// How a scene is tried.
 pub struct BenchOptions<'a> {
-    /// What is to be exact.
+    /// What is to be exact; where empty, what the model decides: in motion deviations and peaks.
     pub wanted: Vec<Wanted>,
     /// Runs in time: figures from this time on \[s\].
     pub from_s: f64,
@@ -82,7 +84,8 @@ pub struct Measured {
     pub effort: Effort,
     /// The figures, column by column; of a gear pair each torque's.
     pub values: Vec<f64>,
-    /// Wall time of reducing the gears that it needs and the scene does not name \[s\], once, also where they were kept from before.
+    /// Wall time of reducing the gears that it needs and the scene does not name \[s\], once, also where they were kept
+    /// from before.
     pub reduction_s: f64,
 }
 
@@ -101,7 +104,7 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// [`StudyError`] for a scene that cannot be loaded, and for columns that it does not have.
     pub fn new(scene: &Path, options: BenchOptions<'a>) -> Result<Self, StudyError> {
-        let this = Self {
+        let mut this = Self {
             base: BaseScene::read(scene, std::iter::empty(), None)?,
             folder: scene.parent().unwrap_or(Path::new("")).to_owned(),
             rest: RestCases::default(),
@@ -122,6 +125,13 @@ impl<'a> Bench<'a> {
             return Err(this.refused(problem.to_owned()).into());
         }
         let (known, kinds) = known_columns(&subject, &this.rest)?;
+        if this.options.wanted.is_empty() {
+            this.options.wanted = default_columns(&known, kinds);
+        }
+        if this.options.wanted.is_empty() {
+            let told = "none is named, and the scene has no teeth, gauges or bearings in motion, nor a pair of gears, whose columns would be judged; name what is to be exact";
+            return Err(error(told.to_owned()));
+        }
         for one in &this.options.wanted {
             one.check(&known, kinds).map_err(error)?;
             if kinds != FigureKinds::None && one.word.is_empty() {
@@ -194,6 +204,24 @@ impl<'a> Bench<'a> {
             loaded.is_ok()
         });
         (effects, left_out)
+    }
+
+    /// A case whose run begins next to that of another one, its ρ∞ changed in the fourth digit; none where nothing is
+    /// integrated in time.
+    pub(super) fn beside(&self, case: &Case, number: usize) -> Option<Case> {
+        self.base.value("solver")?;
+        let key = "solver.rho_infinity";
+        let stated = case.settings.iter().rev().find(|one| one.parameter == key);
+        let stated = stated.and_then(|one| one.value.as_float())?;
+        let off = 1e-4 * number as f64;
+        let beside = stated + if stated > 0.5 { -off } else { off };
+        let mut case = case.clone();
+        case.settings.push(Setting {
+            parameter: key.to_owned(),
+            keys: vec![key.to_owned()],
+            value: toml::Value::Float(beside),
+        });
+        Some(case)
     }
 
     /// Whether the user has asked to stop.

@@ -1,10 +1,11 @@
 //! Which settings are tried, and which one to take.
 //!
-//! The reference has every knob at its top. From it each knob goes down alone: what it costs and what it saves. Errors that
-//! add up and times that multiply then say which of all combinations may lie on the front; those are run, and what is told of
-//! them is measured, not foretold.
+//! The reference has every knob at its top. From it each knob goes down alone: what it costs and what it saves. Errors
+//! that add up and times that multiply then say which of all combinations may lie on the front; those are run, and what
+//! is told of them is measured, not foretold.
 
 use super::bench::{Bench, JudgedTime, Measured};
+use super::doubt;
 use super::effects::Effect;
 use super::knobs::{Knob, case_of};
 use super::paste::to_paste;
@@ -93,6 +94,11 @@ pub struct Accuracy {
     pub effects: Vec<EffectFound>,
     /// The time that settings are judged by.
     pub time: JudgedTime,
+    /// Of a chaotic run how far each column spreads over runs that begin next to each other, relative to their mean,
+    /// which is the reference; else empty.
+    pub spread: Vec<f64>,
+    /// Goals of which no setting can be said to be within them, for the reference itself may be further off.
+    pub open: Vec<Goal>,
 }
 
 /// An answer that a user waits for without losing the thread \[s\].
@@ -111,7 +117,8 @@ pub fn accuracy(
 ) -> Result<Accuracy, StudyError> {
     let (mut knobs, left_out) = bench.knobs()?;
     let columns = bench.names();
-    let reference = settled_reference(bench, &mut knobs)?;
+    let mut reference = settled_reference(bench, &mut knobs)?;
+    let spread = doubt::spread(bench, &knobs, &mut reference)?;
     let top = top_of(&knobs);
     let judge = |measured: &Measured| errors(&measured.values, &reference.values, columns.len());
     let mut found = Accuracy {
@@ -128,6 +135,8 @@ pub fn accuracy(
         effects: Vec::new(),
         time: bench.time(),
         knobs,
+        spread,
+        open: Vec::new(),
     };
     let mut singles = Vec::new();
     for (number, knob) in found.knobs.iter().enumerate() {
@@ -163,12 +172,13 @@ pub fn accuracy(
     for rungs in foretold_front(&found, &top) {
         attempt(&mut found, (rungs, None))?;
     }
+    let doubts = found.doubts();
     for goal in [
         Goal::Within(0.01),
         Goal::Within(0.001),
         Goal::Interactive(INTERACTIVE_S),
     ] {
-        if let Some(rungs) = choice(&found.tried, goal) {
+        if let Some(rungs) = choice(&found.tried, goal, &doubts) {
             // Once more, as the user will: what is told is what it does.
             let measured = bench.measure(&case_of(&found.knobs, &rungs))?;
             let errors = judge(&measured);
@@ -177,6 +187,8 @@ pub fn accuracy(
                 toml: to_paste(&found.knobs, &rungs, &|table| bench.name_of(table)),
                 tried: tried(bench, rungs, None, (&measured, errors)),
             });
+        } else if let Goal::Within(_) = goal {
+            found.open.push(goal);
         }
     }
     let (effects, left_out) = bench.effects();
@@ -208,12 +220,12 @@ pub fn accuracy(
     Ok(found)
 }
 
-fn top_of(knobs: &[Knob]) -> Vec<usize> {
+pub(super) fn top_of(knobs: &[Knob]) -> Vec<usize> {
     knobs.iter().map(|knob| knob.rungs.len() - 1).collect()
 }
 
-/// The scene with every knob at its top. Knobs with further rungs get as many as it takes for the last step to change the columns by less
-/// than [`SETTLED`].
+/// The scene with every knob at its top. Knobs with further rungs get as many as it takes for the last step to change
+/// the columns by less than [`SETTLED`].
 fn settled_reference(bench: &Bench<'_>, knobs: &mut [Knob]) -> Result<Measured, StudyError> {
     let columns = bench.names().len();
     let mut reference = bench.measure(&case_of(knobs, &top_of(knobs)))?;
@@ -238,13 +250,13 @@ fn settled_reference(bench: &Bench<'_>, knobs: &mut [Knob]) -> Result<Measured, 
     Ok(reference)
 }
 
-fn largest(errors: &[f64]) -> f64 {
+pub(super) fn largest(errors: &[f64]) -> f64 {
     errors.iter().copied().fold(0.0, f64::max)
 }
 
 impl Accuracy {
-    /// How far the reference itself may be off: of the knobs whose rungs are numbers (steps, slices, tolerances) the one whose last rung still
-    /// changes the columns most, and by how much. None where there is no such knob.
+    /// How far the reference itself may be off: of the knobs whose rungs are numbers (steps, slices, tolerances) the
+    /// one whose last rung still changes the columns most, and by how much. None where there is no such knob.
     #[must_use]
     pub fn unsettled(&self) -> Option<(&Knob, f64)> {
         let is_number = |knob: &Knob| knob.rungs.iter().all(|r| r.label.parse::<f64>().is_ok());
@@ -285,7 +297,7 @@ fn tried(
 }
 
 /// Largest error of each column over its torques, relative to the largest amount that the reference has there.
-fn errors(values: &[f64], reference: &[f64], columns: usize) -> Vec<f64> {
+pub(super) fn errors(values: &[f64], reference: &[f64], columns: usize) -> Vec<f64> {
     let each = reference.len() / columns.max(1);
     let chunks = values
         .chunks(each.max(1))
@@ -377,18 +389,22 @@ fn undominated(mut all: Vec<(Vec<usize>, f64, f64)>) -> Vec<(Vec<usize>, f64, f6
     all
 }
 
-/// The measured setting that serves a goal best, the reference among them; none where none answers in time.
-fn choice(tried: &[Tried], goal: Goal) -> Option<Vec<usize>> {
+/// The measured setting that serves a goal best, the reference among them. Its error counts together with what the
+/// reference itself may be off by, `doubts`; none where that alone is too much, and where none answers in time.
+fn choice(tried: &[Tried], goal: Goal, doubts: &[f64]) -> Option<Vec<usize>> {
     let sound = || tried.iter();
-    let by = |a: f64, b: f64| a.total_cmp(&b);
-    let best = match goal {
-        Goal::Within(error) => {
-            (sound().filter(|one| one.error() <= error)).min_by(|a, b| by(a.seconds, b.seconds))
-        }
-        Goal::Interactive(seconds) => {
-            (sound().filter(|one| one.seconds <= seconds)).min_by(|a, b| by(a.error(), b.error()))
-        }
+    let is_within = |one: &&Tried, most: f64| {
+        let mut both = one.errors.iter().zip(doubts);
+        both.all(|(error, doubt)| error + doubt <= most)
     };
+    let by = |a: f64, b: f64| a.total_cmp(&b);
+    let best =
+        match goal {
+            Goal::Within(error) => (sound().filter(|one| is_within(one, error)))
+                .min_by(|a, b| by(a.seconds, b.seconds)),
+            Goal::Interactive(seconds) => (sound().filter(|one| one.seconds <= seconds))
+                .min_by(|a, b| by(a.error(), b.error())),
+        };
     best.map(|one| one.rungs.clone())
 }
 
@@ -435,6 +451,8 @@ mod tests {
             advice: Vec::new(),
             effects: Vec::new(),
             time: JudgedTime::Wall,
+            spread: Vec::new(),
+            open: Vec::new(),
         };
         assert_eq!(foretold_front(&found, &[1, 1]), [vec![0, 0]]);
         // What costs time and exactness is not worth a run.
@@ -442,10 +460,14 @@ mod tests {
         assert!(foretold_front(&found, &[1, 1]).is_empty());
 
         let tried = &found.tried;
-        assert_eq!(choice(tried, Goal::Within(0.03)), Some(vec![1, 0]));
-        assert_eq!(choice(tried, Goal::Within(0.001)), Some(vec![1, 1]));
-        assert_eq!(choice(tried, Goal::Interactive(3.0)), Some(vec![1, 0]));
-        assert_eq!(choice(tried, Goal::Interactive(1.0)), None);
+        let choice = |goal: Goal, doubt: f64| choice(tried, goal, &[doubt]);
+        assert_eq!(choice(Goal::Within(0.03), 0.0), Some(vec![1, 0]));
+        assert_eq!(choice(Goal::Within(0.001), 0.0), Some(vec![1, 1]));
+        assert_eq!(choice(Goal::Interactive(3.0), 0.0), Some(vec![1, 0]));
+        assert_eq!(choice(Goal::Interactive(1.0), 0.0), None);
+        // A reference that may be off by 2 % leaves 1 % of 3; by 4 %, nothing can be said.
+        assert_eq!(choice(Goal::Within(0.03), 0.02), Some(vec![1, 1]));
+        assert_eq!(choice(Goal::Within(0.03), 0.04), None);
     }
 
     #[test]

@@ -7,11 +7,15 @@
 //! | which effects it has, or could have | [`Effect`] | `effects.rs` |
 //! | what a setting gives, and what it takes | [`Bench`] | `bench.rs` |
 //! | which settings are tried, and which one to take | [`accuracy`] | `ladder.rs` |
+//! | how far the reference itself may be off, chaotic runs | [`Accuracy::doubts`] | `doubt.rs` |
+//! | what is judged where nothing is named | | `default_columns.rs` |
 //! | the lines to paste | | `paste.rs` |
 //!
 //! Errors are those against the reference of the same program: what no knob of the scene changes (its shafts, its loads) is in none of them.
 
 mod bench;
+mod default_columns;
+mod doubt;
 mod effects;
 mod element_knob;
 mod knobs;

@@ -145,6 +145,15 @@ impl SystemScene {
         }
         let run = tables.run.check(&document)?;
         let solver = tables.solver.check(&document, &run)?;
+        if solver
+            .params
+            .is_some_and(|params| params.rho_infinity == 1.0)
+            && !tables.joint.is_empty()
+        {
+            // An error of a joint's force dies out with ρ∞ (docs/theory/multibody.md).
+            let problem = "found 1, with joints; allowed is less than 1, for nothing damps errors of joint forces then, which grow from step to step; take 0.99, which loses hardly any energy";
+            return Err(TableKeys::new(&document, "solver").error("rho_infinity", problem));
+        }
         let output = tables.output.check(&document, &run)?;
         if let Some(name) = run.varied_motion() {
             let keys = TableKeys::new(&document, "run");

@@ -11,6 +11,8 @@ mod parts;
 #[path = "../../../../tests/support/property_cases.rs"]
 mod property_cases;
 mod random_scenes;
+#[path = "../system_runs/mod.rs"]
+mod system_runs;
 
 use common::*;
 

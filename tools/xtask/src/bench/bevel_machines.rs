@@ -87,10 +87,10 @@ const FILM: &str = ", film = { viscosity_mPa_s = 33.0, width_mm = 5.0 }";
 
 /// Mean, deviation and range of a column over the second half of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Spread {
-    mean: f64,
-    deviation: f64,
-    range: f64,
+pub(super) struct Spread {
+    pub(super) mean: f64,
+    pub(super) deviation: f64,
+    pub(super) range: f64,
 }
 
 /// What a run gives.
@@ -119,20 +119,14 @@ pub fn bevel_machines(workspace: &Workspace, options: &Options) -> Result<ExitCo
     std::fs::create_dir_all(&folder)
         .map_err(XtaskError::io(|| format!("making {}", folder.display())))?;
     let shipped = workspace.root().join("fe_models");
+    let runner = Runner::new(bench, folder);
     for file in [
         "bearing_seed_000.toml",
         "bevel_13_35.toml",
         "bevel_31_36.toml",
     ] {
-        std::fs::copy(shipped.join(file), folder.join(file))
-            .map_err(XtaskError::io(|| format!("copying {file}")))?;
+        runner.copied(&shipped, file)?;
     }
-    let result = folder.join("result.h5");
-    let runner = Runner {
-        bench,
-        folder,
-        result,
-    };
     let mut text = head(&Host::find(workspace.root()));
     for pair in PAIRS {
         let mut rows = Vec::new();
@@ -159,7 +153,7 @@ pub fn bevel_machines(workspace: &Workspace, options: &Options) -> Result<ExitCo
 }
 
 /// Why a run failed, in a cell of a table.
-fn reason(error: &XtaskError) -> String {
+pub(super) fn reason(error: &XtaskError) -> String {
     let told = match error {
         XtaskError::Failed { status, .. } => status.clone(),
         other => other.to_string(),
@@ -179,13 +173,14 @@ fn taken_out(scene: &str, without: &[&str]) -> String {
 }
 
 /// The step that a scene states \[s\].
-fn step(scene: &str) -> Option<f64> {
+pub(super) fn step(scene: &str) -> Option<f64> {
     let mut lines = scene.lines();
     let stated = lines.find_map(|line| line.strip_prefix("step_s = "))?;
     stated.trim().parse().ok()
 }
 
-struct Runner {
+/// Runs scenes in a folder.
+pub(super) struct Runner {
     bench: Bench,
     /// Where commands are called.
     folder: PathBuf,
@@ -193,6 +188,44 @@ struct Runner {
 }
 
 impl Runner {
+    pub(super) fn new(bench: Bench, folder: PathBuf) -> Self {
+        let result = folder.join("result.h5");
+        Self {
+            bench,
+            folder,
+            result,
+        }
+    }
+
+    /// A file that scenes name, beside them.
+    pub(super) fn copied(&self, from: &Path, file: &str) -> Result<(), XtaskError> {
+        std::fs::copy(from.join(file), self.folder.join(file))
+            .map_err(XtaskError::io(|| format!("copying {file}")))?;
+        Ok(())
+    }
+
+    /// Reduces a gear, unless its model is there.
+    pub(super) fn reduced(&self, gear: &Path, model: &Path) -> Result<(), XtaskError> {
+        if model.exists() {
+            return Ok(());
+        }
+        if let Some(folder) = model.parent() {
+            std::fs::create_dir_all(folder)
+                .map_err(XtaskError::io(|| format!("making {}", folder.display())))?;
+        }
+        let [gear, model] = [gear, model].map(|path| path.display().to_string());
+        self.call(&["reduce", &gear, "-o", &model, "--json"])?;
+        Ok(())
+    }
+
+    /// Runs a scene of this text.
+    pub(super) fn run_text(&self, text: &str) -> Result<(Value, f64), XtaskError> {
+        let file = self.folder.join("scene.toml");
+        std::fs::write(&file, text)
+            .map_err(XtaskError::io(|| format!("writing {}", file.display())))?;
+        self.run("scene.toml")
+    }
+
     fn call(&self, arguments: &[&str]) -> Result<(Value, f64), XtaskError> {
         let failed = |status: String| XtaskError::Failed {
             command: arguments.join(" "),
@@ -219,10 +252,7 @@ impl Runner {
             line.unwrap_or_default().to_owned()
         });
         let text = scene.replace(&stated, &format!("step_s = {step_s:e}"));
-        let file = self.folder.join("scene.toml");
-        std::fs::write(&file, text)
-            .map_err(XtaskError::io(|| format!("writing {}", file.display())))?;
-        let (told, cpu_s) = self.run("scene.toml")?;
+        let (told, cpu_s) = self.run_text(&text)?;
         let number = |name: &str| told["run"][name].as_f64().unwrap_or(f64::NAN);
         let column = |name: &str| self.spread(name);
         let each = |name: &str| {
@@ -251,7 +281,8 @@ impl Runner {
         })
     }
 
-    fn spread(&self, column: &str) -> Result<Spread, XtaskError> {
+    /// Figures of a column over the second half of the last run.
+    pub(super) fn spread(&self, column: &str) -> Result<Spread, XtaskError> {
         let result = self.result.display().to_string();
         let (told, _) = self.call(&["signal", "statistics", &result, column, "--json"])?;
         let figures = told["figures"].as_array().into_iter().flatten();
@@ -277,7 +308,8 @@ impl Spread {
         range: f64::NAN,
     };
 
-    fn shown(&self) -> String {
+    /// `mean ± deviation`.
+    pub(super) fn shown(&self) -> String {
         format!("{:.0} ± {:.0}", self.mean, self.deviation)
     }
 }

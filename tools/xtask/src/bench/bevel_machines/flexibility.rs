@@ -58,17 +58,9 @@ pub(super) fn flexibility(
 /// Makes the models of both members, of files with this end of their names, where the scenes look for them, unless they are there.
 fn reduced_members(runner: &Runner, suffix: &str) -> Result<(), XtaskError> {
     for member in ["pinion", "gear"] {
-        let model = format!("../out/scenes/bevel_{member}_20_20{suffix}.h5");
-        let file = runner.folder.join(&model);
-        if file.exists() {
-            continue;
-        }
-        if let Some(folder) = file.parent() {
-            std::fs::create_dir_all(folder)
-                .map_err(XtaskError::io(|| format!("making {}", folder.display())))?;
-        }
         let gear = format!("bevel_{member}_20_20{suffix}.toml");
-        runner.call(&["reduce", &gear, "-o", &model, "--json"])?;
+        let model = format!("../out/scenes/bevel_{member}_20_20{suffix}.h5");
+        runner.reduced(&runner.folder.join(gear), &runner.folder.join(model))?;
     }
     Ok(())
 }
