@@ -20,10 +20,10 @@ def chromium():
 
 
 @contextlib.contextmanager
-def server(program, file):
-    """The address of a server of `file`, which ends with the block."""
-    words = [str(program), "studio", str(file), "--no-open"]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+def server(program, file=None, folder=None):
+    """The address of a server of `file`, or of something new in `folder`; it ends with the block."""
+    words = [str(Path(program).absolute()), "studio", *([str(file)] if file else []), "--no-open"]
+    with subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         try:
             address = process.stdout.readline().strip()
             if not address.startswith("http://127.0.0.1:"):

@@ -176,9 +176,14 @@ def test_columns_of_a_system(browser, tmp_path):
         shown = it.page.locator("#names label:visible")
         assert 0 < shown.count() < 5
         shown.locator("input").first.check()
-        it.page.check("#spectrum")
+        it.page.select_option("#shown", "spectrum")
         it.until("[...document.querySelectorAll('#plots figcaption')].every((one) => one.textContent.includes('Hz'))")
         it.keep("columns")
+        it.page.select_option("#shown", "waterfall")
+        it.page.wait_for_selector("#plots canvas[aria-label^=Amplitudes]")
+        it.page.wait_for_timeout(500)
+        assert it.colours("#plots canvas") > 20
+        it.keep("waterfall")
         assert it.complaints == []
 
 
@@ -213,3 +218,128 @@ def test_a_changed_body_is_reduced_in_the_background(browser, address, scene, tm
     it.wait(3)
     assert it.answer()["models"] == before["models"]
     assert all("409" in one for one in it.complaints), it.complaints
+
+
+def test_an_optimum_is_taken_over(browser, address):
+    it = studio_page.Page(browser, address)
+    it.wait()
+    before = it.answer()["figures"]["rows"][-1]
+    it.page.locator("#seek summary").click()
+    it.page.locator("#seek input[type=number]").last.fill("20")
+    it.page.click("#seek-start")
+    it.page.wait_for_selector("#seek svg .point", timeout=60_000)
+    it.keep("optimum")
+    best = it.page.locator("#seek svg .point").first
+    told = re.search(r"µm at 150 Nm: ([-0-9.]+)", best.get_attribute("aria-label"))
+    best.click()
+    it.wait(2)
+    row = it.answer()["figures"]["rows"][-1]
+    assert 1e6 * row["te_peak_to_peak_m"] == pytest.approx(float(told[1]), rel=1e-3)
+    relief = it.field(RELIEF).locator("input[type=number]").input_value()
+    assert 0 <= float(relief) <= 60
+    it.page.click("#undo")
+    it.wait(3)
+    assert it.answer()["figures"]["rows"][-1] == before
+    assert it.complaints == []
+
+
+def test_something_new(browser, tmp_path):
+    with studio_page.server(PROGRAM, folder=tmp_path) as address:
+        it = studio_page.Page(browser, address)
+        card = lambda kind: it.page.locator(f"#kinds [data-kind={kind}]")
+        card("bearing").click()
+        it.page.wait_for_selector("#outcome [data-column=life_L10r_Mrev]")
+        life = lambda: float(it.page.locator("#outcome [data-column=life_L10r_Mrev]").get_attribute("value"))
+        at_first = life()
+        text = it.page.locator("#text")
+        assert "load_N" in text.input_value()
+        # The text is the file: twice the load, an eighth of the life.
+        text.fill(text.input_value().replace("[0.0, 1500.0, 300.0]", "[0.0, 3000.0, 600.0]"))
+        it.until(f"document.querySelector('#outcome [data-column=life_L10r_Mrev]')?.value != '{at_first}'")
+        assert life() < 0.2 * at_first
+        it.keep("new_bearing")
+
+        card("pair").click()
+        module = it.field("tooth.module_mm").locator("input[type=number]")
+        it.until("document.querySelector('#text').value.includes('module_mm = 3.0')")
+        module.fill("2.5")
+        module.press("Enter")
+        it.until("document.querySelector('#text').value.includes('module_mm = 2.5')")
+        # What is wrong with it is said while one types, and Run waits.
+        it.page.wait_for_selector("#problem:not([hidden])")
+        assert "module" in it.page.locator("#problem").text_content() and it.page.locator("#run").is_disabled()
+        text.fill(text.input_value().replace("module_mm = 2.5", "module_mm = 3.0"))
+        it.until("document.querySelector('.field[data-key=\"tooth.module_mm\"] input').value === '3'")
+        it.until("document.querySelector('#problem').hidden")
+        for name in ("pinion.toml", "wheel.toml"):
+            it.page.locator("#tabs button", has_text=name).click()
+            coarse = "\n[mesh]\nflank_mm = 2.0\nfillet_mm = 1.0\nbody_mm = 6.0\naxial_mm = 5.0\n[reduction]\nslices = 3\nroll_stations = 4\n"
+            text.fill(text.input_value() + coarse)
+            it.page.wait_for_timeout(400)
+        it.keep("new_pair")
+        it.page.click("#run")
+        it.until("document.querySelector('#pair')?.hidden === false && globalThis.gearmeshStudio?.times?.length > 0", seconds=120)
+        assert (tmp_path / "pair/pinion.h5").exists()
+        assert len(it.answer()["figures"]["rows"]) == 3
+        assert all("422" in one for one in it.complaints), it.complaints
+
+
+def test_a_bevel_pair_and_a_gearbox_from_nothing(browser, tmp_path):
+    with studio_page.server(PROGRAM, folder=tmp_path) as address:
+        it = studio_page.Page(browser, address)
+        it.page.locator("#kinds [data-kind=bevel-pair]").click()
+        text = it.page.locator("#text")
+        it.until("document.querySelector('#text').value.includes('positions_per_pitch')")
+        text.fill(text.input_value().replace("slices = 31", "slices = 11").replace("positions_per_pitch = 16", "positions_per_pitch = 8"))
+        it.until("!document.querySelector('#run').disabled")
+        it.page.click("#run")
+        it.page.wait_for_selector("#outcome canvas", timeout=120_000)
+        assert it.colours("#outcome canvas >> nth=0") > 5
+        it.keep("new_bevel")
+        picked = it.page.locator("#kinds input[type=file]")
+        picked.set_input_files("fe_models/gearbox_three_stage.rexs")
+        it.page.wait_for_selector("#outcome h2", timeout=120_000)
+        assert it.page.locator("#outcome table").count() >= 3
+        it.keep("new_gearbox")
+        assert (tmp_path / "gearbox").is_dir()
+        assert it.complaints == []
+
+
+def test_gears_of_a_system_move(browser, scene, tmp_path):
+    drive = f"""title = "drive"
+run = {{ kind = "transient", end_s = 0.002 }}
+solver = {{ step_s = 2e-5, start = "equilibrium" }}
+output = {{ interval_s = 1e-4 }}
+body = [
+  {{ name = "pinion", gear = "{scene.parent}/pinion.h5" }},
+  {{ name = "wheel", gear = "{scene.parent}/wheel.h5", position_mm = [94.6, 0.0, 0.0] }},
+]
+joint = [{{ name = "a", kind = "revolute", body_2 = "pinion" }}, {{ name = "b", kind = "revolute", body_2 = "wheel" }}]
+motion = [{{ joint = "a", speed_rpm = -600.0 }}]
+load = [{{ body = "wheel", torque_Nm = -100.0 }}]
+gear_mesh = [{{ name = "mesh", gear_1 = "pinion", gear_2 = "wheel", model = {{ kind = "hybrid" }} }}]
+"""
+    (tmp_path / "drive.toml").write_text(drive)
+    result = tmp_path / "drive.h5"
+    gm.program("run", str(tmp_path / "drive.toml"), "-o", str(result))
+    with studio_page.server(PROGRAM, result) as address:
+        it = studio_page.Page(browser, address)
+        it.page.wait_for_selector("#plots canvas")
+        it.page.locator("#motion summary").click()
+        it.until("Number(document.querySelector('#moment').max) > 10")
+        it.page.wait_for_timeout(300)
+        assert it.colours("#moving") > 20, "#moving is blank"
+        # 100 N m on the wheel: the arrow is the force on the base circle of 112.8 mm.
+        longest = float(it.page.locator("#force-scale").text_content().split()[2])
+        assert longest == pytest.approx(100.0 / 0.05638, rel=0.05)
+        first = it.page.locator("#moving").screenshot()
+        it.page.locator("#moment").evaluate("(slider) => { slider.value = 9; slider.dispatchEvent(new Event('input', {bubbles: true})); }")
+        it.page.wait_for_timeout(300)
+        assert it.page.locator("#moving").screenshot() != first
+        it.keep("motion")
+        # Two columns as an orbit.
+        it.page.locator("#names input").nth(1).check()
+        it.page.select_option("#shown", "orbit")
+        it.page.wait_for_selector("#plots canvas[aria-label^=Two]")
+        assert it.colours("#plots canvas") > 3
+        assert it.complaints == []

@@ -216,9 +216,10 @@ impl InputDocument {
     pub fn error(&self, key: &str, problem: impl Display) -> InputError {
         let (key, problem) = match self.derived_place(key) {
             None => (key, problem.to_string()),
-            Some(Derived { from, place }) => {
-                (from, format!("in {place}, which follows from it: {problem}"))
-            }
+            Some(Derived { from, place }) => (
+                from,
+                format!("in {place}, which follows from it: {problem}"),
+            ),
         };
         InputError {
             file: self.file.clone(),

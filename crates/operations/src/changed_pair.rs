@@ -189,6 +189,14 @@ impl ChangedPair {
         renamed_files(&self.scene(case)?.document.text, &names).map_err(Failure::work)
     }
 
+    /// The changed scene as a file, its models where they are now: they go with the pair.
+    ///
+    /// # Errors
+    /// [`Failure`] for what the scene refuses.
+    pub fn text(&self, case: &Case) -> Result<String, Failure> {
+        renamed_files(&self.scene(case)?.document.text, &self.names).map_err(Failure::work)
+    }
+
     fn scene(&self, case: &Case) -> Result<Scene, Failure> {
         let [_, mut of_scene] = parted(case);
         for (key, model) in self.bodies(case)?.models {

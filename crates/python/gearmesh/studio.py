@@ -65,12 +65,14 @@ class Studio:
         return f'<a href="{html.escape(self.url)}" target="_blank" rel="noopener">{html.escape(self.title)} in the studio</a>'
 
 
-def studio(of: Scene | Result | str | os.PathLike[str], *, open_browser: bool = False) -> Studio:
-    """Opens a pair, a result or a file of either in the studio (docs/studio.md).
+def studio(of: Scene | Result | str | os.PathLike[str] | None = None, *, open_browser: bool = False) -> Studio:
+    """Opens a pair, a result or a file of either in the studio (docs/studio.md); without any a page for something new.
 
     of: a Pair, a Scene of a pair, a Result, or a path. open_browser: open the address at once; otherwise the notebook's link, or
     Studio.url, leads there. Raises InputError for what the studio does not show.
     """
+    if of is None:
+        return Studio(None, "something new", None, open_browser)
     if not isinstance(of, (Scene, Result)):
         return Studio(Path(of), str(of), None, open_browser)
     folder = tempfile.TemporaryDirectory(prefix="gearmesh-")

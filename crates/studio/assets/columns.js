@@ -2,6 +2,9 @@
 
 import { ask } from "./server.js";
 import { Chart, short } from "./curves.js";
+import { Orbit } from "./orbit.js";
+import { Waterfall } from "./waterfall.js";
+import { Motion } from "./motion.js";
 import { byId, fail } from "./said.js";
 
 const MOST = 16;
@@ -19,14 +22,49 @@ export async function showColumns() {
   let number = 0;
 
   const zoomed = (found) => {
-    range = byId("spectrum").checked ? range : found;
+    range = byId("shown").value === "spectrum" ? range : found;
     draw();
   };
 
+  let [orbit, waterfall] = [null, null];
+  const dropped = (one) => {
+    one?.figure.remove();
+    return null;
+  };
+
+  /** Two columns against each other, row by row. */
+  async function drawOrbit(pair, own) {
+    try {
+      const answer = await ask("/api/columns", { columns: pair.map((column) => column.name), together: true, from: range?.[0] ?? null, to: range?.[1] ?? null });
+      if (own !== number) return;
+      orbit ??= new Orbit(byId("plots"));
+      orbit.show(answer.curves, pair);
+      byId("rows").textContent = answer.every > 1 ? `${answer.rows} rows, one of ${answer.every} drawn` : `${answer.rows} rows`;
+      fail(null);
+    } catch (problem) {
+      if (problem.kind !== "overtaken") fail(problem);
+    }
+  }
+
   async function draw() {
     const own = ++number;
-    const isSpectrum = byId("spectrum").checked;
+    const isSpectrum = byId("shown").value === "spectrum";
     const columns = description.columns.filter((column) => chosen.has(column.name));
+    const how = byId("shown").value;
+    if (how !== "orbit") orbit = dropped(orbit);
+    if (how !== "waterfall") waterfall = dropped(waterfall);
+    if (how === "orbit" || how === "waterfall") {
+      for (const chart of charts.values()) chart.figure.remove();
+      charts.clear();
+      if (how === "orbit" && columns.length >= 2) return drawOrbit(columns.slice(0, 2), own);
+      if (how === "waterfall" && columns.length > 0) {
+        waterfall ??= new Waterfall(byId("plots"), description.columns);
+        return waterfall.show(columns[0], range);
+      }
+      orbit = dropped(orbit);
+      byId("rows").textContent = "choose a column, for an orbit two";
+      return;
+    }
     const units = Map.groupBy(columns, (column) => column.unit);
     for (const [unit, chart] of charts) {
       if (!units.has(unit)) {
@@ -70,8 +108,12 @@ export async function showColumns() {
     const wanted = byId("filter").value.toLowerCase();
     for (const { label, text } of labels) label.hidden = !text.includes(wanted);
   });
-  byId("spectrum").addEventListener("change", draw);
+  byId("shown").addEventListener("change", draw);
+  const motion = new Motion(() => range, (at) => [...charts.values()].forEach((chart) => byId("shown").value === "spectrum" || chart.markAt(at)));
   byId("whole").addEventListener("click", () => zoomed(null));
   await draw();
-  return draw;
+  return () => {
+    motion.restyle();
+    draw();
+  };
 }

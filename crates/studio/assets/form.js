@@ -1,5 +1,7 @@
 // The keys of the scene as fields and sliders. Everything about a key comes from the server.
 
+import { element } from "./dom.js";
+
 /** Groups in this order, the first ones open. */
 const ORDER = ["run", "pair", "gear_1.microgeometry", "gear_2.microgeometry", "gear_1_body.tooth", "gear_1_body.blank", "gear_2_body.tooth", "gear_2_body.blank", "mesh.teeth.friction", "mesh.model", "mesh.teeth"];
 const OPEN = 3;
@@ -9,12 +11,6 @@ const NARROW = 760;
 const words = (path) => path.split(".").map((part) => part.replaceAll("_", " ")).join(", ");
 const kindOf = (field) => (typeof field.kind === "string" ? field.kind : Object.keys(field.kind)[0]);
 const parts = (text) => text.split(/[\s,;]+/).filter((part) => part !== "").map(Number);
-
-function element(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-}
 
 /** Step of a slider: a thousandth of its way, as a round number. */
 function step([low, high]) {
@@ -61,6 +57,15 @@ export class Form {
       if (!field) continue;
       Object.assign(field, { with: others, reach });
       if (slider && reach) Object.assign(slider, { min: reach[0], max: reach[1] });
+    }
+    this.show();
+  }
+
+  /** What the file states now. */
+  restate(fields) {
+    for (const { key, stated } of fields ?? []) {
+      const field = this.#fields.get(key);
+      if (field) field.stated = stated;
     }
     this.show();
   }

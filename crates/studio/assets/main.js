@@ -3,6 +3,7 @@
 import { Problem, ask } from "./server.js";
 import { showPair } from "./pair.js";
 import { showColumns } from "./columns.js";
+import { showNew } from "./new.js";
 import { byId, fail, say } from "./said.js";
 
 function useTheme(restyle) {
@@ -22,9 +23,16 @@ byId("quit").addEventListener("click", async () => {
   await ask("/api/quit", {}).catch(() => {});
   say("The server has ended. This page shows what it showed, and computes nothing any more.");
 });
+byId("new").addEventListener("click", async () => {
+  await ask("/api/new/start", {}).catch(fail);
+  location.hash = "";
+  location.reload();
+});
 try {
   const { kind } = await ask("/api/session");
-  restyle = kind === "pair" ? await showPair() : await showColumns();
+  const show = { pair: showPair, columns: showColumns, new: showNew };
+  byId("new").hidden = kind === "new";
+  restyle = (await show[kind]()) ?? restyle;
 } catch (problem) {
   if (!(problem instanceof Problem)) throw problem;
   fail(problem);

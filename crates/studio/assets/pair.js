@@ -8,6 +8,7 @@ import { FlankMap, endOfScale, showScale } from "./flank.js";
 import { Scene3d } from "./scene3d.js";
 import { Variants } from "./variants.js";
 import { Job } from "./job.js";
+import { Seeker } from "./seek.js";
 import { byId, fail, say } from "./said.js";
 
 /** Milliseconds after which the progress of a calculation is shown. */
@@ -54,6 +55,7 @@ export async function showPair() {
     byId("position").max = answer.angle_deg.length - 1;
     curves.show(answer, torque, variants.pinned);
     variants.show(answer, torque);
+    seeker.show(answer);
     showScale(byId("scale"), most);
     scene?.show(answer, torque, most);
     toPosition(angle);
@@ -153,6 +155,7 @@ export async function showPair() {
     if (event !== undefined) calculator.want(change, event);
   });
   form = new Form(byId("form"), description.fields, state);
+  const seeker = new Seeker(description.fields, description.columns, state);
 
   byId("undo").addEventListener("click", () => state.undo());
   byId("redo").addEventListener("click", () => state.redo());
@@ -194,10 +197,10 @@ export async function showPair() {
       event.preventDefault();
       if (event.key.toLowerCase() === "y" || event.shiftKey) state.redo();
       else state.undo();
-    } else if (event.key === "Escape" && (calculator.isBusy || job.isRunning)) byId("stop").click();
+    } else if (event.key === "Escape" && (calculator.isBusy || job.isRunning || seeker.job.isRunning)) byId("stop").click();
     else if (event.key.toLowerCase() === "p" && !isText && !event.ctrlKey && !event.metaKey) byId("pin").click();
   });
-  byId("stop").addEventListener("click", () => (job.isRunning ? job.stop() : ask("/api/stop", {})).catch(fail));
+  byId("stop").addEventListener("click", () => (job.isRunning || seeker.job.isRunning ? job.stop() : ask("/api/stop", {})).catch(fail));
   calculator.want(state.change);
   buttons();
   return () => {

@@ -12,7 +12,7 @@ export class Problem extends Error {
 
 async function send(path, body) {
   const headers = { "X-Gearmesh-Token": token };
-  const options = body === undefined ? { headers } : { method: "POST", body: JSON.stringify(body), headers: { ...headers, "Content-Type": "application/json" } };
+  const options = body instanceof Blob ? { method: "POST", body, headers } : body === undefined ? { headers } : { method: "POST", body: JSON.stringify(body), headers: { ...headers, "Content-Type": "application/json" } };
   let reply;
   try {
     reply = await fetch(path, options);

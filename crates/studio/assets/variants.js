@@ -1,17 +1,12 @@
 // The table of figures, and states that are kept beside the present one.
 
 import { short } from "./curves.js";
+import { element } from "./dom.js";
 
 function difference(percent) {
   const amount = Math.abs(percent).toFixed(1);
   const sign = amount === "0.0" ? "±" : percent > 0 ? "+" : "−";
   return `${sign}${amount} %`;
-}
-
-function element(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
 }
 
 export class Variants {

@@ -32,12 +32,16 @@ macro_rules! own {
     };
 }
 
-const OWN: [Asset; 17] = own!(
+const OWN: [Asset; 25] = own!(
     "index.html" PAGE,
     "studio.css" STYLE,
     "icon.svg" PICTURE,
     "main.js" SCRIPT,
     "pair.js" SCRIPT,
+    "new.js" SCRIPT,
+    "outcome.js" SCRIPT,
+    "seek.js" SCRIPT,
+    "dom.js" SCRIPT,
     "said.js" SCRIPT,
     "job.js" SCRIPT,
     "server.js" SCRIPT,
@@ -45,6 +49,10 @@ const OWN: [Asset; 17] = own!(
     "form.js" SCRIPT,
     "curves.js" SCRIPT,
     "scene3d.js" SCRIPT,
+    "view3d.js" SCRIPT,
+    "motion.js" SCRIPT,
+    "orbit.js" SCRIPT,
+    "waterfall.js" SCRIPT,
     "flank.js" SCRIPT,
     "variants.js" SCRIPT,
     "columns.js" SCRIPT,

@@ -1,8 +1,11 @@
 //! Columns of a multibody result as curves. A chart has some thousand points: of each stretch of rows its least and its
 //! largest value, so that no peak is lost and a long result is never in the page as a whole.
 
-use std::sync::Mutex;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard};
 
+use gearmesh_operations::{Watch, moving_system};
 use gearmesh_report::min_max;
 use gearmesh_report::words_and_unit;
 use gearmesh_scene::system_run::{SystemResult, rank};
@@ -18,9 +21,24 @@ const MOST_COLUMNS: usize = 16;
 /// Share of a step by which steps in time may differ.
 const EVEN: f64 = 1e-6;
 
+/// Rows of two columns against each other.
+const MOST_TOGETHER: usize = 20_000;
+
+/// Moments of a picture that moves.
+const MOST_MOMENTS: usize = 150;
+
+/// A stretch of a result whose gears are drawn.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MomentsAsked {
+    from: Option<f64>,
+    to: Option<f64>,
+}
+
 /// A result in time, opened.
 #[derive(Debug)]
 pub struct ColumnsSession {
+    file: PathBuf,
     // Files of this format are read by one thread at a time.
     result: Mutex<SystemResult>,
     description: Value,
@@ -39,6 +57,9 @@ pub struct CurvesAsked {
     /// Amplitudes over frequency in the place of values over time.
     #[serde(default)]
     spectrum: bool,
+    /// Whole rows, evenly chosen, in the place of least and largest values: those of two columns are none of one row.
+    #[serde(default)]
+    together: bool,
 }
 
 impl ColumnsSession {
@@ -46,7 +67,7 @@ impl ColumnsSession {
     ///
     /// # Errors
     /// [`Problem::Input`] for a result without rows.
-    pub fn new(result: SystemResult) -> Result<Self, Problem> {
+    pub fn new(file: &Path, result: SystemResult) -> Result<Self, Problem> {
         let columns = result.rows.columns();
         let Some(first) = columns.first().filter(|_| result.rows.rows() > 1) else {
             let problem = format!(
@@ -72,6 +93,7 @@ impl ColumnsSession {
             "columns": listed.collect::<Vec<_>>(),
         });
         Ok(Self {
+            file: file.to_owned(),
             names: columns.iter().map(|column| column.name.clone()).collect(),
             result: Mutex::new(result),
             description,
@@ -85,6 +107,21 @@ impl ColumnsSession {
         self.description.clone()
     }
 
+    /// The gears at moments of a stretch, and the forces on their teeth.
+    ///
+    /// # Errors
+    /// [`Problem`] for a result without gears that move, and once `watch` stops it.
+    pub fn moments(&self, asked: &MomentsAsked, watch: &Watch<'_>) -> Result<Value, Problem> {
+        let result = self.locked()?;
+        let stretch = [asked.from, asked.to];
+        Ok(moving_system(
+            (&self.file, &result),
+            stretch,
+            MOST_MOMENTS,
+            watch,
+        )?)
+    }
+
     /// Curves, or their spectra.
     ///
     /// # Errors
@@ -96,20 +133,12 @@ impl ColumnsSession {
                 "found {found} columns, allowed are {MOST_COLUMNS} at once"
             )));
         }
-        if let Some(name) = asked.columns.iter().find(|name| !self.names.contains(name)) {
-            return Err(Problem::Input(format!("the result has no column {name}")));
-        }
-        let first = asked
-            .from
-            .map_or(0, |from| self.axis.partition_point(|x| *x < from));
-        let last = asked.to.map_or(self.axis.len(), |to| {
-            self.axis.partition_point(|x| *x <= to)
-        });
-        let rows = first.min(last)..last;
-        let result = self
-            .result
-            .lock()
-            .map_err(|error| Problem::Work(error.to_string()))?;
+        asked
+            .columns
+            .iter()
+            .try_for_each(|name| self.demand(name))?;
+        let rows = self.stretch([asked.from, asked.to]);
+        let result = self.locked()?;
         let x = &self.axis[rows.clone()];
         if asked.spectrum {
             let rate = self.rate(x)?;
@@ -138,6 +167,17 @@ impl ColumnsSession {
                 .collect();
             return Ok(json!({"x": min_max::abscissas(&x), "curves": curves, "rows": rows.len()}));
         }
+        let every = rows.len().div_ceil(MOST_TOGETHER).max(1);
+        if asked.together {
+            let read = |name: &String| -> Result<Vec<f64>, Problem> {
+                let values = result.rows.read_rows(name, rows.clone())?;
+                Ok(values.into_iter().step_by(every).collect())
+            };
+            let curves = asked.columns.iter().map(read);
+            let curves = curves.collect::<Result<Vec<_>, Problem>>()?;
+            let x: Vec<f64> = x.iter().copied().step_by(every).collect();
+            return Ok(json!({"x": x, "curves": curves, "rows": rows.len(), "every": every}));
+        }
         let read = |name: &String| Ok(min_max::values(&result.rows.read_rows(name, rows.clone())?));
         let curves = asked
             .columns
@@ -147,8 +187,34 @@ impl ColumnsSession {
         Ok(json!({"x": min_max::abscissas(x), "curves": curves, "rows": rows.len()}))
     }
 
+    pub(crate) fn locked(&self) -> Result<MutexGuard<'_, SystemResult>, Problem> {
+        let result = self.result.lock();
+        result.map_err(|error| Problem::Work(error.to_string()))
+    }
+
+    /// What the rows run over.
+    pub(crate) fn axis(&self) -> &[f64] {
+        &self.axis
+    }
+
+    /// Demands a column.
+    pub(crate) fn demand(&self, name: &String) -> Result<(), Problem> {
+        match self.names.contains(name) {
+            true => Ok(()),
+            false => Err(Problem::Input(format!("the result has no column {name}"))),
+        }
+    }
+
+    /// Rows from one value of the axis to another.
+    pub(crate) fn stretch(&self, [from, to]: [Option<f64>; 2]) -> Range<usize> {
+        let first = from.map_or(0, |from| self.axis.partition_point(|x| *x < from));
+        let all = self.axis.len();
+        let last = to.map_or(all, |to| self.axis.partition_point(|x| *x <= to));
+        first.min(last)..last
+    }
+
     /// Rows a second.
-    fn rate(&self, x: &[f64]) -> Result<f64, Problem> {
+    pub(crate) fn rate(&self, x: &[f64]) -> Result<f64, Problem> {
         let refused = |problem: &str| Problem::Input(format!("{}: {problem}", self.axis_name));
         let (Some(first), Some(last)) = (x.first(), x.last()) else {
             return Err(refused("no rows in this range"));

@@ -144,6 +144,27 @@ impl Form {
         Self { fields }
     }
 
+    /// The fields of a text of a kind; none of a text that is no TOML.
+    pub fn of_text(kind: TextKind, text: &str) -> Self {
+        let root = toml::from_str(text).unwrap_or(toml::Value::Table(toml::Table::new()));
+        let whole = schema(kind);
+        let stated = |key: &str| found_at(&root, key).cloned();
+        let left_out: &[&str] = match kind {
+            TextKind::Scene => &NOT_OF_SCENES,
+            TextKind::Gear => &NOT_OF_GEARS,
+            _ => &["file", "title", "name"],
+        };
+        let mut walk = Walk::new(&whole, &stated, left_out);
+        let top = match kind {
+            TextKind::Scene => &whole["$defs"]["SceneTable"],
+            _ => &whole,
+        };
+        walk.table("", top, &Map::new());
+        Self {
+            fields: walk.fields,
+        }
+    }
+
     /// The field of a key.
     ///
     /// # Errors

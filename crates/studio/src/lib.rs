@@ -2,6 +2,7 @@
 
 mod answer;
 mod assets;
+mod beginning;
 mod columns;
 mod form;
 mod form_reach;
@@ -12,8 +13,12 @@ mod latest;
 mod opened;
 mod pair;
 mod problem;
+mod routes;
+mod seek;
 mod server;
 mod shape;
+mod text_edit;
+mod waterfall;
 
 pub use answer::PairAnswer;
 pub use assets::{Asset, assets};

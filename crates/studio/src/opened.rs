@@ -15,6 +15,8 @@ pub enum Opened {
     Pair(Box<PairSession>),
     /// The result of a multibody scene.
     Columns(Box<ColumnsSession>),
+    /// Nothing yet: what is made new is opened next.
+    New,
 }
 
 impl Opened {
@@ -35,7 +37,7 @@ impl Opened {
                     Ok(Self::Pair(Box::new(PairSession::of_result(path, &result)?)))
                 }
                 ResultFile::System(result) => {
-                    Ok(Self::Columns(Box::new(ColumnsSession::new(*result)?)))
+                    Ok(Self::Columns(Box::new(ColumnsSession::new(path, *result)?)))
                 }
             };
         }
@@ -52,6 +54,7 @@ impl Opened {
         match self {
             Self::Pair(_) => "pair",
             Self::Columns(_) => "columns",
+            Self::New => "new",
         }
     }
 
@@ -62,7 +65,7 @@ impl Opened {
     pub fn pair(&self) -> Result<&PairSession, Problem> {
         match self {
             Self::Pair(pair) => Ok(pair),
-            Self::Columns(_) => Err(Problem::Absent),
+            Self::Columns(_) | Self::New => Err(Problem::Absent),
         }
     }
 
@@ -73,7 +76,7 @@ impl Opened {
     pub fn columns(&self) -> Result<&ColumnsSession, Problem> {
         match self {
             Self::Columns(columns) => Ok(columns),
-            Self::Pair(_) => Err(Problem::Absent),
+            Self::Pair(_) | Self::New => Err(Problem::Absent),
         }
     }
 }

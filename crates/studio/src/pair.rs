@@ -6,14 +6,15 @@ use std::path::{Path, PathBuf};
 use gearmesh_model::ReducedGear;
 use gearmesh_operations::Watch;
 use gearmesh_operations::changed_pair::ChangedPair;
+use gearmesh_report::words_and_unit;
 use gearmesh_scene::pair::PairWatch;
-use gearmesh_scene::study::{Case, Setting};
+use gearmesh_scene::study::{Case, Setting, pair_column_names};
 use gearmesh_scene::{LoadedScene, SceneResult};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::answer::PairAnswer;
-use crate::form::{Form, Gears, Kind, pitch_errors};
+use crate::form::{Field, Form, Gears, Kind, pitch_errors};
 use crate::problem::Problem;
 use crate::shape::GearShape;
 
@@ -51,6 +52,8 @@ pub struct PairSession {
     form: Form,
     gauges: [Vec<String>; 2],
     files: [toml::Value; 2],
+    /// Columns that may be objectives.
+    columns: Vec<String>,
     /// Where models of changed bodies are kept when a state is saved.
     models: PathBuf,
 }
@@ -86,6 +89,7 @@ impl PairSession {
             form: Form { fields: Vec::new() },
             gauges: [gauge_names(model_1), gauge_names(model_2)],
             files: [read(model_1)?, read(model_2)?],
+            columns: pair_column_names(&loaded),
             models: std::path::absolute(&folder).unwrap_or(folder),
             pair,
         };
@@ -117,6 +121,7 @@ impl PairSession {
             "title": self.title,
             "file": self.pair.base().file(),
             "fields": form,
+            "columns": self.columns.iter().map(column).collect::<Vec<_>>(),
             "gears": shapes,
         }))
     }
@@ -160,6 +165,18 @@ impl PairSession {
         let case = self.case(change)?;
         self.demand_reduced(&case)?;
         Ok(self.pair.toml(&case, &self.models)?)
+    }
+
+    /// The changed scene with its models where they are now: for what is done in its lifetime.
+    pub(crate) fn text(&self, change: &Change) -> Result<String, Problem> {
+        let case = self.case(change)?;
+        self.demand_reduced(&case)?;
+        Ok(self.pair.text(&case)?)
+    }
+
+    /// The field of a key.
+    pub(crate) fn field(&self, key: &str) -> Result<&Field, Problem> {
+        Ok(self.form.field(key)?)
     }
 
     fn loaded(&self, change: &Change) -> Result<LoadedScene, Problem> {
@@ -250,6 +267,11 @@ fn setting(key: &str, value: toml::Value) -> Setting {
         keys: vec![key.to_owned()],
         value,
     }
+}
+
+fn column(name: &String) -> Value {
+    let (label, unit) = words_and_unit(name);
+    json!({"name": name, "label": label, "unit": unit})
 }
 
 fn gauge_names(model: &ReducedGear) -> Vec<String> {

@@ -1,4 +1,4 @@
-//! `gearmesh studio`: a page in the browser for a gear pair or a result.
+//! `gearmesh studio`: a page in the browser for a gear pair, a result, or something new.
 
 use std::process::{Command, Stdio};
 
@@ -14,7 +14,10 @@ const OPENERS: [&str; 3] = ["xdg-open", "open", "wslview"];
 
 /// Runs the command: until Ctrl-C, or until the page ends it.
 pub fn run(arguments: &StudioArguments) -> Result<(), Failure> {
-    let opened = Opened::named(&arguments.file).map_err(failure)?;
+    let opened = match &arguments.file {
+        Some(file) => Opened::named(file).map_err(failure)?,
+        None => Opened::New,
+    };
     let demand = interrupt::on_demand();
     let options = ServeOptions {
         port: arguments.port,

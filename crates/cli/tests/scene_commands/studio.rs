@@ -1,5 +1,6 @@
 //! `gearmesh studio` without a browser: figures as those of `gearmesh run`, and what the server refuses or survives.
 
+mod beginning;
 mod columns;
 mod figures;
 mod refusals;

@@ -31,5 +31,7 @@ pub use model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 pub use plan::Plan;
 pub use result::{SceneResult, StrainSeries};
 pub use result_record::RESULT_FORMAT;
-pub use run::{LoadedScene, PairWatch, RunError, load, load_from, run, run_watched};
+pub use run::{
+    LoadedScene, PairWatch, RunError, demand_gears_that_fit, load, load_from, run, run_watched,
+};
 pub use scene_file::Scene;

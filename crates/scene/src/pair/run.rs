@@ -239,7 +239,7 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
 ///
 /// # Errors
 /// [`InputError`] for gears that do not run together, as two of one hand.
-fn demand_gears_that_fit(scene: &Scene) -> Result<(), InputError> {
+pub fn demand_gears_that_fit(scene: &Scene) -> Result<(), InputError> {
     let models = [&scene.gear_1, &scene.gear_2];
     if models.iter().all(|path| path.exists()) {
         return Ok(());

@@ -46,7 +46,7 @@ pub use evaluate::{Effort, Scratch};
 pub(crate) use evaluate::{evaluate, number};
 pub use figure::{Figure, FigureKinds, Wanted};
 pub(crate) use loaded_columns::is_without_load;
-pub use pair_columns::RestColumn;
+pub use pair_columns::{RestColumn, names as pair_column_names};
 pub use rest_cases::{RestCases, RestFigures};
 pub use scatter::{NormalTable, SpacedTable, UniformTable};
 pub use study_file::{ParameterTable, Study, StudyTables};

@@ -433,7 +433,10 @@ fn sets_that_do_not_fit_are_refused() {
         ),
         (
             set(90.0, ["", held, "torque_Nm = -5.0", "count = 3", ""]),
-            &["in inertia_kg_m2 of [[body]] `set carrier`, which follows from it", "inertia_kg_m2"],
+            &[
+                "in inertia_kg_m2 of [[body]] `set carrier`, which follows from it",
+                "inertia_kg_m2",
+            ],
         ),
         (
             set(90.0, ["body = \"sunn\"", held, carrier, "count = 3", ""]),

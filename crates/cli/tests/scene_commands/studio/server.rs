@@ -2,6 +2,7 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
@@ -31,9 +32,20 @@ impl Reply {
 }
 
 impl Studio {
-    pub fn open(file: &std::path::Path) -> Self {
+    /// Of a file.
+    pub fn open(file: &Path) -> Self {
+        Self::started(&["studio", argument(file), "--no-open"], Path::new("."))
+    }
+
+    /// Of nothing yet; what is made lies in a folder.
+    pub fn new_in(folder: &Path) -> Self {
+        Self::started(&["studio", "--no-open"], folder)
+    }
+
+    fn started(arguments: &[&str], folder: &Path) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_gearmesh"))
-            .args(["studio", argument(file), "--no-open"])
+            .args(arguments)
+            .current_dir(folder)
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
@@ -48,6 +60,17 @@ impl Studio {
             child,
             port: port.parse().unwrap(),
             token: token.to_owned(),
+        }
+    }
+
+    /// Waits for the work that runs; what it came to.
+    pub fn finished(&self) -> Value {
+        loop {
+            let progress = self.get("/api/job").json();
+            if progress["running"] == Value::Bool(false) {
+                return progress;
+            }
+            std::thread::sleep(Duration::from_millis(20));
         }
     }
 

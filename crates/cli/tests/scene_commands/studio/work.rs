@@ -39,17 +39,6 @@ fn long_calculations_stop() {
     });
 }
 
-/// Waits for the work that runs.
-fn finished(studio: &Studio) -> Value {
-    loop {
-        let progress = studio.get("/api/job").json();
-        if progress["running"] == json!(false) {
-            return progress;
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
-}
-
 /// A changed body is reduced beside the calculations, and gives the figures of the same gear file reduced by hand.
 #[test]
 fn a_changed_body_is_reduced_again() {
@@ -69,7 +58,7 @@ fn a_changed_body_is_reduced_again() {
     assert_eq!(studio.post("/api/pair/reduce", &change).status, 200);
     // Meanwhile the pair as it is is computed.
     assert_eq!(studio.post("/api/pair", &json!({})).status, 200);
-    let ended = finished(&studio);
+    let ended = studio.finished();
     assert_eq!(ended["problem"], Value::Null, "{ended}");
     let answer = studio.post("/api/pair", &change);
     assert_eq!(answer.status, 200, "{answer:?}");
@@ -106,7 +95,7 @@ fn bodies_are_stopped_and_refused() {
     let change = json!({"settings": {"pair.gear_2:blank.web_thickness_mm": 3.5}});
     assert_eq!(studio.post("/api/pair/reduce", &change).status, 200);
     assert_eq!(studio.post("/api/job/stop", &json!({})).status, 200);
-    assert_eq!(finished(&studio)["problem"]["kind"], "stopped");
+    assert_eq!(studio.finished()["problem"]["kind"], "stopped");
     for (key, value, part) in [
         ("pair.gear_1:blank.bore_diameter_mm", json!(60), "bore"),
         ("pair.gear_1:tooth.module_mm", json!(-1), "0.01 to 200"),
@@ -120,4 +109,77 @@ fn bodies_are_stopped_and_refused() {
     }
     let removed = json!({"removed": ["pair.gear_1:blank.bore_diameter_mm"]});
     assert_eq!(studio.post("/api/pair", &removed).status, 422);
+}
+
+/// The optimum is that of `gearmesh optimise`, and taken over it has the figures that the front says.
+#[test]
+fn an_optimisation_is_taken_over() {
+    let desk = Desk::new();
+    let studio = Studio::open(&pair_scene(&desk));
+    let relief = "gear_1.microgeometry.tip_relief_um";
+    let crowning = "gear_2.microgeometry.lead_crowning_um";
+    let seek = json!({
+        "change": {"settings": {"pair.deviation_mrad": 0.1}},
+        "variables": [{"key": relief, "from": 0, "to": 30}, {"key": crowning, "from": 0, "to": 8}],
+        "objectives": [
+            {"column": "te_peak_to_peak_um", "torque_Nm": 60.0},
+            {"column": "pressure_largest_MPa", "torque_Nm": null},
+        ],
+        "trials": 20,
+    });
+    assert_eq!(studio.post("/api/pair/optimise", &seek).status, 200);
+    let ended = studio.finished();
+    assert_eq!(ended["problem"], Value::Null, "{ended}");
+    let found = &ended["result"];
+    let front = found["figures"]["front"].as_array().unwrap();
+    assert!(!front.is_empty());
+    // What the relief needs beside it was set for all.
+    let start = "gear_1.microgeometry.tip_relief_start_diameter_mm";
+    assert!(number(&found["settings"][start]) > 54.0, "{found}");
+    for point in front {
+        let mut settings = found["settings"].as_object().unwrap().clone();
+        settings.extend(point["variables"].as_object().unwrap().clone());
+        let answer = studio
+            .post("/api/pair", &json!({"settings": settings}))
+            .json();
+        let rows = answer["figures"]["rows"].as_array().unwrap();
+        let te = 1e6 * number(&rows[1]["te_peak_to_peak_m"]);
+        let told = number(&point["objectives"]["te_peak_to_peak_um at 60 Nm"]);
+        assert!((te - told).abs() < 1e-9 * te, "{te} {told}");
+        let pressures = rows
+            .iter()
+            .map(|row| 1e-6 * number(&row["pressure_largest_Pa"]));
+        let mean = pressures.sum::<f64>() / rows.len() as f64;
+        let told = number(&point["objectives"]["pressure_largest_MPa at mean"]);
+        assert!((mean - told).abs() < 1e-9 * mean, "{mean} {told}");
+    }
+    for (key, value, part) in [
+        ("trials", json!(9999), "5000"),
+        ("variables", json!([]), "variable"),
+        (
+            "objectives",
+            json!([{"column": "nothing", "torque_Nm": null}]),
+            "nothing",
+        ),
+        (
+            "variables",
+            json!([{"key": "pair.gear_1:tooth.module_mm", "from": 2, "to": 3}]),
+            "reduce a gear",
+        ),
+        (
+            "variables",
+            json!([{"key": relief, "from": 3, "to": 2}]),
+            "from below to",
+        ),
+    ] {
+        let mut wrong = seek.clone();
+        wrong[key] = value;
+        studio.post("/api/pair/optimise", &wrong);
+        let ended = studio.finished();
+        assert_eq!(ended["problem"]["kind"], "input", "{ended}");
+        assert!(
+            ended["problem"]["error"].as_str().unwrap().contains(part),
+            "{ended}"
+        );
+    }
 }

@@ -1,0 +1,62 @@
+// What bearings, bevel pairs and gearboxes come to: tables and curves of their figures.
+
+import { Chart, short } from "./curves.js";
+import { element } from "./dom.js";
+
+const cell = (tag, text) => element(tag, {}, text);
+
+function table(heads, rows) {
+  const head = element("tr", {}, ...heads.map((text) => element("th", { scope: "col" }, text)));
+  const body = rows.map(([first, ...others]) => element("tr", {}, element("th", { scope: "row" }, first), ...others.map((text) => cell("td", text))));
+  return element("div", { className: "table", tabIndex: 0 }, element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
+}
+
+/** Columns at rest: a number each, or one for each torque. */
+export function showColumnsTable(place, { torques_Nm, columns }) {
+  const heads = ["figure", "unit", ...(torques_Nm.length > 0 ? torques_Nm.map((load) => `${short(load)} N·m`) : [""])];
+  const rows = columns.map(({ name, label, unit, values }) => {
+    const figures = values.map((value) => element("data", { value: String(value) }, short(value)));
+    figures.forEach((one) => (one.dataset.column = name));
+    return [label, unit, ...figures];
+  });
+  place.replaceChildren(table(heads, rows));
+}
+
+/** A bevel pair: its transmission error without load and under each torque, and its columns. */
+export function showBevel(place, { tca, columns, lines }) {
+  showColumnsTable(place, columns);
+  const curves = element("div");
+  place.prepend(curves);
+  const chart = new Chart(curves, { title: "Transmission error", x: "pinion angle °", y: "µrad, under torques on the gear" });
+  const torques = tca.load?.torques ?? [];
+  const x = torques.length > 0 ? torques[0].positions.map((one) => one.pinion_deg) : tca.path.map((one) => one.pinion_deg);
+  const series = torques.map(({ torque_Nm, positions }, k) => ({ label: `${short(torque_Nm)} N·m`, values: positions.map((one) => one.error_urad), dash: [[], [6, 3], [2, 2]][k % 3] }));
+  const unloaded = torques.length > 0 ? torques[0].positions.map((one) => one.unloaded_urad) : tca.path.map((one) => one.error_urad);
+  chart.show(x, [...series, { label: "no load", values: unloaded, dash: [1, 3] }]);
+  if (torques.length > 0) {
+    const pressure = new Chart(curves, { title: "Largest pressure", x: "pinion angle °", y: "MPa" });
+    const largest = ({ patches }) => Math.max(0, ...patches.map((patch) => patch.pressure_MPa));
+    pressure.show(x, torques.map(({ torque_Nm, positions }, k) => ({ label: `${short(torque_Nm)} N·m`, values: positions.map(largest), dash: [[], [6, 3], [2, 2]][k % 3] })));
+  }
+  place.append(element("details", {}, element("summary", {}, "As gearmesh tca prints it"), element("pre", {}, lines.join("\n"))));
+}
+
+/** A gearbox: what its shafts, bearings and meshes carry at rest, and what became of the file. */
+export function showImport(place, { import: found, refused, folder }) {
+  const parts = [];
+  if (refused) parts.push(element("p", { className: "note" }, refused));
+  for (const warning of found.warnings) parts.push(element("p", { className: "note" }, warning));
+  for (const scene of found.at_rest.scenes) {
+    parts.push(element("h2", {}, scene.scene));
+    parts.push(table(["shaft", "1/min", "N·m"], scene.shafts.map((one) => [one.name, short(one.speed_rpm), short(one.torque_Nm)])));
+    parts.push(table(["bearing", "radial N", "axial N"], scene.bearings.map((one) => [one.name, short(one.force_radial_N), short(one.force_axial_N)])));
+    parts.push(table(["mesh", "normal force N", "K_Hβ"], scene.meshes.map((one) => [one.name, short(one.normal_force_N), one.k_h_beta === null ? "" : short(one.k_h_beta)])));
+  }
+  for (const [title, key] of [["Taken", "taken"], ["Assumed", "assumed"], ["Not represented", "not_represented"]]) {
+    const lines = found[key].map(({ subject, text, weight }) => element("li", {}, `${subject}: ${text} (${weight})`));
+    parts.push(element("details", {}, element("summary", {}, `${title}: ${lines.length}`), element("ul", {}, ...lines)));
+  }
+  const scenes = found.scenes.map((name) => `gearmesh run ${folder}/${name} -o result.h5`);
+  parts.push(element("pre", {}, [...scenes, "gearmesh studio result.h5"].join("\n")));
+  place.replaceChildren(...parts);
+}

@@ -1,0 +1,197 @@
+//! What is begun without a file: texts from templates, changed by fields or as text, looked at while they are typed.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use gearmesh_operations::import::{ImportRequest, import};
+use gearmesh_operations::new_files::{self, KINDS, NewKind, Texts};
+use gearmesh_operations::tca::{TcaRequest, tca};
+use gearmesh_operations::{Scratch, Watch};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::form::Form;
+use crate::problem::Problem;
+use crate::text_edit;
+
+/// Files of something new.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NewFiles {
+    /// Its kind.
+    pub kind: String,
+    /// All its files.
+    pub files: Texts,
+}
+
+/// A text, and keys of it that are changed.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Edit {
+    kind: String,
+    name: String,
+    text: String,
+    #[serde(default)]
+    settings: BTreeMap<String, Value>,
+    #[serde(default)]
+    removed: Vec<String>,
+}
+
+/// What can be begun, and its files.
+pub fn kinds() -> Value {
+    let kinds = KINDS.iter().map(|kind| {
+        let files = kind.files.iter().map(|file| {
+            let fields = file.kind.map(|kind| Form::of_text(kind, file.text));
+            json!({"name": file.name, "text": file.text, "fields": fields})
+        });
+        json!({"name": kind.name, "title": kind.title, "about": kind.about, "files": files.collect::<Vec<_>>()})
+    });
+    json!({"kinds": kinds.collect::<Vec<_>>(), "folder": place().display().to_string()})
+}
+
+/// A text with keys changed, and its fields.
+///
+/// # Errors
+/// [`Problem`] for a key or a value that the file does not have.
+pub fn edited(edit: &Edit) -> Result<Value, Problem> {
+    let kind = new_files::kind(&edit.kind)?;
+    let template = kind.files.iter().find(|file| file.name == edit.name);
+    let kind = template.and_then(|file| file.kind).ok_or(Problem::Absent)?;
+    let (mut text, form) = (edit.text.clone(), Form::of_text(kind, &edit.text));
+    let about = |problem: String| Problem::Input(format!("{}: {problem}", edit.name));
+    for (key, value) in &edit.settings {
+        let value = form.field(key)?.value(value)?;
+        text = text_edit::set(&text, key, &value).map_err(about)?;
+    }
+    for key in &edit.removed {
+        form.field(key)?;
+        text = text_edit::remove(&text, key).map_err(about)?;
+    }
+    Ok(json!({"text": text, "fields": Form::of_text(kind, &text)}))
+}
+
+/// What should be known of files, and what is found without waiting for it: all of a bearing.
+///
+/// # Errors
+/// [`Problem`] for the first of them that is wrong.
+pub fn looked_at(new: &NewFiles) -> Result<Value, Problem> {
+    let kind = new_files::kind(&new.kind)?;
+    let scratch = Scratch::new()?;
+    write(kind, &new.files, scratch.path())?;
+    // Files are named as the page shows them.
+    let named = |problem: Problem| match problem {
+        Problem::Input(text) => {
+            Problem::Input(text.replace(&format!("{}/", scratch.path().display()), ""))
+        }
+        other => other,
+    };
+    let warnings =
+        new_files::look(kind, scratch.path()).map_err(|failure| named(failure.into()))?;
+    let figures = match kind.name {
+        "bearing" => {
+            let found = new_files::rest_figures(kind, scratch.path());
+            Some(found.map_err(|failure| named(failure.into()))?)
+        }
+        _ => None,
+    };
+    Ok(json!({"warnings": warnings, "figures": figures}))
+}
+
+/// Writes the files into a new folder and computes them: the gears of a pair are reduced, a bevel pair is analysed.
+///
+/// # Errors
+/// [`Problem`] for what is wrong, and once `watch` stops it.
+pub fn begun(new: &NewFiles, watch: &Watch<'_>) -> Result<(Value, PathBuf), Problem> {
+    let kind = new_files::kind(&new.kind)?;
+    looked_at(new)?;
+    let folder = new_folder(kind.name)?;
+    write(kind, &new.files, &folder)?;
+    let last = folder.join(kind.files.last().map_or("", |file| file.name));
+    let result = match kind.name {
+        "pair" | "helical-pair" => {
+            new_files::reduce_gears(kind, &folder, watch)?;
+            json!({"opens": true})
+        }
+        "bevel-pair" => {
+            let page = folder.join("bevel_pair.html");
+            let request = TcaRequest {
+                pair: last.clone(),
+                report: Some(page),
+                stress: false,
+                field_gear: None,
+                field_angle_deg: None,
+                field_torque_Nm: None,
+                field_output: None,
+            };
+            let found = tca(&request, watch)?;
+            json!({"tca": found.figures, "lines": found.lines, "columns": new_files::rest_figures(kind, &folder)?})
+        }
+        _ => json!({"columns": new_files::rest_figures(kind, &folder)?}),
+    };
+    Ok((with_folder(result, &folder), last))
+}
+
+/// Imports a gearbox from the bytes of a REXS file, whose name says its kind.
+///
+/// # Errors
+/// [`Problem`] for what is no gearbox, and once `watch` stops it.
+pub fn imported(name: &str, bytes: &[u8], watch: &Watch<'_>) -> Result<Value, Problem> {
+    let name = Path::new(name).file_name().unwrap_or_default();
+    let scratch = Scratch::new()?;
+    let model = scratch.path().join(name);
+    let failed = |cause: std::io::Error| Problem::Work(format!("{}: {cause}", model.display()));
+    std::fs::write(&model, bytes).map_err(failed)?;
+    let folder = new_folder("gearbox")?;
+    let request = ImportRequest {
+        model: model.clone(),
+        output: folder.clone(),
+        reduced: false,
+        transient: false,
+        no_run: false,
+    };
+    let found = import(&request, watch)?;
+    let refusal = found.refusal(&request).map(|(_, failure)| failure.message);
+    Ok(with_folder(
+        json!({"import": found.figures(), "refused": refusal}),
+        &folder,
+    ))
+}
+
+fn with_folder(mut result: Value, folder: &Path) -> Value {
+    result["folder"] = json!(folder.display().to_string());
+    result
+}
+
+fn write(kind: NewKind, files: &Texts, folder: &Path) -> Result<(), Problem> {
+    new_files::demand_names(kind, files)?;
+    for (name, text) in files {
+        let path = folder.join(name);
+        let failed = |cause| Problem::Work(format!("{}: {cause}", path.display()));
+        std::fs::write(&path, text).map_err(failed)?;
+    }
+    Ok(())
+}
+
+/// Where new folders are made: where the program was started.
+fn place() -> PathBuf {
+    std::env::current_dir().unwrap_or_default()
+}
+
+/// A folder that was not there: `pair`, `pair-2` and so on.
+fn new_folder(name: &str) -> Result<PathBuf, Problem> {
+    let numbered = |number: usize| match number {
+        1 => place().join(name),
+        number => place().join(format!("{name}-{number}")),
+    };
+    for folder in (1..10_000).map(numbered) {
+        match std::fs::create_dir(&folder) {
+            Ok(()) => return Ok(folder),
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(Problem::Work(format!("{}: {error}", folder.display()))),
+        }
+    }
+    Err(Problem::Work(format!(
+        "{}: has 10000 folders named {name}",
+        place().display()
+    )))
+}

@@ -1,0 +1,294 @@
+//! What stands at which address, and who answers.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, PoisonError, RwLock};
+
+use axum::body::Bytes;
+use axum::extract::rejection::JsonRejection;
+use axum::extract::{DefaultBodyLimit, FromRequest, Path, State};
+use axum::http::StatusCode;
+use axum::http::header::CONTENT_TYPE;
+use axum::middleware::{from_fn_with_state, map_response};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Json, Router};
+use gearmesh_operations::Watch;
+use serde_json::{Value, json};
+
+use crate::assets;
+use crate::beginning::{self, Edit, NewFiles};
+use crate::columns::{CurvesAsked, MomentsAsked};
+use crate::guard::{self, Address};
+use crate::job::Job;
+use crate::latest::Latest;
+use crate::opened::Opened;
+use crate::pair::Change;
+use crate::problem::Problem;
+use crate::seek::Seek;
+use crate::waterfall::WaterfallAsked;
+
+/// Bytes of a request: pitch errors of two gears with some hundred teeth need some kilobytes.
+const MOST_BYTES: usize = 256 << 10;
+
+/// Bytes of a gearbox file.
+const MOST_GEARBOX_BYTES: usize = 64 << 20;
+
+/// What the requests share.
+#[derive(Debug)]
+pub struct Studio {
+    /// What is shown; another one once something new has been made.
+    opened: RwLock<Arc<Opened>>,
+    /// The calculations.
+    pub latest: Latest,
+    /// What takes longer.
+    pub job: Job,
+    /// Once true, the server ends.
+    pub stop: Arc<AtomicBool>,
+}
+
+type Shared = State<Arc<Studio>>;
+
+impl Studio {
+    /// Shows what was opened.
+    pub fn new(opened: Opened, stop: Arc<AtomicBool>) -> Self {
+        Self {
+            opened: RwLock::new(Arc::new(opened)),
+            latest: Latest::default(),
+            job: Job::default(),
+            stop,
+        }
+    }
+
+    fn opened(&self) -> Arc<Opened> {
+        Arc::clone(&self.opened.read().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn open(&self, other: Opened) {
+        *self.opened.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(other);
+    }
+}
+
+pub fn router(studio: Arc<Studio>, address: Arc<Address>) -> Router {
+    let api = Router::new()
+        .route("/session", get(session))
+        .route("/pair", get(pair).post(change))
+        .route("/pair/toml", post(toml))
+        .route("/pair/gears", post(gears))
+        .route("/pair/reduce", post(reduce))
+        .route("/columns", get(columns).post(curves))
+        .route("/columns/moments", post(moments))
+        .route("/columns/waterfall", post(waterfall))
+        .route("/progress", get(progress))
+        .route("/pair/optimise", post(seek))
+        .route("/new", get(new).post(look))
+        .route("/new/edit", post(edit))
+        .route("/new/begin", post(begin))
+        .route("/new/start", post(start))
+        .route(
+            "/new/import/{name}",
+            post(import).layer(DefaultBodyLimit::max(MOST_GEARBOX_BYTES)),
+        )
+        .route("/stop", post(stop))
+        .route("/job", get(job))
+        .route("/job/stop", post(stop_job))
+        .route("/quit", post(quit))
+        .fallback(absent)
+        .layer(DefaultBodyLimit::max(MOST_BYTES))
+        .layer(from_fn_with_state(Arc::clone(&address), guard::with_token))
+        .with_state(studio);
+    Router::new()
+        .nest("/api", api)
+        .route("/", get(|| async { served("index.html") }))
+        .route(
+            "/assets/{name}",
+            get(|Path(name): Path<String>| async move { served(&name) }),
+        )
+        .fallback(absent)
+        .layer(map_response(own_words))
+        .layer(from_fn_with_state(address, guard::own_page))
+}
+
+fn served(name: &str) -> Result<Response, Problem> {
+    let found = assets::asset(name).ok_or(Problem::Absent)?;
+    Ok(([(CONTENT_TYPE, found.kind)], found.text).into_response())
+}
+
+async fn absent() -> Problem {
+    Problem::Absent
+}
+
+/// Answers of the framework that have no body get one.
+async fn own_words(response: Response) -> Response {
+    match response.status() {
+        StatusCode::METHOD_NOT_ALLOWED => Problem::Absent.into_response(),
+        _ => response,
+    }
+}
+
+/// A body in JSON; what is wrong with it is said as everywhere else.
+struct Body<T>(T);
+
+impl<S: Send + Sync, T: serde::de::DeserializeOwned> FromRequest<S> for Body<T> {
+    type Rejection = Response;
+
+    async fn from_request(
+        request: axum::extract::Request,
+        state: &S,
+    ) -> Result<Self, Self::Rejection> {
+        match Json::<T>::from_request(request, state).await {
+            Ok(Json(body)) => Ok(Self(body)),
+            Err(rejection) => Err(refused(&rejection)),
+        }
+    }
+}
+
+fn refused(rejection: &JsonRejection) -> Response {
+    let body = json!({"kind": "input", "error": rejection.body_text()});
+    (rejection.status(), Json(body)).into_response()
+}
+
+async fn session(State(studio): Shared) -> Json<Value> {
+    Json(json!({"kind": studio.opened().kind(), "version": env!("CARGO_PKG_VERSION")}))
+}
+
+async fn pair(State(studio): Shared) -> Result<Json<Value>, Problem> {
+    Ok(Json(
+        studio.opened().pair()?.description(&Change::default())?,
+    ))
+}
+
+/// The calculation and its text, both off the loop that answers.
+async fn change(State(studio): Shared, Body(change): Body<Change>) -> Result<Response, Problem> {
+    studio.opened().pair()?;
+    let worker = Arc::clone(&studio);
+    let text = studio.latest.run(move |watch| {
+        let answer = worker.opened().pair()?.answer(&change, watch)?;
+        serde_json::to_string(&answer).map_err(|error| Problem::Work(error.to_string()))
+    });
+    let text = text.await?;
+    Ok(([(CONTENT_TYPE, "application/json")], text).into_response())
+}
+
+async fn toml(State(studio): Shared, Body(change): Body<Change>) -> Result<String, Problem> {
+    studio.opened().pair()?.toml(&change)
+}
+
+/// The keys and the shapes of changed gears; they may not be reduced yet.
+async fn gears(State(studio): Shared, Body(change): Body<Change>) -> Result<Json<Value>, Problem> {
+    Ok(Json(studio.opened().pair()?.description(&change)?))
+}
+
+async fn reduce(State(studio): Shared, Body(change): Body<Change>) -> Result<Json<Value>, Problem> {
+    studio.opened().pair()?;
+    let worker = Arc::clone(&studio);
+    let name = format!("reduce {}", change.of_bodies());
+    let work = move |watch: &Watch<'_>| worker.opened().pair()?.reduce(&change, watch);
+    studio.job.begin(name, work);
+    Ok(Json(studio.job.progress()))
+}
+
+async fn job(State(studio): Shared) -> Json<Value> {
+    Json(studio.job.progress())
+}
+
+async fn stop_job(State(studio): Shared) -> Json<Value> {
+    studio.job.stop();
+    Json(json!({}))
+}
+
+async fn columns(State(studio): Shared) -> Result<Json<Value>, Problem> {
+    Ok(Json(studio.opened().columns()?.description()))
+}
+
+async fn curves(
+    State(studio): Shared,
+    Body(asked): Body<CurvesAsked>,
+) -> Result<Json<Value>, Problem> {
+    studio.opened().columns()?;
+    let worker = Arc::clone(&studio);
+    let curves = (studio.latest).run(move |_| worker.opened().columns()?.curves(&asked));
+    Ok(Json(curves.await?))
+}
+
+async fn progress(State(studio): Shared) -> Json<Value> {
+    Json(json!({"solved": studio.latest.solved()}))
+}
+
+async fn stop(State(studio): Shared) -> Json<Value> {
+    studio.latest.stop();
+    Json(json!({}))
+}
+
+async fn quit(State(studio): Shared) -> Json<Value> {
+    studio.stop.store(true, Ordering::Relaxed);
+    Json(json!({}))
+}
+
+async fn waterfall(
+    State(studio): Shared,
+    Body(asked): Body<WaterfallAsked>,
+) -> Result<Json<Value>, Problem> {
+    let opened = studio.opened();
+    opened.columns()?;
+    let found = (studio.latest).run(move |_| opened.columns()?.waterfall(&asked));
+    Ok(Json(found.await?))
+}
+
+async fn moments(
+    State(studio): Shared,
+    Body(asked): Body<MomentsAsked>,
+) -> Result<Json<Value>, Problem> {
+    let opened = studio.opened();
+    opened.columns()?;
+    let name = format!("moments {asked:?}");
+    let work = move |watch: &Watch<'_>| opened.columns()?.moments(&asked, watch);
+    studio.job.begin(name, work);
+    Ok(Json(studio.job.progress()))
+}
+
+async fn seek(State(studio): Shared, Body(seek): Body<Seek>) -> Result<Json<Value>, Problem> {
+    let opened = studio.opened();
+    opened.pair()?;
+    let work = move |watch: &Watch<'_>| opened.pair()?.seek(&seek, watch);
+    studio.job.begin("optimise".to_owned(), work);
+    Ok(Json(studio.job.progress()))
+}
+
+async fn new() -> Json<Value> {
+    Json(beginning::kinds())
+}
+
+async fn edit(Body(edit): Body<Edit>) -> Result<Json<Value>, Problem> {
+    Ok(Json(beginning::edited(&edit)?))
+}
+
+/// Bearings are computed while one types: off the loop that answers.
+async fn look(State(studio): Shared, Body(files): Body<NewFiles>) -> Result<Json<Value>, Problem> {
+    let found = (studio.latest).run(move |_| beginning::looked_at(&files));
+    Ok(Json(found.await?))
+}
+
+async fn begin(State(studio): Shared, Body(files): Body<NewFiles>) -> Json<Value> {
+    let worker = Arc::clone(&studio);
+    let work = move |watch: &Watch<'_>| {
+        let (result, file) = beginning::begun(&files, watch)?;
+        if result["opens"] == json!(true) {
+            worker.open(Opened::named(&file)?);
+        }
+        Ok(result)
+    };
+    studio.job.begin("begin".to_owned(), work);
+    Json(studio.job.progress())
+}
+
+/// Leaves what is shown for something new.
+async fn start(State(studio): Shared) -> Json<Value> {
+    studio.open(Opened::New);
+    Json(json!({}))
+}
+
+async fn import(State(studio): Shared, Path(name): Path<String>, bytes: Bytes) -> Json<Value> {
+    let work = move |watch: &Watch<'_>| beginning::imported(&name, &bytes, watch);
+    studio.job.begin("import".to_owned(), work);
+    Json(studio.job.progress())
+}

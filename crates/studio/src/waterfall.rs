@@ -1,0 +1,87 @@
+//! Waterfall of a column: spectra of short blocks one after the other, each at its time and at the speed of a shaft.
+
+use gearmesh_signal::{FrequencyBlocks, Window, campbell::frequency_map};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::columns::ColumnsSession;
+use crate::problem::Problem;
+
+/// Blocks that a picture shows.
+const BLOCKS: usize = 80;
+
+/// A stretch has as many blocks beside each other, without what they overlap.
+const PARTS: usize = 16;
+
+/// Rows of a block: fewer resolve nothing, more are finer than the picture.
+const ROWS: [usize; 2] = [64, 4096];
+
+/// Lines that a picture shows: of more the largest of neighbours.
+const LINES: usize = 400;
+
+/// Which waterfall.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WaterfallAsked {
+    column: String,
+    /// Column of a shaft's speed \[rad/s\], for its orders.
+    speed: Option<String>,
+    from: Option<f64>,
+    to: Option<f64>,
+}
+
+impl ColumnsSession {
+    /// Amplitudes `[block][line]`, with the time of each block and the speed there.
+    ///
+    /// # Errors
+    /// [`Problem::Input`] for columns that are not there, rows without even steps in time, and too few of them.
+    pub fn waterfall(&self, asked: &WaterfallAsked) -> Result<Value, Problem> {
+        let rows = self.stretch([asked.from, asked.to]);
+        let time_s = &self.axis()[rows.clone()];
+        let rate = self.rate(time_s)?;
+        let refused =
+            |error: &dyn std::fmt::Display| Problem::Input(format!("{}: {error}", asked.column));
+        let result = self.locked()?;
+        let read = |name: &String| -> Result<Vec<f64>, Problem> {
+            self.demand(name)?;
+            Ok(result.read_for_spectrum(name)?[rows.clone()].to_vec())
+        };
+        let values = read(&asked.column)?;
+        let speed = match &asked.speed {
+            Some(name) => read(name)?,
+            None => vec![0.0; values.len()],
+        };
+        let mut turned = 0.0;
+        let angle: Vec<f64> = (speed.iter())
+            .map(|speed| {
+                turned += speed.abs() / rate;
+                turned
+            })
+            .collect();
+        let block = (values.len() / PARTS).clamp(ROWS[0], ROWS[1]) & !1;
+        if values.len() < 2 * block {
+            let problem = format!("{} rows are too few for a waterfall", values.len());
+            return Err(refused(&problem));
+        }
+        let blocks = FrequencyBlocks {
+            block_samples: block,
+            step_samples: ((values.len() - block) / (BLOCKS - 1)).max(1),
+            window: Window::Hann,
+        };
+        let map = frequency_map(&values, &angle, rate, blocks).map_err(|error| refused(&error))?;
+        let lines = map.first().map_or(0, |row| row.spectrum.values.len());
+        let group = lines.div_ceil(LINES).max(1);
+        let largest = |lines: &[f64]| lines.iter().copied().fold(0.0, f64::max);
+        let amplitudes: Vec<f64> = (map.iter())
+            .flat_map(|row| row.spectrum.values.chunks(group).map(largest))
+            .collect();
+        let spacing = map.first().map_or(0.0, |row| row.spectrum.line_spacing);
+        Ok(json!({
+            "time_s": map.iter().map(|row| time_s[0] + row.time_s).collect::<Vec<_>>(),
+            "speed_Hz": map.iter().map(|row| row.speed_rad_per_s / std::f64::consts::TAU).collect::<Vec<_>>(),
+            "lines": lines.div_ceil(group),
+            "line_Hz": spacing * group as f64,
+            "amplitudes": amplitudes,
+        }))
+    }
+}
