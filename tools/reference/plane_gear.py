@@ -10,32 +10,19 @@ half width; a second mesh with all sizes doubled gives the error estimate. Five 
 import sys
 from pathlib import Path
 
-import gmsh
 import numpy as np
-from scipy.sparse.linalg import splu
-from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri
-from skfem.helpers import ddot, eye, sym_grad, trace
-
+from plane_mesh import FLIP, PlaneBody, arc, triangles, turned
 from tooth import Tooth
 
-E_MPA, NU = 206e3, 0.3
-LAMBDA, MU = E_MPA * NU / ((1 + NU) * (1 - 2 * NU)), E_MPA / (2 * (1 + NU))
 LOAD = 100.0  # N/mm
 BORE = 30.0  # mm
 RADII = [72.6, 73.5, 74.25, 75.0, 76.0, 77.0, 77.7]
 HALF_WIDTHS = [0.06, 0.12]
-FLIP = np.array([1.0, -1.0])
-
-
-def turned(points, angle):
-    c, s = np.cos(angle), np.sin(angle)
-    return points @ np.array([[c, s], [-s, c]])
 
 
 def tooth_pieces(t, split):
     """Outline of one tooth pitch, counter-clockwise: root arc and fillet, flank (split at the load), tip, and back."""
     hp = t.pitch_angle / 2
-    arc = lambda r, a, b, n: np.column_stack([r * np.cos(np.linspace(a, b, n)), r * np.sin(np.linspace(a, b, n))])
     fillet = t.fillet_dense(801)[0][::8]  # from the involute to the root
     at_root, at_tip = (np.arctan2(p[1], p[0]) for p in (fillet[-1], t.flank(t.xi_tip)[0]))
     cuts = [t.xi_form] + ([split] if split else []) + [t.xi_tip]
@@ -46,89 +33,24 @@ def tooth_pieces(t, split):
 
 def mesh(t, xi, fineness):
     """Triangles of the whole gear; all element sizes are divided by `fineness`."""
-    gmsh.initialize(interruptible=False)
-    gmsh.option.setNumber("General.Terminal", 0)
-    geo = gmsh.model.geo
-    first = last = None
-    lines = []
     pieces = [turned(p, t.pitch_angle * k) for k in range(t.z) for p in tooth_pieces(t, xi if k == 0 else None)]
-    for piece in pieces:
-        ids = [last or geo.addPoint(*piece[0], 0)]
-        first = first or ids[0]
-        ids += [geo.addPoint(*p, 0) for p in piece[1:-1]]
-        ids.append(first if piece is pieces[-1] else geo.addPoint(*piece[-1], 0))
-        last = ids[-1]
-        lines.append(geo.addSpline(ids))
-    centre = geo.addPoint(0, 0, 0)
-    quarter = [geo.addPoint(BORE * np.cos(a), BORE * np.sin(a), 0) for a in np.pi / 2 * np.arange(4)]
-    bore = [geo.addCircleArc(quarter[k], centre, quarter[(k + 1) % 4]) for k in range(4)]
-    geo.addPlaneSurface([geo.addCurveLoop(lines), geo.addCurveLoop(bore)])
-    geo.synchronize()
-    for option in ("MeshSizeExtendFromBoundary", "MeshSizeFromPoints"):
-        gmsh.option.setNumber("Mesh." + option, 0)
-    gmsh.option.setNumber("Mesh.MeshSizeFactor", 1.0)
     p = t.flank(xi)[0] * FLIP
     d = f"sqrt((x-({p[0]}))^2+(y-({p[1]}))^2)"
     axis = f"sqrt((x-{t.r})^2+y^2)"  # distance from the middle of the loaded tooth
     h0 = HALF_WIDTHS[0] / 8  # all of these are divided by `fineness`, 2.5 in the record
-    field = gmsh.model.mesh.field.add("MathEval")
     # a tenth of the distance from the load, at most 0.25 mm on the loaded tooth, growing to 2.5 mm in the body
     near = f"({h0} + 0.1*{d})"
     far = f"(0.25 + 0.12*max({axis}-6.0, 0))"
-    gmsh.model.mesh.field.setString(field, "F", f"min(min({near}, {far}), 2.5)/{fineness}")
-    gmsh.model.mesh.field.setAsBackgroundMesh(field)
-    gmsh.model.mesh.generate(2)
-    tag, x, _ = gmsh.model.mesh.getNodes()
-    place = np.zeros(int(tag.max()) + 1, int)
-    place[tag.astype(int)] = np.arange(len(tag))
-    tri = place[gmsh.model.mesh.getElements(2)[2][0].astype(int)].reshape(-1, 3)
-    gmsh.finalize()
-    used, tri = np.unique(tri, return_inverse=True)
-    return MeshTri(np.ascontiguousarray(x.reshape(-1, 3)[used, :2].T), np.ascontiguousarray(tri.reshape(-1, 3).T))
-
-
-@BilinearForm
-def stiffness(u, v, w):
-    strain = sym_grad(u)
-    return ddot(2 * MU * strain + eye(LAMBDA * trace(strain), 2), sym_grad(v))
+    return triangles(pieces, BORE, f"min(min({near}, {far}), 2.5)/{fineness}")
 
 
 def deflections(t, radius, fineness):
     """mm, displacement of the contact centre along the inward normal, one value a half width; and degrees of freedom."""
     xi = t.xi(radius)
-    m = mesh(t, xi, fineness)
-    centre = t.flank(xi)[0] * FLIP
-    normal = t.inward_normal(xi)[0] * FLIP
-    tangent = np.array([-normal[1], normal[0]])
-    element = ElementVector(ElementTriP2())
-    basis = Basis(m, element, intorder=4)
-    boundary = m.boundary_facets()
-    away = m.p[:, m.facets[:, boundary]].mean(axis=1) - centre[:, None]
-    # edges on the bore lie a little inside its circle, their middles too
-    free = np.setdiff1d(np.arange(basis.N), basis.get_dofs(lambda x: np.hypot(*x) < BORE * 1.001).all())
-    k = stiffness.assemble(basis).tocsc()
-    loads = []
-    for a in HALF_WIDTHS:
-        near = boundary[(np.hypot(*away) < 1.5 * a) & (np.abs(normal @ away) < 0.3 * np.hypot(*away) + 1e-9)]
-        facets = FacetBasis(m, element, facets=near, intorder=12)
-
-        @LinearForm
-        def pressure(v, w):
-            s = (tangent[0] * (w.x[0] - centre[0]) + tangent[1] * (w.x[1] - centre[1])) / a
-            p = 2 / (np.pi * a) * np.sqrt(np.maximum(1 - s**2, 0))
-            return p * (normal[0] * v[0] + normal[1] * v[1])
-
-        f = pressure.assemble(facets)
-        total = sum(normal[i] * (f[basis.nodal_dofs[i]].sum() + f[basis.facet_dofs[i]].sum()) for i in range(2))
-        assert abs(total - 1) < 5e-3, total
-        loads.append(LOAD * f / total)
-    u = np.zeros((k.shape[0], len(loads)))
-    options = dict(SymmetricMode=True)
-    u[free] = splu(k[free][:, free], permc_spec="MMD_AT_PLUS_A", options=options, diag_pivot_thresh=0.0).solve(
-        np.column_stack(loads)[free])
-    i = np.argmin(np.hypot(*(m.p - centre[:, None])))
-    assert np.hypot(*(m.p[:, i] - centre)) < 1e-9
-    return normal @ u[basis.nodal_dofs[:, i]], len(free)
+    centre, normal = t.flank(xi)[0] * FLIP, t.inward_normal(xi)[0] * FLIP
+    body = PlaneBody(mesh(t, xi, fineness), BORE)
+    u = body.solve([LOAD * body.hertz(centre, normal, a) for a in HALF_WIDTHS])
+    return normal @ u[body.at(centre)], len(body.free)
 
 
 def main(folder):

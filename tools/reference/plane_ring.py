@@ -12,12 +12,11 @@ Quadratic triangles (scikit-fem); a second mesh with all sizes doubled gives the
 import sys
 from pathlib import Path
 
-import gmsh
 import numpy as np
-from plane_gear import FLIP, LOAD, stiffness, turned
+from plane_gear import LOAD
+from plane_mesh import FLIP, PlaneBody, arc, triangles, turned
 from scipy.optimize import brentq
-from scipy.sparse.linalg import splu
-from skfem import Basis, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri
+from skfem import FacetBasis, LinearForm
 from skfem.helpers import sym_grad
 
 RADII = [88.4, 90.0, 91.8]  # mm
@@ -103,15 +102,15 @@ def gauge_ends(points):
     return ends
 
 
-def pieces_of(t, detailed):
+def pieces_of(t, splits, gauge=False):
+    """Outline of a pitch, counter-clockwise; nodes at these roll angles, falling, of its right flank, and at the ends of the gauge."""
     hp = t.pitch_angle / 2
-    arc = lambda r, a, b, n: np.column_stack([r * np.cos(np.linspace(a, b, n)), r * np.sin(np.linspace(a, b, n))])
     dense = t.fillet(4001)
-    ends = [0] + (gauge_ends(dense) if detailed else []) + [4000]
+    ends = [0] + (gauge_ends(dense) if gauge else []) + [4000]
     thin = lambda p: np.vstack([p[:-1][:: max(1, len(p) // 40)], p[-1:]])
     fillet = [thin(dense[a : b + 1]) for a, b in zip(ends, ends[1:])]  # from the involute to the root
     right_fillet = [p[::-1] * FLIP for p in fillet[::-1]]
-    cuts = [t.xi_form] + [t.xi(r) for r in RADII[::-1]] + [t.xi_tip]
+    cuts = [t.xi_form, *splits, t.xi_tip]
     right = [t.flank(np.linspace(a, b, 30)) * FLIP for a, b in zip(cuts, cuts[1:])]
     at_root, at_tip = (np.arctan2(p[1], p[0]) for p in (dense[-1], t.flank(t.xi_tip)[0]))
     return ([arc(t.r_root, -hp, -at_root, 4)] + right_fillet + right + [arc(t.r_tip, -at_tip, at_tip, 8),
@@ -119,82 +118,28 @@ def pieces_of(t, detailed):
 
 
 def mesh(t, outside, fineness):
-    gmsh.initialize(interruptible=False)
-    gmsh.option.setNumber("General.Terminal", 0)
-    geo = gmsh.model.geo
-    first = last = None
-    lines = []
-    own, other = pieces_of(t, True), pieces_of(t, False)
+    splits = [t.xi(r) for r in RADII[::-1]]
+    own, other = pieces_of(t, splits, True), pieces_of(t, splits)
     pieces = [turned(p, t.pitch_angle * k) for k in range(t.z) for p in (other if k else own)]
-    for i, piece in enumerate(pieces):
-        ids = [last or geo.addPoint(*piece[0], 0)]
-        first = first or ids[0]
-        ids += [geo.addPoint(*p, 0) for p in piece[1:-1]]
-        ids.append(first if i + 1 == len(pieces) else geo.addPoint(*piece[-1], 0))
-        last = ids[-1]
-        lines.append(geo.addSpline(ids))
-    centre = geo.addPoint(0, 0, 0)
-    quarter = [geo.addPoint(outside * np.cos(a), outside * np.sin(a), 0) for a in np.pi / 2 * np.arange(4)]
-    circle = [geo.addCircleArc(quarter[k], centre, quarter[(k + 1) % 4]) for k in range(4)]
-    geo.addPlaneSurface([geo.addCurveLoop(circle), geo.addCurveLoop(lines)])
-    geo.synchronize()
-    for option in ("MeshSizeExtendFromBoundary", "MeshSizeFromPoints"):
-        gmsh.option.setNumber("Mesh." + option, 0)
-    gmsh.option.setNumber("Mesh.MeshSizeFactor", 1.0)
-    near = []
+    size = f"(0.3 + 0.12*max(sqrt((x-{t.r})^2+y^2)-14.0, 0))"
     for r in RADII:
         p = t.flank(t.xi(r))[0] * FLIP
-        near.append(f"({HALF_WIDTH / 8} + 0.1*sqrt((x-({p[0]}))^2+(y-({p[1]}))^2))")
-    far = f"(0.3 + 0.12*max(sqrt((x-{t.r})^2+y^2)-14.0, 0))"
-    size = far
-    for expression in near:
-        size = f"min({size}, {expression})"
-    field = gmsh.model.mesh.field.add("MathEval")
-    gmsh.model.mesh.field.setString(field, "F", f"min({size}, 2.5)/{fineness}")
-    gmsh.model.mesh.field.setAsBackgroundMesh(field)
-    gmsh.model.mesh.generate(2)
-    tag, x, _ = gmsh.model.mesh.getNodes()
-    place = np.zeros(int(tag.max()) + 1, int)
-    place[tag.astype(int)] = np.arange(len(tag))
-    tri = place[gmsh.model.mesh.getElements(2)[2][0].astype(int)].reshape(-1, 3)
-    gmsh.finalize()
-    used, tri = np.unique(tri, return_inverse=True)
-    return MeshTri(np.ascontiguousarray(x.reshape(-1, 3)[used, :2].T), np.ascontiguousarray(tri.reshape(-1, 3).T))
+        size = f"min({size}, ({HALF_WIDTH / 8} + 0.1*sqrt((x-({p[0]}))^2+(y-({p[1]}))^2)))"
+    return triangles(pieces, outside, f"min({size}, 2.5)/{fineness}")
 
 
 def readings(t, outside, fineness):
     """Per radius: own deflection, that of tooth 1 and of the last tooth (mm), root strain; and degrees of freedom."""
-    m = mesh(t, outside, fineness)
-    element = ElementVector(ElementTriP2())
-    basis = Basis(m, element, intorder=4)
-    boundary = m.boundary_facets()
-    # edges on the outside lie a little inside its circle, their middles too
-    free = np.setdiff1d(np.arange(basis.N), basis.get_dofs(lambda x: np.hypot(*x) > outside - 0.012).all())
-    k = stiffness.assemble(basis).tocsc()
-    middles = m.p[:, m.facets[:, boundary]].mean(axis=1)
+    body = PlaneBody(mesh(t, outside, fineness), outside)
+    m, boundary, middles = body.mesh, body.boundary, body.middles
     loads, places = [], []
     for r in RADII:
         centre, normal = t.flank(t.xi(r))[0] * FLIP, t.inward_normal(t.xi(r)) * FLIP
-        tangent = np.array([-normal[1], normal[0]])
-        away = middles - centre[:, None]
-        near = boundary[(np.hypot(*away) < 1.5 * HALF_WIDTH) & (np.abs(normal @ away) < 0.3 * np.hypot(*away) + 1e-9)]
-
-        @LinearForm
-        def pressure(v, w):
-            s = (tangent[0] * (w.x[0] - centre[0]) + tangent[1] * (w.x[1] - centre[1])) / HALF_WIDTH
-            p = 2 / (np.pi * HALF_WIDTH) * np.sqrt(np.maximum(1 - s**2, 0))
-            return p * (normal[0] * v[0] + normal[1] * v[1])
-
-        f = pressure.assemble(FacetBasis(m, element, facets=near, intorder=12))
-        total = sum(normal[i] * (f[basis.nodal_dofs[i]].sum() + f[basis.facet_dofs[i]].sum()) for i in range(2))
-        assert abs(total - 1) < 5e-3, total
-        loads.append(LOAD * f / total)
+        loads.append(LOAD * body.hertz(centre, normal, HALF_WIDTH))
         found = []
         for tooth in (0, 1, -1):
             p, n = turned(centre[None], t.pitch_angle * tooth)[0], turned(normal[None], t.pitch_angle * tooth)[0]
-            i = np.argmin(np.hypot(*(m.p - p[:, None])))
-            assert np.hypot(*(m.p[:, i] - p)) < 1e-9
-            found.append((basis.nodal_dofs[:, i], n))
+            found.append((body.at(p), n))
         places.append(found)
     # the gauge: boundary edges of the right fillet between its ends
     dense = t.fillet(4001)
@@ -202,7 +147,7 @@ def readings(t, outside, fineness):
     radii = sorted((np.hypot(*a), np.hypot(*b)))
     r, angle = np.hypot(*middles), np.arctan2(middles[1], middles[0])
     on = boundary[(r > radii[0]) & (r < radii[1]) & (angle < 0) & (angle > -t.pitch_angle / 2)]
-    facets = FacetBasis(m, element, facets=on, intorder=6)
+    facets = FacetBasis(m, body.element, facets=on, intorder=6)
 
     @LinearForm
     def gauge(v, w):
@@ -214,12 +159,9 @@ def readings(t, outside, fineness):
     length = np.hypot(*(ends[:, 0] - ends[:, 1])).sum()
     assert abs(length / GAUGE - 1) < 5e-3, length
     g = gauge.assemble(facets) / length
-    u = np.zeros((k.shape[0], len(loads)))
-    options = dict(SymmetricMode=True)
-    u[free] = splu(k[free][:, free], permc_spec="MMD_AT_PLUS_A", options=options, diag_pivot_thresh=0.0).solve(
-        np.column_stack(loads)[free])
+    u = body.solve(loads)
     rows = [[n @ u[dofs, j] for dofs, n in found] + [g @ u[:, j]] for j, found in enumerate(places)]
-    return np.array(rows), len(free)
+    return np.array(rows), len(body.free)
 
 
 def main(folder):

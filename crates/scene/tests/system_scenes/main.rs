@@ -24,6 +24,7 @@ mod planetary;
 mod power_losses;
 mod provenance;
 mod random_bevel_pairs;
+mod ring_pairs;
 mod rolling_bearings;
 mod run_out;
 mod shafts;
