@@ -59,7 +59,9 @@ fn of_set(found: &SetFigures) -> Vec<String> {
     }
     let orbit = found
         .sun_orbit_m
-        .map(|r| format!("sun within {} um of its mean place", short(1e6 * r)));
+        // Rounding of a sun on a fixed axis is no orbit.
+        .map(|r| if r < 1e-15 { 0.0 } else { 1e6 * r })
+        .map(|um| format!("sun within {} um of its mean place", short(um)));
     let te = found.transmission_error_rad;
     let te = te.map(|te| {
         format!(

@@ -192,7 +192,7 @@ impl Columns<'_> {
             while let Some(more) = self.read_all(["x", "y"].into_iter().map(|axis| {
                 element_column(
                     &format!("{planet} bearing {number}"),
-                    &format!("force_{axis}_N"),
+                    &format!("force_world_{axis}_N"),
                 )
             }))? {
                 parts = Some(match parts {
