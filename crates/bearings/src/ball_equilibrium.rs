@@ -243,7 +243,7 @@ impl Ball<'_> {
         } else {
             // A groove is the half of its torus that faces the ball, and the rim at its end.
             let ball_radius_m = 0.5 * self.row.ball_size(self.number).0;
-            let (out, up, length) = groove.from_rim((out, up), ball_radius_m);
+            let (out, up, length) = groove.rim_to_centre((out, up), ball_radius_m);
             if length < ball_radius_m {
                 contact = (out, up, -length);
                 approach = ball_radius_m - length;

@@ -38,7 +38,11 @@ impl Groove {
     /// From the nearer rim, the end of the half of the torus that is there, to a ball's centre that lies (out, up) from the
     /// groove's centre: (out, up, distance) \[m\].
     #[inline]
-    pub(crate) fn from_rim(&self, (out, up): (f64, f64), ball_radius_m: f64) -> (f64, f64, f64) {
+    pub(crate) fn rim_to_centre(
+        &self,
+        (out, up): (f64, f64),
+        ball_radius_m: f64,
+    ) -> (f64, f64, f64) {
         let across = self.faces.0 * up - self.faces.1 * out;
         let end = (self.arm_m + ball_radius_m) * across.signum();
         let (out, up) = (out + self.faces.1 * end, up - self.faces.0 * end);
