@@ -87,8 +87,11 @@ pub const FIGURES: &[RestFigure] = &figures! {
     "iterations_per_position" "iter/pos" Factor Console |f| f.iterations_per_position;
 };
 
+/// An estimated error out of those of a result, as a share; none where it was not estimated.
+pub type FigureError = fn(&FigureErrors) -> Option<f64>;
+
 /// Estimated errors of figures: name in files, and the share.
-pub const FIGURE_ERRORS: [(&str, fn(&FigureErrors) -> Option<f64>); 5] = [
+pub const FIGURE_ERRORS: [(&str, FigureError); 5] = [
     ("positions_te_peak_to_peak", |e| e.te_positions),
     ("positions_pressure", |e| e.pressure_positions),
     ("positions_k_h_beta", |e| e.k_h_beta_positions),

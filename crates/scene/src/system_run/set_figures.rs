@@ -148,7 +148,7 @@ impl Columns<'_> {
         let sums: Vec<f64> = (0..self.rows.len())
             .map(|row| moments.iter().map(|m| m[row]).sum())
             .collect();
-        if moments.is_empty() || sums.iter().any(|sum| *sum == 0.0) {
+        if moments.is_empty() || sums.contains(&0.0) {
             return Ok(None);
         }
         let shares = |moment: &Vec<f64>| -> Vec<f64> {
