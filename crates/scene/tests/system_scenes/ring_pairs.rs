@@ -64,7 +64,6 @@ fn the_energy_of_a_ring_pair_balances_with_every_model() {
             let found = result(&scene(&run, 3000.0, model), folder.path(), &desk);
             found.relative_energy_error().unwrap()
         });
-        println!("{helix_deg} {model}: {off:?}");
         assert!(
             off[1] < off[0].max(1e-9) && off[1] < 1e-3,
             "{model}: {off:?}"
