@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use gearmesh_model::{write_bytes, write_text};
 use gearmesh_operations::import::{ImportRequest, import};
 use gearmesh_operations::new_files::{self, KINDS, NewKind, Texts};
 use gearmesh_operations::tca::{TcaRequest, tca};
@@ -139,8 +140,7 @@ pub fn imported(name: &str, bytes: &[u8], watch: &Watch<'_>) -> Result<Value, Pr
     let name = Path::new(name).file_name().unwrap_or_default();
     let scratch = Scratch::new()?;
     let model = scratch.path().join(name);
-    let failed = |cause: std::io::Error| Problem::Work(format!("{}: {cause}", model.display()));
-    std::fs::write(&model, bytes).map_err(failed)?;
+    write_bytes(&model, bytes).map_err(Problem::not_written)?;
     let folder = new_folder("gearbox")?;
     let request = ImportRequest {
         model: model.clone(),
@@ -165,9 +165,7 @@ fn with_folder(mut result: Value, folder: &Path) -> Value {
 fn write(kind: NewKind, files: &Texts, folder: &Path) -> Result<(), Problem> {
     new_files::demand_names(kind, files)?;
     for (name, text) in files {
-        let path = folder.join(name);
-        let failed = |cause| Problem::Work(format!("{}: {cause}", path.display()));
-        std::fs::write(&path, text).map_err(failed)?;
+        write_text(&folder.join(name), text).map_err(Problem::not_written)?;
     }
     Ok(())
 }

@@ -53,6 +53,11 @@ impl Problem {
         json!({"kind": self.kind(), "error": self.to_string()})
     }
 
+    /// A file of the studio's own that was not written: the input is not to blame.
+    pub(crate) fn not_written(error: FileError) -> Self {
+        Self::Work(error.to_string())
+    }
+
     /// Whether the input is to blame.
     #[must_use]
     pub fn is_input(&self) -> bool {

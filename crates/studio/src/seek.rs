@@ -67,10 +67,8 @@ impl PairSession {
         let folder = Scratch::new()?;
         let write = |name: &str, text: String| {
             let path = folder.path().join(name);
-            let failed = |cause| Problem::Work(format!("{}: {cause}", path.display()));
-            std::fs::write(&path, text)
-                .map_err(failed)
-                .map(|()| path.clone())
+            let written = gearmesh_model::write_text(&path, &text);
+            written.map(|()| path).map_err(Problem::not_written)
         };
         write("scene.toml", self.text(&change)?)?;
         let file = write("optimise.toml", seek.file()?)?;

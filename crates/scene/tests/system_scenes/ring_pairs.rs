@@ -100,7 +100,6 @@ fn a_ring_pair_in_slow_motion_is_that_at_rest() {
         ]
     };
     let ([a, b], [c, d]) = (ends(&moving), ends(&at_rest.te_m));
-    println!("{moving_mean:e} {mean_at_rest:e}; {a:e} {b:e}, {c:e} {d:e}");
     assert!((moving_mean / mean_at_rest - 1.0).abs() < 5e-3);
     assert!((a / c - 1.0).abs() < 0.02 && (b / d - 1.0).abs() < 0.02);
 }
