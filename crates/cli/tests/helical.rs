@@ -6,7 +6,7 @@ mod common;
 use common::{
     Desk, SOLID, THIN, argument, changed, gearmesh, largest_difference, number, refused, succeeds,
 };
-use gearmesh_scene::pair::figure_table::FIGURES;
+use gearmesh_scene::pair::figure_table::{FIGURES, RestFigure};
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_scene::{Scene, SceneResult, load};
 use serde_json::Value;
@@ -216,8 +216,10 @@ fn one_table_at_all_doors(desk: &Desk, scene: &str, result: &Path, figures: &Val
         .into_iter()
         .zip(values.iter().map(|v| v.parse().unwrap_or(f64::NAN)))
         .collect();
+    let columns = FIGURES.iter().filter(|figure| figure.is_studied());
+    let columns: Vec<String> = columns.map(RestFigure::name_in_studies).collect();
     let study = format!(
-        "title = \"one\"\nscene = \"{scene}\"\n[[parameter]]\nname = \"T\"\nkeys = [\"run.torques_Nm.0\"]\nvalues = [40.0]\n"
+        "title = \"one\"\nscene = \"{scene}\"\ncolumns = {columns:?}\n[[parameter]]\nname = \"T\"\nkeys = [\"run.torques_Nm.0\"]\nvalues = [40.0]\n"
     );
     let (study, out) = (
         desk.file(&format!("one-{scene}"), study),
@@ -247,7 +249,7 @@ fn one_table_at_all_doors(desk: &Desk, scene: &str, result: &Path, figures: &Val
             assert!(console.contains(&text), "{name} {text}");
         }
         if figure.is_studied() {
-            let read = figure.kind.read_unit(over).factor * value;
+            let read = figure.studied(&of_result.figures(0), over);
             assert!(
                 studied.contains(&Value::from(read).to_string()),
                 "{name} {read} {studied}"

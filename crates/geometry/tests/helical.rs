@@ -321,8 +321,14 @@ fn a_gear_file_states_angle_and_hand_together() {
         ("helix_angle_deg = 15.0", "needs hand"),
         ("hand = \"left\"", "is not used"),
         ("helix_angle_deg = 0\nhand = \"left\"", "is not used"),
-        ("helix_angle_deg = -15\nhand = \"left\"", "0 to below 45"),
-        ("helix_angle_deg = 45\nhand = \"left\"", "0 to below 45"),
+        (
+            "helix_angle_deg = -15\nhand = \"left\"",
+            "0 up to, not including, 45",
+        ),
+        (
+            "helix_angle_deg = 45\nhand = \"left\"",
+            "0 up to, not including, 45",
+        ),
         ("helix_angle_deg = 15\nhand = \"up\"", "hand"),
     ] {
         let text = with(lines).unwrap_err();

@@ -95,6 +95,7 @@ impl FoundOptimum {
         json!({
             "title": tables.title,
             "tried": found.tried.len(),
+            "objectives": tables.objective.iter().map(|o| &o.name).collect::<Vec<_>>(),
             "as_it_is": found.before,
             "front": found.front.iter().map(trial).collect::<Vec<_>>(),
         })

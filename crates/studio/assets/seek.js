@@ -89,7 +89,7 @@ export class Seeker {
 
   /** The points that nothing beats in all objectives; of one objective the best. */
   #front({ figures, settings }, change) {
-    const names = Object.keys(figures.front[0].objectives);
+    const names = figures.objectives;
     const label = (name) => this.columns.reduce((text, column) => (text.startsWith(`${column.name} `) ? `${column.label} ${column.unit}${text.slice(column.name.length)}` : text), name);
     const take = ({ variables }) => this.state.go({ settings: { ...settings, ...variables }, removed: change.removed.filter((key) => !(key in settings)) }, performance.now());
     const words = ({ objectives, variables }) => [...Object.entries(objectives), ...Object.entries(variables)].map(([name, value]) => `${label(name).replace(/^gear_(.)\.microgeometry\.(.*)_um$/, (_, gear, key) => `${key.replaceAll("_", " ")} ${gear} µm`)}: ${short(value)}`).join(", ");
