@@ -468,7 +468,10 @@ fn lives_of_ratings_are_columns() {
         &study("\"ratings/bearing front/bearing_l10_mrev:mean\""),
     )
     .unwrap_err();
-    assert!(refused.contains("a rating is one number"), "{refused}");
+    assert!(
+        refused.contains("a figure of a rating or a planetary set is one number"),
+        "{refused}"
+    );
     let refused = studied(
         folder.path(),
         &study("\"ratings/bearing front/bearing_l20_mrev\""),

@@ -302,7 +302,7 @@ fn meshes_that_cannot_be_are_refused() {
         ),
         (
             "errors_1 = [{ kind = \"broken-tooth\", tooth = 3, above_radius_mm = 99.0 }]",
-            "gear_mesh.0.teeth.errors_1.0.above_radius_mm: found 99, allowed is more than 0 and less than the tip radius",
+            "gear_mesh.0.teeth.errors_1.0.above_radius_mm: found 99, allowed is less than the tip radius",
         ),
         (
             "friction = { model = \"coulomb\", dynamic_coefficient = 0.2, static_speed_mm_per_s = 10, dynamic_speed_mm_per_s = 5 }",

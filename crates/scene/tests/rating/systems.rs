@@ -329,7 +329,7 @@ fn ratings_that_cannot_be_are_refused() {
         ),
         (
             with("method = 1", "method = 3"),
-            "rating.0.method: found 3, allowed is 1 or 2",
+            "rating.0.method: found 3, allowed is 1 to 2",
         ),
         (
             with("method = 1", "mesh = \"mesh\""),
