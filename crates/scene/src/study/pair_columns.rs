@@ -46,7 +46,7 @@ fn harmonics_of(loaded: &LoadedScene) -> usize {
     HARMONICS.min((loaded.scene.points_per_pitch - 1) / 2)
 }
 
-/// Names of all columns of a scene, in the order of [`columns`].
+/// Names of all columns of a scene, in the order of `columns`.
 #[must_use]
 pub fn names(loaded: &LoadedScene) -> Vec<String> {
     let figures = FIGURES.iter().filter(|figure| figure.is_studied());
