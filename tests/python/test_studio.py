@@ -179,6 +179,8 @@ def test_columns_of_a_system(browser, tmp_path):
         it.page.select_option("#shown", "spectrum")
         it.until("[...document.querySelectorAll('#plots figcaption')].every((one) => one.textContent.includes('Hz'))")
         it.keep("columns")
+        it.page.reload()  # the part that is shown is too short
+        it.page.wait_for_selector("#plots canvas")
         it.page.select_option("#shown", "waterfall")
         it.page.wait_for_selector("#plots canvas[aria-label^=Amplitudes]")
         it.page.wait_for_timeout(500)
@@ -261,6 +263,8 @@ def test_something_new(browser, tmp_path):
 
         card("pair").click()
         module = it.field("tooth.module_mm").locator("input[type=number]")
+        it.page.wait_for_selector(".field[data-key='tooth.module_mm']", state="attached")
+        it.page.evaluate("for (const group of document.querySelectorAll('details')) group.open = true")
         it.until("document.querySelector('#text').value.includes('module_mm = 3.0')")
         module.fill("2.5")
         module.press("Enter")
@@ -278,6 +282,7 @@ def test_something_new(browser, tmp_path):
             it.page.wait_for_timeout(400)
         it.keep("new_pair")
         it.page.click("#run")
+        it.page.wait_for_selector("#pair:not([hidden])", timeout=120_000)
         it.until("document.querySelector('#pair')?.hidden === false && globalThis.gearmeshStudio?.times?.length > 0", seconds=120)
         assert (tmp_path / "pair/pinion.h5").exists()
         assert len(it.answer()["figures"]["rows"]) == 3

@@ -9,6 +9,9 @@ import { fail } from "./said.js";
 /** Height of the picture [px], and what lies below the largest amplitude in it [decades]. */
 const [HIGH, DECADES] = [420, 4];
 
+/** What was asked before. */
+let asked = Promise.resolve();
+
 export class Waterfall {
   #number = 0;
 
@@ -25,12 +28,18 @@ export class Waterfall {
     place.append(this.figure);
   }
 
-  async show(column, range) {
+  /** One after the other: the server answers the latest request only. */
+  show(column, range) {
     this.last = [column, range];
     const own = ++this.#number;
+    asked = asked.then(() => own === this.#number && this.#ask(column, range));
+    return asked;
+  }
+
+  async #ask(column, range) {
     try {
       const answer = await ask("/api/columns/waterfall", { column: column.name, speed: this.shaft.value || null, from: range?.[0] ?? null, to: range?.[1] ?? null });
-      if (own === this.#number) this.#draw(answer, column);
+      this.#draw(answer, column);
       fail(null);
     } catch (problem) {
       if (problem.kind !== "overtaken") fail(problem);
