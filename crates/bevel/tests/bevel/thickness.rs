@@ -145,7 +145,7 @@ fn settings_that_cannot_be_are_named() {
                 "edge_radius_mm = 0.5\nthickness = \"blank\"",
                 1,
             ),
-            "pinion.thickness: `thickness` belongs to settings \"given\", not to \"local-synthesis\"",
+            "pinion: `thickness` belongs to settings \"given\", not to \"local-synthesis\"",
         ),
     ] {
         assert_ne!(wrong, text, "{told}");

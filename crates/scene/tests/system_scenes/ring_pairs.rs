@@ -49,10 +49,6 @@ fn the_energy_of_a_ring_pair_balances_with_every_model() {
             0.0,
             "model = { kind = \"hybrid\", local = \"weber-banaschek\" }",
         ),
-        (
-            15.0,
-            "model = { kind = \"hybrid\", local = \"weber-banaschek\" }",
-        ),
     ] {
         write_planet_and_ring(folder.path(), helix_deg);
         let off = [2e-6, 1e-6].map(|step_s| {

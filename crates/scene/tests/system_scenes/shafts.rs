@@ -233,28 +233,6 @@ body = "pinion"
 torque_Nm = 40.0
 "#;
 
-/// A ring with internal teeth is refused by name, not taken for a wheel.
-#[test]
-fn a_ring_with_internal_teeth_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let ring = CUT
-        .replace("teeth = 17", "teeth = -60\naddendum = 0.8")
-        .replace("kind = \"solid\"", "kind = \"ring\"")
-        .replace(
-            "bore_diameter_mm = 0\nshaft_diameter_mm = [28, 32]",
-            "outer_diameter_mm = 210",
-        );
-    std::fs::write(folder.path().join("cut.toml"), ring).unwrap();
-    let Err(error) = build_in(CUT_SCENE, folder.path()) else {
-        panic!("a ring was taken for a wheel")
-    };
-    let text = error.to_string();
-    assert!(
-        text.contains("body.0.gear") && text.contains("ring with internal teeth"),
-        "{text}"
-    );
-}
-
 /// A pinion cut into its shaft: the core is in the gear, once. The shaft's mass is that beyond the faces, 40 and 50 mm of it, and so is its
 /// twist; what the core twists is in the reduced gear. No station may lie within the face.
 #[test]

@@ -156,6 +156,7 @@ fn shipped_scenes_are_built() {
             "dynamics_bevel_13_35.toml",
             "dynamics_bevel_13_35_dynamic.toml",
             "dynamics_bevel_13_35_linear.toml",
+            "dynamics_bevel_13_35_surfaces.toml",
             "dynamics_bevel_20_20.toml",
             "dynamics_bevel_20_20_nodes.toml",
             "dynamics_bevel_20_20_nodes_steady.toml",
