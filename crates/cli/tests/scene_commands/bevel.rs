@@ -322,7 +322,7 @@ fn what_cannot_be_cut_is_refused() {
         (
             "edge_radius_mm = 0.5\n\n",
             "edge_radius_mm = 0.5\nbias_um = [1.0, 1.0]\n\n",
-            "gear.bias_um: `bias_um` belongs to settings \"ease-off\", not to \"basic\"",
+            "gear: `bias_um` belongs to settings \"ease-off\", not to \"basic\"",
         ),
         (
             "edge_radius_mm = 0.5\n\n",
