@@ -3,8 +3,8 @@
 //! Each ball stays in its axial plane (the cage holds it there) and has two unknowns, the place of its centre b in
 //! that plane. A groove is half a torus: a circle of radius R, the line of the groove's centres, and round it the
 //! groove's radius r, up to contact angles of 90° (in thrust bearings from 0° to 180°). With the distance ℓ of b from
-//! that circle the approach is δ = ℓ − (r − D/2), the force Q = k δ^1.5 points to the circle. The inner groove ends in a
-//! rim: a ball beyond its end touches this edge, δ = D/2 − ℓ with the distance ℓ of b from it. Formulas (3) to (7) of
+//! that circle the approach is δ = ℓ − (r − D/2), the force Q = k δ^1.5 points to the circle. The inner groove ends in
+//! a rim: a ball beyond its end touches this edge, δ = D/2 − ℓ with the distance ℓ of b from it. Formulas (3) to (7) of
 //! docs/theory/rolling_bearings.md.
 
 mod race_control;

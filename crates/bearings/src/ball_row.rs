@@ -35,8 +35,8 @@ impl Groove {
         self.faces.0 * cosine + self.faces.1 * sine > 0.0
     }
 
-    /// From the nearer rim, the end of the half of the torus that is there, to a ball's centre that lies (out, up) from the
-    /// groove's centre: (out, up, distance) \[m\].
+    /// From the nearer rim, the end of the half of the torus that is there, to a ball's centre that lies (out, up) from
+    /// the groove's centre: (out, up, distance) \[m\].
     #[inline]
     pub(crate) fn rim_to_centre(
         &self,

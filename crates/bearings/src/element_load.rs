@@ -35,8 +35,8 @@ pub struct ElementLoad {
     pub spin_rad_per_s: f64,
     /// Whether a ball rolls without spin on the inner race; otherwise on the outer one.
     pub controlled_by_inner: bool,
-    /// Whether a ball of an angular-contact bearing at speed lies beyond the end of the inner groove: on the edge there, or
-    /// off it, with its centrifugal force on the outer ring alone.
+    /// Whether a ball of an angular-contact bearing at speed lies beyond the end of the inner groove: on the edge
+    /// there, or off it, with its centrifugal force on the outer ring alone.
     pub beyond_inner_groove: bool,
     /// Of a four-point contact bearing: the contacts on the side that carries less.
     pub other_side: Option<OtherSide>,

@@ -108,9 +108,9 @@ impl QuasiStaticBearing {
     /// To rest down the potential energy, where Newton's method alone stays behind an edge of it.
     ///
     /// One proximal step after the other: each ends where the ring would rest if springs held it to where it stood. Energy falls in every step, and
-    /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it. `failure`
-    /// is what the search without springs ended with; elements begin at their `places`, if given, and leave them where
-    /// they end.
+    /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it.
+    /// `failure` is what the search without springs ended with; elements begin at their `places`, if given, and leave
+    /// them where they end.
     pub(crate) fn settle(
         &self,
         start: RingPose,

@@ -240,7 +240,8 @@ impl ContactLines {
     }
 
     /// Direction of the normal force on gear 2, x along the line of centres from gear 1 to gear 2, z along gear 1's axis:
-    /// (cos β_b w, ±sin β_b), upper sign on right flanks, w: [`gearmesh_geometry::BaseCircles::action`] at α_w or the angle of a tip edge's force.
+    /// (cos β_b w, ±sin β_b), upper sign on right flanks, w: [`gearmesh_geometry::BaseCircles::action`] at α_w or the
+    /// angle of a tip edge's force.
     fn normal(&self, line: &ContactLine) -> [f64; 3] {
         let angle_rad = (line.tip).map_or(self.pair.working_pressure_angle_rad, |tip| {
             tip.force_angle_rad

@@ -3,8 +3,8 @@
 //!
 //! Gear k's axis stands at e_k from the axis of its body and turns with it, so that the gears have the distance and
 //! direction d = (a, 0) + e₂ − e₁ = a′ (cos β, sin β), seen along gear 1's z with the driver turning clockwise (the
-//! mirror image on left flanks). With cos α′ = |R|/a′, R = r_b1 + r_b2 and the signs s_k of rings ([`gearmesh_geometry::BaseCircles`]), and tooth 0 of
-//! each gear at the place that conventions.md gives it,
+//! mirror image on left flanks). With cos α′ = |R|/a′, R = r_b1 + r_b2 and the signs s_k of rings
+//! ([`gearmesh_geometry::BaseCircles`]), and tooth 0 of each gear at the place that conventions.md gives it,
 //!
 //! ```text
 //! ξ₁ = tan α + s₁ (θ₁ + β) + α′ − α     as of a pair at a′ whose driver stands at θ₁ + β − s₁ (inv α′ − inv α)
@@ -12,9 +12,10 @@
 //! ```
 //!
 //! with w the direction of the force on gear 2 at α′, turned by β. Torques are those about the bodies'
-//! axes in their senses of turning: the lever arms grow by s₁ s₂ e₂ × w on gear 2 and by −e₁ × w on gear 1, which are the derivatives of g by the
-//! angles. Tilted axes misalign the pair by an amount that turns with them. Gear 2's angle is that of rigid ideal
-//! flanks, TE = −opening, about which the gap is linear in TE; what deflection turns e₂ further is some 10⁻⁴ of it.
+//! axes in their senses of turning: the lever arms grow by s₁ s₂ e₂ × w on gear 2 and by −e₁ × w on gear 1, which are
+//! the derivatives of g by the angles. Tilted axes misalign the pair by an amount that turns with them. Gear 2's angle
+//! is that of rigid ideal flanks, TE = −opening, about which the gap is linear in TE; what deflection turns e₂ further
+//! is some 10⁻⁴ of it.
 
 use crate::contact_lines::ContactLines;
 use crate::tip_contact::PathExtension;

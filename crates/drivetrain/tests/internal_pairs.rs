@@ -1,6 +1,6 @@
 //! A ring and the gear inside it, either driving: the gap against the least distance of the profiles, exchange of the
-//! gears, a rigid pair by hand, friction. What holds for all pairs alike is checked with external ones (`kinematics.rs`,
-//! `helical/`, `static_scene.rs`).
+//! gears, a rigid pair by hand, friction. What holds for all pairs alike is checked with external ones
+//! (`kinematics.rs`, `helical/`, `static_scene.rs`).
 #![allow(clippy::unwrap_used)]
 
 mod mesh_common;

@@ -10,8 +10,9 @@ use crate::system::System;
 
 /// M̂ ÿ + Ĉ ẏ + K̂ y + B̂ᵀδλ = 0, B̂ y = 0, about one state.
 ///
-/// y has the degrees of freedom of [`crate::NaturalMode::shape`]: places and rotations along world axes of each body, then
-/// modal coordinates. SI units. The matrices are views by compressed columns or rows; zeros of the pattern are stored.
+/// y has the degrees of freedom of [`crate::NaturalMode::shape`]: places and rotations along world axes of each body,
+/// then modal coordinates. SI units. The matrices are views by compressed columns or rows; zeros of the pattern are
+/// stored.
 pub struct Linearised(Equations);
 
 impl Linearised {

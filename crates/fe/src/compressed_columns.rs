@@ -1,4 +1,5 @@
-//! The assembled matrices as sprs sees them: products, sums, slices and Matrix Market files for whoever takes them further.
+//! The assembled matrices as sprs sees them: products, sums, slices and Matrix Market files for whoever takes them
+//! further.
 
 use sprs::CsMatView;
 

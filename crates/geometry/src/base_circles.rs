@@ -67,8 +67,8 @@ impl BaseCircles {
         self.sense(0) * side_1.mirror()
     }
 
-    /// Direction of the normal force on gear 2 in the transverse plane, gear 1 touching with `side_1`: (±sin α, ∓cos α), x from the axis of gear 1 to that
-    /// of gear 2. A ring touches on the far side of its mate.
+    /// Direction of the normal force on gear 2 in the transverse plane, gear 1 touching with `side_1`: (±sin α, ∓cos
+    /// α), x from the axis of gear 1 to that of gear 2. A ring touches on the far side of its mate.
     #[must_use]
     pub fn action(&self, pressure_angle_rad: f64, side_1: Flank) -> [f64; 2] {
         let (sin, cos) = pressure_angle_rad.sin_cos();

@@ -171,8 +171,8 @@ pub struct GearPair {
 }
 
 impl GearPair {
-    /// Checks that two gears on parallel axes run together and derives the path of contact, right flanks of gear 1 in contact. Either
-    /// may be a ring around the other. The centre distance has no sign.
+    /// Checks that two gears on parallel axes run together and derives the path of contact, right flanks of gear 1 in
+    /// contact. Either may be a ring around the other. The centre distance has no sign.
     ///
     /// # Errors
     /// [`PairError`] with the numbers that make it impossible.
@@ -424,8 +424,9 @@ impl GearPair {
         (self.roll_end_1_rad - self.roll_start_1_rad).abs() / self.pitch_1_rad()
     }
 
-    /// Polar angles of the middles of teeth 0 at mid-face \[rad\], from each gear's own axis, x from gear 1's axis to gear 2's, where both have turned by
-    /// these angles in their own senses from where their flanks touch in the pitch point at the centre distance \[m, rad\].
+    /// Polar angles of the middles of teeth 0 at mid-face \[rad\], from each gear's own axis, x from gear 1's axis to
+    /// gear 2's, where both have turned by these angles in their own senses from where their flanks touch in the pitch
+    /// point at the centre distance \[m, rad\].
     #[must_use]
     pub fn tooth_middles_rad(&self, (distance_m, angles_rad): (f64, [f64; 2])) -> [f64; 2] {
         let circles = self.circles();

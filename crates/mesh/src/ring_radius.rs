@@ -8,7 +8,8 @@ const BELOW_RING: f64 = 0.4;
 /// Radius of the circle below which the body begins \[m\]: the rim's inner circle where the rim is thin, otherwise
 /// about one and a half modules below the root. It keeps at least half way between the root and what lies inside: bore,
 /// openings, and the outline of the shaft that the gear is cut into, whose faces are held while teeth are condensed
-/// with nothing held. In a ring the same outwards: one and a half modules from the root, at most half way to the outside.
+/// with nothing held. In a ring the same outwards: one and a half modules from the root, at most half way to the
+/// outside.
 pub fn ring_radius_m(gear: &GearDefinition) -> f64 {
     let module = gear.tooth.module_m;
     let root = gear.profile.root_radius_m;

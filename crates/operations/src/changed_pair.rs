@@ -144,8 +144,8 @@ impl ChangedPair {
         Ok(found.map_err(|error| Failure::of_input(&error))?.model)
     }
 
-    /// Reduces the changed bodies of a case that are not reduced yet, without an estimate of their errors: that takes as
-    /// long once more.
+    /// Reduces the changed bodies of a case that are not reduced yet, without an estimate of their errors: that takes
+    /// as long once more.
     ///
     /// # Errors
     /// [`Failure`] for a body that cannot be meshed or held, where memory is short, and once `watch` stops it.

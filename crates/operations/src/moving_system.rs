@@ -19,8 +19,8 @@ fn rounded_mm(x_m: f64) -> f64 {
     (1e6 * x_m).round() / 1e3
 }
 
-/// Surfaces of the gears and at most `most` moments of a stretch, evenly chosen: places, turns, and of each mesh and gear
-/// the force and where it acts.
+/// Surfaces of the gears and at most `most` moments of a stretch, evenly chosen: places, turns, and of each mesh and
+/// gear the force and where it acts.
 ///
 /// # Errors
 /// [`Failure`] for a result without gears that move, for files that are not as they were in the run, and once `watch`

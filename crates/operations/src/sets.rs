@@ -1,4 +1,5 @@
-//! The planetary sets of a run: how their planets share the load. A block of lines for the console, figures of the JSON.
+//! The planetary sets of a run: how their planets share the load. A block of lines for the console, figures of the
+//! JSON.
 
 use gearmesh_report::short;
 use gearmesh_scene::system_run::{MeshShares, SetFigures, SystemResult};

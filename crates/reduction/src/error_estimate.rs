@@ -151,7 +151,8 @@ struct Asked<'a> {
 
 /// Figures of the coarser meshes, from the finest to the coarsest.
 ///
-/// They are made before the reduction's own mesh is factorised: factors of two meshes never stand in memory side by side.
+/// They are made before the reduction's own mesh is factorised: factors of two meshes never stand in memory side by
+/// side.
 pub struct CoarserMeshes(Vec<Figures>);
 
 /// Solves the coarser meshes of a cylindrical gear.

@@ -1,5 +1,5 @@
-//! A spur set of four planets with eight meshes on rigid bodies: time of a step by kind of mesh, and of a static turn of one mesh period
-//! at 60 positions.
+//! A spur set of four planets with eight meshes on rigid bodies: time of a step by kind of mesh, and of a static turn
+//! of one mesh period at 60 positions.
 //!
 //! `cargo bench --workspace --bench planetary --profile dev`; on a busy machine the figures are too high.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]

@@ -99,9 +99,9 @@ fn usual(key: &str, unit: &str, now: Option<f64>, shape: Option<Shape<'_>>) -> O
     })
 }
 
-/// A value that suits the gear, in hundredths: reliefs begin halfway in roll length between the pitch circle and the tip
-/// or the form circle, crowning is zero at the pitch circle, end reliefs take a tenth of the face, openings lie in the
-/// middle of the web and take half of its height.
+/// A value that suits the gear, in hundredths: reliefs begin halfway in roll length between the pitch circle and the
+/// tip or the form circle, crowning is zero at the pitch circle, end reliefs take a tenth of the face, openings lie in
+/// the middle of the web and take half of its height.
 pub fn suited(key: &str, Shape { gear, of_gear }: Shape<'_>) -> Option<f64> {
     if !of_gear {
         return None;

@@ -129,8 +129,8 @@ impl PairSession {
     /// The changed pair, computed.
     ///
     /// # Errors
-    /// [`Problem`] for what the scene refuses, for a run that is too long for a page, for bodies that are not reduced yet,
-    /// and once `watch` stops it.
+    /// [`Problem`] for what the scene refuses, for a run that is too long for a page, for bodies that are not reduced
+    /// yet, and once `watch` stops it.
     pub fn answer(&self, change: &Change, watch: &PairWatch) -> Result<PairAnswer, Problem> {
         let loaded = self.loaded(change)?;
         let bytes = loaded.result_bytes();

@@ -1,5 +1,5 @@
-//! Validation: transmission error of a planet in a ring at rest, from a scene, against an independent plane-strain solution of both bodies
-//! (reference/plane_planet): one and two pairs of teeth, three loads, either gear driving.
+//! Validation: transmission error of a planet in a ring at rest, from a scene, against an independent plane-strain
+//! solution of both bodies (reference/plane_planet): one and two pairs of teeth, three loads, either gear driving.
 
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
@@ -89,8 +89,9 @@ fn the_transmission_error_of_a_planet_in_a_ring_agrees() {
         }
     }
     assert!(seen[0] && seen[1]);
-    // The ring drives: the same contacts are passed from the other end, the other flanks of the planet touch as right ones of the ring. Pair 0 of the first
-    // run at −θ is that of the second at +θ: both have the same approach in the pitch point, and over a pitch the same mean.
+    // The ring drives: the same contacts are passed from the other end, the other flanks of the planet touch as right
+    // ones of the ring. Pair 0 of the first run at −θ is that of the second at +θ: both have the same approach in the
+    // pitch point, and over a pitch the same mean.
     let back = at_rest(folder.path(), ["ring", "planet"], "left", base_m(24.0));
     for torque in 0..LOADS.len() {
         let [forth, back] = [&driven, &back].map(|result| result.curve(&result.te_m, torque));

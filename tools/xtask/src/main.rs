@@ -1,4 +1,5 @@
-//! The project's own commands: `cargo xtask test`, `demo`, `docs`, `bench`, `accuracy-cost`, `figures` and `hard-cases`.
+//! The project's own commands: `cargo xtask test`, `demo`, `docs`, `bench`, `accuracy-cost`, `figures` and
+//! `hard-cases`.
 //!
 //! All begin with the same preparation ([`prepare::prepare`]), so that each works on a clean clone: the Python
 //! environment `.venv` from the locked requirements, the shared libraries that gmsh needs, the Python module.

@@ -59,9 +59,9 @@ fn from_inner_circle(row: &BallRow, pose: &RingPose, point: &Vector3<f64>) -> Ve
     )
 }
 
-/// Energy of a ball's contact with the inner ring, 2/5 k δ^5/2: with the groove, or `beyond` its end with the edge there, a
-/// groove's radius above or below the circle of its centres. Differences keep to one of them: where they meet, forces are
-/// equal and their slopes are not.
+/// Energy of a ball's contact with the inner ring, 2/5 k δ^5/2: with the groove, or `beyond` its end with the edge
+/// there, a groove's radius above or below the circle of its centres. Differences keep to one of them: where they meet,
+/// forces are equal and their slopes are not.
 fn inner_energy(row: &BallRow, pose: &RingPose, point: &Vector3<f64>, beyond: bool) -> f64 {
     let apart = from_inner_circle(row, pose, point);
     let radius = 0.5 * row.ball_diameter_m;
@@ -273,8 +273,8 @@ fn many(seed: u64, count: usize) {
         refused.len()
     );
     println!("{}", refused.join("\n"));
-    // Where several balls reach the end of the groove together the ring may have no equilibrium beside it: one bearing in a
-    // hundred may be refused, none of the few that every run draws.
+    // Where several balls reach the end of the groove together the ring may have no equilibrium beside it: one bearing
+    // in a hundred may be refused, none of the few that every run draws.
     assert!(100 * refused.len() <= count, "{} refused", refused.len());
 }
 

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 /// `gearmesh studio`.
 #[derive(Debug, Args)]
 pub struct StudioArguments {
-    /// Scene of a gear pair (.toml), its result, or the result of a multibody scene (.h5); something new where not given
+    /// Scene of a gear pair (.toml), its result, or the result of a multibody scene (.h5); something new where not
+    /// given
     pub file: Option<PathBuf>,
     /// Print the address only; open it yourself
     #[arg(long)]

@@ -131,8 +131,9 @@ fn a_planetary_set_to_start_with_says_how_its_planets_share_the_load() {
     assert!((sum - 3.0).abs() < 1e-9, "{shares:?}");
     // The pin that is ahead carries less.
     assert!(shares[0].as_f64().unwrap() < 0.9, "{shares:?}");
-    // A pin carries both meshes of its planet, across the line of centres: 2 F cos 20 deg. The pin's force is the largest over the
-    // equilibria, and so is the share beside the mean force; 1 %: sun and ring need not be largest at the same one.
+    // A pin carries both meshes of its planet, across the line of centres: 2 F cos 20 deg. The pin's force is the
+    // largest over the equilibria, and so is the share beside the mean force; 1 %: sun and ring need not be largest at
+    // the same one.
     let numbers = |found: &serde_json::Value| -> Vec<f64> {
         let list = found.as_array().unwrap().iter();
         list.map(|number| number.as_f64().unwrap()).collect()

@@ -1,13 +1,13 @@
-//! Gearboxes drawn at random, imported and run at rest, beside equilibrium by hand: torques by the ratios, each tooth force
-//! in the middle of the face, each shaft on its two bearings.
+//! Gearboxes drawn at random, imported and run at rest, beside equilibrium by hand: torques by the ratios, each tooth
+//! force in the middle of the face, each shaft on its two bearings.
 #![allow(clippy::print_stdout)] // figures of the campaign
 
 use crate::common::{Desk, argument, succeeds};
 use serde_json::Value;
 use std::fmt::Write;
 
-/// Off the hand statics, over the larger bearing force of the shaft, by what the line load's centre does not explain: its
-/// load is taken to change evenly along the face, and axes tilt by some 1e-4, which turns forces by as much.
+/// Off the hand statics, over the larger bearing force of the shaft, by what the line load's centre does not explain:
+/// its load is taken to change evenly along the face, and axes tilt by some 1e-4, which turns forces by as much.
 const BOUND: f64 = 5e-3;
 
 struct Stage {
@@ -28,8 +28,8 @@ impl Stage {
             .map(|z| 0.5 * self.module_mm * z / self.helix.cos())
     }
 
-    /// Force on the pinion \[N\] (along the axes, two across) under the torque that drives it: the tangential one against
-    /// it at the pitch point, the radial one away from the wheel, the axial one of the hand.
+    /// Force on the pinion \[N\] (along the axes, two across) under the torque that drives it: the tangential one
+    /// against it at the pitch point, the radial one away from the wheel, the axial one of the hand.
     fn force(&self, torque_nm: f64) -> [f64; 3] {
         let tangential = -torque_nm / (1e-3 * self.radii_mm()[0]);
         let radial = tangential.abs() * 20f64.to_radians().tan() / self.helix.cos();
@@ -346,8 +346,8 @@ fn centre_mm(k_h_beta: f64, face_mm: f64) -> f64 {
     }
 }
 
-/// Of each bearing, off the hand statics over the shaft's larger force: all of it, and beyond what the centres of the line
-/// loads explain. Power, torques and axial forces are asked here.
+/// Of each bearing, off the hand statics over the shaft's larger force: all of it, and beyond what the centres of the
+/// line loads explain. Power, torques and axial forces are asked here.
 fn off(gearbox: &Gearbox, scene: &Value) -> Vec<[f64; 2]> {
     let number = |value: &Value| value.as_f64().unwrap();
     let near = |found: f64, wanted: f64, within: f64| {

@@ -121,7 +121,8 @@ impl DerivedTables {
 mod tests {
     use super::*;
 
-    /// Items that follow from a table are read behind those of the text; a complaint about one stands at the line of that table.
+    /// Items that follow from a table are read behind those of the text; a complaint about one stands at the line of
+    /// that table.
     #[test]
     fn complaints_about_derived_items_point_at_their_origin() {
         let text = "[[set]]\nname = 'x'\n[[body]]\nname = 'a'\n";

@@ -176,9 +176,10 @@ fn in_one_model(case: &Case, body: &GearBody, loads: &[SparseVector]) -> Answers
     }
 }
 
-/// Deflection along the flank's normal at every load point under each load, the force of the bearing, and K_Hβ against a
-/// straight rigid flank, at three proportions of shaft and root, with unequal faces, within 2 %. Faces that cannot move
-/// against each other come less near to K_Hβ: the teeth are too free over the front face, or both are held too well.
+/// Deflection along the flank's normal at every load point under each load, the force of the bearing, and K_Hβ against
+/// a straight rigid flank, at three proportions of shaft and root, with unequal faces, within 2 %. Faces that cannot
+/// move against each other come less near to K_Hβ: the teeth are too free over the front face, or both are held too
+/// well.
 #[test]
 fn a_pinion_between_beams_deflects_as_one_with_its_shaft() {
     let mut all = Vec::new();

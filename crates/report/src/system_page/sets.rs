@@ -100,8 +100,8 @@ impl Drawing {
     }
 }
 
-/// Sun, planets and ring on their pitch circles at the start, each part in the colour of the nearest mesh's force; none where
-/// forces are not recorded.
+/// Sun, planets and ring on their pitch circles at the start, each part in the colour of the nearest mesh's force; none
+/// where forces are not recorded.
 fn picture(found: &SetFigures) -> Option<FieldPicture> {
     let set = &found.set;
     let force = |shares: &Option<MeshShares>| shares.as_ref().map(|s| s.normal_force_n.clone());

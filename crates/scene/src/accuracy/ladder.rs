@@ -2,7 +2,7 @@
 //!
 //! The reference has every knob at its top. From it each knob goes down alone: what it costs and what it saves. Errors
 //! that add up and times that multiply then say which of all combinations may lie on the front; those are run, and what
-//! is told of them is measured, not foretold.
+//! is reported of them is measured, not predicted.
 
 use super::bench::{Bench, JudgedTime, Measured};
 use super::doubt;

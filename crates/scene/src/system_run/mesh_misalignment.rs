@@ -35,8 +35,8 @@ impl MeshAxes {
         }
     }
 
-    /// Inclination and deviation of a pair in contact on these flanks of gear 1: they open where gear 2's axis moves across the line of centres as the
-    /// normal force pushes it.
+    /// Inclination and deviation of a pair in contact on these flanks of gear 1: they open where gear 2's axis moves
+    /// across the line of centres as the normal force pushes it.
     #[must_use]
     pub fn misalignment(&self, flank: Flank) -> Misalignment {
         Misalignment {
@@ -163,7 +163,8 @@ mod tests {
         let left = found.misalignment(Flank::Left);
         assert!((left.deviation_rad + 5e-4).abs() < 1e-15);
         assert_eq!(right.inclination_rad, left.inclination_rad);
-        // The gear inside a ring pushes it on the far side, to +y where it drives; a ring that drives pushes the gear inside as one outside would.
+        // The gear inside a ring pushes it on the far side, to +y where it drives; a ring that drives pushes the gear
+        // inside as one outside would.
         for (teeth, sign) in [([20.0, -30.0], -1.0), ([-30.0, 20.0], 1.0)] {
             let right = with_teeth(teeth).misalignment(Flank::Right);
             assert!((right.deviation_rad - sign * 5e-4).abs() < 1e-15);

@@ -1,8 +1,8 @@
 //! What kind of mode of a planetary set a natural mode is.
 //!
-//! Modes of N equal planets at equal angles are rotational (sun, ring and carrier turn and stay on the axis), translational
-//! (they move across it and do not turn) or planet modes (they stand still); Lin and Parker, Journal of Vibration and
-//! Acoustics 121, 1999. Of other sets the same names say what a mode is nearly.
+//! Modes of N equal planets at equal angles are rotational (sun, ring and carrier turn and stay on the axis),
+//! translational (they move across it and do not turn) or planet modes (they stand still); Lin and Parker, Journal of
+//! Vibration and Acoustics 121, 1999. Of other sets the same names say what a mode is nearly.
 
 use gearmesh_dynamics::NaturalMode;
 
@@ -58,7 +58,8 @@ pub struct SetMode {
 }
 
 impl EigenResult {
-    /// The kinds of all modes, for every set; none where bodies have modes of their own, whose shapes are not told apart.
+    /// The kinds of all modes, for every set; none where bodies have modes of their own, whose shapes are not told
+    /// apart.
     #[must_use]
     pub fn set_modes(&self, bodies: &[String], sets: &[PlanetarySet]) -> Vec<SetMode> {
         let is_rigid = |mode: &NaturalMode| mode.shape.len() == RIGID * bodies.len();

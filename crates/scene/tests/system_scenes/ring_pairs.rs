@@ -1,4 +1,5 @@
-//! A planet in a ring in time: energy with every model, slow motion against the pair at rest, the ideal ratio with its sign.
+//! A planet in a ring in time: energy with every model, slow motion against the pair at rest, the ideal ratio with its
+//! sign.
 
 use std::path::Path;
 
@@ -35,7 +36,8 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Two and a half mesh periods at 3000 rpm, undamped but for `impact`: what the balance is off by falls with the step, and is small at the shorter one.
+/// Two and a half mesh periods at 3000 rpm, undamped but for `impact`: what the balance is off by falls with the step,
+/// and is small at the shorter one.
 #[test]
 fn the_energy_of_a_ring_pair_balances_with_every_model() {
     let folder = tempfile::tempdir().unwrap();
@@ -67,7 +69,8 @@ fn the_energy_of_a_ring_pair_balances_with_every_model() {
     }
 }
 
-/// A mesh period at 5 rpm: the transmission error of bodies in motion is that of the pair at rest, in the mean over the period and at its ends.
+/// A mesh period at 5 rpm: the transmission error of bodies in motion is that of the pair at rest, in the mean over the
+/// period and at its ends.
 #[test]
 fn a_ring_pair_in_slow_motion_is_that_at_rest() {
     let folder = tempfile::tempdir().unwrap();

@@ -19,8 +19,8 @@ fn printed(title: &str) -> Vec<Vec<f64>> {
     rows.take_while(|row| !row.is_empty()).collect()
 }
 
-/// What docs/demo.md prints of pairs A and B is what the demo computes, to the digits that are printed (one more in the last for
-/// another processor's rounding).
+/// What docs/demo.md prints of pairs A and B is what the demo computes, to the digits that are printed (one more in the
+/// last for another processor's rounding).
 #[test]
 #[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
 fn the_demo_page_prints_what_the_demo_computes() {

@@ -11,7 +11,8 @@ use crate::system::tables::UM;
 
 /// Touching is met to this gap \[m\]: far below any deflection, well above rounding.
 const TOUCHING_M: f64 = 1e-13;
-/// Overlap at least with which an equilibrium of a planetary set is looked for \[m\]: far above rounding, a small part of deflections.
+/// Overlap at least with which an equilibrium of a planetary set is looked for \[m\]: far above rounding, a small part
+/// of deflections.
 const PRESSED_M: f64 = UM;
 /// Overlap of the coast flanks while the others touch, from which teeth are said to jam: pairs without backlash have some rounding.
 const JAMMED_M: f64 = UM;
@@ -19,8 +20,9 @@ const JAMMED_M: f64 = UM;
 const TOOTH_ON_TOOTH: f64 = 0.9;
 
 /// Turns gears whose angle nobody states so that their teeth touch, gear 2 where both are free; says what it did and
-/// where teeth stand whose angles are stated. `seeks_rest`: the start is where an equilibrium is looked for. Teeth of planetary sets that
-/// would be open there are then pressed into each other, so that all planets carry from the first iteration on.
+/// where teeth stand whose angles are stated. `seeks_rest`: the start is where an equilibrium is looked for. Teeth of
+/// planetary sets that would be open there are then pressed into each other, so that all planets carry from the first
+/// iteration on.
 pub(super) fn settle_phases(
     bodies: &mut Bodies,
     meshes: &[PreparedMesh],
@@ -164,8 +166,9 @@ fn least_gap_m(
     Ok(gaps.fold(f64::INFINITY, f64::min))
 }
 
-/// Turns the rings of planetary sets so that all planets overlap with them, and the planets so that sun and ring have the same overlap. From
-/// planets that are open an equilibrium is not found: nothing holds them. `closed`: meshes whose gears were turned by others.
+/// Turns the rings of planetary sets so that all planets overlap with them, and the planets so that sun and ring have
+/// the same overlap. From planets that are open an equilibrium is not found: nothing holds them. `closed`: meshes whose
+/// gears were turned by others.
 fn press_sets(
     bodies: &mut Bodies,
     meshes: &[PreparedMesh],

@@ -152,9 +152,10 @@ impl SetGears {
     }
 }
 
-/// That sun and ring, which turn about fixed axes, can be turned with all planets between them. Let j_s and j_r be the backlash
-/// of both meshes along the pitch circles, a pin displaced by t along the turn, the sun turned by x and the planet by y on
-/// its own circle. Its teeth are free in both meshes where |t + y − x| ≤ j_s/2 and |t − y| ≤ j_r/2, hence where
+/// That sun and ring, which turn about fixed axes, can be turned with all planets between them. Let j_s and j_r be the
+/// backlash of both meshes along the pitch circles, a pin displaced by t along the turn, the sun turned by x and the
+/// planet by y on its own circle. Its teeth are free in both meshes where |t + y − x| ≤ j_s/2 and |t − y| ≤ j_r/2,
+/// hence where
 /// |2t − x| ≤ (j_s + j_r)/2. Two planets have the same x: 2 |t_1 − t_2| ≤ j_s + j_r, and thinner teeth add to it.
 fn check_pins(table: &PlanetaryTable, free_m: f64, keys: &TableKeys<'_>) -> Result<(), InputError> {
     let deviations = &table.planets.deviation;

@@ -87,7 +87,7 @@ impl Phasing {
     }
 }
 
-/// What a harmonic of the mesh does to sun, ring and carrier, as a share of all meshes in phase.
+/// Effect of a harmonic of the mesh on sun, ring and carrier, as a share of all meshes in phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HarmonicShares {
     /// Turns them, T_l.
@@ -152,8 +152,8 @@ impl SetTeeth {
             .map_or_else(Vec::new, |z| phases(-(z as f64), angles_rad))
     }
 
-    /// Mesh periods of the sun after which all teeth of a simple set meet again as before, seen from the carrier; none of stepped
-    /// planets, whose two meshes have different periods.
+    /// Mesh periods of the sun after which all teeth of a simple set meet again as before, seen from the carrier; none
+    /// of stepped planets, whose two meshes have different periods.
     #[must_use]
     pub fn hunting_periods(&self) -> Option<usize> {
         (self.planet == self.planet_to_ring).then(|| {

@@ -184,9 +184,9 @@ fn pitch(side: &str, removed_um: &[f64]) -> Value {
     ]))
 }
 
-/// A wave as material removed from both sides of the ring's teeth, A cos(nφ) sin α ∓ A/n sin(nφ) cos α on right and left flanks:
-/// what a tooth that moves by A cos(nφ) outwards and −(A/n) sin(nφ) along the circle, which is not stretched, does along
-/// the normals (docs/theory/planetary_sets.md).
+/// A wave as material removed from both sides of the ring's teeth, A cos(nφ) sin α ∓ A/n sin(nφ) cos α on right and
+/// left flanks: what a tooth that moves by A cos(nφ) outwards and −(A/n) sin(nφ) along the circle, which is not
+/// stretched, does along the normals (docs/theory/planetary_sets.md).
 fn out_of_round(wave: &OutOfRoundTable, teeth: usize, pressure_angle_rad: f64) -> [Value; 2] {
     let (sin_a, cos_a) = pressure_angle_rad.sin_cos();
     let lobes = wave.lobes.get() as f64;

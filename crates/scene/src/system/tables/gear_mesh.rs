@@ -78,8 +78,8 @@ pub struct TeethTable {
     /// Beyond the ends of the path of contact: "extended" lets the tip edges go on, "line-of-action" does not.
     /// "extended" where not given; bevel pairs always have their edges.
     pub path: PathWord,
-    /// Flanks of gear 1 that touch at the start where a mesh turns a gear there: "right" or "left"; those with which gear 1 drives
-    /// where not given, right ones where it stands.
+    /// Flanks of gear 1 that touch at the start where a mesh turns a gear there: "right" or "left"; those with which
+    /// gear 1 drives where not given, right ones where it stands.
     pub touching_at_start: Option<Flank>,
     /// Friction; none where not given.
     pub friction: Option<FrictionTable>,

@@ -1,4 +1,4 @@
-//! `[[planetary]]`: a sun and a ring, planets between them, and the carrier that bears them. It follows from it what
+//! `[[planetary]]`: a sun and a ring, planets between them, and the carrier that holds them. It follows from it what
 //! could be written as bodies, joints, bearings and meshes (`../planetary/`).
 
 use std::path::PathBuf;
@@ -25,8 +25,9 @@ pub struct PlanetaryTable {
     pub position_mm: Option<[f64; 3]>,
     /// Distance of the pins from the axis: the centre distance of the sun and a planet, and of a planet and the ring.
     pub centre_distance_mm: Bounded<Positive>,
-    /// Torque on the sun at the start, which says what flanks touch there: "positive" (counter-clockwise) or "negative".
-    /// Where not given, it follows from the torques, else from the speeds that `sun`, `ring` and `carrier` state.
+    /// Torque on the sun at the start, which says what flanks touch there: "positive" (counter-clockwise) or
+    /// "negative". Where not given, it follows from the torques, else from the speeds that `sun`, `ring` and `carrier`
+    /// state.
     pub sun_torque: Option<SenseWord>,
     /// The sun; a set has a sun, a ring or both.
     pub sun: Option<MemberTable>,
@@ -150,8 +151,8 @@ pub struct SetBearingTable {
     pub housing: Option<HousingTable>,
 }
 
-/// A wave of the ring's pitch circle: the teeth stand `amplitude_um` · cos(lobes · (φ − crest_deg)) farther outside, and
-/// the ring is not stretched.
+/// A wave of the ring's pitch circle: the teeth stand `amplitude_um` · cos(lobes · (φ − crest_deg)) farther outside,
+/// and the ring is not stretched.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutOfRoundTable {
@@ -198,7 +199,8 @@ pub struct PlanetsTable {
     pub modes_up_to_hz: Option<f64>,
     /// With "modal": damping ratio of all modes.
     pub modal_damping_ratio: Option<f64>,
-    /// "turning" on the pin, "floating" on it (turns and moves across the axis), or "bearings"; "turning" where not given, "bearings" where bearings are.
+    /// "turning" on the pin, "floating" on it (turns and moves across the axis), or "bearings"; "turning" where not
+    /// given, "bearings" where bearings are.
     pub support: Option<SupportWord>,
     /// With "bearings" and "floating": bearings between carrier and planet.
     #[serde(default)]
