@@ -1,5 +1,7 @@
 //! How planets share the load, against springs in closed form, and the effect of the meshes' phases on the sun.
 
+use std::f64::consts::TAU;
+
 use gearmesh_scene::system::planetary::layout::harmonic_shares;
 use gearmesh_scene::system_run::SetFigures;
 
