@@ -2,7 +2,7 @@
 
 use gearmesh_geometry::definition::{Gearing, InternalRoot, PinionCutter, ToothDefinition};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{Flank, GearDefinition, RootPosition, ToothGeometry, involute};
+use gearmesh_geometry::{GearDefinition, ToothGeometry, involute};
 
 use crate::*;
 

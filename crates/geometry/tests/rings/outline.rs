@@ -4,7 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use gearmesh_geometry::definition::PinionCutter;
-use gearmesh_geometry::{Flank, ProfileCurve, ToothGeometry, involute};
+use gearmesh_geometry::{Flank, ProfileCurve, RootPosition, ToothGeometry, involute};
 
 use crate::*;
 
