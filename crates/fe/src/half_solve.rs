@@ -20,20 +20,38 @@ impl Factor {
         }
     }
 
-    /// Overwrites B (rows in the order of elimination) with L⁻¹ B and tells the rows that may not be zero, ascending.
-    /// Supernodes that a block of 32 columns does not reach cost nothing; the blocks run in parallel.
+    /// Where a half solve begins whose first load acts on `row` in the order of elimination: the first row of its supernode. Rows before
+    /// it stay zero.
+    pub(crate) fn half_solve_start(&self, row: usize) -> usize {
+        self.supernodes().map_or(row, |l| {
+            let begins = l.symbolic().supernode_begin();
+            begins[begins
+                .partition_point(|begin| *begin <= row)
+                .saturating_sub(1)]
+        })
+    }
+
+    /// Overwrites B (the last rows in the order of elimination, from one of [`Factor::half_solve_start`] on) with L⁻¹ B
+    /// and tells the rows that may not be zero, ascending. Supernodes that a block of 32 columns does not reach cost
+    /// nothing; the blocks run in parallel. The last supernode alone, a dense triangle, is read once for all columns.
     ///
     /// # Panics
-    /// If `rhs` does not have [`Factor::size`] rows.
+    /// If `rhs` has more rows than the factor.
     pub(crate) fn lower_solve_in_place(&self, rhs: MatMut<'_, f64>) -> Vec<usize> {
-        assert_eq!(rhs.nrows(), self.size(), "rows of the right-hand side");
+        let first = self.size() - rhs.nrows();
         let Some(l) = self.supernodes() else {
             return Vec::new();
         };
         let count = l.symbolic().n_supernodes();
+        let begin = (l.symbolic().supernode_begin()).partition_point(|begin| *begin < first);
+        let columns = if begin + 1 == count {
+            rhs.ncols().max(1)
+        } else {
+            SOLVE_COLUMNS
+        };
         let reached = rhs
-            .par_col_chunks_mut(SOLVE_COLUMNS)
-            .map(|block| lower_solve_block(l, block))
+            .par_col_chunks_mut(columns)
+            .map(|block| lower_solve_block(l, begin, block))
             .reduce(
                 || vec![false; count],
                 |a, b| a.iter().zip(b).map(|(x, y)| *x || y).collect(),
@@ -86,13 +104,27 @@ impl Factor {
     }
 }
 
-/// L⁻¹ B for some columns, and which supernodes they reach.
-fn lower_solve_block(l: SupernodalLltRef<'_, usize, f64>, mut x: MatMut<'_, f64>) -> Vec<bool> {
+/// L⁻¹ B for some columns from a supernode on, and which supernodes they reach.
+fn lower_solve_block(
+    l: SupernodalLltRef<'_, usize, f64>,
+    begin: usize,
+    mut x: MatMut<'_, f64>,
+) -> Vec<bool> {
+    let count = l.symbolic().n_supernodes();
+    let first = l
+        .symbolic()
+        .supernode_begin()
+        .get(begin)
+        .copied()
+        .unwrap_or(0);
     let mut below = Mat::<f64>::zeros(0, x.ncols());
-    (0..l.symbolic().n_supernodes())
+    (0..count)
         .map(|s| {
+            if s < begin {
+                return false;
+            }
             let node = l.supernode(s);
-            let (start, size) = (node.start(), node.val().ncols());
+            let (start, size) = (node.start() - first, node.val().ncols());
             let mut own = x.rb_mut().subrows_mut(start, size);
             if own.norm_max() == 0.0 {
                 return false;
@@ -104,7 +136,7 @@ fn lower_solve_block(l: SupernodalLltRef<'_, usize, f64>, mut x: MatMut<'_, f64>
             matmul(below.as_mut(), Accum::Replace, rest, own, 1.0, Par::Seq);
             for (column, update) in below.col_iter().enumerate() {
                 for (&row, value) in node.pattern().iter().zip(update.iter()) {
-                    x[(row, column)] -= value;
+                    x[(row - first, column)] -= value;
                 }
             }
             true

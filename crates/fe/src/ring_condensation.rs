@@ -397,7 +397,7 @@ impl RingCondensation {
         });
         let shape = (self.ring.own()[1], columns);
         let blocks = (self.ring.transform).back(&by_reference(&carried), shape);
-        self.add_at_core(at_core.as_mut(), &blocks, 0);
+        self.add_at_core(at_core.as_mut(), &blocks);
         let core = self.core.condense(at_core.as_ref());
         let first = self.core.interior_size();
         let in_core = core.rows.len();
@@ -428,21 +428,17 @@ impl RingCondensation {
     /// Half solves in the core alone of loads that were carried to it, turned by `parts`: [`CondensedLoads::gram`] of
     /// two is their work but for [`Ring::work`].
     pub fn condense_at_core(&self, at_core: MatRef<'_, f64>, parts: usize) -> CondensedLoads {
-        let own = self.ring.own()[1];
-        let mut loads = Mat::zeros(self.core.size(), at_core.ncols());
-        let blocks: Vec<Mat<f64>> = (0..self.ring.transform.parts)
-            .map(|part| at_core.subrows(part * own, own).to_owned())
-            .collect();
-        self.add_at_core(loads.as_mut(), &blocks, parts);
-        self.core.condense(loads.as_ref())
+        let turned = parts * self.ring.own()[1];
+        let on_parts = |row: usize| (row + turned) % at_core.nrows();
+        let dof = |row: usize| AXES * self.on_parts[on_parts(row) / AXES] + row % AXES;
+        self.core.condense_at(dof, at_core)
     }
 
-    /// Adds loads at the core's nodes on the parts, each `turned` parts further on.
-    fn add_at_core(&self, mut loads: MatMut<'_, f64>, blocks: &[Mat<f64>], turned: usize) {
+    /// Adds loads at the core's nodes on the parts.
+    fn add_at_core(&self, mut loads: MatMut<'_, f64>, blocks: &[Mat<f64>]) {
         let nodes = self.ring.own()[1] / AXES;
-        for (part, block) in blocks.iter().enumerate() {
-            let part = (part + turned) % self.ring.transform.parts;
-            for (i, &node) in self.on_parts[part * nodes..][..nodes].iter().enumerate() {
+        for (of_part, block) in self.on_parts.chunks(nodes.max(1)).zip(blocks) {
+            for (i, &node) in of_part.iter().enumerate() {
                 for column in 0..block.ncols() {
                     for axis in 0..AXES {
                         loads[(AXES * node + axis, column)] += block[(AXES * i + axis, column)];

@@ -48,6 +48,9 @@ pub struct CondensedLoads {
 impl CondensedLoads {
     /// p_Iᵀ K_II⁻¹ q_I for all pairs of loads p of `self` (rows) and q of `other` (columns), of the same part.
     pub fn gram(&self, other: &Self) -> Mat<f64> {
+        if self.rows == other.rows {
+            return self.interior.transpose() * &other.interior;
+        }
         let common: Vec<(usize, usize)> = (self.rows.iter().enumerate())
             .filter_map(|(i, row)| Some((i, other.rows.binary_search(row).ok()?)))
             .collect();
@@ -55,6 +58,11 @@ impl CondensedLoads {
             Mat::from_fn(common.len(), m.ncols(), |i, j| m[(row(i), j)])
         };
         pick(&self.interior, &|i| common[i].0).transpose() * pick(&other.interior, &|i| common[i].1)
+    }
+
+    /// Numbers kept of each load's y_I: the effort of [`CondensedLoads::gram`].
+    pub fn interior_rows(&self) -> usize {
+        self.rows.len()
     }
 
     /// Writes y_I of one load into a column over all interior displacements, as [`StaticCondensation::expand`] wants
@@ -148,13 +156,39 @@ impl StaticCondensation {
     /// If `loads` does not have [`StaticCondensation::size`] rows.
     pub fn condense(&self, loads: MatRef<'_, f64>) -> CondensedLoads {
         assert_eq!(loads.nrows(), self.size(), "rows of the loads");
-        let order = self.factor.symbolic().ordering().forward();
-        let mut y = Mat::from_fn(loads.nrows(), loads.ncols(), |i, j| loads[(order[i], j)]);
+        self.condense_at(|dof| dof, loads)
+    }
+
+    /// As [`StaticCondensation::condense`] for loads at some displacements only, `dof` of each row of `loads`. What is
+    /// eliminated before the first of them takes neither time nor memory.
+    ///
+    /// # Panics
+    /// If the part has no such displacement.
+    pub fn condense_at(
+        &self,
+        dof: impl Fn(usize) -> usize,
+        loads: MatRef<'_, f64>,
+    ) -> CondensedLoads {
+        let place = self.factor.symbolic().ordering().inverse();
+        let columns = loads.ncols();
+        let is_loaded = |i: &usize| (0..columns).any(|j| loads[(*i, j)] != 0.0);
+        let loaded: Vec<usize> = (0..loads.nrows()).filter(is_loaded).collect();
+        let begin = loaded.iter().map(|&i| place[dof(i)]).min();
+        let begin = begin.map_or(self.interior, |row| row.min(self.interior));
+        let first = self.factor.half_solve_start(begin);
+        let mut y = Mat::zeros(self.size() - first, columns);
+        for &i in &loaded {
+            let row = place[dof(i)] - first;
+            for j in 0..columns {
+                y[(row, j)] += loads[(i, j)];
+            }
+        }
         let mut rows = self.factor.lower_solve_in_place(y.as_mut());
         rows.truncate(rows.partition_point(|row| *row < self.interior));
+        let (in_part, kept) = y.split_at_row(self.interior - first);
         CondensedLoads {
-            kept: &self.kept_factor * y.subrows(self.interior, y.nrows() - self.interior),
-            interior: Mat::from_fn(rows.len(), y.ncols(), |i, j| y[(rows[i], j)]),
+            kept: &self.kept_factor * kept,
+            interior: Mat::from_fn(rows.len(), columns, |i, j| in_part[(rows[i] - first, j)]),
             rows,
         }
     }

@@ -291,6 +291,37 @@ fn a_ring_of_elements_by_sectors_and_as_a_whole() {
     assert!((own - direct).abs() < 1e-11 * direct);
 }
 
+/// A bar held at one end, loads at the other, whose nodes are eliminated last: what is before them is not looked at.
+#[test]
+fn half_solves_begin_where_the_loads_are() {
+    let mesh = StructuredMesh::block([2, 2, 12], [1.0, 1.0, 6.0]);
+    let held = mesh.nodes_where(|x| x[2] == 0.0);
+    let end = mesh.nodes_where(|x| x[2] == 6.0);
+    let model = steel(mesh);
+    let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
+    let k = assemble_stiffness(&model, &dofs).unwrap();
+    // Held nodes are the first ones.
+    let late: Vec<usize> = end.iter().map(|node| node - held.len()).collect();
+    let bar = StaticCondensation::announced(k, &late, &[], |_| ()).unwrap();
+    let at_end = numbers_without_pattern(3 * late.len(), 4);
+    let mut everywhere = Mat::zeros(bar.size(), 4);
+    for (i, node) in late.iter().enumerate() {
+        let mut rows = everywhere.as_mut().subrows_mut(3 * node, 3);
+        rows.copy_from(at_end.subrows(3 * i, 3));
+    }
+    let some = bar.condense_at(|row| 3 * late[row / 3] + row % 3, at_end.as_ref());
+    let all = bar.condense(everywhere.as_ref());
+    assert_eq!(some.gram(&some), all.gram(&all));
+    let u = bar.expand(
+        Mat::zeros(0, 4).as_ref(),
+        Some(interior(&bar, &some).as_ref()),
+    );
+    let work = everywhere.transpose() * &u;
+    assert!(close(&some.gram(&some), &work, 1e-10));
+    let rows = some.interior_rows();
+    assert!((27..120).contains(&rows), "{rows} of {}", bar.size());
+}
+
 /// Parts with any stiffness in a ring round a core that does not repeat, against one dense matrix: solutions, work of
 /// any two loads, and the way of loads on one part. Two nodes of a part are the ring's, two the core's; those of both
 /// kinds at its left are the next part's.

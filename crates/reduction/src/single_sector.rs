@@ -30,8 +30,9 @@ struct OnRing {
     held: Vec<Mat<f64>>,
 }
 
-/// Shapes of load at the circle are left out below this share of the largest: rounding.
-const LEAST_SHAPE: f64 = 1e-13;
+/// Shapes of load at the circle are left out below this share of the largest: a hundredth of what [`HubPatterns`] leave
+/// out. A third of the shapes of a wheel of 64 teeth lies between this and rounding.
+const LEAST_SHAPE: f64 = 1e-10;
 
 /// Loads of a tooth, as shares of all of a tooth (loads × columns), and where they are not on a ring half solved in
 /// the body.

@@ -63,8 +63,11 @@ impl PeakView {
     /// What a chart shows at first of a long view: 40 degrees about the peak, the run-up and run-out of a tooth.
     pub(crate) fn window_deg(&self, r: &SceneResult) -> Option<[f64; 2]> {
         let (low, high) = self.range_deg(r);
-        let from = (self.peak_deg(r) - 20.0).clamp(low, (high - 40.0).max(low));
-        (high - low > 60.0).then_some([from, from + 40.0])
+        // Not so for angles of a file that are no numbers in degrees.
+        (high - low > 60.0).then(|| {
+            let from = (self.peak_deg(r) - 20.0).clamp(low, high - 40.0);
+            [from, from + 40.0]
+        })
     }
 
     pub(crate) fn range_deg(&self, r: &SceneResult) -> (f64, f64) {
@@ -109,6 +112,15 @@ mod tests {
         let (view, r, strain) = view(23);
         assert_eq!(view.turned(&strain), strain);
         assert_eq!(view.angles_deg(&r)[0], 0.0);
+    }
+
+    /// Found by fuzzing: a result whose angles are finite in radians only.
+    #[test]
+    fn angles_beyond_numbers_have_no_window() {
+        let (view, mut r, _) = view(47);
+        assert!(view.window_deg(&r).is_some());
+        r.angle_rad.fill(f64::MAX);
+        assert_eq!(view.window_deg(&r), None);
     }
 
     #[test]
