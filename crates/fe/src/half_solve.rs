@@ -20,8 +20,8 @@ impl Factor {
         }
     }
 
-    /// Where a half solve begins whose first load acts on `row` in the order of elimination: the first row of its supernode. Rows before
-    /// it stay zero.
+    /// Where a half solve begins whose first load acts on `row` in the order of elimination: the first row of its
+    /// supernode. Rows before it stay zero.
     pub(crate) fn half_solve_start(&self, row: usize) -> usize {
         self.supernodes().map_or(row, |l| {
             let begins = l.symbolic().supernode_begin();
@@ -111,12 +111,8 @@ fn lower_solve_block(
     mut x: MatMut<'_, f64>,
 ) -> Vec<bool> {
     let count = l.symbolic().n_supernodes();
-    let first = l
-        .symbolic()
-        .supernode_begin()
-        .get(begin)
-        .copied()
-        .unwrap_or(0);
+    let first = l.symbolic().supernode_begin().get(begin);
+    let first = first.copied().unwrap_or(0);
     let mut below = Mat::<f64>::zeros(0, x.ncols());
     (0..count)
         .map(|s| {
