@@ -326,7 +326,7 @@ pub struct GearDefinition {
 }
 
 impl GearDefinition {
-    /// Number of equal sectors that the gear repeats in: gcd of teeth and openings, or the number of teeth;
+    /// Number of equal sectors that the gear repeats in: gcd of teeth and openings or lugs, or the number of teeth;
     /// one for a gear that was meshed elsewhere.
     pub fn sectors(&self) -> usize {
         let z = self.tooth.teeth;
@@ -334,9 +334,9 @@ impl GearDefinition {
         if self.blank.meshed().is_some() {
             return 1;
         }
-        self.blank
-            .openings()
-            .map_or(z, |o| greatest_common_divisor(z, o.count()))
+        let lugs = self.blank.rim().and_then(|rim| rim.lugs);
+        let repeats = (self.blank.openings().map(|o| o.count())).or(lugs.map(|lugs| lugs.count));
+        repeats.map_or(z, |count| greatest_common_divisor(z, count))
     }
 }
 

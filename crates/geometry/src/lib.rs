@@ -42,7 +42,7 @@ pub mod tooth;
 
 pub use base_circles::BaseCircles;
 pub use blank::{
-    Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, MeshedBody, Openings, Rim,
+    Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, Lugs, MeshedBody, Openings, Rim,
     Slots, Web,
 };
 pub use definition::{

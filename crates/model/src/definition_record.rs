@@ -2,7 +2,7 @@
 
 use gearmesh_geometry::{
     Blank, Contour, ContourPoint, CrackDefinition, Element, Flank, GaugeDefinition, GearDefinition,
-    GearMicrogeometry, Gearing, GeometryError, Holes, HubSupport, InternalRoot, LengthUnit,
+    GearMicrogeometry, Gearing, GeometryError, Holes, HubSupport, InternalRoot, LengthUnit, Lugs,
     Material, MeshSettings, MeshedBody, ModeRange, Openings, PinionCutter, ReductionSettings,
     RootPosition, Slots, Symmetry, ToothDefinition, ToothGeometry, Web,
 };
@@ -196,7 +196,7 @@ impl Record for Blank {
             let what = "its front";
             f.optional_number("held_front", &mut front, "m", what)?;
             rim.held_z_m = back.zip(front).map(|(back, front)| [back, front]);
-            Ok(())
+            f.optional("lugs", &mut rim.lugs, Lugs::fields)
         })?;
         if !f.is_reading() {
             return Ok(());
@@ -278,6 +278,19 @@ impl Record for Contour {
         };
         self.web = points.as_chunks().0.iter().map(point).collect();
         Ok(())
+    }
+}
+
+impl Record for Lugs {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.count(
+            "count",
+            &mut self.count,
+            "parts of the outside that are held",
+        )?;
+        f.number("width", &mut self.width_rad, "rad", "angle covered by each")?;
+        let what = "polar angle of the middle of the first one";
+        f.number("phase", &mut self.phase_rad, "rad", what)
     }
 }
 
