@@ -179,8 +179,9 @@ def test_columns_of_a_system(browser, tmp_path):
         it.page.select_option("#shown", "spectrum")
         it.until("[...document.querySelectorAll('#plots figcaption')].every((one) => one.textContent.includes('Hz'))")
         it.keep("columns")
-        it.page.reload()  # the part that is shown is too short
-        it.page.wait_for_selector("#plots canvas")
+        # The whole, asked for from a spectrum of a part that is too short.
+        it.page.click("#whole")
+        it.until("document.querySelector('#rows').textContent === '" + whole + "'")
         it.page.select_option("#shown", "waterfall")
         it.page.wait_for_selector("#plots canvas[aria-label^=Amplitudes]")
         it.page.wait_for_timeout(500)

@@ -110,7 +110,10 @@ export async function showColumns() {
   });
   byId("shown").addEventListener("change", draw);
   const motion = new Motion(() => range, (at) => [...charts.values()].forEach((chart) => byId("shown").value === "spectrum" || chart.markAt(at)));
-  byId("whole").addEventListener("click", () => zoomed(null));
+  byId("whole").addEventListener("click", () => {
+    range = null;
+    draw();
+  });
   await draw();
   return () => {
     motion.restyle();

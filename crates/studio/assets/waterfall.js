@@ -9,9 +9,6 @@ import { fail } from "./said.js";
 /** Height of the picture [px], and what lies below the largest amplitude in it [decades]. */
 const [HIGH, DECADES] = [420, 4];
 
-/** What was asked before. */
-let asked = Promise.resolve();
-
 export class Waterfall {
   #number = 0;
 
@@ -28,21 +25,23 @@ export class Waterfall {
     place.append(this.figure);
   }
 
-  /** One after the other: the server answers the latest request only. */
-  show(column, range) {
+  /** The newest that is asked for is drawn; where there is none the picture is emptied. */
+  async show(column, range) {
     this.last = [column, range];
     const own = ++this.#number;
-    asked = asked.then(() => own === this.#number && this.#ask(column, range));
-    return asked;
-  }
-
-  async #ask(column, range) {
+    const isWanted = () => own === this.#number && this.figure.isConnected;
     try {
       const answer = await ask("/api/columns/waterfall", { column: column.name, speed: this.shaft.value || null, from: range?.[0] ?? null, to: range?.[1] ?? null });
+      if (!isWanted()) return;
       this.#draw(answer, column);
       fail(null);
     } catch (problem) {
-      if (problem.kind !== "overtaken") fail(problem);
+      if (!isWanted()) return;
+      // Another figure, or another page of the same server, has asked since: once more.
+      if (problem.kind === "overtaken") return this.show(column, range);
+      this.caption.textContent = `${column.label}: no waterfall`;
+      this.canvas.width = 0;
+      fail(problem);
     }
   }
 

@@ -60,7 +60,11 @@ impl ColumnsSession {
             .collect();
         let block = (values.len() / PARTS).clamp(ROWS[0], ROWS[1]) & !1;
         if values.len() < 2 * block {
-            let problem = format!("{} rows are too few for a waterfall", values.len());
+            let problem = format!(
+                "{} rows are shown; a waterfall needs {}: show a longer part",
+                values.len(),
+                2 * block
+            );
             return Err(refused(&problem));
         }
         let blocks = FrequencyBlocks {

@@ -16,11 +16,17 @@ use crate::console::{readable, say};
 use crate::error::XtaskError;
 use crate::steps::Extent;
 use crate::venv::Venv;
-use part::{Part, PartResult};
+use part::{Length, Part, PartResult};
 
-/// Programs that take minutes. They are cut and start first, so that none is left alone at the end; the others in
-/// cargo's order.
-const LONG: [&str; 2] = ["reduction verification", "tests validation"];
+/// Programs that take minutes. They start first, so that none is left alone at the end; the others in cargo's order.
+const LONG: [(&str, Length); 5] = [
+    ("reduction verification", Length::LongInModules),
+    ("tests validation", Length::LongInModules),
+    ("scene system_scenes", Length::LongInModules),
+    // Its modules share two reduced gears.
+    ("cli scene_commands", Length::Long),
+    ("cli fuzz", Length::Long),
+];
 
 /// Tests listed at the end.
 const SLOWEST: usize = 10;
@@ -49,8 +55,9 @@ pub fn run(build: Command, venv: &Venv, extent: Extent, only: &[String]) -> Resu
         if !only.is_empty() && !only.contains(&binary.name) {
             continue;
         }
-        let long = LONG.contains(&binary.label().as_str());
-        parts.extend(part::parts_of(binary, extent, long)?);
+        let known = LONG.iter().find(|(label, _)| *label == binary.label());
+        let length = known.map_or(Length::Short, |(_, length)| *length);
+        parts.extend(part::parts_of(binary, extent, length)?);
     }
     parts.sort_by_key(|part| !part.long);
     summary(&run_side_by_side(parts, venv)?)
@@ -86,7 +93,7 @@ pub fn run_named(
 ) -> Result<Vec<Finished>, XtaskError> {
     let mut parts = Vec::new();
     for binary in binaries::built(build)? {
-        for mut part in part::parts_of(binary, Extent::Full, false)? {
+        for mut part in part::parts_of(binary, Extent::Full, Length::Short)? {
             let label = part.binary.label();
             part.tests.retain(|test| {
                 let is_it = |[package, target, name]: &[&str; 3]| {

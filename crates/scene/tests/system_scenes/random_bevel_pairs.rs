@@ -377,7 +377,7 @@ fn many_bevel_pairs() {
     };
     let tally = analysed(
         number("BEVEL_PAIRS_SEED", 24),
-        number("BEVEL_PAIRS", 120) as usize,
+        number("BEVEL_PAIRS", 24) as usize,
     );
     println!("{:#?}\n{:#?}", tally.counts, tally.most);
     tally.refuse_failures();

@@ -10,16 +10,27 @@ use crate::rust_tests::binaries::Binary;
 use crate::steps::{Extent, shown};
 use crate::venv::Venv;
 
+/// How long a program takes, and whether it is cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Length {
+    /// Seconds: one part.
+    Short,
+    /// Minutes: one part, for its tests share what takes long to make.
+    Long,
+    /// Minutes: a part for each module.
+    LongInModules,
+}
+
 /// Tests of a program that run in one process, so that they share what the first of them makes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Part {
     /// The program.
     pub binary: Binary,
-    /// Package, target and, of a long program, module.
+    /// Package, target and, of a program that is cut, module.
     pub label: String,
     /// Full names of the tests.
     pub tests: Vec<String>,
-    /// Whether it takes minutes and its loops are to keep to one thread: the other parts have the other cores.
+    /// Whether it takes minutes. Its loops are to keep to one thread: the other parts have the other cores.
     pub long: bool,
     /// A variable of its environment, where what its tests print is wanted, of those that pass too.
     pub shows_output: Option<(&'static str, &'static str)>,
@@ -42,7 +53,7 @@ pub struct PartResult {
 ///
 /// # Errors
 /// [`XtaskError::Failed`] or [`XtaskError::Io`] where the program does not tell its tests.
-pub fn parts_of(binary: Binary, extent: Extent, long: bool) -> Result<Vec<Part>, XtaskError> {
+pub fn parts_of(binary: Binary, extent: Extent, length: Length) -> Result<Vec<Part>, XtaskError> {
     let mut tests = names(&binary, &[])?;
     if extent == Extent::Fast {
         let ignored = names(&binary, &["--ignored"])?;
@@ -52,7 +63,7 @@ pub fn parts_of(binary: Binary, extent: Extent, long: bool) -> Result<Vec<Part>,
     let mut parts: Vec<Part> = Vec::new();
     for test in tests {
         let label = match test.split_once("::") {
-            Some((module, _)) if long => format!("{label} {module}"),
+            Some((module, _)) if length == Length::LongInModules => format!("{label} {module}"),
             _ => label.clone(),
         };
         match parts.iter_mut().find(|part| part.label == label) {
@@ -61,7 +72,7 @@ pub fn parts_of(binary: Binary, extent: Extent, long: bool) -> Result<Vec<Part>,
                 binary: binary.clone(),
                 label,
                 tests: vec![test],
-                long,
+                long: length != Length::Short,
                 shows_output: None,
             }),
         }
@@ -263,7 +274,7 @@ mod tests {
     }
 
     /// This very program, as a binary of two kinds.
-    fn own_parts(long: bool) -> Vec<Part> {
+    fn own_parts(length: Length) -> Vec<Part> {
         let program = std::env::current_exe().unwrap_or_else(|_| PathBuf::new());
         let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
         let name = "xtask".to_owned();
@@ -272,12 +283,12 @@ mod tests {
             folder,
             program,
         };
-        parts_of(binary, Extent::Full, long).unwrap_or_default()
+        parts_of(binary, Extent::Full, length).unwrap_or_default()
     }
 
     #[test]
     fn a_long_program_is_cut_by_modules_and_loses_no_test() {
-        let (whole, cut) = (own_parts(false), own_parts(true));
+        let (whole, cut) = (own_parts(Length::Long), own_parts(Length::LongInModules));
         assert_eq!(whole.len(), 1);
         assert!(cut.len() > 5 && cut.iter().any(|part| part.label == "xtask xtask console"));
         let mut names: Vec<&String> = cut.iter().flat_map(|part| &part.tests).collect();
@@ -288,7 +299,7 @@ mod tests {
     }
 
     fn ran(tests: &[&str]) -> PartResult {
-        let mut part = own_parts(false).remove(0);
+        let mut part = own_parts(Length::Short).remove(0);
         part.tests = tests.iter().map(|&name| name.to_owned()).collect();
         let venv = Venv::at(PathBuf::from("no-venv"));
         let told = |error: XtaskError| panic!("{error}");
