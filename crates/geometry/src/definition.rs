@@ -242,6 +242,18 @@ pub struct ReductionSettings {
     pub slices: usize,
     /// Flanks that carry loads.
     pub flanks: Vec<Flank>,
+    /// Motions of the bore, where they are asked for.
+    pub bore: Option<BoreMotions>,
+}
+
+/// Motions that the bore of a body is given, so that it can slide on its pin or be carried by rollers: radial,
+/// tangential and axial, harmonics around and polynomials along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct BoreMotions {
+    /// Highest harmonic around.
+    pub harmonics: usize,
+    /// Polynomials along the bore: 1 constant, 2 linear, too, and so on.
+    pub along: usize,
 }
 
 /// Where a gauge sits on the root fillet.

@@ -46,9 +46,9 @@ pub use blank::{
     Slots, Web,
 };
 pub use definition::{
-    CrackDefinition, Flank, GaugeDefinition, GearDefinition, Gearing, HubSupport, InternalRoot,
-    Material, MeshSettings, ModeRange, PinionCutter, ReductionSettings, RootPosition, Symmetry,
-    ToothDefinition,
+    BoreMotions, CrackDefinition, Flank, GaugeDefinition, GearDefinition, Gearing, HubSupport,
+    InternalRoot, Material, MeshSettings, ModeRange, PinionCutter, ReductionSettings, RootPosition,
+    Symmetry, ToothDefinition,
 };
 pub use gearmesh_elements::Element;
 pub use input::InputError;
