@@ -229,6 +229,8 @@ fn locked_temporary(
 pub(crate) fn remove_abandoned(folder: &Path, prefix: &str, suffix: &str) {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries {
+        #[cfg(test)]
+        LOOKS.set(LOOKS.get() + 1);
         let name = entry.file_name();
         let name = name.to_string_lossy();
         if !(name.starts_with(prefix) && name.ends_with(suffix)) {
@@ -242,6 +244,12 @@ pub(crate) fn remove_abandoned(folder: &Path, prefix: &str, suffix: &str) {
             };
         }
     }
+}
+
+#[cfg(test)]
+thread_local! {
+    /// Entries of folders that were looked at, for tests of the effort.
+    pub(crate) static LOOKS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! A folder of files that belong together, written beside and renamed: a process killed meanwhile leaves all or none.
 
-use std::fs::File;
+use std::fs::{File, OpenOptions};
 use std::path::Path;
 
 use crate::atomic_file::{
     TEMPORARY_SUFFIX, demand_output, folder_of, remove_abandoned, temporary_builder,
-    temporary_prefix, wait_for_writes, write_text,
+    temporary_prefix, wait_for_writes,
 };
 use crate::file_error::FileError;
 
@@ -37,10 +37,20 @@ pub fn write_folder(folder: &Path, files: &[(String, String)]) -> Result<(), Fil
     let lock = File::open(staged.path())
         .and_then(|open| open.try_lock().map(|()| open).map_err(Into::into))
         .ok();
-    for (name, text) in files {
-        write_text(&staged.path().join(name), text)?;
-    }
     let _held = wait_for_writes();
+    let paths = || files.iter().map(|(name, _)| staged.path().join(name));
+    // Plainly: a temporary name for each would look through the folder, which grows with them. All are written before
+    // the first is waited for.
+    for (path, (_, text)) in paths().zip(files) {
+        std::fs::write(path, text).map_err(io("write the files of"))?;
+    }
+    for path in paths() {
+        OpenOptions::new()
+            .write(true)
+            .open(path)
+            .and_then(|file| file.sync_all())
+            .map_err(io("force to the disk the files of"))?;
+    }
     // A rename takes the place of an empty folder, but not of a link to one.
     if folder.symlink_metadata().is_err() && std::fs::rename(staged.path(), folder).is_ok() {
         // What had to be removed has another name now.
@@ -66,6 +76,7 @@ pub fn write_folder(folder: &Path, files: &[(String, String)]) -> Result<(), Fil
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::atomic_file::LOOKS;
 
     fn names(folder: &Path) -> Vec<String> {
         let entries = std::fs::read_dir(folder).unwrap();
@@ -89,6 +100,25 @@ mod tests {
         assert_eq!(names(&folder), ["a.csv", "b.toml", "mine.txt"]);
         assert_eq!(std::fs::read(folder.join("b.toml")).unwrap(), b"new");
         assert_eq!(names(&desk.path().join("deep")), ["record"]);
+    }
+
+    /// A gearbox of 100 000 components has 18 000 files: were the folder searched for each, it took 38 s.
+    #[test]
+    fn the_folder_is_not_searched_for_each_file() {
+        let desk = tempfile::tempdir().unwrap();
+        let many: Vec<(String, String)> = (0..300)
+            .map(|i| (format!("{i}.toml"), "gear".to_owned()))
+            .collect();
+        let before = LOOKS.get();
+        write_folder(&desk.path().join("new"), &many).unwrap();
+        assert_eq!(LOOKS.get() - before, 0);
+        write_folder(&desk.path().join("new"), &many).unwrap();
+        assert_eq!(
+            LOOKS.get() - before,
+            1,
+            "the folder itself, among its neighbours"
+        );
+        assert_eq!(names(&desk.path().join("new")).len(), 300);
     }
 
     #[test]

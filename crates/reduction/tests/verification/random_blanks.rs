@@ -339,9 +339,9 @@ fn every_blank_is_reduced_or_refused() {
 }
 
 /// The same of as many as are asked for:
-/// `BLANKS=1000 BLANKS_SEED=1 cargo test --workspace --test verification -- --ignored --nocapture many_blanks`. Each
-/// is drawn from a seed of its own, which the lines name, so that any of them can be drawn again alone;
-/// `BLANKS_FOLDER` keeps the files of those that failed.
+/// `BLANKS=1000 BLANKS_FIRST=1 cargo test --workspace --test verification -- --ignored --nocapture many_blanks`. Each
+/// is drawn from a seed of its own, `BLANKS_FIRST` and those that follow, which the lines name, so that any of them can
+/// be drawn again alone. Another thousand begins at 1001. `BLANKS_FOLDER` keeps the files of those that failed.
 #[test]
 #[ignore = "some seconds a blank"]
 fn many_blanks_are_reduced_or_refused() {
@@ -349,7 +349,7 @@ fn many_blanks_are_reduced_or_refused() {
         let given = std::env::var(name).ok();
         given.map_or(default, |text| text.parse().unwrap())
     };
-    let (first, count) = (number("BLANKS_SEED", 1), number("BLANKS", 100));
+    let (first, count) = (number("BLANKS_FIRST", 1), number("BLANKS", 100));
     let python = PythonEnvironment::find().unwrap();
     let (mut reduced, mut by_key, mut later, mut failed) = (0, 0, 0, 0);
     for seed in first..first + count {

@@ -139,7 +139,14 @@ impl Record for PlanetarySet {
         let what = "angles of the planets from x";
         f.numbers("angles_rad", &mut self.angles_rad, &axes, "rad", what)?;
         let what = "distance of the pins from the axis";
-        f.number("centre_distance_m", &mut self.centre_distance_m, "m", what)
+        f.number("centre_distance_m", &mut self.centre_distance_m, "m", what)?;
+        let mut axis = self.axis.to_vec();
+        if !f.is_reading() || f.has("axis") {
+            let what = "direction of the axis in the world";
+            f.numbers("axis", &mut axis, &[("coordinate", 3)], "1", what)?;
+        }
+        self.axis = axis.try_into().unwrap_or([0.0, 0.0, 1.0]);
+        Ok(())
     }
 }
 

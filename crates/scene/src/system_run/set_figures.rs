@@ -17,6 +17,8 @@ use super::result_kind::ResultKind;
 use super::stages::Span;
 use crate::system::planetary::PlanetarySet;
 
+const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// The meshes of one central member.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshShares {
@@ -101,7 +103,7 @@ impl SystemResult {
             Ok(SetFigures {
                 sun: columns.shares(&set.sun_meshes, "moment_1_Nm")?,
                 ring: columns.shares(&set.ring_meshes, "moment_2_Nm")?,
-                sun_orbit_m: columns.orbit_m(set.members.sun.as_deref())?,
+                sun_orbit_m: columns.orbit_m(set)?,
                 pin_force_n: columns.pin_forces_n(set)?,
                 transmission_error_rad: columns.transmission_error_rad(set)?,
                 over: over.clone(),
@@ -172,13 +174,17 @@ impl Columns<'_> {
         }))
     }
 
-    fn orbit_m(&self, sun: Option<&str>) -> Result<Option<f64>, FileError> {
-        let Some(sun) = sun else { return Ok(None) };
-        let places = self.read_all(["x_m", "y_m"].iter().map(|part| body_column(sun, part)))?;
+    fn orbit_m(&self, set: &PlanetarySet) -> Result<Option<f64>, FileError> {
+        let Some(sun) = &set.members.sun else {
+            return Ok(None);
+        };
+        let places = self.read_all(
+            AXES.iter()
+                .map(|axis| body_column(sun, &format!("{axis}_m"))),
+        )?;
         Ok(places.map(|places| {
-            let middle = [&places[0], &places[1]].map(|values| Figures::of(values).mean);
-            let distance =
-                |row: usize| (places[0][row] - middle[0]).hypot(places[1][row] - middle[1]);
+            let middle: Vec<f64> = places.iter().map(|own| Figures::of(own).mean).collect();
+            let distance = |row: usize| set.across([0, 1, 2].map(|i| places[i][row] - middle[i]));
             (0..self.rows.len()).map(distance).fold(0.0, f64::max)
         }))
     }
@@ -186,28 +192,26 @@ impl Columns<'_> {
     fn pin_forces_n(&self, set: &PlanetarySet) -> Result<Option<Vec<f64>>, FileError> {
         let mut forces = Vec::new();
         for planet in &set.planets {
-            let joint = |axis: &str| format!("joints/{planet} pin/force_{axis}_N");
-            let mut parts = self.read_all(["x", "y"].into_iter().map(joint))?;
+            let of =
+                |columns: &dyn Fn(&str) -> String| self.read_all(AXES.map(columns).into_iter());
+            let mut parts = of(&|axis| format!("joints/{planet} pin/force_world_{axis}_N"))?;
             let mut number = 1;
-            while let Some(more) = self.read_all(["x", "y"].into_iter().map(|axis| {
-                element_column(
-                    &format!("{planet} bearing {number}"),
-                    &format!("force_world_{axis}_N"),
-                )
-            }))? {
-                parts = Some(match parts {
-                    None => more,
-                    Some(sum) => sum
-                        .iter()
-                        .zip(&more)
-                        .map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + b).collect())
-                        .collect(),
-                });
+            while let Some(more) = of(&|axis| {
+                let bearing = format!("{planet} bearing {number}");
+                element_column(&bearing, &format!("force_world_{axis}_N"))
+            })? {
+                match &mut parts {
+                    None => parts = Some(more),
+                    Some(sum) => {
+                        let pairs = sum.iter_mut().flatten().zip(more.iter().flatten());
+                        pairs.for_each(|(sum, own)| *sum += own);
+                    }
+                }
                 number += 1;
             }
             let Some(parts) = parts else { return Ok(None) };
-            let radial = (0..self.rows.len()).map(|row| parts[0][row].hypot(parts[1][row]));
-            forces.push(radial.fold(0.0, f64::max));
+            let radial = |row: usize| set.across([0, 1, 2].map(|i| parts[i][row]));
+            forces.push((0..self.rows.len()).map(radial).fold(0.0, f64::max));
         }
         Ok(Some(forces))
     }

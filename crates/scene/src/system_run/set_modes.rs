@@ -5,6 +5,7 @@
 //! Vibration and Acoustics 121, 1999. Of other sets the same names say what a mode is nearly.
 
 use gearmesh_dynamics::NaturalMode;
+use nalgebra::Vector3;
 
 use super::result::EigenResult;
 use crate::system::planetary::PlanetarySet;
@@ -94,23 +95,26 @@ impl EigenResult {
 
 fn kind(mode: &NaturalMode, bodies: &[String], set: &PlanetarySet) -> SetModeKind {
     // Largest amplitudes of some bodies [m]: across the axis, about it, out of the plane; angles on the pins' circle.
+    let axis = Vector3::from(set.axis);
     let largest = |names: &mut dyn Iterator<Item = &String>| {
         let places = names.filter_map(|name| bodies.iter().position(|body| body == name));
         places.fold([0.0_f64; 3], |most, place| {
             let own = &mode.shape[RIGID * place..RIGID * (place + 1)];
-            let size = |parts: &[usize], arm_m: f64| {
-                let square: f64 = parts
-                    .iter()
-                    .map(|&p| own[p][0].powi(2) + own[p][1].powi(2))
-                    .sum();
-                square.sqrt() * arm_m
+            // Along and across the axis, of three displacements or angles from the first one on.
+            let parts = |first: usize| {
+                let [real, imaginary] =
+                    [0, 1].map(|part| Vector3::from_fn(|i, _| own[first + i][part]));
+                let along = [real.dot(&axis), imaginary.dot(&axis)];
+                let across = [real - axis * along[0], imaginary - axis * along[1]];
+                let across = across[0].norm().hypot(across[1].norm());
+                [along[0].hypot(along[1]), across]
             };
+            let ([out, moves], [turns, tilts]) = (parts(0), parts(3));
             let arm_m = set.centre_distance_m;
-            let out = size(&[2], 1.0).max(size(&[3, 4], arm_m));
             [
-                most[0].max(size(&[0, 1], 1.0)),
-                most[1].max(size(&[5], arm_m)),
-                most[2].max(out),
+                most[0].max(moves),
+                most[1].max(turns * arm_m),
+                most[2].max(out).max(tilts * arm_m),
             ]
         })
     };

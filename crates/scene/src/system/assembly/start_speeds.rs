@@ -76,12 +76,14 @@ pub(super) fn settle_speeds(
                 settled |= follow_mesh(bodies, mesh, notes);
             }
         }
-        if let Some((carrier, spin)) = planets.first_settled(bodies) {
-            let name = || "the meshes of its planets".to_owned();
-            settled |= settle(bodies, carrier, spin, name, notes);
-        }
         if settled {
             continue;
+        }
+        if let Some((body, spin)) = planets.first_settled(bodies, &groups) {
+            let name = || "the meshes of planets".to_owned();
+            if settle(bodies, body, spin, name, notes) {
+                continue;
+            }
         }
         // What carries others and is driven by nobody stands, so that the rest can follow.
         let carriers = carried.iter().filter_map(|one| one.carrier);

@@ -10,6 +10,9 @@ use super::bodies::Bodies;
 use super::carriers::Carried;
 use super::gear_mesh::PreparedMesh;
 
+/// Coefficients below this are none: ratios of teeth are about 1.
+const NO_EQUATION: f64 = 1e-9;
+
 /// A gear in mesh with a planet.
 struct Central {
     gear: usize,
@@ -51,23 +54,111 @@ impl Planets {
         Self(found)
     }
 
-    /// A carrier that is free, with the speed \[rad/s\] that two gears of known speed give it.
-    pub(super) fn first_settled(&self, bodies: &Bodies) -> Option<(usize, f64)> {
-        let known = |central: &&Central| !bodies.list[central.gear].speed_is_free;
-        let spin = |gear: usize| bodies.list[gear].body.angular_velocity_rad_per_s.z;
-        self.0.iter().find_map(|(_, carrier, centrals)| {
-            if !bodies.list[*carrier].speed_is_free {
-                return None;
+    /// A carrier or gear that is free, with the speed \[rad/s\] that Willis' equations of all planets give it. One of them
+    /// gives it where two of a, b and c are known; in trains with members in common, such as Simpson's, it takes several.
+    pub(super) fn first_settled(
+        &self,
+        bodies: &Bodies,
+        groups: &[(Vec<usize>, String)],
+    ) -> Option<(usize, f64)> {
+        if self.0.is_empty() {
+            return None;
+        }
+        let leading = leading_bodies(bodies.list.len(), groups);
+        let mut free: Vec<usize> = Vec::new();
+        let mut rows = Vec::new();
+        for (_, carrier, centrals) in &self.0 {
+            let Some((a, others)) = centrals.split_first() else {
+                continue;
+            };
+            for b in others.iter().filter(|b| b.gear != a.gear) {
+                let [u_a, u_b] = [a.teeth_ratio, b.teeth_ratio];
+                // Coefficients of unknown speeds, then the right side.
+                let mut row = vec![0.0; free.len() + 1];
+                for (body, factor) in [(a.gear, u_a), (b.gear, -u_b), (*carrier, u_b - u_a)] {
+                    let [own, first] = [body, leading[body]].map(|body| &bodies.list[body]);
+                    if own.speed_is_free && first.speed_is_free {
+                        let place = free.iter().position(|known| *known == leading[body]);
+                        let place = place.unwrap_or_else(|| {
+                            free.push(leading[body]);
+                            row.insert(free.len() - 1, 0.0);
+                            free.len() - 1
+                        });
+                        row[place] += factor * own.axis().dot(&first.axis()).signum();
+                    } else {
+                        let spin = own.body.angular_velocity_rad_per_s.z;
+                        *row.last_mut()? -= factor * spin;
+                    }
+                }
+                rows.push(row);
             }
-            let mut known = centrals.iter().filter(known);
-            let a = known.next()?;
-            let b = known.find(|b| b.gear != a.gear)?;
-            let [u_a, u_b] = [a.teeth_ratio, b.teeth_ratio];
-            let apart = u_a - u_b;
-            (apart.abs() > 1e-9 * u_a.abs())
-                .then(|| (*carrier, (u_a * spin(a.gear) - u_b * spin(b.gear)) / apart))
-        })
+        }
+        for row in &mut rows {
+            let right = row.pop()?;
+            row.resize(free.len(), 0.0);
+            row.push(right);
+        }
+        let (place, spin) = first_solved(rows, free.len())?;
+        Some((free[place], spin))
     }
+}
+
+/// The first body of those that are fixed to each other, for every body.
+fn leading_bodies(count: usize, groups: &[(Vec<usize>, String)]) -> Vec<usize> {
+    let mut above: Vec<usize> = (0..count).collect();
+    let first = |above: &[usize], mut body: usize| {
+        while above[body] != body {
+            body = above[body];
+        }
+        body
+    };
+    for (group, _) in groups {
+        for pair in group.windows(2) {
+            let [a, b] = [pair[0], pair[1]].map(|body| first(&above, body));
+            above[a.max(b)] = a.min(b);
+        }
+    }
+    (0..count).map(|body| first(&above, body)).collect()
+}
+
+/// The first unknown that linear equations determine, by elimination; each row has its right side behind the
+/// coefficients.
+fn first_solved(mut rows: Vec<Vec<f64>>, unknowns: usize) -> Option<(usize, f64)> {
+    let most = |row: &[f64]| {
+        row[..unknowns]
+            .iter()
+            .fold(0.0_f64, |most, x| most.max(x.abs()))
+    };
+    let mut done = 0;
+    for column in 0..unknowns {
+        let at = |row: &Vec<f64>| row[column].abs();
+        let best = (done..rows.len()).max_by(|&a, &b| at(&rows[a]).total_cmp(&at(&rows[b])));
+        let Some(best) = best.filter(|&row| at(&rows[row]) > NO_EQUATION) else {
+            continue;
+        };
+        rows.swap(done, best);
+        let pivot = rows[done].clone();
+        for (place, row) in rows.iter_mut().enumerate() {
+            let share = if place == done {
+                0.0
+            } else {
+                row[column] / pivot[column]
+            };
+            row.iter_mut()
+                .zip(&pivot)
+                .for_each(|(x, p)| *x -= share * p);
+        }
+        done += 1;
+    }
+    rows.iter().find_map(|row| {
+        let largest = most(row);
+        let mut parts = (0..unknowns).filter(|&k| row[k].abs() > NO_EQUATION * largest.max(1.0));
+        let place = parts.next()?;
+        parts
+            .next()
+            .is_none()
+            .then(|| (place, row[unknowns] / row[place]))
+    })
 }
 
 /// The body on whose axis a body stands, or itself, and the body that takes that axis round.

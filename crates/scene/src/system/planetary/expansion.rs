@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{DerivedTable, InputDocument, TableKeys};
+use nalgebra::{Rotation3, Vector3};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::{Table, Value};
@@ -60,6 +61,7 @@ pub(in crate::system) fn expand(
             raw: &raw,
             keys: TableKeys::new(&document, &key),
             key: &key,
+            axes: axes(table.axis, &TableKeys::new(&document, &key))?,
             items: Vec::new(),
         };
         let set = expansion.run(&mut gears, folder)?;
@@ -90,7 +92,33 @@ pub(super) struct Expansion<'a> {
     pub raw: &'a Table,
     pub keys: TableKeys<'a>,
     key: &'a str,
+    /// Axes of the set in the world.
+    axes: Rotation3<f64>,
     items: Vec<DerivedTable>,
+}
+
+/// Axes whose z is the given one, turned about x and then y.
+fn axes(axis: Option<[f64; 3]>, keys: &TableKeys<'_>) -> Result<Rotation3<f64>, InputError> {
+    let Some(axis) = axis else {
+        return Ok(Rotation3::identity());
+    };
+    let Some(axis) = Vector3::from(axis).try_normalize(0.0) else {
+        return Err(keys.error("axis", "found [0, 0, 0], allowed are directions"));
+    };
+    let [about_x, about_y] = cardan_rad(axis);
+    let turned = Rotation3::from_axis_angle(&Vector3::x_axis(), about_x);
+    Ok(turned * Rotation3::from_axis_angle(&Vector3::y_axis(), about_y))
+}
+
+/// Angles about x and the new y that turn z into a direction: (sin b, −sin a cos b, cos a cos b).
+fn cardan_rad(direction: Vector3<f64>) -> [f64; 2] {
+    let [x, y, z] = direction.normalize().into();
+    let about_x = if y.hypot(z) < 1e-12 {
+        0.0
+    } else {
+        (-y).atan2(z)
+    };
+    [about_x, x.clamp(-1.0, 1.0).asin()]
 }
 
 /// A table of the given keys.
@@ -188,6 +216,7 @@ impl Expansion<'_> {
             angles_rad,
             centre_distance_m: MM * f64::from(table.centre_distance_mm),
             members,
+            axis: (self.axes * Vector3::z()).into(),
             planets,
             sun_meshes,
             ring_meshes,
@@ -268,10 +297,21 @@ impl Expansion<'_> {
         fitted.map_err(|misfit| self.keys.error(key, misfit))
     }
 
-    /// Middle of the set in the world, at a height above the sun's mid-face \[mm\].
+    /// A point of the set's axes, z = 0 in the sun's mid-face, in the world \[mm\].
+    pub(super) fn in_world_mm(&self, point_mm: Vector3<f64>) -> [f64; 3] {
+        let middle_mm = Vector3::from(self.table.position_mm.unwrap_or_default());
+        (middle_mm + self.axes * point_mm).into()
+    }
+
+    /// The point of the axis at a height above the sun's mid-face, in the world \[mm\].
     pub(super) fn axis_mm(&self, z_mm: f64) -> [f64; 3] {
-        let [x, y, z] = self.table.position_mm.unwrap_or_default();
-        [x, y, z + z_mm]
+        self.in_world_mm(Vector3::new(0.0, 0.0, z_mm))
+    }
+
+    /// `cardan_deg` of a body whose z has a direction of the set's axes; none where it is z of the world.
+    pub(super) fn cardan_deg(&self, direction: Vector3<f64>) -> Option<Value> {
+        let angles = cardan_rad(self.axes * direction).map(f64::to_degrees);
+        (angles != [0.0; 2]).then(|| numbers(&angles))
     }
 
     fn add_member(&mut self, key: &'static str, member: &MemberTable) -> Result<(), InputError> {
@@ -282,6 +322,8 @@ impl Expansion<'_> {
         let mut body = copied(&raw, &BODY_KEYS);
         body.insert("name".to_owned(), name.clone().into());
         body.insert("position_mm".to_owned(), numbers(&at_mm));
+        let cardan = self.cardan_deg(Vector3::z());
+        body.extend(cardan.map(|cardan| ("cardan_deg".to_owned(), cardan)));
         self.push("body", body);
         let support = member.support().unwrap_or(SupportWord::Bearings);
         let used = |key: &str, users: &[SupportWord]| {

@@ -183,6 +183,18 @@ fn phases(teeth: f64, angles_rad: &[f64]) -> Vec<f64> {
     angles_rad.iter().map(phase).collect()
 }
 
+/// How much of harmonic l of the ring meshes of planets at these angles a place of the ring sees at the order l z_r + k of
+/// the carrier's turn against it, |Σ_n e^{i (l z_r + k) ψ_n}|/N: k from what the place sees of a planet that passes.
+#[must_use]
+pub fn passing_share(order: i64, angles_rad: &[f64]) -> f64 {
+    let parts = angles_rad
+        .iter()
+        .map(|angle| (order as f64 * angle).sin_cos());
+    let [x, y] = parts.fold([0.0; 2], |[x, y], (sin, cos)| [x + cos, y + sin]);
+    let share = x.hypot(y) / angles_rad.len().max(1) as f64;
+    if share < NO_SHARE { 0.0 } else { share }
+}
+
 /// How meshes in these phases follow each other.
 #[must_use]
 pub fn phasing(phases: &[f64]) -> Phasing {

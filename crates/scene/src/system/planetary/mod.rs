@@ -18,13 +18,18 @@ pub(super) use expansion::expand;
 
 use std::f64::consts::TAU;
 
-use layout::{SetTeeth, harmonic_shares, phasing};
+use nalgebra::Vector3;
+
+use layout::{SetTeeth, harmonic_shares, passing_share, phasing};
 
 /// Harmonics of the mesh whose effect is printed.
 const HARMONICS: usize = 6;
 
+/// Share of all planets together from which on an order of planets that pass is printed.
+const SEEN: f64 = 0.5;
+
 /// A set with the names of its parts.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct PlanetarySet {
     /// Name.
     pub name: String,
@@ -34,6 +39,8 @@ pub struct PlanetarySet {
     pub angles_rad: Vec<f64>,
     /// Distance of the pins from the axis \[m\].
     pub centre_distance_m: f64,
+    /// Direction of the axis in the world.
+    pub axis: [f64; 3],
     /// Bodies of sun, ring and carrier.
     pub members: SetMembers,
     /// Bodies of the planets.
@@ -55,7 +62,31 @@ pub struct SetMembers {
     pub carrier: String,
 }
 
+impl Default for PlanetarySet {
+    /// No parts, about z.
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            teeth: SetTeeth::default(),
+            angles_rad: Vec::new(),
+            centre_distance_m: 0.0,
+            axis: [0.0, 0.0, 1.0],
+            members: SetMembers::default(),
+            planets: Vec::new(),
+            sun_meshes: Vec::new(),
+            ring_meshes: Vec::new(),
+        }
+    }
+}
+
 impl PlanetarySet {
+    /// Part of a vector of the world across the axis.
+    #[must_use]
+    pub fn across(&self, vector: [f64; 3]) -> f64 {
+        let (vector, axis) = (Vector3::from(vector), Vector3::from(self.axis));
+        (vector - axis * vector.dot(&axis)).norm()
+    }
+
     /// What is to be known of a set before it runs: teeth, ratios, phases of the meshes and what follows from them.
     #[must_use]
     pub fn words(&self) -> String {
@@ -90,6 +121,15 @@ impl PlanetarySet {
                     self.harmonics_in_words(&phases)
                 ));
             }
+        }
+        if let Some(ring) = teeth.ring.filter(|_| self.angles_rad.len() > 1) {
+            let reach = self.angles_rad.len() as i64;
+            let orders = (-reach..=reach).map(|k| ring as i64 + k);
+            let seen = orders.filter(|order| passing_share(*order, &self.angles_rad) > SEEN);
+            words.push(format!(
+                "a place of the ring sees the mesh, order {ring} of the carrier's turn against it, at orders {}",
+                list(seen.map(|order| order as f64))
+            ));
         }
         if let (Some(periods), Some(sun)) = (teeth.hunting_periods(), teeth.sun) {
             words.push(format!(

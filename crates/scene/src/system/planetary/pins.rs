@@ -1,34 +1,25 @@
 //! Planets on their pins: places and tilts, bodies, joints and bearings.
 
 use gearmesh_geometry::InputError;
+use nalgebra::Vector3;
 use toml::Value;
 
 use super::expansion::{BODY_KEYS, Expansion, copied, made, numbers};
-use crate::system::tables::planetary::{PlanetDeviationTable, SupportWord};
+use crate::system::tables::planetary::{PlanetDeviationTable, SetBearingTable, SupportWord};
 
-/// Where a pin is.
+/// Where a pin is, in the set's axes.
 struct Pin {
     /// Its middle at the sun's mid-face \[mm\].
-    at_mm: [f64; 3],
+    at_mm: [f64; 2],
     /// Its axis (t_x, t_y, 1).
     lean: [f64; 2],
 }
 
 impl Pin {
     /// The point of its axis at a height above the sun's mid-face \[mm\].
-    fn above_mm(&self, z_mm: f64) -> [f64; 3] {
-        let ([x, y, z], [t_x, t_y]) = (self.at_mm, self.lean);
-        [x + t_x * z_mm, y + t_y * z_mm, z + z_mm]
-    }
-
-    /// Cardan angles that turn z into its axis: about x first, then about the new y.
-    fn cardan_deg(&self) -> [f64; 2] {
-        let [t_x, t_y] = self.lean;
-        let length = t_x.hypot(t_y).hypot(1.0);
-        [
-            (-t_y).atan2(1.0).to_degrees(),
-            (t_x / length).asin().to_degrees(),
-        ]
+    fn above_mm(&self, z_mm: f64) -> Vector3<f64> {
+        let ([x, y], [t_x, t_y]) = (self.at_mm, self.lean);
+        Vector3::new(x + t_x * z_mm, y + t_y * z_mm, z_mm)
     }
 }
 
@@ -51,9 +42,8 @@ impl Expansion<'_> {
             let (sin, cos) = e.direction_deg.to_radians().sin_cos();
             [1e-3 * e.offset_um * cos, 1e-3 * e.offset_um * sin]
         });
-        let [x0, y0, z0] = self.axis_mm(0.0);
         Pin {
-            at_mm: [x0 + x + shift[0], y0 + y + shift[1], z0],
+            at_mm: [x + shift[0], y + shift[1]],
             lean: turned(of(|d| d.tilt_radial_mrad), of(|d| d.tilt_tangential_mrad)),
         }
     }
@@ -78,10 +68,10 @@ impl Expansion<'_> {
         }
         for (name, mut body, z_mm) in bodies.clone() {
             body.insert("name".to_owned(), name.into());
-            body.insert("position_mm".to_owned(), numbers(&pin.above_mm(z_mm)));
-            if pin.lean != [0.0; 2] {
-                body.insert("cardan_deg".to_owned(), numbers(&pin.cardan_deg()));
-            }
+            let at_mm = self.in_world_mm(pin.above_mm(z_mm));
+            body.insert("position_mm".to_owned(), numbers(&at_mm));
+            let cardan = self.cardan_deg(Vector3::new(pin.lean[0], pin.lean[1], 1.0));
+            body.extend(cardan.map(|cardan| ("cardan_deg".to_owned(), cardan)));
             self.push("body", body);
         }
         let joint = |name: String, kind: &str, on: &str, body: &str| {
@@ -101,7 +91,8 @@ impl Expansion<'_> {
         if let Some(kind) = self.planet_joint()? {
             self.push("joint", joint(format!("{name} pin"), kind, carrier, name));
         }
-        let places = planets.bearings.iter().map(|b| pin.above_mm(b.z_mm));
+        let place = |b: &SetBearingTable| self.in_world_mm(pin.above_mm(b.z_mm));
+        let places = planets.bearings.iter().map(place);
         self.add_bearings((Some(carrier), name), places.collect(), &raw);
         Ok(())
     }

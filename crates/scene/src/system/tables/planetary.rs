@@ -15,7 +15,8 @@ use super::function::FunctionTable;
 use super::gear_mesh::{EccentricityTable, TeethTable};
 use super::mesh_model::{HertzTable, MeshModel};
 
-/// `[[planetary]]` as written in the file. The axis of the set is parallel to z; angles count counter-clockwise from x.
+/// `[[planetary]]` as written in the file. Angles count counter-clockwise about the axis of the set, from x, or from where
+/// x is after the turns about x and then y that take z into the axis.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlanetaryTable {
@@ -23,6 +24,8 @@ pub struct PlanetaryTable {
     pub name: String,
     /// Mid-face of the sun on the axis of the set; [0, 0, 0] where not given.
     pub position_mm: Option<[f64; 3]>,
+    /// Axis of the set; z where not given.
+    pub axis: Option<[f64; 3]>,
     /// Distance of the pins from the axis: the centre distance of the sun and a planet, and of a planet and the ring.
     pub centre_distance_mm: Bounded<Positive>,
     /// Torque on the sun at the start, which says what flanks touch there: "positive" (counter-clockwise) or

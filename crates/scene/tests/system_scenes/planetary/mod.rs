@@ -1,9 +1,16 @@
 //! Planetary sets from one table: natural frequencies of a published set, load sharing, phases, refusals, motion.
 
+mod bearings;
+mod errors;
 mod modes;
 mod motion;
+mod positions;
 mod refusals;
+mod shared;
 mod sharing;
+mod sidebands;
+mod stepped;
+mod teeth;
 
 use std::path::Path;
 

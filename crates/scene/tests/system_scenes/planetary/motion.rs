@@ -176,3 +176,40 @@ fn ten_planets_share_a_newton_metre() {
         }
     }
 }
+
+/// Effort, counted: four planets on springs, eight meshes by `impact`. A step takes a prediction and two corrections, one more
+/// where flanks come or go, with factors that serve more than one step. The bound on equilibria is what was counted, 15.2,
+/// so that it does not grow: three corrections would do for springs, a force K δ^1.5 takes more.
+#[test]
+fn a_set_takes_few_iterations() {
+    let folder = tempfile::tempdir().unwrap();
+    write_gears(folder.path(), [24, 36], 20.0);
+    let planets = "count = 4\nsupport = \"floating\"\nbearings = [{ model = { kind = \"linear\", radial_stiffness_N_per_mm = 2e5 } }]";
+    let carrier = "inertia_kg_m2 = [0.1, 0.1, 0.1]\ntorque_Nm = -400.0";
+    let of = |run_keys: &str, speed: &str| {
+        let sun = format!("support = \"floating\"\nspeed_rpm = {speed}");
+        let parts = [&*sun, "support = \"held\"", carrier, planets, ""];
+        let text = scene(run_keys, 90.0, parts).replace(
+            "{ kind = \"iso6336\", stiffness_N_per_mm_um = 20.0 }",
+            "{ kind = \"impact\", stiffness_N_per_mm_e = 1e6, exponent = 1.5, damping_N_s_per_mm = 100.0, full_damping_depth_um = 5.0 }",
+        );
+        run(&text, folder.path())
+    };
+    let in_time = "kind = \"transient\"\nend_s = 0.01\n[solver]\nstep_s = 1e-5\nstart = \"equilibrium\"\n[output]\ninterval_s = 1e-3";
+    let record = of(in_time, "600.0").record.unwrap();
+    let [evaluations, factorisations] =
+        [record.evaluations, record.factorisations].map(|count| count / record.steps);
+    assert!(evaluations < 4.0, "{evaluations}");
+    assert!(factorisations < 1.0, "{factorisations}");
+    let period_deg = 360.0 / 24.0 * 1.25;
+    let angles: Vec<String> = (0..60)
+        .map(|i| format!("{:?}", period_deg * f64::from(i) / 60.0))
+        .collect();
+    let series = format!(
+        "kind = \"static\"\nmotion = \"set sun speed\"\nangles_deg = [{}]",
+        angles.join(", ")
+    );
+    let iterations = of(&series, "0.0").rows.read("iterations").unwrap();
+    let mean = iterations.iter().sum::<f64>() / 60.0;
+    assert!(mean < 16.0, "{mean}");
+}

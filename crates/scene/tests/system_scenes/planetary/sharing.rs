@@ -67,6 +67,42 @@ fn planets_share_the_load_as_springs_do() {
     }
 }
 
+/// A set whose axis is not z: the same shares and pin forces.
+#[test]
+fn a_set_along_another_axis_is_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    write_gears(folder.path(), [34, 26], 20.0);
+    let along = |axis: &str| {
+        let planet = "count = 3\ndeviation = [{ planet = 2, tangential_um = 20.0, tilt_radial_mrad = 0.1 }]\nsupport = \"floating\"\nbearings = [{ model = { kind = \"linear\", radial_stiffness_N_per_mm = 1e5 } }]";
+        let carrier = "inertia_kg_m2 = [0.1, 0.1, 0.1]\ntorque_Nm = -3000.0";
+        let parts = [
+            "speed_rpm = 0.0",
+            "support = \"held\"",
+            carrier,
+            planet,
+            axis,
+        ];
+        run(&scene("kind = \"static\"", 90.0, parts), folder.path())
+            .sets()
+            .unwrap()
+            .remove(0)
+    };
+    let upright = along("");
+    for axis in ["axis = [1.0, 0.0, 0.0]", "axis = [0.3, -2.0, -0.7]"] {
+        let other = along(axis);
+        let [shares, others] = [&upright, &other].map(|set| set.sun.clone().unwrap().mean);
+        let [pins, other_pins] = [&upright, &other].map(|set| set.pin_force_n.clone().unwrap());
+        assert!((shares[1] - 1.0).abs() > 0.01, "{shares:?}");
+        for (a, b) in shares
+            .iter()
+            .chain(&pins)
+            .zip(others.iter().chain(&other_pins))
+        {
+            assert!((a / b - 1.0).abs() < 1e-6, "{axis}: {a} {b}");
+        }
+    }
+}
+
 /// A pin that lags by more than the load presses together carries nothing; the others carry its share.
 #[test]
 fn a_planet_that_loses_contact_leaves_its_share_to_the_others() {
