@@ -2,6 +2,7 @@
 
 import gmsh
 import numpy as np
+from scipy.sparse import coo_array
 from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri
 from skfem.helpers import ddot, eye, sym_grad, trace
@@ -66,9 +67,10 @@ def stiffness(u, v, w):
 
 
 class PlaneBody:
-    """A mesh that is held on its circle of radius `held`, all round or where `holds` is true of an edge's polar angle."""
+    """A mesh that is held on its circle of radius `held`, all round or where `holds` is true of an edge's polar angle; where it `slides`, it is free along the
+    circle but for one node, which keeps it from turning: loads without moment leave no force there."""
 
-    def __init__(self, mesh, held, holds=lambda angle: angle == angle):
+    def __init__(self, mesh, held, holds=lambda angle: angle == angle, slides=False):
         self.mesh, self.element = mesh, ElementVector(ElementTriP2())
         self.basis = Basis(mesh, self.element, intorder=4)
         self.boundary = mesh.boundary_facets()
@@ -76,7 +78,16 @@ class PlaneBody:
         ends = np.hypot(*mesh.p)[mesh.facets[:, self.boundary]]
         on = self.boundary[(np.abs(ends - held) < 1e-6 * held).all(axis=0) & holds(np.arctan2(self.middles[1], self.middles[0]))]
         self.free = np.setdiff1d(np.arange(self.basis.N), self.basis.get_dofs(on).all())
-        k = stiffness.assemble(self.basis).tocsc()[self.free][:, self.free]
+        rows, columns, values = self.free, np.arange(len(self.free)), np.ones(len(self.free))
+        if slides:
+            nodes = np.unique(mesh.facets[:, on])
+            x, y = np.hstack([mesh.p[:, nodes], mesh.p[:, mesh.facets[:, on]].mean(axis=1)])[:, 1:]
+            dofs = np.hstack([self.basis.nodal_dofs[:, nodes], self.basis.facet_dofs[:, on]])[:, 1:]
+            along = len(self.free) + np.arange(len(x))
+            rows, columns = np.concatenate([rows, *dofs]), np.concatenate([columns, along, along])
+            values = np.concatenate([values, -y / np.hypot(x, y), x / np.hypot(x, y)])
+        self.moves = coo_array((values, (rows, columns)), shape=(self.basis.N, columns.max() + 1)).tocsc()
+        k = (self.moves.T @ stiffness.assemble(self.basis) @ self.moves).tocsc()
         options = dict(SymmetricMode=True)
         self.factor = splu(k, permc_spec="MMD_AT_PLUS_A", options=options, diag_pivot_thresh=0.0)
 
@@ -100,9 +111,7 @@ class PlaneBody:
         return f / total
 
     def solve(self, loads):
-        u = np.zeros((self.basis.N, len(loads)))
-        u[self.free] = self.factor.solve(np.column_stack(loads)[self.free])
-        return u
+        return self.moves @ self.factor.solve(self.moves.T @ np.column_stack(loads))
 
     def at(self, point):
         """Degrees of freedom of the node at a point."""

@@ -25,8 +25,8 @@ LOADS = [20.0, 100.0, 300.0]  # N/mm along the line of action, all pairs togethe
 STRIP = 2 * (1 - NU**2) / (np.pi * E_MPA)
 
 
-def body(t, places, circle, fineness):
-    """places: (tooth, roll angle, side) of each contact, side 1 at positive polar angle; compliance between them, mm per N/mm."""
+def body(t, places, circle, fineness, largest=2.0, slides=(False,)):
+    """places: (tooth, roll angle, side) of each contact, side 1 at positive polar angle; compliance between them, mm per N/mm, the circle held, or sliding."""
     contacts = []
     for tooth, xi, side in places:
         mirror = np.array([1.0, side])
@@ -42,9 +42,12 @@ def body(t, places, circle, fineness):
     size = f"(0.25 + 0.12*max(sqrt((x-({middle[0]}))^2+(y-({middle[1]}))^2)-10.0, 0))"
     for p, _ in contacts:
         size = f"min({size}, ({HALF_WIDTH / 8} + 0.1*sqrt((x-({p[0]}))^2+(y-({p[1]}))^2)))"
-    held = PlaneBody(triangles(pieces, circle, f"min({size}, 2.0)/{fineness}"), circle)
-    u = held.solve([held.hertz(p, n, HALF_WIDTH) for p, n in contacts])
-    return np.array([[n @ u[held.at(p), j] for j in range(len(contacts))] for p, n in contacts]), len(held.free)
+    mesh, found = triangles(pieces, circle, f"min({size}, {largest})/{fineness}"), []
+    for slide in slides:
+        held = PlaneBody(mesh, circle, slides=slide)
+        u = held.solve([held.hertz(p, n, HALF_WIDTH) for p, n in contacts])
+        found.append(np.array([[n @ u[held.at(p), j] for j in range(len(contacts))] for p, n in contacts]))
+    return *found, len(held.free)
 
 
 def outline(t, own):

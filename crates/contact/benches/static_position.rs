@@ -70,6 +70,7 @@ fn model(gear: &GearDefinition, profile: &ToothGeometry, slices: usize) -> Reduc
         crack: None,
         hub_patterns: None,
         shaft_faces: None,
+        bore: None,
         bevel: None,
         grid,
         flanks: vec![Flank::Right],

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::definition::Flank;
+use std::f64::consts::TAU;
 
 /// The body below the teeth. Held at the bore, at the end faces of the shaft that it is cut into, or at the outside of a
 /// ring.
@@ -144,8 +145,36 @@ impl Blank {
 pub struct Rim {
     /// Outer radius \[m\].
     pub outer_radius_m: f64,
-    /// Back and front of the band of the outside that is held \[m\]; the whole outside where there is none.
+    /// Back and front of the band of the outside that is held \[m\]; the whole width where there is none.
     pub held_z_m: Option<[f64; 2]>,
+    /// Parts of the outside at which it is held; all round where there are none.
+    pub lugs: Option<Lugs>,
+}
+
+/// Equal parts of a ring's outside, evenly round it, at which the ring is held: lugs, keys, or the ground around bolts.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Lugs {
+    /// Number.
+    pub count: usize,
+    /// Angle that each covers \[rad\].
+    pub width_rad: f64,
+    /// Polar angle of the middle of the first one \[rad\]; tooth 0 is centred on zero.
+    pub phase_rad: f64,
+}
+
+impl Lugs {
+    /// Angle from the middle of one to the middle of the next \[rad\].
+    #[must_use]
+    pub fn repeat_rad(&self) -> f64 {
+        TAU / self.count as f64
+    }
+
+    /// Angle from the middle of the nearest one \[rad\], at most half of [`Self::repeat_rad`].
+    #[must_use]
+    pub fn from_middle_rad(&self, polar_rad: f64) -> f64 {
+        let (from, repeat) = (polar_rad - self.phase_rad, self.repeat_rad());
+        (from - repeat * (from / repeat).round()).abs()
+    }
 }
 
 /// A gear that is one with its shaft.

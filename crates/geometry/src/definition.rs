@@ -242,6 +242,18 @@ pub struct ReductionSettings {
     pub slices: usize,
     /// Flanks that carry loads.
     pub flanks: Vec<Flank>,
+    /// Motions of the bore, where they are asked for.
+    pub bore: Option<BoreMotions>,
+}
+
+/// Motions that the bore of a body is given, so that it can slide on its pin or be carried by rollers: radial,
+/// tangential and axial, harmonics around and polynomials along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct BoreMotions {
+    /// Highest harmonic around.
+    pub harmonics: usize,
+    /// Polynomials along the bore: 1 constant, 2 linear, too, and so on.
+    pub along: usize,
 }
 
 /// Where a gauge sits on the root fillet.
@@ -326,7 +338,7 @@ pub struct GearDefinition {
 }
 
 impl GearDefinition {
-    /// Number of equal sectors that the gear repeats in: gcd of teeth and openings, or the number of teeth;
+    /// Number of equal sectors that the gear repeats in: gcd of teeth and openings or lugs, or the number of teeth;
     /// one for a gear that was meshed elsewhere.
     pub fn sectors(&self) -> usize {
         let z = self.tooth.teeth;
@@ -334,9 +346,9 @@ impl GearDefinition {
         if self.blank.meshed().is_some() {
             return 1;
         }
-        self.blank
-            .openings()
-            .map_or(z, |o| greatest_common_divisor(z, o.count()))
+        let lugs = self.blank.rim().and_then(|rim| rim.lugs);
+        let repeats = (self.blank.openings().map(|o| o.count())).or(lugs.map(|lugs| lugs.count));
+        repeats.map_or(z, |count| greatest_common_divisor(z, count))
     }
 }
 

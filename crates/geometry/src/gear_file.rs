@@ -25,6 +25,7 @@ pub use microgeometry_table::MicrogeometryTable;
 pub use modes_table::ModesTable;
 pub use reduction_table::loaded_flanks;
 
+use crate::blank::Blank;
 use crate::definition::{GearDefinition, HubSupport};
 use crate::input::{InputDocument, InputError, TableKeys};
 use crate::tooth::ToothGeometry;
@@ -119,6 +120,18 @@ impl GearDefinition {
                     ));
                 }
             }
+        }
+        let without = match &blank {
+            Blank::Solid { .. } | Blank::Webbed { .. } => {
+                (file.crack.is_some()).then_some("a gear with a [crack], whose bore is held,")
+            }
+            Blank::CutIntoShaft(_) => Some("a gear that is cut into its shaft, which has no bore,"),
+            Blank::Ring(_) => Some("blank.kind = \"ring\", which is held outside,"),
+            Blank::Meshed { .. } => Some("blank.kind = \"mesh\", whose bore is fixed,"),
+        };
+        if let (Some(body), Some(_)) = (without, reduction.bore) {
+            let problem = format!("{body} does not use it; remove the table");
+            return Err(document.error("reduction.bore", problem));
         }
         let modes = file.modes;
         let modes = modes

@@ -42,13 +42,13 @@ pub mod tooth;
 
 pub use base_circles::BaseCircles;
 pub use blank::{
-    Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, MeshedBody, Openings, Rim,
+    Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, Lugs, MeshedBody, Openings, Rim,
     Slots, Web,
 };
 pub use definition::{
-    CrackDefinition, Flank, GaugeDefinition, GearDefinition, Gearing, HubSupport, InternalRoot,
-    Material, MeshSettings, ModeRange, PinionCutter, ReductionSettings, RootPosition, Symmetry,
-    ToothDefinition,
+    BoreMotions, CrackDefinition, Flank, GaugeDefinition, GearDefinition, Gearing, HubSupport,
+    InternalRoot, Material, MeshSettings, ModeRange, PinionCutter, ReductionSettings, RootPosition,
+    Symmetry, ToothDefinition,
 };
 pub use gearmesh_elements::Element;
 pub use input::InputError;

@@ -348,6 +348,33 @@ impl GearPair {
         })
     }
 
+    /// Least room \[m\] between the tips of a gear inside a ring and those of the ring while it comes in along the line of
+    /// centres; negative where they collide: then it comes in along its axis only. None of external gears.
+    #[must_use]
+    pub fn radial_room_m(&self) -> Option<f64> {
+        let (inside, ring) = self.inside_and_ring()?;
+        Some(tip_sweep::radial_room_m(
+            inside,
+            ring,
+            self.centre_distance_m,
+        ))
+    }
+
+    /// How the gear inside a ring is put in, in words; none of external gears.
+    #[must_use]
+    pub fn assembly_words(&self) -> Option<String> {
+        let room_mm = 1e3 * self.radial_room_m()?;
+        Some(match room_mm < 0.0 {
+            true => format!(
+                "the gear inside comes into the ring along the axis only: radially tips would run {:.4} mm into each other",
+                -room_mm
+            ),
+            false => format!(
+                "the gear inside comes into the ring radially, too: {room_mm:.4} mm of room between tips"
+            ),
+        })
+    }
+
     /// The base circles of both.
     #[must_use]
     pub fn circles(&self) -> BaseCircles {

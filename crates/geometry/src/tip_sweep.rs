@@ -2,6 +2,7 @@
 //!
 //! Away from the line of action tips of both gears pass each other; where the numbers of teeth are close, they collide.
 //! The path of a corner in the ring's frame is a hypotrochoid; it is followed in steps and compared with the ring's flanks.
+//! So are the straight paths on which it comes into the ring radially.
 
 use crate::involute;
 use crate::tooth::ToothGeometry;
@@ -72,4 +73,28 @@ pub(crate) fn deepest(ring: &ToothGeometry, pinion: &RollingPinion) -> Overlap {
         }
     }
     worst
+}
+
+/// Least room \[m\] between a corner of a gear inside a ring and the ring's corner beside which it comes in along the line
+/// of centres, on the ring's tip circle; negative where they collide, so that the gear comes in along its axis only.
+/// Whichever teeth stand on the line of centres.
+///
+/// A tooth at φ from that line has its far corner at θ₁ = φ + ψ₁, and all along the way at the height y = r_a1 sin θ₁.
+/// The ring's corner on that side of the space at φ z₁/z₂ must stand farther out, asin(y/r_a2) ≤ φ z₁/z₂ + σ₂, with ψ₁
+/// and σ₂ half angles of tooth and space at the tips. Derived; where it is least, both corners turn alike, which gives
+/// the condition for trimming that handbooks print.
+pub(crate) fn radial_room_m(inside: &ToothGeometry, ring: &ToothGeometry, distance_m: f64) -> f64 {
+    let (r, a) = (inside.tip_radius_m, distance_m);
+    // Beyond this angle the corner is inside the ring's tip circle where it runs.
+    let cos = (ring.tip_radius_m.powi(2) - a * a - r * r) / (2.0 * a * r);
+    let reach = cos.clamp(-1.0, 1.0).acos();
+    let ratio = inside.teeth as f64 / ring.teeth as f64;
+    let space = 0.5 * TAU / ring.teeth as f64 - ring.tip_half_angle_rad();
+    let corner = inside.tip_half_angle_rad();
+    let room = |k: u32| {
+        let theta = reach * f64::from(k) / f64::from(PLACES);
+        let height = (r * theta.sin() / ring.tip_radius_m).min(1.0);
+        (theta - corner) * ratio + space - height.asin()
+    };
+    ring.tip_radius_m * (0..=PLACES).map(room).fold(f64::INFINITY, f64::min)
 }

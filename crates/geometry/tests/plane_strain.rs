@@ -40,6 +40,12 @@ fn keys_that_contradict_it_are_refused() {
             "reduction.slices: found 5, allowed is 1 in plane strain",
         ),
         (
+            "\"solid\"",
+            "",
+            "bore = { harmonics = 8, along = 2 }",
+            "reduction.bore.along: found 2, allowed is 1 in plane strain",
+        ),
+        (
             web.as_str(),
             "",
             "",

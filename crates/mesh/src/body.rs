@@ -6,6 +6,7 @@ use crate::mid_sides::{CurvedSides, MidSides};
 use crate::plane_mesher::{PlaneMesh, PlaneProblem, Region};
 use crate::ring_radius::ring_radius_m;
 use crate::thin_ring;
+use gearmesh_geometry::blank::Lugs;
 use gearmesh_geometry::{Element, GearDefinition, Openings, Slots};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::iter;
@@ -60,13 +61,27 @@ impl BodyProblem {
 
 /// The first tooth of a sector such that the cut before it keeps clear of all openings.
 pub(crate) fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
-    let Some(openings) = gear.blank.openings() else {
-        return Ok(0);
-    };
     if gear.sectors() == 1 {
         return Ok(0);
     }
     let pitch = TAU / gear.tooth.teeth as f64;
+    if let Some(lugs) = gear.blank.rim().and_then(|rim| rim.lugs) {
+        // Far from the lugs' edges, at which nodes lie.
+        let from_edge = |tooth: usize| {
+            let middle = lugs.from_middle_rad((tooth as f64 - 0.5) * pitch);
+            (middle - 0.5 * lugs.width_rad).abs()
+        };
+        let teeth = 0..gear.tooth.teeth / gear.sectors();
+        return Ok(teeth.fold(0, |best, tooth| {
+            match from_edge(tooth) > from_edge(best) + 1e-9 {
+                true => tooth,
+                false => best,
+            }
+        }));
+    }
+    let Some(openings) = gear.blank.openings() else {
+        return Ok(0);
+    };
     let repeat = TAU / openings.count() as f64;
     let clearance = |tooth: usize| {
         let angle = (tooth as f64 - 0.5) * pitch - openings.phase_rad();
@@ -275,9 +290,15 @@ pub fn body_problem(
                 n += (n + outer) % 4;
             }
             let nodes = if closed { n } else { n + 1 };
-            (0..nodes)
-                .map(|k| add(r, start + angle * k as f64 / n as f64))
-                .collect()
+            let mut places: Vec<f64> = (0..nodes)
+                .map(|k| start + angle * k as f64 / n as f64)
+                .collect();
+            if let Some(lugs) = gear.blank.rim().and_then(|rim| rim.lugs)
+                && level + 1 == levels.len()
+            {
+                move_to_edges(&mut places, &lugs, closed);
+            }
+            places.into_iter().map(|phi| add(r, phi)).collect()
         })
         .collect();
     let mut curved = CurvedSides::default();
@@ -371,6 +392,38 @@ pub fn body_problem(
             largest: gear.mesh.body_m,
         },
     })
+}
+
+/// Edges of lugs so near to a cut, in pieces of the circle, lie on it.
+const ON_CUT: f64 = 1e-6;
+
+/// Moves the nearest of the places round a sector to the edges of lugs, its two ends excepted where it is not `closed`;
+/// an edge that lies on an end stays there.
+fn move_to_edges(places: &mut [f64], lugs: &Lugs, closed: bool) {
+    let (first, last) = (places[0], places[places.len() - 1]);
+    let spacing = places[1] - first;
+    let repeat = lugs.repeat_rad();
+    let end = if closed { first + TAU } else { last };
+    let mut moved = vec![false; places.len()];
+    if !closed {
+        (moved[0], moved[places.len() - 1]) = (true, true);
+    }
+    for half in [-0.5, 0.5] {
+        let edge = lugs.phase_rad + half * lugs.width_rad;
+        let mut at = edge + repeat * ((first - edge) / repeat).ceil();
+        while at < end - ON_CUT * spacing {
+            if closed || at > first + ON_CUT * spacing {
+                // The first place of a closed circle comes after its last one.
+                let way = |k: usize| at - places[k] - TAU * ((at - places[k]) / TAU).round();
+                let free = (0..places.len()).filter(|&k| !moved[k]);
+                if let Some(k) = free.min_by(|&a, &b| way(a).abs().total_cmp(&way(b).abs())) {
+                    places[k] += way(k);
+                    moved[k] = true;
+                }
+            }
+            at += repeat;
+        }
+    }
 }
 
 /// Outline of an opening as (radius, polar angle from its centre): a multiple of four nodes, each followed by the

@@ -230,7 +230,7 @@ impl GearMesh {
     }
 
     /// Nodes at which the gear is held: those of the bore, of a gear cut into its shaft those at the ends of the
-    /// shaft's stubs, of a ring those on the outside, or on the band of it that is held.
+    /// shaft's stubs, of a ring those on the outside, or on the band and the lugs of it that are held.
     pub fn held(&self, blank: &Blank) -> Vec<u32> {
         if blank.cut_into_shaft().is_some() {
             return self.stub_ends().concat();
@@ -240,6 +240,13 @@ impl GearMesh {
             let slack = SAME_RADIUS * (to - from);
             let band = from - slack..=to + slack;
             held.retain(|&node| band.contains(&self.nodes[node as usize][2]));
+        }
+        if let Some(lugs) = blank.rim().and_then(|rim| rim.lugs) {
+            let reach = 0.5 * lugs.width_rad * (1.0 + SAME_RADIUS);
+            held.retain(|&node| {
+                let [x, y, _] = self.nodes[node as usize];
+                lugs.from_middle_rad(y.atan2(x)) <= reach
+            });
         }
         held
     }

@@ -2,7 +2,7 @@
 //!
 //! The teeth turn by γ(z) = z tan β/r. A body of revolution may turn with them: it stays the same body, and no element
 //! is sheared more than by the helix itself. Openings must stay straight: there the turn fades out between the root
-//! circle and the openings' outer radius, by a polynomial that is flat at both ends.
+//! circle and the openings' outer radius, by a polynomial that is flat at both ends; so do lugs, on the outside of a ring.
 
 use gearmesh_geometry::GearDefinition;
 
@@ -11,19 +11,19 @@ use gearmesh_geometry::GearDefinition;
 pub struct Twist {
     /// Turn of the teeth per metre of z \[rad/m\], positive for a right hand; zero for a spur gear.
     pub teeth_rad_per_m: f64,
-    /// Radii \[m\] between which the turn fades from nothing to that of the teeth; none where all of the body turns.
+    /// Radii \[m\] at which nothing turns, and all as the teeth; none where all of the body turns.
     pub fade_m: Option<[f64; 2]>,
 }
 
 impl Twist {
     /// The twist of a gear.
     pub fn new(gear: &GearDefinition) -> Self {
+        let rim = gear.blank.rim().filter(|rim| rim.lugs.is_some());
+        let straight_m =
+            (gear.blank.openings().map(|o| o.radii_m().1)).or(rim.map(|rim| rim.outer_radius_m));
         Self {
             teeth_rad_per_m: gear.profile.twist_rad_per_m(),
-            fade_m: gear
-                .blank
-                .openings()
-                .map(|o| [o.radii_m().1, gear.profile.root_radius_m]),
+            fade_m: straight_m.map(|straight_m| [straight_m, gear.profile.root_radius_m]),
         }
     }
 

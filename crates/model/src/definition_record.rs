@@ -1,10 +1,10 @@
 //! The parts of a gear's definition in a file. Lengths in metres, angles in radians.
 
 use gearmesh_geometry::{
-    Blank, Contour, ContourPoint, CrackDefinition, Element, Flank, GaugeDefinition, GearDefinition,
-    GearMicrogeometry, Gearing, GeometryError, Holes, HubSupport, InternalRoot, LengthUnit,
-    Material, MeshSettings, MeshedBody, ModeRange, Openings, PinionCutter, ReductionSettings,
-    RootPosition, Slots, Symmetry, ToothDefinition, ToothGeometry, Web,
+    Blank, BoreMotions, Contour, ContourPoint, CrackDefinition, Element, Flank, GaugeDefinition,
+    GearDefinition, GearMicrogeometry, Gearing, GeometryError, Holes, HubSupport, InternalRoot,
+    LengthUnit, Lugs, Material, MeshSettings, MeshedBody, ModeRange, Openings, PinionCutter,
+    ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition, ToothGeometry, Web,
 };
 
 use crate::file_error::FileError;
@@ -196,7 +196,7 @@ impl Record for Blank {
             let what = "its front";
             f.optional_number("held_front", &mut front, "m", what)?;
             rim.held_z_m = back.zip(front).map(|(back, front)| [back, front]);
-            Ok(())
+            f.optional("lugs", &mut rim.lugs, Lugs::fields)
         })?;
         if !f.is_reading() {
             return Ok(());
@@ -278,6 +278,19 @@ impl Record for Contour {
         };
         self.web = points.as_chunks().0.iter().map(point).collect();
         Ok(())
+    }
+}
+
+impl Record for Lugs {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.count(
+            "count",
+            &mut self.count,
+            "parts of the outside that are held",
+        )?;
+        f.number("width", &mut self.width_rad, "rad", "angle covered by each")?;
+        let what = "polar angle of the middle of the first one";
+        f.number("phase", &mut self.phase_rad, "rad", what)
     }
 }
 
@@ -376,6 +389,7 @@ impl Record for ReductionSettings {
         let both = self.flanks.iter().map(|side| side.name().to_owned());
         let mut names: Vec<String> = both.collect();
         f.lines("flanks", &mut names, "flanks that carry loads")?;
+        f.optional("bore", &mut self.bore, BoreMotions::fields)?;
         if f.is_reading() {
             let side = |name: &String| match &name[..] {
                 "right" => Ok(Flank::Right),
@@ -388,6 +402,14 @@ impl Record for ReductionSettings {
             self.flanks = names.iter().map(side).collect::<Result<_, _>>()?;
         }
         Ok(())
+    }
+}
+
+impl Record for BoreMotions {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let what = "highest harmonic of motions of the bore";
+        f.count("harmonics", &mut self.harmonics, what)?;
+        f.count("along", &mut self.along, "polynomials along the bore")
     }
 }
 

@@ -7,7 +7,7 @@ use gearmesh_geometry::microgeometry::{
 };
 use gearmesh_geometry::{
     Blank, Contour, ContourPoint, CrackDefinition, CutIntoShaft, Element, Flank, GearMicrogeometry,
-    Gearing, InternalRoot, LengthUnit, MeshSettings, MeshedBody, Microgeometry, ModeRange,
+    Gearing, InternalRoot, LengthUnit, Lugs, MeshSettings, MeshedBody, Microgeometry, ModeRange,
     Openings, PinionCutter, Rim, RootPosition, Slots, ToothDefinition, Web,
 };
 use std::path::Path;
@@ -107,10 +107,16 @@ fn rarer_parts_come_back_equal() {
         end_radii_m: [0.0, 0.015],
     });
     assert_eq!(read_back(&cut), cut);
-    for held_z_m in [None, Some([-4e-3, 2e-3])] {
+    let lugs = Lugs {
+        count: 6,
+        width_rad: 0.1,
+        phase_rad: 0.2,
+    };
+    for (held_z_m, lugs) in [(None, None), (Some([-4e-3, 2e-3]), Some(lugs))] {
         let ring = Blank::Ring(Rim {
             outer_radius_m: 0.06,
             held_z_m,
+            lugs,
         });
         assert_eq!(read_back(&ring), ring);
     }

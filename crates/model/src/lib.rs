@@ -22,6 +22,7 @@
 mod atomic_file;
 mod bevel_body;
 mod bevel_body_file;
+mod bore_patterns;
 mod column_file;
 mod csv_cell;
 mod data_tree;
@@ -64,6 +65,7 @@ pub use atomic_file::{
     demand_output, wait_for_writes, write_by, write_bytes, write_streamed, write_text,
 };
 pub use bevel_body::{BevelBody, BevelMember, BevelNearField, SpiralHand};
+pub use bore_patterns::{BoreMotion, BorePatterns};
 pub use column_file::{Column, ColumnFile, write_columns};
 pub use csv_cell::{csv_cell, no_formula, without_apostrophe};
 pub use data_tree::{DataArray, DataTree, FileFormat, Values};

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use gearmesh_geometry::Flank;
 
 use crate::bevel_body::BevelBody;
+use crate::bore_patterns::BorePatterns;
 use crate::hub_patterns::HubPatterns;
 use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
@@ -175,6 +176,8 @@ pub struct ReducedGear {
     /// The two end faces of a gear cut into a shaft that goes on at both, which are held in all other figures; none of
     /// other gears.
     pub shaft_faces: Option<ShaftFaces>,
+    /// Motions of the bore, which is held in all other figures; none where they were not asked for.
+    pub bore: Option<BorePatterns>,
     /// Crack in a tooth's root, whose compliance is not in `c_hub`; the gauges' rows have it. None where there is none.
     pub crack: Option<RootCrack>,
     /// What a bevel gear has besides; none of a cylindrical gear. Its `near_field` stands there, not in `near_field`.

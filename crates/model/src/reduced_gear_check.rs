@@ -87,6 +87,7 @@ impl ReducedGear {
         }
         self.check_dynamics()?;
         self.check_crack().and(self.check_shaft_faces())?;
+        self.check_bore()?;
         self.check_bevel()?;
         let times = self
             .provenance

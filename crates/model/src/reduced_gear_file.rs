@@ -18,8 +18,8 @@ use gearmesh_geometry::Flank;
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {
     name: "gearmesh reduced gear",
     // 2: near field; 3: rigid body, reference point, modes; 4: crack; 5: definition of the gear; 6: bevel body; 7:
-    // C_hub by patterns; 8: faces of a gear cut into its shaft
-    version: 8,
+    // C_hub by patterns; 8: faces of a gear cut into its shaft; 9: motions of the bore
+    version: 9,
 };
 
 /// The first version that holds what the gear file says, besides its text.
@@ -116,6 +116,10 @@ impl Record for ReducedGear {
                 mode_count,
             );
             shaft_faces_fields(it, f, rows)
+        })?;
+        let own = (self.teeth.checked_div(self.sectors)).unwrap_or_default();
+        f.optional("bore", &mut self.bore, |it, f| {
+            it.fields(f, [own, sizes.hands, sizes.loads, sizes.gauges])
         })?;
         f.optional("crack", &mut self.crack, |it, f| crack_fields(it, f, sizes))?;
         let bevel_sizes = BevelSizes {

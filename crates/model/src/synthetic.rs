@@ -185,6 +185,7 @@ pub fn small_reduced_gear() -> ReducedGear {
         crack: None,
         hub_patterns: None,
         shaft_faces: None,
+        bore: None,
         bevel: None,
         provenance: Provenance {
             program: "gearmesh".to_owned(),

@@ -24,6 +24,7 @@
 //! | points in the frame of a tooth | `tooth_frame.rs` |
 //! | what all of them ask of a mesh | `toothed_mesh.rs`, `repeated_mesh.rs` |
 //! | mass, rigid motions, natural modes for the dynamics | `rigid_mass.rs`, `dynamics.rs` |
+//! | motions of the bore, for bodies that slide or roll on their pin | `bore_patterns.rs` |
 //! | faces of a gear that is cut into its shaft; natural modes with them held | `shaft_faces.rs`; `modes_on_faces.rs` |
 //! | natural modes: the search, one harmonic of it, what a shape is like | `gear_modes.rs`, `harmonic_problem.rs`, `mode_figures.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
@@ -37,6 +38,7 @@
 //! it need not be is in docs/theory/reduction.md, and every reduction checks the identity on its own numbers.
 
 pub mod bevel;
+pub mod bore_patterns;
 pub mod contact_problem;
 pub mod cyclic_body;
 mod cyclic_response;
@@ -161,6 +163,19 @@ pub enum ReductionError {
         /// Number of such nodes.
         held: usize,
     },
+    /// The mesh does not tell the motions of the bore apart.
+    #[error(
+        "the bore has {nodes} nodes, too few to tell motions of {harmonics} harmonics and {along} polynomials apart; make \
+         reduction.bore.harmonics or along smaller, or mesh.body_mm or axial_mm"
+    )]
+    BoreMotions {
+        /// Nodes of the bore.
+        nodes: usize,
+        /// Highest harmonic asked for.
+        harmonics: usize,
+        /// Polynomials along it.
+        along: usize,
+    },
     /// An identity that holds exactly was violated: the numbers cannot be trusted.
     #[error(
         "the reduction failed its own check: {check} is {found:.2e}, at most {allowed:.0e} is expected; the stiffness matrix is too ill-conditioned (very thin web, very slender elements?)"
@@ -187,6 +202,7 @@ impl ReductionError {
             | Self::ModesInPlaneStrain
             | Self::NoModes { .. }
             | Self::HeldTeeth { .. }
+            | Self::BoreMotions { .. }
             | Self::AtCrack { .. }
             | Self::Mesh(
                 MeshError::NoCut { .. }

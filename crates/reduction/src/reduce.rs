@@ -1,5 +1,6 @@
 //! The reduction: compliance of the flanks, gauge rows, and the identities they must fulfil.
 
+use crate::bore_patterns::{AskedMotions, FoundMotions};
 use crate::dynamics::{DynamicsRequest, dynamics};
 use crate::error_estimate::{Reduced, coarser_meshes};
 use crate::flank_compliance::{
@@ -44,6 +45,7 @@ pub fn reduce(
     // Meshed first, so that a mesh that is refused is so at once; factorised after the coarser ones, so that factors of
     // two meshes never stand in memory side by side.
     let meshed = MeshedGear::new(gear, python, progress)?;
+    let motions = AskedMotions::new(gear, &meshed.mesh)?;
     let grid = flank_grid(gear);
     let mut clock = Instant::now();
     let coarser = (options.estimate_error)
@@ -111,6 +113,12 @@ pub fn reduce(
     if faces.is_some() {
         lap("faces of the shaft");
     }
+    let bore = motions
+        .map(|motions| motions.solve(&body, (&loads, &gauge_rows), progress))
+        .transpose()?;
+    if bore.is_some() {
+        lap("motions of the bore");
+    }
     let request = DynamicsRequest {
         density_kg_per_m3: gear.material.density_kg_per_m3,
         hub: gear.hub,
@@ -123,6 +131,10 @@ pub fn reduce(
     }
     let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
     further.extend(dynamics.checks);
+    let bore = bore.map(|FoundMotions { patterns, checks }| {
+        further.extend(checks);
+        patterns
+    });
     if let Some(coarser) = coarser {
         let reduced = Reduced {
             teeth: gear.tooth.teeth,
@@ -173,6 +185,7 @@ pub fn reduce(
     reduced.reference_point = dynamics.reference_point;
     reduced.modes = dynamics.modes;
     reduced.shaft_faces = dynamics.shaft_faces;
+    reduced.bore = bore;
     reduced.crack = crack.map(|rows| rows.crack);
     if let Some((patterns, left_out)) = patterns {
         let name = "C_hub by patterns, largest entry left out".to_string();
@@ -222,6 +235,7 @@ pub(crate) fn assembled(
         crack: None,
         hub_patterns: None,
         shaft_faces: None,
+        bore: None,
         bevel: None,
         provenance: Provenance {
             program: "gearmesh".into(),

@@ -51,7 +51,9 @@ pub fn bearings_and_couplings(
                     let what = format!("its part {kind} is not in the scene: taken as the ground");
                     source.assume(component, About::Support, what);
                 }
-                found.u_mm[side] = None;
+                if kind != "shaft" {
+                    found.u_mm[side] = None;
+                }
                 continue;
             };
             if found.u_mm[side].is_none() {
@@ -71,14 +73,17 @@ pub fn bearings_and_couplings(
                 found.u_mm[side] = Some(by_vector.unwrap_or(0.0));
             }
         }
-        if on_shaft || found.u_mm == [None, None] {
+        if on_shaft {
             // Shafts of the file that the scene does not have are those of planets.
-            let about = if on_shaft {
-                About::Nothing
-            } else {
-                About::Lost
-            };
-            source.leave_out(component, about, "on no shaft of the scene");
+            let of_planet = found
+                .sides
+                .map(|id| train.shaft(id).is_none().then_some(id));
+            for side in of_planet.into_iter().flatten() {
+                let own = train.of_planets.entry(side).or_default();
+                own.push(found.clone());
+            }
+        } else if found.u_mm == [None, None] {
+            source.leave_out(component, About::Lost, "on no shaft of the scene");
         } else {
             train.bearings.push(found);
         }

@@ -36,8 +36,10 @@ pub struct Gear {
     pub name: String,
     /// File.
     pub file: String,
-    /// Teeth.
+    /// Teeth; of a ring without sign.
     pub teeth: u32,
+    /// Whether it is a ring with internal teeth. Its diameters have no sign, its profile shift is positive towards the tip.
+    pub internal: bool,
     /// Normal module \[mm\].
     pub module_mm: f64,
     /// Normal pressure angle \[°\].
@@ -60,7 +62,7 @@ pub struct Gear {
     pub thickness_allowance_mm: f64,
     /// Tip chamfer \[mm\].
     pub tip_chamfer_mm: f64,
-    /// Bore \[mm\], 0 of a gear that is cut into its shaft; none until the shaft is known.
+    /// Bore \[mm\], 0 of a gear that is cut into its shaft; none until the shaft is known. Outer diameter of a ring.
     pub bore_mm: Option<f64>,
     /// Diameters of the shaft at the back and the front face of a gear that is cut into it, 0 where it does not go on
     /// \[mm\].
@@ -72,6 +74,11 @@ pub struct Gear {
 }
 
 impl Gear {
+    /// −1 of a ring: the sign of its diameters and teeth after ISO 21771.
+    pub fn sign(&self) -> f64 {
+        if self.internal { -1.0 } else { 1.0 }
+    }
+
     /// Transverse reference diameter \[mm\].
     pub fn reference_diameter_mm(&self) -> f64 {
         self.module_mm * f64::from(self.teeth) / self.helix_deg.to_radians().cos()
@@ -79,7 +86,8 @@ impl Gear {
 
     /// Root diameter \[mm\].
     pub fn root_diameter_mm(&self) -> f64 {
-        self.reference_diameter_mm() - 2.0 * self.module_mm * (self.dedendum - self.profile_shift)
+        self.reference_diameter_mm()
+            - self.sign() * 2.0 * self.module_mm * (self.dedendum - self.profile_shift)
     }
 
     /// Base diameter \[mm\].
@@ -92,7 +100,7 @@ impl Gear {
     /// Tip diameter \[mm\].
     pub fn tip_mm(&self) -> f64 {
         let rack = self.reference_diameter_mm()
-            + 2.0 * self.module_mm * (self.addendum + self.profile_shift);
+            + self.sign() * 2.0 * self.module_mm * (self.addendum + self.profile_shift);
         self.tip_diameter_mm.unwrap_or(rack)
     }
 }
@@ -162,7 +170,10 @@ pub fn read(
     let teeth = source
         .integer(component, "number_of_teeth")?
         .ok_or_else(|| missing("number_of_teeth is missing"))?;
-    let teeth = u32::try_from(teeth)
+    let internal = component.kind == "ring_gear";
+    // Programs write the teeth of rings with and without sign.
+    let counted = if internal { teeth.abs() } else { teeth };
+    let teeth = u32::try_from(counted)
         .ok()
         .filter(|z| (3..=2000).contains(z))
         .ok_or_else(|| missing(&format!("number_of_teeth is {teeth}; allowed are 3 to 2000 (of a ring gear say so by its type)")))?;
@@ -202,6 +213,7 @@ pub fn read(
         name,
         file,
         teeth,
+        internal,
         module_mm,
         pressure_angle_deg: 20.0,
         helix_deg,
@@ -219,10 +231,14 @@ pub fn read(
         microgeometry: Microgeometry::default(),
     };
     flank_values(source, component, &flanks, &mut gear)?;
-    tool(source, structure, component, &flanks, &mut gear)?;
-    tip_and_root(source, component, &mut gear)?;
+    if internal {
+        ring_tip_and_rim(source, component, &mut gear)?;
+    } else {
+        tool(source, structure, component, &flanks, &mut gear)?;
+        tip_and_root(source, component, &mut gear)?;
+        gear.bore_mm = bore(source, structure, component)?;
+    }
     thickness(source, component, &mut gear)?;
-    gear.bore_mm = bore(source, structure, component)?;
     Ok(gear)
 }
 
@@ -416,6 +432,55 @@ fn tip_and_root(
             );
         }
     }
+    Ok(())
+}
+
+/// Addendum of a ring whose tip diameter is not given, in modules: that of 1 would interfere with small planets.
+const RING_ADDENDUM: f64 = 0.8;
+/// Rim of a ring whose outer diameter is not given, in modules.
+const RING_RIM: f64 = 3.0;
+
+/// Tip and outer diameter of a ring.
+fn ring_tip_and_rim(
+    source: &Source<'_>,
+    component: &Component,
+    gear: &mut Gear,
+) -> Result<(), RexsError> {
+    let (reference, module) = (gear.reference_diameter_mm(), gear.module_mm);
+    gear.addendum = RING_ADDENDUM;
+    let tip = source.number(component, "tip_diameter", MM)?;
+    let possible = |tip: &f64| *tip > gear.base_diameter_mm() && *tip < reference + 2.0 * module;
+    match tip.map(f64::abs) {
+        Some(tip) if possible(&tip) => gear.tip_diameter_mm = Some(tip),
+        other => source.assume(
+            component,
+            About::Teeth,
+            format!(
+                "tip_diameter {}: addendum {RING_ADDENDUM} modules",
+                other.map_or("not given".to_owned(), |tip| format!(
+                    "{tip} mm is not possible"
+                ))
+            ),
+        ),
+    }
+    source.assume(
+        component,
+        About::Small,
+        "its root is that of the default cutter of gear files",
+    );
+    let least = gear.root_diameter_mm() + 2.0 * module;
+    let outer = source
+        .number(component, "outer_diameter", MM)?
+        .map(f64::abs);
+    let outer = outer.filter(|outer| *outer > least).unwrap_or_else(|| {
+        let outer = gear.root_diameter_mm() + 2.0 * RING_RIM * module;
+        let what = format!(
+            "no outer_diameter beyond its root: {outer:.3} mm, a rim of {RING_RIM} modules"
+        );
+        source.assume(component, About::Blank, what);
+        outer
+    });
+    gear.bore_mm = Some(outer);
     Ok(())
 }
 

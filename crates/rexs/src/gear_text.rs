@@ -9,7 +9,7 @@ pub fn gear_file(gear: &Gear, origin: &str) -> String {
         "# {}\nname = {}\n\n[tooth]\nteeth = {}\n",
         comment(origin),
         quoted(&gear.name),
-        gear.teeth
+        i64::from(gear.teeth) * gear.sign() as i64
     );
     let mut key = |name: &str, value: f64| text.push_str(&format!("{name} = {}\n", number(value)));
     key("module_mm", gear.module_mm);
@@ -23,8 +23,10 @@ pub fn gear_file(gear: &Gear, origin: &str) -> String {
         Some(tip) => key("tip_diameter_mm", tip),
         None => key("addendum", gear.addendum),
     }
-    key("dedendum", gear.dedendum);
-    key("rack_tip_radius", gear.rack_tip_radius);
+    if !gear.internal {
+        key("dedendum", gear.dedendum);
+        key("rack_tip_radius", gear.rack_tip_radius);
+    }
     if gear.thickness_allowance_mm > 0.0 {
         key("thickness_allowance_mm", gear.thickness_allowance_mm);
     }
@@ -39,8 +41,12 @@ pub fn gear_file(gear: &Gear, origin: &str) -> String {
         };
         text.push_str(&format!("hand = \"{hand}\"\n"));
     }
+    let blank = match gear.internal {
+        true => "ring\"\nouter_diameter_mm",
+        false => "solid\"\nbore_diameter_mm",
+    };
     text.push_str(&format!(
-        "\n[blank]\nkind = \"solid\"\nbore_diameter_mm = {}\n",
+        "\n[blank]\nkind = \"{blank} = {}\n",
         number(gear.bore_mm.unwrap_or(0.0))
     ));
     if let Some(ends) = gear.shaft_mm {

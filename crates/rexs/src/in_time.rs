@@ -27,12 +27,19 @@ const MOST_ROWS: f64 = 5000.0;
 /// `[run]`, `[solver]` and `[output]` of a train; none where no mesh turns. It starts from the equilibrium under its
 /// loads: what loads set off at a start without it is vibration, most of which no step follows.
 pub fn run_tables(train: &Train) -> Option<String> {
-    let frequencies = train.meshes.iter().filter_map(|mesh| {
+    let rpm = |shaft: i64| train.flow.speed_rpm.get(&shaft).copied();
+    let meshes = train.meshes.iter().filter_map(|mesh| {
         let seated = &train.gears[mesh.gears[0]];
-        let rpm = train.flow.speed_rpm.get(&seated.shaft)?;
-        let hz = f64::from(seated.gear.teeth) * rpm.abs() / 60.0;
-        (hz > 0.0).then_some(hz)
+        Some(f64::from(seated.gear.teeth) * rpm(seated.shaft)?.abs() / 60.0)
     });
+    // The sun's teeth pass those of the planets by its speed against the carrier.
+    let sets = train.sets.iter().filter_map(|set| {
+        let sun = &train.gears[set.sun];
+        let carrier = set.carriers.first().and_then(|(shaft, _)| rpm(*shaft));
+        let against = rpm(sun.shaft)? - carrier.unwrap_or(0.0);
+        Some(f64::from(sun.gear.teeth) * against.abs() / 60.0)
+    });
+    let frequencies = meshes.chain(sets).filter(|hz| *hz > 0.0);
     let [slowest, fastest] = frequencies.fold([f64::INFINITY, 0.0], |[low, high], hz| {
         [hz.min(low), hz.max(high)]
     });

@@ -33,6 +33,7 @@ pub mod microgeometry;
 pub mod model;
 pub mod placement;
 pub mod planetary;
+pub mod planetary_set;
 pub mod power_flow;
 pub mod scene_text;
 pub mod shaft;

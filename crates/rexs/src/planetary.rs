@@ -1,5 +1,6 @@
-//! Planetary stages: scenes have no planets, but speeds and torques pass through where one of sun, ring and carrier
-//! stands, so that what is before and behind such a stage turns and is loaded as it should be.
+//! Planetary stages: speeds and torques pass through where one of sun, ring and carrier stands. Where the file says
+//! enough the scene has the whole set (`planetary_set.rs`), else torques on two shafts, so that what is before and
+//! behind the stage turns and is loaded as it should be.
 //!
 //! Willis: ω_s − i₀ ω_r = (1 − i₀) ω_c with i₀ = −z_A z_r/(z_s z_B), the ratio of sun to ring under a carrier that
 //! stands; planet A meets the sun, B the ring, both on one shaft, mostly one gear (Niemann, Winter: Maschinenelemente,
@@ -7,19 +8,38 @@
 
 use crate::ledger::About;
 use crate::model::Component;
+use crate::planetary_set;
 use crate::power_flow::Link;
 use crate::source::Source;
-use crate::structure::Structure;
+use crate::structure::{Stage, Structure};
 use crate::train::{TorqueSeat, Train};
 use crate::units::{ONE, RPM};
 use std::collections::{HashMap, HashSet};
 
 /// A member that turns about the common axis: teeth, its shaft in the scene, its words.
-struct Member {
-    shaft: Option<i64>,
+pub struct Member {
+    /// Shaft: component.
+    pub shaft: Option<i64>,
     /// Gear, or the shaft of the carrier: component.
-    part: i64,
-    name: &'static str,
+    pub part: i64,
+    /// `sun`, `ring` or `carrier`.
+    pub name: &'static str,
+}
+
+/// Parts of a planetary stage.
+pub struct Parts {
+    /// Sun, ring and carrier.
+    pub members: [Member; 3],
+    /// i₀.
+    ratio: f64,
+    /// Planets in mesh with the sun.
+    pub planets: Vec<i64>,
+    /// Whether the same gears are in mesh with the ring.
+    pub is_simple: bool,
+    /// The stage of the sun and the first planet.
+    pub first_stage: i64,
+    /// All shafts of the carrier that the scene has.
+    pub carriers: Vec<i64>,
 }
 
 /// What may turn shafts, found once for all stages.
@@ -31,6 +51,8 @@ struct Acting {
     gears: HashMap<i64, HashSet<i64>>,
     /// Shafts at bevel stages, couplings and planetary stages that were joined.
     joined: HashSet<i64>,
+    /// Shafts from one planetary stage to another: of two or more, in one of them of its sun or carrier.
+    shared: HashSet<i64>,
 }
 
 impl Acting {
@@ -52,39 +74,118 @@ impl Acting {
             braked: braking.map(|l| l.shaft).collect(),
             gears,
             joined: bevels.chain(coupled).collect(),
+            shared: HashSet::new(),
         }
+    }
+
+    /// Finds the shafts from one planetary stage to another.
+    fn share(&mut self, all: &[(&Component, Parts)]) {
+        let mut stages_on: HashMap<i64, (usize, bool)> = HashMap::new();
+        for member in all.iter().flat_map(|(_, parts)| &parts.members) {
+            if let Some(shaft) = member.shaft {
+                let (count, passes) = stages_on.entry(shaft).or_default();
+                *count += 1;
+                *passes |= member.name != "ring";
+            }
+        }
+        let shared = stages_on
+            .into_iter()
+            .filter(|(_, (count, passes))| *count > 1 && *passes);
+        self.shared = shared.map(|(shaft, _)| shaft).collect();
     }
 }
 
 /// Joins the members of all planetary stages.
 pub fn join(source: &Source<'_>, structure: &Structure, train: &mut Train) {
     let mut acting = Acting::of(train);
-    let mut pairs_of: HashMap<i64, Vec<(usize, [i64; 2])>> = HashMap::new();
+    let mut pairs_of: HashMap<i64, Vec<(usize, Stage)>> = HashMap::new();
     for (place, stage) in structure.stages().iter().enumerate() {
-        let pairs = pairs_of.entry(stage.id).or_default();
-        pairs.push((place, stage.gears));
+        pairs_of.entry(stage.id).or_default().push((place, *stage));
     }
+    let mut in_sets: HashSet<i64> = HashSet::new();
+    let mut all = Vec::new();
     for stage in source.model.of_kind(&["planetary_stage"]) {
-        let parts = structure.partners(stage.id, &["cylindrical_stage"]);
-        let mut pairs: Vec<_> = { parts.iter() }
+        let stages = structure.partners(stage.id, &["cylindrical_stage"]);
+        let mut pairs: Vec<_> = { stages.iter() }
             .filter_map(|id| pairs_of.get(id))
             .flatten()
             .copied()
             .collect();
-        pairs.sort_unstable();
-        let pairs: Vec<[i64; 2]> = pairs.into_iter().map(|(_, gears)| gears).collect();
-        let (about, what) = match members(source, structure, train, (stage, &pairs)) {
-            Some((members, ratio)) => couple(source, train, (stage, &mut acting), members, ratio),
-            None => (
-                About::Lost,
-                "sun, ring, planets and carrier were not found as one of each kind".to_owned(),
-            ),
+        pairs.sort_unstable_by_key(|(place, _)| *place);
+        let pairs: Vec<Stage> = pairs.into_iter().map(|(_, stage)| stage).collect();
+        match members(source, structure, train, (stage, &pairs)) {
+            Some(parts) => all.push((stage, parts)),
+            None => {
+                let what = "sun, ring, planets and carrier were not found as one of each kind; the scene has no planets and no mesh of it";
+                source.leave_out(stage, About::Lost, what);
+            }
+        }
+    }
+    acting.share(&all);
+    for (stage, parts) in all {
+        let Some((standing, link)) = link(source, train, (stage, &acting), &parts) else {
+            continue;
         };
-        source.leave_out(
-            stage,
-            about,
-            format!("planetary stages have no planets and no mesh in scenes; {what}"),
-        );
+        let turning: Vec<usize> = (0..3).filter(|member| *member != standing).collect();
+        let shafts = turning.iter().filter_map(|&i| parts.members[i].shaft);
+        acting.joined.extend(shafts);
+        match planetary_set::read(source, structure, train, (stage, &parts), (standing, link)) {
+            Ok(set) => {
+                in_sets.extend(&parts.planets);
+                in_sets.insert(parts.members[1].part);
+                train.sets.push(set);
+            }
+            Err(reason) => {
+                let told = torques(train, (stage, &parts), (&turning, link));
+                let what = format!(
+                    "the scene has no planets and no mesh of it ({reason}); its {} stands, {told}",
+                    parts.members[standing].name
+                );
+                source.leave_out(stage, About::Support, what);
+            }
+        }
+    }
+    list_left_out(source, structure, train, &in_sets);
+}
+
+/// Gears on no shaft, and bearings of planets, that no set has.
+fn list_left_out(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &Train,
+    in_sets: &HashSet<i64>,
+) {
+    for seated in train.gears.iter().filter(|g| g.shaft < 0) {
+        let id = seated.gear.id;
+        let Some(component) = source
+            .model
+            .component(id)
+            .filter(|_| !in_sets.contains(&id))
+        else {
+            continue;
+        };
+        // Planets stand on pins.
+        let shafts = structure.partners(id, &["shaft"]);
+        let is_planet = |id: &i64| structure.planetary_role(*id).is_some();
+        let about = match shafts.iter().any(is_planet) || seated.gear.internal {
+            true => About::Nothing,
+            false => About::Lost,
+        };
+        let what = "on no shaft of the scene: its file is written, the scene does not have it";
+        source.leave_out(component, about, what);
+    }
+    let planets = { in_sets.iter() }.flat_map(|gear| structure.partners(*gear, &["shaft"]));
+    let mut told: HashSet<i64> = HashSet::new();
+    for shaft in planets {
+        let own = train.of_planets.get(&shaft).into_iter().flatten();
+        told.extend(own.map(|bearing| bearing.id));
+    }
+    for bearing in train.of_planets.values().flatten() {
+        if told.insert(bearing.id)
+            && let Some(component) = source.model.component(bearing.id)
+        {
+            source.leave_out(component, About::Nothing, "on no shaft of the scene");
+        }
     }
 }
 
@@ -93,8 +194,8 @@ fn members(
     source: &Source<'_>,
     structure: &Structure,
     train: &Train,
-    (stage, pairs): (&Component, &[[i64; 2]]),
-) -> Option<([Member; 3], f64)> {
+    (stage, pairs): (&Component, &[Stage]),
+) -> Option<Parts> {
     let in_scene = |ids: Vec<i64>| ids.into_iter().find(|&id| train.shaft(id).is_some());
     let is_ring = |id: i64| {
         let component = source.model.component(id);
@@ -104,7 +205,7 @@ fn members(
         let ring = is_ring(b).then_some((b, a));
         ring.or_else(|| is_ring(a).then_some((a, b)))
     };
-    let with_ring: Vec<(i64, i64)> = pairs.iter().copied().filter_map(mate).collect();
+    let with_ring: Vec<(i64, i64)> = pairs.iter().filter_map(|s| mate(s.gears)).collect();
     let &(ring, planet_b) = with_ring.first()?;
     let shaft_of = |gear: i64| structure.partners(gear, &["shaft"]).first().copied();
     let planets: HashSet<i64> = with_ring.iter().map(|&(_, p)| p).collect();
@@ -112,15 +213,19 @@ fn members(
     let is_planet = |gear: i64| {
         planets.contains(&gear) || shaft_of(gear).is_some_and(|own| pins.contains(&own))
     };
-    let with_sun = pairs.iter().filter(|p| !p.iter().any(|&g| is_ring(g)));
-    let suns: Vec<(i64, i64)> = with_sun
-        .filter_map(|&[a, b]| match (is_planet(a), is_planet(b)) {
-            (false, true) => Some((a, b)),
-            (true, false) => Some((b, a)),
-            _ => None,
-        })
+    let with_sun = pairs
+        .iter()
+        .filter(|p| !p.gears.iter().any(|&g| is_ring(g)));
+    let suns: Vec<(i64, i64, i64)> = with_sun
+        .filter_map(
+            |&Stage { id, gears: [a, b] }| match (is_planet(a), is_planet(b)) {
+                (false, true) => Some((a, b, id)),
+                (true, false) => Some((b, a, id)),
+                _ => None,
+            },
+        )
         .collect();
-    let &(sun, planet_a) = suns.first()?;
+    let &(sun, planet_a, first_stage) = suns.first()?;
     let is_one = suns.iter().all(|s| s.0 == sun) && with_ring.iter().all(|r| r.0 == ring);
     let is_all = suns.len() + with_ring.len() == pairs.len();
     if !is_one || !is_all {
@@ -134,33 +239,42 @@ fn members(
     let ratio = -teeth(planet_a)? * teeth(ring)? / (teeth(sun)? * teeth(planet_b)?);
     let carriers = structure.planetary_shafts(stage.id, "planet_carrier_shaft");
     let carrier = in_scene(carriers.clone());
+    let mut planets_of_sun: Vec<i64> = suns.iter().map(|s| s.1).collect();
+    let mut seen = HashSet::new();
+    planets_of_sun.retain(|planet| seen.insert(*planet));
     let member = |part: i64, name| Member {
         shaft: in_scene(structure.partners(part, &["shaft"])),
         part,
         name,
     };
-    Some((
-        [
-            member(sun, "sun"),
-            member(ring, "ring"),
-            Member {
-                shaft: carrier,
-                part: carrier.or(carriers.first().copied())?,
-                name: "carrier",
-            },
-        ],
+    let members = [
+        member(sun, "sun"),
+        member(ring, "ring"),
+        Member {
+            shaft: carrier,
+            part: carrier.or(carriers.first().copied())?,
+            name: "carrier",
+        },
+    ];
+    let carriers = carriers.into_iter().filter(|&id| train.shaft(id).is_some());
+    Some(Parts {
+        members,
         ratio,
-    ))
+        is_simple: seen == planets,
+        planets: planets_of_sun,
+        first_stage,
+        carriers: carriers.collect(),
+    })
 }
 
-/// Links the two members that turn; says what was done.
-fn couple(
+/// Links the two members that turn: which one stands, and the link.
+fn link(
     source: &Source<'_>,
     train: &mut Train,
-    (stage, acting): (&Component, &mut Acting),
-    members: [Member; 3],
-    ratio: f64,
-) -> (About, String) {
+    (stage, acting): (&Component, &Acting),
+    parts: &Parts,
+) -> Option<(usize, usize)> {
+    let (members, ratio) = (&parts.members, parts.ratio);
     let turns = |m: &Member| {
         m.shaft
             .is_some_and(|id| is_driven(source, acting, m.part, id))
@@ -175,27 +289,42 @@ fn couple(
             let names = members.iter().zip(&turning).filter(|(_, t)| **t);
             let names: Vec<&str> = names.map(|(m, _)| m.name).collect();
             let what = format!(
-                "speeds and torques do not pass through: of sun, ring and carrier two must turn, the third one stands; on shafts with a load, another gear or a coupling are: {}",
+                "the scene has no planets and no mesh of it, and speeds and torques do not pass through (differentials, of which three members turn, are not taken over): of sun, ring and carrier two must turn, the third one stands; on shafts with a load, another gear or a coupling are: {}",
                 if names.is_empty() {
                     "none".to_owned()
                 } else {
                     names.join(", ")
                 }
             );
-            return (About::Lost, what);
+            source.leave_out(stage, About::Lost, what);
+            return None;
         }
     };
     let shafts = pair.map(|i| members[i].shaft.unwrap_or_default());
-    let link = train.links.len();
     train.links.push(Link {
         shafts,
         ratio: relative,
     });
-    let middle = members[pair[0]].part;
+    Some((standing, train.links.len() - 1))
+}
+
+/// Torques on the shafts of the two members that turn; says what they are.
+fn torques(
+    train: &mut Train,
+    (stage, parts): (&Component, &Parts),
+    (turning, link): (&[usize], usize),
+) -> String {
+    let members = &parts.members;
+    let (shafts, relative) = (train.links[link].shafts, train.links[link].ratio);
+    let middle = members[turning[0]].part;
     let point = train
         .gear(middle)
         .and_then(|g| Some(train.shaft(g.shaft)?.frame?.point([g.mid_mm, 0.0, 0.0])));
-    for (side, (&shaft, member)) in shafts.iter().zip(pair.map(|i| &members[i])).enumerate() {
+    for (side, (&shaft, member)) in shafts
+        .iter()
+        .zip(turning.iter().map(|&i| &members[i]))
+        .enumerate()
+    {
         let Some(own) = train.shaft(shaft) else {
             continue;
         };
@@ -206,7 +335,6 @@ fn couple(
         } else {
             along
         };
-        acting.joined.insert(shaft);
         train.planetary.push(TorqueSeat {
             shaft,
             u_mm,
@@ -218,16 +346,14 @@ fn couple(
             },
         });
     }
-    let [a, b] = pair.map(|i| members[i].name);
-    let what = format!(
-        "its {} stands, {b} turns {relative:.6} times as fast as {a}: torques pass through, and act on the shafts of both in the scene; no forces: across the axis they cancel between planets, along the axis those of helical teeth are left out",
-        members[standing].name
-    );
-    (About::Support, what)
+    let [a, b] = [turning[0], turning[1]].map(|i| members[i].name);
+    format!(
+        "{b} turns {relative:.6} times as fast as {a}: torques pass through, and act on the shafts of both in the scene; no forces: across the axis they cancel between planets, along the axis those of helical teeth are left out"
+    )
 }
 
 /// Whether something but the stage itself may turn a shaft: a load that transmits torque, another gear, a coupling to
-/// another shaft.
+/// another shaft, another planetary stage.
 fn is_driven(source: &Source<'_>, acting: &Acting, part: i64, shaft: i64) -> bool {
     let component = source.model.component(shaft);
     let stands = component.is_some_and(|c| {
@@ -237,5 +363,6 @@ fn is_driven(source: &Source<'_>, acting: &Acting, part: i64, shaft: i64) -> boo
     let stands = stands || acting.braked.contains(&shaft);
     let mates = acting.gears.get(&shaft).into_iter().flatten();
     let has_mate = { mates }.any(|gear| *gear != part);
-    !stands && (acting.loaded.contains(&shaft) || has_mate || acting.joined.contains(&shaft))
+    let passes = acting.joined.contains(&shaft) || acting.shared.contains(&shaft);
+    !stands && (acting.loaded.contains(&shaft) || has_mate || passes)
 }

@@ -8,6 +8,7 @@ use crate::gear_bodies::gear_bodies;
 use crate::in_time::{DAMPING_S, Running, run_tables};
 use crate::ledger::About;
 use crate::placement::Frame;
+use crate::planetary_set;
 use crate::shaft::Shaft;
 use crate::source::Source;
 use crate::text::{comment, number, numbers, quoted};
@@ -26,7 +27,7 @@ pub enum Meshes {
 
 impl Meshes {
     /// What a body names as its gear.
-    fn gear(self, file: &str) -> String {
+    pub fn gear(self, file: &str) -> String {
         match self {
             Self::Iso6336 => file.to_owned(),
             Self::Hybrid => model_file(file),
@@ -95,6 +96,7 @@ pub fn scene(
         .iter()
         .for_each(|load| text.push_str(&load.text()));
     meshes(&mut text, train, with, running);
+    text.push_str(&planetary_set::tables(train, with, running));
     Ok((text, held))
 }
 
@@ -236,6 +238,22 @@ fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLoad])
             let radius_m = 0.5e-3 * seated.gear.reference_diameter_mm();
             let force = torque_nm * seated.gear.helix_deg.to_radians().tan() / radius_m;
             *axial_n.entry(seated.shaft).or_insert(0.0) += force;
+        }
+    }
+    for set in &train.sets {
+        let Some(torques) = train.flow.link_nm.get(set.link).copied().flatten() else {
+            is_known = false;
+            continue;
+        };
+        // Of all planets together, as of one mesh. A carrier takes none: its planets feel sun and ring alike.
+        let sun = &train.gears[set.sun];
+        let ring = &train.gears[set.ring];
+        for (seated, torque_nm) in [(sun, torques[0]), (ring, torques[1])] {
+            let radius_m = 0.5e-3 * seated.gear.reference_diameter_mm();
+            let force = torque_nm * seated.gear.helix_deg.to_radians().tan() / radius_m;
+            if seated.shaft >= 0 {
+                *axial_n.entry(seated.shaft).or_insert(0.0) += force;
+            }
         }
     }
     // What pushes a loose gear goes on to the shaft that carries it.

@@ -14,6 +14,7 @@ use crate::microgeometry;
 use crate::model::Component;
 use crate::placement::frame;
 use crate::planetary;
+use crate::planetary_set::PlanetarySet;
 use crate::power_flow::{Flow, Link};
 use crate::shaft::{self, Shaft};
 use crate::source::Source;
@@ -23,7 +24,7 @@ use crate::text::{Names, file_stem};
 use crate::train_finish::{finish_gears, finish_shafts, power};
 use crate::train_places::{place_shafts, settle_middles};
 use crate::units::MM;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// A gear on its shaft.
 #[derive(Debug, Clone)]
@@ -102,8 +103,12 @@ pub struct Train {
     pub meshes: Vec<Mesh>,
     /// Bevel gears.
     pub bevels: Vec<BevelSeat>,
-    /// Members of planetary stages.
+    /// Planetary stages of the scene.
+    pub sets: Vec<PlanetarySet>,
+    /// Members of planetary stages that the scene does not have.
     pub planetary: Vec<TorqueSeat>,
+    /// Bearings between shafts of planets and their pins, by either of these.
+    pub of_planets: BTreeMap<i64, Vec<Bearing>>,
     /// Bearings.
     pub bearings: Vec<Bearing>,
     /// Couplings.
@@ -168,7 +173,9 @@ pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Tr
         gears: ByNumber::default(),
         meshes: Vec::new(),
         bevels: Vec::new(),
+        sets: Vec::new(),
         planetary: Vec::new(),
+        of_planets: BTreeMap::new(),
         bearings: Vec::new(),
         couplings: Vec::new(),
         loads: Vec::new(),
@@ -177,15 +184,9 @@ pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Tr
         flow: Flow::default(),
     };
     for component in source.model.of_kind(&["shaft"]) {
-        if let Some(role) = structure
-            .planetary_role(component.id)
-            .filter(|r| r.starts_with("planet_") && *r != "planet_carrier_shaft")
-        {
-            source.leave_out(
-                component,
-                About::Nothing,
-                format!("{role}: planetary stages are not in the scene"),
-            );
+        // Planets of the scene have no shafts.
+        let role = structure.planetary_role(component.id);
+        if role.is_some_and(|r| r != "planet_carrier_shaft") {
             continue;
         }
         let place = frame(source, component)?;
@@ -218,10 +219,7 @@ fn seat_gears(
     files: &mut Names,
     stem: &str,
 ) -> Result<(), RexsError> {
-    for component in source
-        .model
-        .of_kind(&["ring_gear", "worm_gear", "worm_wheel"])
-    {
+    for component in source.model.of_kind(&["worm_gear", "worm_wheel"]) {
         source.leave_out(
             component,
             About::Nothing,
@@ -229,12 +227,22 @@ fn seat_gears(
         );
     }
     let shift_index = coupling::shift_index(source)?;
-    for component in source.model.of_kind(&["cylindrical_gear"]) {
+    for component in source.model.of_kind(&["cylindrical_gear", "ring_gear"]) {
         let name = names.unique(&component.name, component.id);
         let file = files.unique(&format!("{stem}_{}", file_stem(&name)), component.id);
         let file = format!("{}.toml", file_stem(&file));
-        let gear = gear::read(source, structure, component, name, file)?;
-        let seat = loose_gears::seat(source, structure, train, component, shift_index);
+        let gear = match gear::read(source, structure, component, name, file) {
+            // Sets go without planets where files say little of their rings.
+            Err(error @ RexsError::Missing { .. }) if component.kind == "ring_gear" => {
+                source.leave_out(component, About::Lost, error.to_string());
+                continue;
+            }
+            read => read?,
+        };
+        // Rings are seated with their planetary stage.
+        let seat = (!gear.internal)
+            .then(|| loose_gears::seat(source, structure, train, component, shift_index))
+            .flatten();
         let start = source.number(component, "u_coordinate_on_shaft", MM)?;
         let shaft = match seat {
             Some(Seat::Fixed(id)) => id,
@@ -253,21 +261,6 @@ fn seat_gears(
             shaft,
             mid_mm,
         });
-        if seat.is_none() {
-            // Planets stand on pins, which scenes do not have.
-            let shafts = structure.partners(component.id, &["shaft"]);
-            let is_planet = |id: &i64| structure.planetary_role(*id).is_some();
-            let about = if shafts.iter().any(is_planet) {
-                About::Nothing
-            } else {
-                About::Lost
-            };
-            source.leave_out(
-                component,
-                about,
-                "on no shaft of the scene: its file is written, the scene does not have it",
-            );
-        }
     }
     Ok(())
 }
@@ -295,15 +288,15 @@ fn join_stages(
                 };
                 let [Some(a), Some(b)] = gears.map(place) else {
                     // Stages of planets are reported with the planetary stage.
-                    let planetary = structure.partners(stage.id, &["planetary_stage"]);
-                    let about = if planetary.is_empty() {
-                        About::Lost
-                    } else {
-                        About::Nothing
-                    };
+                    if !structure
+                        .partners(stage.id, &["planetary_stage"])
+                        .is_empty()
+                    {
+                        continue;
+                    }
                     source.leave_out(
                         stage,
-                        about,
+                        About::Lost,
                         format!(
                             "between {} and {}, of which the scene does not have both",
                             g1.words(),

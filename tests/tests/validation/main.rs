@@ -12,6 +12,7 @@ mod mesh_convergence;
 mod mesh_error_estimate;
 mod pairs_a_and_b;
 mod plane_strain_deflection;
+mod planet_bore;
 mod planet_in_ring;
 mod ring_deflection;
 mod slice_deflection;

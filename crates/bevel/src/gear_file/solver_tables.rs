@@ -104,6 +104,7 @@ impl ReductionTable {
             roll_stations: self.profile_stations.map_or(9, Count::get),
             slices: self.slices.map_or(15, Count::get),
             flanks: loaded_flanks(self.flanks, &keys)?,
+            bore: None,
         })
     }
 }

@@ -26,6 +26,7 @@ mod pages;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;
 mod plan;
+mod planetary_gearbox;
 mod random_gearboxes;
 mod recover;
 mod report;

@@ -91,6 +91,7 @@ pub fn made_up_bevel(flanks: &BevelSlices, member: usize) -> ReducedGear {
         crack: None,
         hub_patterns: None,
         shaft_faces: None,
+        bore: None,
         bevel: Some(BevelBody {
             member: [BevelMember::Pinion, BevelMember::Gear][member],
             points_m: all()

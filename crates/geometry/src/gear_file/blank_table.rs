@@ -3,9 +3,9 @@
 use super::contour_table::{ContourRoom, WebPointTable, check_contour, check_fillets};
 use super::openings_table::{HolesTable, SlotsTable, check_openings};
 use super::{MM, TableKeys};
-use crate::blank::{Blank, Contour, CutIntoShaft, LengthUnit, MeshedBody, Rim, Web};
+use crate::blank::{Blank, Contour, CutIntoShaft, LengthUnit, Lugs, MeshedBody, Rim, Web};
 use crate::definition::ToothDefinition;
-use crate::input::{InputDocument, InputError};
+use crate::input::{Bounded, Count, InputDocument, InputError, Within};
 use crate::kinds;
 use crate::tooth::ToothGeometry;
 use schemars::JsonSchema;
@@ -89,9 +89,48 @@ pub(super) struct ContourTable {
 pub(super) struct RingTable {
     /// Outer diameter.
     outer_diameter_mm: f64,
-    /// Back and front of the band of the outside at which the ring is held, from mid-face; the whole outside where not
+    /// Back and front of the band of the outside at which the ring is held, from mid-face; the whole width where not
     /// given.
     held_band_mm: Option<[f64; 2]>,
+    /// Lugs, keys or bolts that hold the ring; all round where not given.
+    lugs: Option<LugsTable>,
+}
+
+/// Equal parts of the outside that are held, evenly round it.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct LugsTable {
+    /// Number of them.
+    count: Count<2, 1000>,
+    /// Angle that each covers.
+    width_deg: f64,
+    /// Angle of the middle of the first one from the middle of tooth 0, counter-clockwise; 0 where not given.
+    phase_deg: Option<Bounded<Within<-360, 360>>>,
+}
+
+impl LugsTable {
+    /// `outer_radius_m` of the ring, `least_m`: shortest part that elements can follow, held or free.
+    fn check(
+        &self,
+        keys: &TableKeys<'_>,
+        outer_radius_m: f64,
+        least_m: f64,
+    ) -> Result<Lugs, InputError> {
+        let lugs = Lugs {
+            count: self.count.get(),
+            width_rad: self.width_deg.to_radians(),
+            phase_rad: (self.phase_deg.as_deref()).map_or(0.0, |deg| deg.to_radians()),
+        };
+        let (least_rad, repeat) = (least_m / outer_radius_m, lugs.repeat_rad());
+        let [least_deg, most_deg] = [least_rad, repeat - least_rad].map(f64::to_degrees);
+        keys.require(
+            "lugs.width_deg",
+            self.width_deg,
+            (least_deg..=most_deg).contains(&self.width_deg),
+            &format!("{least_deg:.4} to {most_deg:.4}: half a module or more of the outside is held, and as much is free between two"),
+        )?;
+        Ok(lugs)
+    }
 }
 
 /// The keys of `kind = "mesh"`. The mesh has its openings.
@@ -339,6 +378,9 @@ impl RingTable {
         Ok(Blank::Ring(Rim {
             outer_radius_m: 0.5 * outer_mm * MM,
             held_z_m: self.held_band_mm.map(|band| band.map(|z| z * MM)),
+            lugs: (self.lugs.as_ref())
+                .map(|lugs| lugs.check(keys, 0.5 * outer_mm * MM, 0.5 * tooth.module_m))
+                .transpose()?,
         }))
     }
 }

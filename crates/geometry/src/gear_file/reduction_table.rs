@@ -1,7 +1,7 @@
 //! `[reduction]`: what the offline stage computes.
 
 use super::TableKeys;
-use crate::definition::{Flank, ReductionSettings, Symmetry};
+use crate::definition::{BoreMotions, Flank, ReductionSettings, Symmetry};
 use crate::input::{Count, InputDocument, InputError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,6 +19,35 @@ pub(super) struct ReductionTable {
     /// "auto" uses that the gear repeats, "off" factorises all of it for comparison; "auto" where not given.
     #[serde(default)]
     symmetry: Symmetry,
+    /// Motions of the bore, for bodies whose bore slides on a pin or is carried by rollers; none where not given.
+    bore: Option<BoreTable>,
+}
+
+/// The keys of `[reduction.bore]`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct BoreTable {
+    /// Highest harmonic around the bore: radial, tangential and axial motions of it are solved for.
+    harmonics: Count<2, 200>,
+    /// Polynomials along the bore: 1 constant, 2 linear, too, and so on; 3 where not given, 1 in plane strain.
+    along: Option<Count<1, 9>>,
+}
+
+impl BoreTable {
+    fn check(&self, keys: &TableKeys<'_>, plane_strain: bool) -> Result<BoreMotions, InputError> {
+        let default = if plane_strain { 1 } else { 3 };
+        let along = self.along.map_or(default, Count::get);
+        // A body that moves in space tilts, which is linear along its bore.
+        let (ok, allowed) = match plane_strain {
+            true => (along == 1, "1 in plane strain"),
+            false => (along > 1, "2 or more: the bore tilts"),
+        };
+        keys.require("bore.along", along as f64, ok, allowed)?;
+        Ok(BoreMotions {
+            harmonics: self.harmonics.get(),
+            along,
+        })
+    }
 }
 
 impl ReductionTable {
@@ -38,6 +67,9 @@ impl ReductionTable {
             roll_stations: self.roll_stations.map_or(9, Count::get),
             slices,
             flanks: loaded_flanks(self.flanks, &keys)?,
+            bore: (self.bore.as_ref())
+                .map(|bore| bore.check(&keys, plane_strain))
+                .transpose()?,
         })
     }
 }

@@ -182,6 +182,16 @@ fn the_file_of_a_ring_is_read_and_checked() {
         ),
         (
             "[material]",
+            "[reduction.bore]\nharmonics = 8\n[material]",
+            "reduction.bore: blank.kind = \"ring\", which is held outside, does not use it",
+        ),
+        (
+            "[material]",
+            "[blank.lugs]\ncount = 6\nwidth_deg = 59.9\n[material]",
+            "blank.lugs.width_deg: found 59.9, allowed is",
+        ),
+        (
+            "[material]",
             "[crack]\ntooth = 0\nside = \"right\"\ndepth_mm = 0.5\ntangent_deg = 45.0\n[material]",
             "cracks are made in external teeth only",
         ),

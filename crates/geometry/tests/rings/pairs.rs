@@ -196,3 +196,47 @@ fn tips_collide_where_the_closed_condition_says() {
     }
     assert!(seen[0] > 3 && seen[1] > 3, "{seen:?}");
 }
+
+/// The condition for trimming that handbooks print (KHK, Gear technical reference, internal gears), from memory: it
+/// decides as the least room does, which is found over all places, and the room is zero where its two sides are equal.
+#[test]
+fn gears_come_into_their_ring_radially_where_the_closed_condition_says() {
+    let (mut free, mut trimmed) = (0, 0);
+    for difference in 8..30 {
+        let [planet, ring] = [external(30, 0.0), broached(30 + difference, 0.0)];
+        let ring = ToothDefinition {
+            addendum: 0.8,
+            ..ring
+        };
+        let planet = ToothDefinition {
+            addendum: 0.8,
+            ..planet
+        };
+        let [planet, ring] = [geometry(&planet), geometry(&ring)];
+        let a = ring.reference_radius_m - planet.reference_radius_m;
+        let Ok(pair) = GearPair::new(planet.clone(), ring.clone(), a, Misalignment::default())
+        else {
+            continue;
+        };
+        let tips = [&planet, &ring].map(|gear| (gear.base_radius_m / gear.tip_radius_m).acos());
+        let inv = |angle: f64| angle.tan() - angle;
+        let (k, c) = (
+            30.0 / (30 + difference) as f64,
+            tips[0].cos() / tips[1].cos(),
+        );
+        let theta_1 = ((1.0 - c * c) / (1.0 - k * k)).sqrt().asin();
+        let theta_2 = ((c.powi(-2) - 1.0) / (k.powi(-2) - 1.0)).sqrt().asin();
+        let working = inv(pair.working_pressure_angle_rad);
+        let room = (theta_1 + inv(tips[0]) - working) * k - (theta_2 + inv(tips[1]) - working);
+        let found = pair.radial_room_m().unwrap();
+        // Found in steps of the angle about a flat least.
+        assert!(
+            (found - room * ring.tip_radius_m).abs() < 1e-8,
+            "{difference}: {found:e} {:e}",
+            room * ring.tip_radius_m
+        );
+        free += usize::from(found > 0.0);
+        trimmed += usize::from(found < 0.0);
+    }
+    assert!(free > 3 && trimmed > 2, "{free} {trimmed}");
+}

@@ -209,6 +209,7 @@ pub fn reduce_bevel(
         crack: None,
         hub_patterns: None,
         shaft_faces: None,
+        bore: None,
         bevel: Some(BevelBody {
             near_field: Some(near_field),
             ..surface(gear, &patches, &grid)

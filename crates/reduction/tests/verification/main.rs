@@ -2,6 +2,7 @@
 //! other.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
+mod bore_patterns;
 mod cut_into_shaft;
 mod cut_with_stubs;
 mod cyclic_symmetry;

@@ -117,11 +117,16 @@ fn both_ways_to_solve_a_ring_agree() {
             "outer_diameter_mm = 132.0\nheld_band_mm = [-6.0, 0.0]\n",
             "helix_angle_deg = 10.0\nhand = \"right\"\n",
         ),
+        (
+            "outer_diameter_mm = 132.0\n[blank.lugs]\ncount = 9\nwidth_deg = 13.0\nphase_deg = 7.0\n",
+            ROUND,
+        ),
     ] {
         let gear = ring(blank, COARSE, tooth);
         let (cyclic, _) = reduced(&gear, false);
         let (whole, _) = reduced(&without_symmetry(&gear), false);
-        assert_eq!(gear.sectors(), TEETH);
+        let lugs = gear.blank.rim().unwrap().lugs;
+        assert_eq!(gear.sectors(), lugs.map_or(TEETH, |lugs| lugs.count));
         assert!(difference(&whole.c_hub, &cyclic.c_hub) < 1e-9);
         assert!(difference(&whole.gauges[0].adjoint, &cyclic.gauges[0].adjoint) < 1e-9);
         for model in [&cyclic, &whole] {
@@ -145,6 +150,47 @@ fn left_and_right_flanks_of_a_ring_are_mirror_images() {
         // gmsh's quads in the body are not exact mirror images: the bound is their effect on a coarse mesh.
         let off = difference(&right, &left);
         assert!(off < 5e-3, "{tooth} {off:e}");
+    }
+}
+
+/// Lugs that repeat with the teeth or not, across cuts and beside them, on straight and helical teeth: held are the
+/// nodes between two edges, and nodes lie on both.
+#[test]
+fn lugs_are_held_from_edge_to_edge() {
+    let helical = "helix_angle_deg = 15.0\nhand = \"left\"\n";
+    for (count, width_deg, phase_deg, mesh, tooth) in [
+        (6, 10.0, 0.0, "plane_strain = true\n", ROUND),
+        (9, 13.0, 7.0, "plane_strain = true\n", ROUND),
+        (7, 20.0, -3.0, "plane_strain = true\n", ROUND),
+        (36, 4.0, 1.0, "plane_strain = true\n", ROUND),
+        (4, 30.0, 2.0, COARSE, helical),
+    ] {
+        let blank = format!(
+            "outer_diameter_mm = 140.0\n[blank.lugs]\ncount = {count}\nwidth_deg = {width_deg:?}\nphase_deg = {phase_deg:?}\n"
+        );
+        let gear = ring(&blank, mesh, tooth);
+        let made = GearMesh::new(&gear, &PythonEnvironment::find().unwrap()).unwrap();
+        assert!(made.quality.smallest > 0.2, "{count}: {:?}", made.quality);
+        let repeat = 360.0 / f64::from(count);
+        let from_middle = |node: u32| {
+            let [x, y, _] = made.nodes[node as usize];
+            let from: f64 = y.atan2(x).to_degrees() - phase_deg;
+            from - repeat * (from / repeat).round()
+        };
+        let held = made.held(&gear.blank);
+        for edge in [-0.5, 0.5] {
+            let on_edge = held
+                .iter()
+                .filter(|&&n| (from_middle(n) - edge * width_deg).abs() < 1e-9);
+            let levels = made.nodes.iter().map(|p| p[2].to_bits());
+            let levels = levels.collect::<std::collections::BTreeSet<_>>().len();
+            assert_eq!(on_edge.count(), count as usize * levels, "{count} {edge}");
+        }
+        assert!(
+            held.iter()
+                .all(|&n| from_middle(n).abs() < 0.5 * width_deg + 1e-9)
+        );
+        assert!(held.len() < made.bore().len());
     }
 }
 

@@ -59,6 +59,7 @@ impl Plan {
             pair.backlash_m() * 1e3,
             scene.flank.name()
         ));
+        text.extend((pair.assembly_words()).map(|words| format!("assembly   {words}")));
         if pair.is_helical() {
             text.push(format!(
                 "helix      gear 1 {} hand, gear 2 {} hand, base helix angle {:.4} deg, contact ratio transverse {:.4} + overlap {:.4} = total {:.4}",

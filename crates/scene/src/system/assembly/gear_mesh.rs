@@ -178,6 +178,9 @@ impl PreparedMesh {
         }
         scene.effects(parts);
         prepared.stage = Some(scene.stage());
+        let jams = pair.radial_room_m().is_some_and(|room_m| room_m < 0.0);
+        let assembly = pair.assembly_words().filter(|_| jams);
+        (parts.notes).extend(assembly.map(|words| format!("mesh `{}`: {words}", table.name)));
         parts.notes.extend(scene.stiffness_note()?);
         parts.notes.extend(scene.microgeometry_note());
         Ok(prepared)

@@ -1,0 +1,375 @@
+//! A planetary stage as `[[planetary]]` of the scene: sun on its shaft, carrier fixed to its own, ring held or on a
+//! shaft, planets on their bearings.
+
+use crate::bearing::{AxialSupport, Bearing, RIGID_TILT};
+use crate::in_time::{DAMPING_S, Running};
+use crate::ledger::About;
+use crate::model::Component;
+use crate::placement::{Frame, add, dot, frame};
+use crate::planetary::Parts;
+use crate::power_flow::Link;
+use crate::scene_text::Meshes;
+use crate::source::Source;
+use crate::structure::Structure;
+use crate::text::{number, numbers, quoted};
+use crate::train::Train;
+use crate::train_finish;
+use crate::units::MM;
+use std::f64::consts::TAU;
+
+/// A planetary stage of the scene.
+#[derive(Debug, Clone)]
+pub struct PlanetarySet {
+    /// Name in the scene.
+    pub name: String,
+    /// Places of sun, first planet and ring in [`Train::gears`].
+    pub sun: usize,
+    /// The first planet, for all.
+    pub planet: usize,
+    /// The ring; on no shaft where it stands.
+    pub ring: usize,
+    /// Distance of the planets from the axis \[mm\].
+    pub distance_mm: f64,
+    /// Angles of the planets in the axes of the set \[°\].
+    pub angles_deg: Vec<f64>,
+    /// Shafts of the carrier, and the place of the set along u \[mm\]; none of a carrier that stands.
+    pub carriers: Vec<(i64, f64)>,
+    /// Bearings of a planet with their places along the axis from the middle of its face \[mm\].
+    pub bearings: Vec<(f64, Bearing)>,
+    /// Its link in the flow of power, whose first side is the sun where that turns.
+    pub link: usize,
+}
+
+/// Reads the set of a stage; `standing` is the member that does not turn, 0 for the sun, 1 the ring, 2 the carrier.
+///
+/// # Errors
+/// Why the scene cannot have it, in words.
+pub fn read(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &mut Train,
+    (stage, parts): (&Component, &Parts),
+    (standing, link): (usize, usize),
+) -> Result<PlanetarySet, String> {
+    let [sun, ring, _] = &parts.members;
+    if standing == 0 {
+        return Err("sets whose sun stands pass torques only".to_owned());
+    }
+    if !parts.is_simple {
+        return Err("stepped planets pass torques only".to_owned());
+    }
+    let place = |id: i64| train.gears.place(id).ok_or("a gear is missing".to_owned());
+    let [sun, planet, ring_gear] = [sun.part, parts.planets[0], ring.part].map(place);
+    let (sun, planet, ring_gear) = (sun?, planet?, ring_gear?);
+    let [s, p, r] = [sun, planet, ring_gear].map(|i| &train.gears[i].gear);
+    if (s.helix_deg + p.helix_deg).abs() > 1e-6
+        || (r.helix_deg.abs() - p.helix_deg.abs()).abs() > 1e-6
+    {
+        return Err(format!(
+            "helix angles do not go together: sun {}, planet {}, ring {} deg",
+            s.helix_deg, p.helix_deg, r.helix_deg
+        ));
+    }
+    let hand = p.helix_deg;
+    let own = train.shaft(train.gears[sun].shaft).and_then(|s| s.frame);
+    let own = own.ok_or("the sun's shaft has no place")?;
+    let mid_mm = train.gears[sun].mid_mm;
+    let middle = own.point([mid_mm, 0.0, 0.0]);
+    let frames = parts.planets.iter().map(|&planet| {
+        let shaft = structure.partners(planet, &["shaft"]).first().copied()?;
+        frame(source, source.model.component(shaft)?).ok()?
+    });
+    let frames: Vec<Option<Frame>> = frames.collect();
+    let distance_mm = distance_mm(source, train, parts, (&own, &frames[0]), [sun, planet]);
+    let teeth = s.teeth + r.teeth;
+    let angles_deg = angles_deg(&own, &frames, teeth).unwrap_or_else(|| {
+        let about = "its planets have no places of their own around the axis: at equal angles";
+        source.assume(stage, About::Small, about);
+        equal_deg(parts.planets.len())
+    });
+    let reversed = frames[0].is_some_and(|f| dot(f.axes[0], own.axes[0]) < 0.0);
+    let bearings = of_planet(structure, train, (parts.planets[0], planet), reversed);
+    let ring_shaft = ring.shaft;
+    if standing == 2
+        && let Some(on) = ring_shaft
+        && let Some(frame) = train.shaft(on).and_then(|s| s.frame)
+    {
+        let seated = &mut train.gears[ring_gear];
+        (seated.shaft, seated.mid_mm) = (on, frame.u_of(middle));
+    }
+    train.gears[ring_gear].gear.helix_deg = hand;
+    let mut carriers = Vec::new();
+    for &id in parts.carriers.iter().filter(|_| standing != 2) {
+        let Some(shaft) = train.shaft(id) else {
+            continue;
+        };
+        let along = shaft.frame.map_or(0.0, |f| f.u_of(middle));
+        let [start, end] = shaft.ends_mm();
+        let u_mm = if start < end {
+            along.clamp(start, end)
+        } else {
+            along
+        };
+        carriers.push((id, u_mm));
+    }
+    // Both halves of a carrier turn as one.
+    let halves = carriers.windows(2).map(|pair| [pair[0].0, pair[1].0]);
+    train
+        .links
+        .extend(halves.map(|shafts| Link { shafts, ratio: 1.0 }));
+    source.assume(
+        stage,
+        About::Small,
+        format!(
+            "[[planetary]] of the scene: {} planets, all as the first one; its {} stands; carrier and pins are rigid",
+            parts.planets.len(),
+            parts.members[standing].name
+        ),
+    );
+    let name = match stage.name.is_empty() {
+        true => format!("planetary stage {}", stage.id),
+        false => stage.name.clone(),
+    };
+    Ok(PlanetarySet {
+        name,
+        sun,
+        planet,
+        ring: ring_gear,
+        distance_mm,
+        angles_deg,
+        carriers,
+        bearings,
+        link,
+    })
+}
+
+/// What the stage of sun and planet states, else the planet's place, else the reference circles.
+fn distance_mm(
+    source: &Source<'_>,
+    train: &Train,
+    parts: &Parts,
+    (sun, planet): (&Frame, &Option<Frame>),
+    gears: [usize; 2],
+) -> f64 {
+    let stage = source.model.component(parts.first_stage);
+    let stated = stage.and_then(|s| source.number(s, "center_distance", MM).ok().flatten());
+    let stated = stated.map(f64::abs).filter(|d| *d > 0.0);
+    let by_place = planet.map(|frame| {
+        let between = add(frame.origin_mm, sun.origin_mm, -1.0);
+        let along = dot(between, sun.axes[0]);
+        (dot(between, between) - along * along).max(0.0).sqrt()
+    });
+    let by_teeth = || {
+        gears
+            .iter()
+            .map(|&i| 0.5 * train.gears[i].gear.reference_diameter_mm())
+            .sum()
+    };
+    stated
+        .or(by_place.filter(|d| *d > 0.0))
+        .unwrap_or_else(by_teeth)
+}
+
+fn equal_deg(planets: usize) -> Vec<f64> {
+    (0..planets)
+        .map(|n| 360.0 * n as f64 / planets as f64)
+        .collect()
+}
+
+/// Angles of the planets about the sun's axis, counted as `[[planetary]]` does, at the nearest places where they fit; none
+/// where the file does not set them apart.
+fn angles_deg(sun: &Frame, frames: &[Option<Frame>], places: u32) -> Option<Vec<f64>> {
+    let [x, y, z] = sun.axes[0];
+    let (sin_a, cos_a) = if y.hypot(z) < 1e-12 {
+        (0.0, 1.0)
+    } else {
+        (-y / y.hypot(z), z / y.hypot(z))
+    };
+    let (sin_b, cos_b) = (x, y.hypot(z));
+    let across = [[cos_b, sin_a * sin_b, -cos_a * sin_b], [0.0, cos_a, sin_a]];
+    let mut found: Vec<f64> = Vec::new();
+    for frame in frames {
+        let between = add((*frame)?.origin_mm, sun.origin_mm, -1.0);
+        let [c, s] = across.map(|direction| dot(between, direction));
+        found.push(s.atan2(c));
+    }
+    let place = |angle: &f64| {
+        ((angle - found[0]) / TAU * f64::from(places))
+            .round()
+            .rem_euclid(f64::from(places))
+    };
+    let at: Vec<f64> = found.iter().map(place).collect();
+    let apart = |i: usize| !at[..i].contains(&at[i]);
+    let first = found[0].to_degrees();
+    (0..at.len()).all(apart).then(|| {
+        at.iter()
+            .map(|k| first + 360.0 * k / f64::from(places))
+            .collect()
+    })
+}
+
+/// Bearings between the shaft of a planet and its pin, with their places.
+fn of_planet(
+    structure: &Structure,
+    train: &Train,
+    (gear, place): (i64, usize),
+    reversed: bool,
+) -> Vec<(f64, Bearing)> {
+    let shafts = structure.partners(gear, &["shaft"]);
+    let mid_mm = Some(train.gears[place].mid_mm).filter(|mid| mid.is_finite());
+    let bearings = { shafts.iter() }.filter_map(|shaft| train.of_planets.get(shaft));
+    let on = bearings.flatten().filter_map(|bearing| {
+        let side = bearing
+            .sides
+            .iter()
+            .position(|side| shafts.contains(side))?;
+        let u_mm = bearing.u_mm[side].or(bearing.u_mm[1 - side]);
+        let z_mm = u_mm.zip(mid_mm).map_or(0.0, |(u, mid)| u - mid);
+        Some((if reversed { -z_mm } else { z_mm }, bearing.clone()))
+    });
+    let mut found: Vec<(f64, Bearing)> = on.collect();
+    if let [(_, only)] = &mut found[..] {
+        only.tilt_nm_per_rad = only.tilt_nm_per_rad.max(RIGID_TILT);
+    }
+    if let Some((_, first)) = found.first_mut()
+        && first.axial == AxialSupport::None
+    {
+        first.axial_n_per_mm = first
+            .axial_n_per_mm
+            .max(0.4 * first.radial_n_per_mm.max(1.0));
+    }
+    found
+}
+
+/// Makes teeth of sets thinner that have no backlash.
+pub fn give_backlash(source: &Source<'_>, train: &mut Train) {
+    for set in &train.sets {
+        for pair in [[set.sun, set.planet], [set.planet, set.ring]] {
+            train_finish::give_backlash(source, &mut train.gears, pair, set.distance_mm);
+        }
+    }
+}
+
+/// Tables of all sets.
+pub fn tables(train: &Train, with: Meshes, running: Running) -> String {
+    train
+        .sets
+        .iter()
+        .map(|set| set.tables(train, (with, running)))
+        .collect()
+}
+
+impl PlanetarySet {
+    fn tables(&self, train: &Train, (with, running): (Meshes, Running)) -> String {
+        let [sun, planet, ring] = [self.sun, self.planet, self.ring].map(|i| &train.gears[i]);
+        let Some(shaft) = train.shaft(sun.shaft) else {
+            return String::new();
+        };
+        let own = shaft.frame.unwrap_or(Frame::WORLD);
+        let carrier = format!("{} carrier", self.name);
+        let mut text = format!(
+            "\n[[planetary]]\nname = {}\nposition_mm = {}\naxis = {}\ncentre_distance_mm = {}\n",
+            quoted(&self.name),
+            numbers(&own.point([sun.mid_mm, 0.0, 0.0])),
+            numbers(&own.axes[0].map(|x| shaft.sign() * x)),
+            number(self.distance_mm)
+        );
+        if let Some([torque, _]) = train.flow.link_nm.get(self.link).copied().flatten()
+            && torque != 0.0
+        {
+            let sense = if torque > 0.0 { "positive" } else { "negative" };
+            text.push_str(&format!("sun_torque = \"{sense}\"\n"));
+        }
+        let model = match with {
+            Meshes::Iso6336 => "kind = \"iso6336\", slices = 9",
+            Meshes::Hybrid => "kind = \"hybrid\"",
+        };
+        let damping = match running {
+            Running::AtRest => String::new(),
+            Running::InTime => format!(
+                ", damping = {{ kind = \"stiffness-proportional\", time_s = {}, full_depth_um = 1.0 }}",
+                number(DAMPING_S)
+            ),
+        };
+        for (key, gears) in [("sun_mesh", [sun, planet]), ("ring_mesh", [planet, ring])] {
+            let plain =
+                gears.iter().any(|g| !g.gear.microgeometry.is_empty()) && with == Meshes::Iso6336;
+            let plain = if plain { ", microgeometry = false" } else { "" };
+            text.push_str(&format!(
+                "{key} = {{ model = {{ {model}{damping} }}{plain} }}\n"
+            ));
+        }
+        text.push_str(&format!("sun = {{ body = {} }}\n", quoted(&sun.gear.name)));
+        let gear = |file: &str| quoted(&with.gear(file));
+        text.push_str(&match ring.shaft {
+            0.. => format!("ring = {{ body = {} }}\n", quoted(&ring.gear.name)),
+            _ => format!(
+                "ring = {{ gear = {}, support = \"held\" }}\n",
+                gear(&ring.gear.file)
+            ),
+        });
+        // A steel disc through the pins, as thick as half a face: at rest it does not count.
+        let radius_m = 1e-3 * self.distance_mm;
+        let mass = 7850.0 * 0.5e-3 * planet.gear.face_width_mm * 0.5 * TAU * radius_m * radius_m;
+        let across = 0.25 * mass * radius_m * radius_m;
+        let support = if self.carriers.is_empty() {
+            "held"
+        } else {
+            "free"
+        };
+        text.push_str(&format!(
+            "carrier = {{ mass_kg = {}, inertia_kg_m2 = {}, support = \"{support}\" }}\n",
+            number(mass),
+            numbers(&[across, across, 2.0 * across])
+        ));
+        let bearings: Vec<String> = self.bearings.iter().map(|b| bearing(b, running)).collect();
+        let bearings = match bearings.is_empty() {
+            true => String::new(),
+            false => format!(", bearings = [{}]", bearings.join(", ")),
+        };
+        text.push_str(&format!(
+            "planets = {{ gear = {}, angles_deg = {}{bearings} }}\n",
+            gear(&planet.gear.file),
+            numbers(&self.angles_deg)
+        ));
+        for (id, u_mm) in &self.carriers {
+            if let Some(shaft) = train.shaft(*id) {
+                text.push_str(&format!(
+                    "\n[[joint]]\nname = {}\nkind = \"fixed\"\nbody_1 = {}\nbody_2 = {}\n",
+                    quoted(&format!("{carrier} on {}", shaft.name)),
+                    quoted(&shaft.body(*u_mm)),
+                    quoted(&carrier)
+                ));
+            }
+        }
+        text
+    }
+}
+
+/// A bearing of a planet as `[[planetary]]` has it.
+fn bearing((z_mm, bearing): &(f64, Bearing), running: Running) -> String {
+    let mut model = "kind = \"linear\"".to_owned();
+    for (way, stiffness, [unit, damping]) in [
+        (
+            "radial",
+            bearing.radial_n_per_mm,
+            ["N_per_mm", "N_s_per_mm"],
+        ),
+        ("axial", bearing.axial_n_per_mm, ["N_per_mm", "N_s_per_mm"]),
+        (
+            "tilt",
+            bearing.tilt_nm_per_rad,
+            ["Nm_per_rad", "Nm_s_per_rad"],
+        ),
+    ] {
+        if stiffness == 0.0 && way != "radial" {
+            continue;
+        }
+        model.push_str(&format!(", {way}_stiffness_{unit} = {}", number(stiffness)));
+        if running == Running::InTime {
+            let value = number(DAMPING_S * stiffness);
+            model.push_str(&format!(", {way}_damping_{damping} = {value}"));
+        }
+    }
+    format!("{{ z_mm = {}, model = {{ {model} }} }}", number(*z_mm))
+}
