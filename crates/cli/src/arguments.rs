@@ -139,9 +139,30 @@ pub struct RunArguments {
     /// Largest result that is written: rows of all columns, or the forces of all positions of a pair
     #[arg(long = "most-result-GB", default_value = "1", value_parser = positive)]
     pub most_result_gb: f64,
+    /// Run in the cheapest setting that is found to be this exact, as `1%`: a few runs, each one rung finer, from where
+    /// scenes of the same kind were; the scene's own values of these settings do not count
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    pub accuracy: Option<f64>,
+    /// What is to be that exact, as in `gearmesh accuracy`
+    #[arg(long, value_delimiter = ',', requires = "accuracy")]
+    pub columns: Vec<String>,
+    /// Runs in time: what is to be exact counts from this time on
+    #[arg(long, default_value = "0", requires = "accuracy")]
+    pub from_s: f64,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// A share, written in percent.
+fn percent(text: &str) -> Result<f64, String> {
+    let number = text
+        .strip_suffix('%')
+        .map(|number| number.trim().parse::<f64>());
+    match number {
+        Some(Ok(value)) if value > 0.0 && value <= 50.0 => Ok(0.01 * value),
+        _ => Err("allowed is more than 0 % and at most 50 %, written as 1%".to_owned()),
+    }
 }
 
 /// A number that is more than zero.

@@ -8,8 +8,8 @@ use crate::{output_name, overwriting, page_file};
 use gearmesh_report::accuracy_page::{accuracy_page, goal_in_words};
 use gearmesh_report::short;
 use gearmesh_scene::accuracy::{
-    Accuracy, Advice, Bench, BenchOptions, EffectFound, Goal, JudgedTime, Tried, accuracy as judge,
-    words,
+    Accuracy, Advice, Bench, BenchOptions, EffectFound, Goal, JudgedTime, Reduce, Tried,
+    accuracy as judge, words,
 };
 use gearmesh_scene::study::{Effort, Wanted};
 use serde::Deserialize;
@@ -51,25 +51,8 @@ pub fn accuracy(a: &AccuracyRequest, watch: &Watch<'_>) -> Result<Accuracy, Fail
         output_name::demand_page(path)?;
     }
     let scratch = Scratch::new()?;
-    let models = match &a.elements {
-        Some(folder) => folder.clone(),
-        None => scratch.path().to_owned(),
-    };
-    let options = BenchOptions {
-        wanted: a.columns.iter().map(|c| Wanted::of(c)).collect(),
-        from_s: a.from_s,
-        time: match a.by_processor_time {
-            false => JudgedTime::Wall,
-            true => JudgedTime::Processor,
-        },
-        repeated_for_s: REPEATED_FOR_S,
-        elements: a.elements.is_some(),
-        scratch: scratch.path(),
-        models: &models,
-        stop: watch.stop,
-        reduce: &|gear| reduced_for_study(gear, watch),
-    };
-    let bench = Bench::new(&a.scene, options)?;
+    let reduce = |gear: &_| reduced_for_study(gear, watch);
+    let bench = bench_of(a, &scratch, &reduce, watch)?;
     let task = watch.listener.begin("settings");
     let found = judge(&bench, &|done, count| {
         task.advance(done as f64, count as f64);
@@ -82,6 +65,30 @@ pub fn accuracy(a: &AccuracyRequest, watch: &Watch<'_>) -> Result<Accuracy, Fail
         page_file::write(&accuracy_page(&scene, &found), path, watch)?;
     }
     Ok(found)
+}
+
+/// The scene with its columns, to be run in other settings. `reduce` makes the models that a setting needs.
+pub(crate) fn bench_of<'a>(
+    a: &'a AccuracyRequest,
+    scratch: &'a Scratch,
+    reduce: Reduce<'a>,
+    watch: &'a Watch<'_>,
+) -> Result<Bench<'a>, Failure> {
+    let options = BenchOptions {
+        wanted: a.columns.iter().map(|c| Wanted::of(c)).collect(),
+        from_s: a.from_s,
+        time: match a.by_processor_time {
+            false => JudgedTime::Wall,
+            true => JudgedTime::Processor,
+        },
+        repeated_for_s: REPEATED_FOR_S,
+        elements: a.elements.is_some(),
+        scratch: scratch.path(),
+        models: a.elements.as_deref().unwrap_or_else(|| scratch.path()),
+        stop: watch.stop,
+        reduce,
+    };
+    Ok(Bench::new(&a.scene, options)?)
 }
 
 /// What was advised was run once more: it must keep its word.
@@ -120,6 +127,10 @@ pub fn figures(found: &Accuracy) -> Value {
     let setting = |one: &Tried| {
         let mut value = effort(&one.effort);
         value["setting"] = json!(words(&found.knobs, &one.rungs));
+        let rungs = found.knobs.iter().zip(&one.rungs);
+        value["rungs"] = rungs
+            .map(|(knob, rung)| (knob.name.clone(), json!(rung)))
+            .collect();
         value["one_knob_alone"] = json!(one.alone.is_some());
         value["errors"] = json!(by_column(&one.errors));
         value["reduction_s"] = json!(one.reduction_s);
@@ -133,6 +144,7 @@ pub fn figures(found: &Accuracy) -> Value {
     };
     let advice = |one: &Advice| json!({"goal": goal_in_words(one.goal), "toml": one.toml, "run_again": setting(&one.tried)});
     json!({
+        "kind": found.kind,
         "tried": found.tried.iter().map(setting).collect::<Vec<_>>(),
         "advice": found.advice.iter().map(advice).collect::<Vec<_>>(),
         "effects": found.effects.iter().map(effect).collect::<Vec<_>>(),

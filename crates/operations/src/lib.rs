@@ -55,6 +55,7 @@ pub mod reduce;
 pub mod report;
 pub mod result_stress;
 pub mod run;
+pub mod run_within;
 pub mod schema;
 mod scratch;
 mod sets;

@@ -1,7 +1,8 @@
 //! `gearmesh run`: balances, harmonics, local terms, paths of contact, ratings.
 
 use crate::common::{
-    Desk, SOLID, THIN, argument, changed, largest_difference, number, run_scene, succeeds, workshop,
+    Desk, SOLID, THIN, argument, changed, gearmesh, largest_difference, number, refused, run_scene,
+    succeeds, workshop,
 };
 use crate::{hybrid_scene, largest, recovered};
 use gearmesh_scene::SceneResult;
@@ -27,6 +28,48 @@ fn run_balances_the_torque() {
     }
     assert!(number(&rows[1]["te_mean_m"]) < number(&rows[0]["te_mean_m"]));
     assert_eq!(figures["warnings"], serde_json::json!([]));
+}
+
+/// `--accuracy`: the figures are those of the lines that are printed to paste; a goal out of reach is a warning.
+#[test]
+fn a_run_within_a_goal_is_that_of_the_setting_it_names() {
+    let desk = Desk::new();
+    let scene = desk.file("scene.toml", workshop().scene(""));
+    let run = |goal: &str, name: &str| {
+        let output = desk.path(name);
+        let words = ["run", argument(&scene), "-o", argument(&output), "--json"];
+        let of = ["--accuracy", goal, "--columns", "te_mean_um"];
+        succeeds(&[&words[..], &of].concat())
+    };
+    let answer = run("1%", "within.h5");
+    let figures = answer.json();
+    let found = &figures["accuracy"];
+    assert_eq!(found["is_within"], true, "{found}");
+    let error = number(&found["errors"]["te_mean_um"]);
+    assert!(error > 0.0 && error <= 0.01, "{found}");
+    let lines: Vec<&str> = (found["toml"].as_array().unwrap().iter())
+        .map(|line| line.as_str().unwrap())
+        .collect();
+    let points = lines
+        .iter()
+        .find_map(|line| line.strip_prefix("run.points_per_pitch = "));
+    let result = SceneResult::read(&desk.path("within.h5")).unwrap();
+    assert_eq!(result.points_per_pitch().to_string(), points.unwrap());
+
+    let found = &run("0.000001%", "beyond.h5");
+    assert_eq!(found.json()["accuracy"]["is_within"], false);
+    assert!(
+        found.stderr.contains("no setting of this scene"),
+        "{}",
+        found.stderr
+    );
+    let scene = argument(&scene);
+    for words in [&["--accuracy", "1"][..], &["--columns", "te_mean_um"]] {
+        let output = desk.path("refused.h5");
+        let all = [&["run", scene, "-o", argument(&output)][..], words].concat();
+        refused(&gearmesh(&all), 2, &["--accuracy"]);
+        assert!(!output.exists());
+    }
 }
 
 /// The harmonics are those of the mesh cycle, however many pitches are run.

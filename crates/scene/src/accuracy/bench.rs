@@ -269,7 +269,8 @@ impl<'a> Bench<'a> {
         Ok(best)
     }
 
-    fn measure_once(&self, case: &Case) -> Result<Measured, StudyError> {
+    /// Runs a case once.
+    pub(super) fn measure_once(&self, case: &Case) -> Result<Measured, StudyError> {
         let mut files = MadeFiles::new();
         let subject = self.subject(case, &mut files)?;
         let reduction_s = self.make(files)?;
@@ -311,13 +312,31 @@ impl<'a> Bench<'a> {
         Ok(seconds)
     }
 
-    fn refused(&self, problem: String) -> InputError {
+    pub(super) fn refused(&self, problem: String) -> InputError {
         InputError {
             file: self.base.file().to_owned(),
             line: None,
             key: String::new(),
             problem,
         }
+    }
+
+    /// What runs in the scene: the kind of a multibody run, `pair at rest` or `tooth contact`.
+    #[must_use]
+    pub fn kind(&self) -> String {
+        match (self.base.value("run.kind"), self.base.value("run")) {
+            (Some(toml::Value::String(kind)), _) => kind,
+            (_, Some(_)) => "pair at rest".to_owned(),
+            (_, None) => "tooth contact".to_owned(),
+        }
+    }
+
+    /// The scene with a case's settings.
+    ///
+    /// # Errors
+    /// [`StudyError`] where it does not take them.
+    pub(super) fn subject_of(&self, case: &Case) -> Result<Subject, StudyError> {
+        Ok(self.subject(case, &mut MadeFiles::new())?)
     }
 
     fn subject(&self, case: &Case, files: &mut MadeFiles) -> Result<Subject, InputError> {

@@ -99,7 +99,7 @@ impl Accuracy {
 
 /// Rungs as numbers, where they are numbers that grow or fall; others are choices, none of which is nearer to the
 /// truth.
-fn in_one_direction(knob: &Knob) -> Option<Vec<f64>> {
+pub(super) fn in_one_direction(knob: &Knob) -> Option<Vec<f64>> {
     let values: Result<Vec<f64>, _> = knob.rungs.iter().map(|rung| rung.label.parse()).collect();
     let values = values.ok()?;
     let grows = values.is_sorted() || values.iter().rev().is_sorted();

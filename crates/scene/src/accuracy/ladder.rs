@@ -78,6 +78,8 @@ pub struct Advice {
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Accuracy {
+    /// What runs in the scene, as [`Bench::kind`].
+    pub kind: String,
     /// Names of the columns.
     pub columns: Vec<String>,
     /// The knobs.
@@ -122,6 +124,7 @@ pub fn accuracy(
     let top = top_of(&knobs);
     let judge = |measured: &Measured| errors(&measured.values, &reference.values, columns.len());
     let mut found = Accuracy {
+        kind: bench.kind(),
         tried: vec![tried(
             bench,
             top.clone(),
@@ -439,6 +442,7 @@ mod tests {
             further: Vec::new(),
         };
         let mut found = Accuracy {
+            kind: "pair at rest".to_owned(),
             columns: vec!["x".to_owned()],
             knobs: vec![knob("a"), knob("b")],
             left_out: Vec::new(),

@@ -8,22 +8,26 @@
 //! | what a setting gives, and what it takes | [`Bench`] | `bench.rs` |
 //! | which settings are tried, and which one to take | [`accuracy`] | `ladder.rs` |
 //! | how far the reference itself may be off, chaotic runs | [`Accuracy::doubts`] | `doubt.rs` |
+//! | the setting for a goal, by a few runs | [`choose`] | `chosen.rs`, `fronts.rs` |
 //! | what is judged where nothing is named | | `default_columns.rs` |
 //! | the lines to paste | | `paste.rs` |
 //!
 //! Errors are those against the reference of the same program: what no knob of the scene changes (its shafts, its loads) is in none of them.
 
 mod bench;
+mod chosen;
 mod default_columns;
 mod doubt;
 mod effects;
 mod element_knob;
+mod fronts;
 mod knobs;
 mod ladder;
 mod paste;
 mod system_knobs;
 
 pub use bench::{Bench, BenchOptions, JudgedTime, Measured, Reduce};
+pub use chosen::{Chosen, choose};
 pub use effects::Effect;
 pub use knobs::{Knob, Rung};
 pub use ladder::{Accuracy, Advice, EffectFound, Goal, Tried, accuracy, words};

@@ -212,6 +212,12 @@ pub fn accuracy_cost(workspace: &Workspace, options: &Options) -> Result<ExitCod
         let place = format!("{}/", workspace.root().display());
         write_whole(&page, &text.replace(&place, ""))?;
     }
+    if !options.quick {
+        let stored = workspace
+            .root()
+            .join("crates/scene/src/accuracy/fronts.toml");
+        write_whole(&stored, &fronts(&found))?;
+    }
     say(&format!(
         "\nwritten in {}: {}",
         readable(start.elapsed()),
@@ -219,6 +225,39 @@ pub fn accuracy_cost(workspace: &Workspace, options: &Options) -> Result<ExitCod
     ));
     let failed = found.iter().any(|(_, outcome)| outcome.is_err());
     Ok(ExitCode::from(u8::from(failed)))
+}
+
+/// The settings that were recommended, rung by rung: where `gearmesh run --accuracy` begins.
+fn fronts(found: &[accuracy_page::Tried<'_>]) -> String {
+    let mut text = "# Written by `cargo xtask accuracy-cost`; do not edit.\n".to_owned();
+    let told = found
+        .iter()
+        .filter_map(|(subject, told)| Some((subject, told.as_ref().ok()?)));
+    for (subject, told) in told {
+        for advice in told["advice"].as_array().into_iter().flatten() {
+            let goal = advice["goal"]
+                .as_str()
+                .and_then(|goal| goal.strip_suffix(" %"));
+            let (Some(Ok(percent)), Some(rungs)) = (
+                goal.map(str::parse::<f64>),
+                advice["run_again"]["rungs"].as_object(),
+            ) else {
+                continue;
+            };
+            let rungs: Vec<String> = rungs
+                .iter()
+                .map(|(knob, rung)| format!("\"{knob}\" = {rung}"))
+                .collect();
+            text += &format!(
+                "\n[[front]]\nscene = \"{}\"\nkind = {}\ngoal = {}\nrungs = {{ {} }}\n",
+                subject.title,
+                told["kind"],
+                percent / 100.0,
+                rungs.join(", ")
+            );
+        }
+    }
+    text
 }
 
 /// Makes a model unless it is there.

@@ -169,7 +169,8 @@ impl PlanetarySet {
 }
 
 fn list(values: impl Iterator<Item = f64>) -> String {
-    let rounded = |value: f64| format!("{}", (value * 1e4).round() / 1e4);
+    // Adding 0 makes 0 of -0.
+    let rounded = |value: f64| format!("{}", (value * 1e4).round() / 1e4 + 0.0);
     let words: Vec<String> = values.map(rounded).collect();
     words.join(", ")
 }

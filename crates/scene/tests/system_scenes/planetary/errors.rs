@@ -87,7 +87,7 @@ fn displaced_gears_and_pins_do_what_springs_with_gaps_do() {
             let allowed = 3.0 * 20e-6 / (ARM_M * ALPHA_DEG.to_radians().sin());
             let [mut largest, mut ends] = [[0.0_f64; 2], [f64::INFINITY, f64::NEG_INFINITY]];
             let approach = rows.approach();
-            for row in 0..carrier.len() {
+            for (row, near) in approach.iter().enumerate() {
                 let gaps: Vec<f64> = (0..3).map(|n| gap(n, row)).collect();
                 let mean = gaps.iter().sum::<f64>() / 3.0;
                 for (n, own) in gaps.iter().enumerate() {
@@ -103,7 +103,7 @@ fn displaced_gears_and_pins_do_what_springs_with_gaps_do() {
                     }
                 }
                 largest[1] = largest[1].max(mean.abs());
-                let rest = approach[row] - mean;
+                let rest = near - mean;
                 ends = [ends[0].min(rest), ends[1].max(rest)];
             }
             // The force of the load is F/K; its line changes, too.

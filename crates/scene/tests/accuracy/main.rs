@@ -7,12 +7,15 @@ use std::sync::atomic::AtomicBool;
 
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::accuracy::{Accuracy, Bench, BenchOptions, Goal, JudgedTime, accuracy, words};
-use gearmesh_scene::study::Wanted;
+use gearmesh_scene::study::{StudyError, Wanted};
 use gearmesh_scene::system::SystemScene;
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{Scene, load, run};
 
+mod goal;
+#[path = "../made_up_gears/mod.rs"]
 mod made_up_gears;
+#[path = "../system_runs/mod.rs"]
 mod system_runs;
 
 use system_runs::Desk;
@@ -34,7 +37,12 @@ pitches = 1
 points_per_pitch = 16
 "#;
 
-fn found_in(folder: &Path, columns: &[&str]) -> Result<Accuracy, String> {
+/// What `of` finds of the folder's scene.
+fn bench_in<T>(
+    folder: &Path,
+    columns: &[&str],
+    of: impl FnOnce(&Bench<'_>) -> Result<T, StudyError>,
+) -> Result<T, String> {
     let stop = AtomicBool::new(false);
     let options = BenchOptions {
         wanted: columns.iter().map(|text| Wanted::of(text)).collect(),
@@ -48,7 +56,11 @@ fn found_in(folder: &Path, columns: &[&str]) -> Result<Accuracy, String> {
         reduce: &|_| Err("no gear is reduced here".to_owned()),
     };
     let bench = Bench::new(&folder.join("scene.toml"), options);
-    accuracy(&bench.map_err(|e| e.to_string())?, &|_, _| ()).map_err(|e| e.to_string())
+    of(&bench.map_err(|e| e.to_string())?).map_err(|e| e.to_string())
+}
+
+fn found_in(folder: &Path, columns: &[&str]) -> Result<Accuracy, String> {
+    bench_in(folder, columns, |bench| accuracy(bench, &|_, _| ()))
 }
 
 /// Mean transmission error of both torques [m].
@@ -290,11 +302,8 @@ fn what_the_reference_may_be_off_by_covers_its_error() {
     );
 }
 
-/// Two rods of 0.1 m, each with its mass at the end, let go level: they swing and turn over without rule. No setting is
-/// then within a hundredth of the truth, and that is what is said.
-#[test]
-fn a_chaotic_run_is_judged_by_its_spread() {
-    let folder = tempfile::tempdir().unwrap();
+/// Two rods of 0.1 m, each with its mass at the end, let go level: they swing and turn over without rule.
+fn two_rods() -> String {
     let rod = |name: &str, end_mm: f64, on: &str| {
         format!(
             "[[body]]\nname = \"{name}\"\nmass_kg = 0.1\ninertia_kg_m2 = [1e-5, 1e-5, 1e-5]\nposition_mm = [{end_mm:?}, 0.0, 0.0]\n\
@@ -302,12 +311,18 @@ fn a_chaotic_run_is_judged_by_its_spread() {
             end_mm - 100.0
         )
     };
-    let scene = format!(
+    format!(
         "title = \"two rods\"\ngravity_m_per_s2 = [0.0, -9.81, 0.0]\n[run]\nkind = \"transient\"\nend_s = 10.0\n[solver]\nstep_s = 8e-3\n[output]\ninterval_s = 4e-2\n{}{}",
         rod("upper", 100.0, ""),
         rod("lower", 200.0, "body_1 = \"upper\"\n")
-    );
-    std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    )
+}
+
+/// No setting of a chaotic run is within a hundredth of the truth, and that is what is said.
+#[test]
+fn a_chaotic_run_is_judged_by_its_spread() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.toml"), two_rods()).unwrap();
     let found = found_in(folder.path(), &["bodies/lower/y_m:deviation"]).unwrap();
     let [spread] = found.spread[..] else {
         unreachable!("{found:?}")

@@ -1,0 +1,100 @@
+//! A scene is run in the cheapest setting that is found to be exact enough.
+
+use crate::accuracy::{AccuracyRequest, bench_of};
+use crate::failure::Failure;
+use crate::reduce::reduced_for_study;
+use crate::run::{Ran, RunHow, run};
+use crate::scratch::Scratch;
+use crate::watch::Watch;
+use gearmesh_report::short;
+use gearmesh_scene::SceneFile;
+use gearmesh_scene::accuracy::{Chosen, choose};
+use gearmesh_scene::study::Subject;
+use serde_json::{Value, json};
+
+/// Looks for the setting, then runs the scene with it. Of `a` scene, columns and the time from which they count are
+/// used. A goal that cannot be met is a warning; the result is that of the most exact setting then.
+///
+/// # Errors
+/// [`Failure`] for a scene or column that is wrong, a scene that is none, and as [`run`].
+pub fn run_within(
+    a: &AccuracyRequest,
+    goal: f64,
+    how: &RunHow<'_>,
+    watch: &Watch<'_>,
+) -> Result<(Ran, Chosen), Failure> {
+    let scratch = Scratch::new()?;
+    let reduce = |gear: &_| reduced_for_study(gear, watch);
+    let bench = bench_of(a, &scratch, &reduce, watch)?;
+    let task = watch.listener.begin("settings");
+    let found = choose(&bench, goal, &|done, count| {
+        task.advance(done as f64, count as f64)
+    });
+    drop(task);
+    watch.go_on()?;
+    let found = found?;
+    let scene = match found.subject.clone() {
+        Subject::Pair(scene) => SceneFile::Pair(scene),
+        Subject::System(scene) => SceneFile::System(scene),
+        Subject::Bevel(_) | Subject::Bearing(_) => {
+            let file = a.scene.display();
+            let problem = format!(
+                "{file}: --accuracy belongs to scenes; `gearmesh accuracy` judges a bevel pair's analysis"
+            );
+            return Err(Failure::input(problem));
+        }
+    };
+    if !found.is_within() {
+        let (column, error) = found.worst();
+        let off = match error.is_finite() {
+            true => format!("{column} may be off by {} %", percent(error)),
+            false => format!("there is nothing to judge {column} by"),
+        };
+        watch.warning(format!(
+            "no setting of this scene is known to be within {} %: {off} in the most exact one, which was run",
+            percent(goal)
+        ));
+    }
+    Ok((run(scene, how, watch)?, found))
+}
+
+/// The setting and its error, for people.
+#[must_use]
+pub fn lines(found: &Chosen) -> Vec<String> {
+    let (column, error) = found.worst();
+    let within = if found.is_within() {
+        "within"
+    } else {
+        "not within"
+    };
+    let mut lines = vec![format!(
+        "{within} {} %: largest error {} %, of {column}; {} settings run, from {}",
+        percent(found.goal),
+        percent(error),
+        found.runs,
+        found.begun
+    )];
+    let errors = found.columns.iter().zip(&found.errors);
+    lines.extend(errors.map(|(column, error)| format!("  {column}: error {} %", percent(*error))));
+    lines.push("the setting, to paste into the scene:".to_owned());
+    lines.extend(found.toml.iter().map(|line| format!("  {line}")));
+    lines
+}
+
+/// The same for other programs.
+#[must_use]
+pub fn figures(found: &Chosen) -> Value {
+    let errors = found.columns.iter().zip(&found.errors);
+    let errors: serde_json::Map<_, _> = errors.map(|(c, e)| (c.clone(), json!(e))).collect();
+    json!({
+        "goal": found.goal, "is_within": found.is_within(), "errors": errors,
+        "settings_run": found.runs, "begun": found.begun, "toml": found.toml,
+    })
+}
+
+fn percent(share: f64) -> String {
+    match share.is_finite() {
+        true => short(100.0 * share),
+        false => "?".to_owned(),
+    }
+}
