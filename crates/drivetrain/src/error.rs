@@ -179,6 +179,15 @@ pub enum DrivetrainError {
         /// Side of the teeth.
         flank: Flank,
     },
+    /// A flank of a bevel pair that turns back close below where the mate reaches.
+    #[error(
+        "on the {} side a flank of the bevel pair turns back close below its lower line, as near undercut, so that its curvature is not known well enough for contact \
+         in motion: give the pinion more teeth or a larger pressure angle, or analyse the pair at rest with `gearmesh tca`", flank.name()
+    )]
+    FlankTurnsBack {
+        /// Side of the teeth.
+        flank: Flank,
+    },
     /// A bevel pair whose line of contact cannot be followed over the flank.
     #[error(
         "the line of contact on {} flanks is not smooth over the flank, so that it cannot be cut into slices; take kind = \"impact\", or another ease-off",

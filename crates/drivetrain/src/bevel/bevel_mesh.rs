@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use gearmesh_bevel::tca::are_conjugate;
 use gearmesh_bevel::{PairBlank, PairDesign};
 use gearmesh_contact::{RelativeCurvature, SliceLayout};
 use gearmesh_geometry::Flank;
@@ -17,7 +18,7 @@ use super::facets::{FacetSize, Facets};
 use super::hertz_stiffness::{local_measure, principal, stiffness_per_pa};
 use super::pose_derivatives::{MovingContacts, PoseDerivatives, gradient};
 use super::tooth_pairing::MOST_PAIRS;
-use super::tooth_side::{FAR, Guesses, Side, about_z, nominal_rotation, placed};
+use super::tooth_side::{FAR, Guesses, Side, about_z, nominal_rotation, placed, side_of};
 use super::touch::Touch;
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
@@ -55,6 +56,16 @@ pub struct BevelMesh {
     facets: Option<[Facets; 2]>,
 }
 
+/// Why flanks have no relative curvature: they touch along a line, or, where the exact ones do not, the patches that stand
+/// for them do not follow a surface that turns back close below.
+fn no_point_contact(blank: &PairBlank, design: &PairDesign, flank: Flank) -> DrivetrainError {
+    let flanks = [0, 1].map(|m: usize| design.teeth[m].flank(side_of(blank, m, flank)));
+    match are_conjugate(flanks, blank) {
+        true => DrivetrainError::LineContact { flank },
+        false => DrivetrainError::FlankTurnsBack { flank },
+    }
+}
+
 /// A pair of teeth as its contact is told.
 struct NearFlanks {
     teeth: [usize; 2],
@@ -74,7 +85,8 @@ impl BevelMesh {
     /// The flanks of a pair that has been designed.
     ///
     /// # Errors
-    /// [`DrivetrainError::Bevel`] where a surface does not reach over its blank, [`DrivetrainError::LineContact`] for
+    /// [`DrivetrainError::Bevel`] where a surface does not reach over its blank, [`DrivetrainError::FlankTurnsBack`] where
+    /// it turns back so close below the flank that its curvature is not known well enough, [`DrivetrainError::LineContact`] for
     /// conjugate flanks.
     pub fn new(blank: &PairBlank, design: &PairDesign) -> Result<Self, DrivetrainError> {
         let sides = [
@@ -98,7 +110,7 @@ impl BevelMesh {
         for flank in Flank::ALL {
             let [least, largest] = mesh.mean_curvature(flank).principal_per_m;
             if least < LINE_CONTACT * largest {
-                return Err(DrivetrainError::LineContact { flank });
+                return Err(no_point_contact(blank, design, flank));
             }
         }
         Ok(mesh)

@@ -27,6 +27,14 @@ const SECTIONS: usize = 12;
 /// Gaps that differ by less are one \[m\].
 const SAME_M: f64 = 1e-9;
 
+/// Whether right or left flanks of a member are its concave or its convex ones. Right flanks face clockwise.
+pub(super) fn side_of(blank: &PairBlank, member: usize, flank: Flank) -> FlankSide {
+    let hand = blank.members[member].hand;
+    let faces = |side: &FlankSide| side.facing(hand) == -flank.mirror();
+    let found = FlankSide::BOTH.into_iter().find(faces);
+    found.unwrap_or(FlankSide::Concave)
+}
+
 /// A flank of each member on one side of the teeth.
 #[derive(Debug, Clone)]
 pub(super) struct Side {
@@ -52,13 +60,7 @@ impl Side {
         flank: Flank,
     ) -> Result<Self, DrivetrainError> {
         let patch = |member: usize| {
-            // Right flanks face clockwise.
-            let facing = -flank.mirror();
-            let own = &blank.members[member];
-            let side = FlankSide::BOTH
-                .into_iter()
-                .find(|side| side.facing(own.hand) == facing);
-            let side = side.unwrap_or(FlankSide::Concave);
+            let side = side_of(blank, member, flank);
             FlankPatch::of_tooth(&design.teeth[member], &blank.members[1 - member], side)
         };
         let patches = [patch(0)?, patch(1)?];

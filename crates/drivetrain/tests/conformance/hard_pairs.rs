@@ -1,6 +1,7 @@
 //! Bevel pairs drawn at random in whose contacts something was wrong once.
 
 use gearmesh_bevel::PairFile;
+use gearmesh_drivetrain::BevelMesh;
 use gearmesh_geometry::input::InputDocument;
 
 use crate::bevel_pair::{Pair, pair_of};
@@ -98,4 +99,20 @@ impl HardPair {
         );
         pair_of(PairFile::from_document(&InputDocument::new("pair.toml", text)).unwrap())
     }
+}
+
+/// Near undercut the series that stands for a flank settles slowly, and a scene says so; the exact flanks touch in a point.
+#[test]
+fn a_pair_whose_flank_turns_back_is_refused_with_that_reason() {
+    let text = "title = \"drawn\"\n[bevel]\nteeth = [13, 14]\nouter_module_mm = 7.03\nface_width_mm = [20.55, 20.55]\nspiral_angle_deg = 24.4\n\
+         pressure_angle_deg = 22.5\npinion_hand = \"left\"\ntaper = \"uniform\"\ncutter_radius_mm = 70.95\nthickness_shift = 0.026\nbacklash_mm = 0.311\n\
+         [gear]\nsettings = \"basic\"\nedge_radius_mm = 0.351\n[pinion]\nsettings = \"local-synthesis\"\nedge_radius_mm = 0.351\n\
+         path_angle_deg = [84.0, 108.4]\nellipse_half_length_mm = [7.79, 6.64]\ntransmission_curvature = [-0.00592, -0.00237]\n";
+    let document = InputDocument::new("pair.toml", text);
+    let file = PairFile::from_document(&document).unwrap();
+    let (design, _) = file.checked_design(&document).unwrap();
+    let told = BevelMesh::new(&file.blank, &design)
+        .unwrap_err()
+        .to_string();
+    assert!(told.contains("turns back close below"), "{told}");
 }
