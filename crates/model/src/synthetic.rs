@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::bevel_body::{BevelBody, BevelMember, BevelNearField, SpiralHand};
+use crate::bore_patterns::BorePatterns;
 use crate::hub_patterns::HubPatterns;
 use crate::mesh_data::{Field, MeshData};
 use crate::modal_basis::ModalBasis;
@@ -204,6 +205,33 @@ pub fn small_reduced_gear() -> ReducedGear {
             pattern_identity: 2e-12,
             further: vec![("residual".to_owned(), 3e-13)],
         },
+    }
+}
+
+/// The same as [`small_reduced_gear`] with motions of its bore.
+pub fn small_bored_gear() -> ReducedGear {
+    let gear = small_reduced_gear();
+    let numbers = |count: usize, scale: f64| -> Vec<f64> {
+        (0..count).map(|i| scale * (0.7 * i as f64).sin()).collect()
+    };
+    let mut bore = BorePatterns {
+        harmonics: 1,
+        along: 2,
+        components: 3,
+        radius_m: 8e-3,
+        ends_m: [-0.5 * gear.face_width_m, 0.5 * gear.face_width_m],
+        ..BorePatterns::default()
+    };
+    let motions = bore.count();
+    let loads = gear.teeth_per_sector() * gear.flanks.len() * gear.grid.len();
+    bore.stiffness = (0..motions * motions)
+        .map(|i| 1e8 / (1.0 + (i / motions).abs_diff(i % motions) as f64))
+        .collect();
+    bore.flank = numbers(loads * motions, 0.5);
+    bore.gauges = numbers(gear.gauges.len() * motions, 0.1);
+    ReducedGear {
+        bore: Some(bore),
+        ..gear
     }
 }
 

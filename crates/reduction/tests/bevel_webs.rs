@@ -99,12 +99,13 @@ fn identities_hold() {
         betti(&model),
     ];
     assert!(found.iter().all(|error| *error < 1e-9), "{found:?}");
-    for name in [
-        ReductionChecks::LOADED_TOOTH_ERROR,
-        ReductionChecks::OTHER_TEETH_ERROR,
+    // That of other teeth is over several, of which the neighbours, which move most, are exact to a tenth of the loaded one.
+    for (name, least) in [
+        (ReductionChecks::LOADED_TOOTH_ERROR, 1e-3),
+        (ReductionChecks::OTHER_TEETH_ERROR, 1e-4),
     ] {
         let estimated = model.checks.further(name).unwrap();
-        assert!(estimated > 1e-3 && estimated < 0.6, "{name}: {estimated}");
+        assert!(estimated > least && estimated < 0.6, "{name}: {estimated}");
     }
 }
 

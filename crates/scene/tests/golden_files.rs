@@ -10,7 +10,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use gearmesh_model::synthetic::{
-    small_bevel_gear, small_crack, small_patterned_gear, small_reduced_gear, small_two_faced_gear,
+    small_bevel_gear, small_bored_gear, small_crack, small_patterned_gear, small_reduced_gear,
+    small_two_faced_gear,
 };
 use gearmesh_model::{
     Column, DataTree, FileFormat, REDUCED_GEAR_FORMAT, ReducedGear, StoredGear, read_reduced_gear,
@@ -31,6 +32,9 @@ fn file(kind: &str, version: u32) -> PathBuf {
 
 /// The model as far as a version of the format holds it.
 fn model(version: u32) -> ReducedGear {
+    if version >= 9 {
+        return small_bored_gear();
+    }
     if version >= 8 {
         return small_two_faced_gear();
     }

@@ -29,7 +29,7 @@ const LONG: [(&str, Length); 5] = [
 ];
 
 /// Tests listed at the end.
-const SLOWEST: usize = 10;
+const SLOWEST: usize = 25;
 
 /// Builds with `build`, a call of `cargo test` without arguments of its harness, and runs the tests of the programs
 /// named in `only`, of all where it is empty. All parts run, whatever fails.

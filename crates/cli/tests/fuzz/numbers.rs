@@ -6,7 +6,8 @@ use crate::drilled_pair::{scene, scene_in_time, write_models};
 use crate::trees::{answered_mesh, answered_model, sealed, small_mesh};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::synthetic::{
-    small_bevel_gear, small_crack, small_patterned_gear, small_reduced_gear, small_two_faced_gear,
+    small_bevel_gear, small_bored_gear, small_crack, small_patterned_gear, small_reduced_gear,
+    small_two_faced_gear,
 };
 use gearmesh_model::{
     DataTree, FileFormat, MESH_FORMAT, REDUCED_GEAR_FORMAT, Values, write_mesh, write_reduced_gear,
@@ -158,6 +159,7 @@ fn models() {
         ("bevel", small_bevel_gear()),
         ("patterned", small_patterned_gear()),
         ("two_faced", small_two_faced_gear()),
+        ("bored", small_bored_gear()),
     ] {
         let file = desk.path().join(format!("{name}.h5"));
         write_reduced_gear(&file, &gear).unwrap();

@@ -64,7 +64,11 @@ fn a_planet_with_thin_teeth_carries_less() {
             }
             // Both series start where teeth touch: without thin teeth for the first planet, which has none.
             let more = (after[row] - after[0]) - (before[row] - before[0]);
-            assert!(more.abs() < 1e-6 * gap_m, "{more:e}");
+            assert!(
+                more.abs() < 1e-6 * gap_m,
+                "{:?} row {row}: {more:e}",
+                drive.keys
+            );
         }
     }
 }
