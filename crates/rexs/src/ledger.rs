@@ -1,6 +1,6 @@
 //! The list of what became of a model: taken, assumed, not represented.
 
-use crate::scene_text::Meshes;
+use crate::mesh_model::Meshes;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 

@@ -4,11 +4,11 @@
 use crate::bearing::{AxialSupport, Bearing, RIGID_TILT};
 use crate::in_time::{DAMPING_S, Running};
 use crate::ledger::About;
+use crate::mesh_model::{Meshes, mesh_model};
 use crate::model::Component;
 use crate::placement::{Frame, add, dot, frame};
 use crate::planetary::Parts;
 use crate::power_flow::Link;
-use crate::scene_text::Meshes;
 use crate::source::Source;
 use crate::structure::Structure;
 use crate::text::{number, numbers, quoted};
@@ -280,24 +280,12 @@ impl PlanetarySet {
             let sense = if torque > 0.0 { "positive" } else { "negative" };
             text.push_str(&format!("sun_torque = \"{sense}\"\n"));
         }
-        let model = match with {
-            Meshes::Iso6336 => "kind = \"iso6336\", slices = 9",
-            Meshes::Hybrid => "kind = \"hybrid\"",
-        };
-        let damping = match running {
-            Running::AtRest => String::new(),
-            Running::InTime => format!(
-                ", damping = {{ kind = \"stiffness-proportional\", time_s = {}, full_depth_um = 1.0 }}",
-                number(DAMPING_S)
-            ),
-        };
+        let model = mesh_model(with, running);
         for (key, gears) in [("sun_mesh", [sun, planet]), ("ring_mesh", [planet, ring])] {
             let plain =
                 gears.iter().any(|g| !g.gear.microgeometry.is_empty()) && with == Meshes::Iso6336;
             let plain = if plain { ", microgeometry = false" } else { "" };
-            text.push_str(&format!(
-                "{key} = {{ model = {{ {model}{damping} }}{plain} }}\n"
-            ));
+            text.push_str(&format!("{key} = {{ model = {{ {model} }}{plain} }}\n"));
         }
         text.push_str(&format!("sun = {{ body = {} }}\n", quoted(&sun.gear.name)));
         let gear = |file: &str| quoted(&with.gear(file));

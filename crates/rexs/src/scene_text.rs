@@ -7,6 +7,7 @@ use crate::error::RexsError;
 use crate::gear_bodies::gear_bodies;
 use crate::in_time::{DAMPING_S, Running, run_tables};
 use crate::ledger::About;
+use crate::mesh_model::{Meshes, mesh_model};
 use crate::placement::Frame;
 use crate::planetary_set;
 use crate::shaft::Shaft;
@@ -14,31 +15,6 @@ use crate::source::Source;
 use crate::text::{comment, number, numbers, quoted};
 use crate::train::{SeatedGear, Train};
 use std::collections::{BTreeMap, HashMap, HashSet};
-
-/// What the gear meshes of a scene are computed with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Meshes {
-    /// The springs of ISO 6336, without reduced gears.
-    #[default]
-    Iso6336,
-    /// The contact of reduced gears, whose models lie beside the gear files: `GEAR.h5`.
-    Hybrid,
-}
-
-impl Meshes {
-    /// What a body names as its gear.
-    pub fn gear(self, file: &str) -> String {
-        match self {
-            Self::Iso6336 => file.to_owned(),
-            Self::Hybrid => model_file(file),
-        }
-    }
-}
-
-/// The model of a gear file.
-pub fn model_file(gear_file: &str) -> String {
-    format!("{}.h5", gear_file.trim_end_matches(".toml"))
-}
 
 /// Text of the scene, and what holds its trains.
 ///
@@ -419,19 +395,9 @@ fn meshes(text: &mut String, train: &Train, with: Meshes, running: Running) {
         } else {
             ""
         };
-        let model = match with {
-            Meshes::Iso6336 => "kind = \"iso6336\", slices = 9",
-            Meshes::Hybrid => "kind = \"hybrid\"",
-        };
-        let damping = match running {
-            Running::AtRest => String::new(),
-            Running::InTime => format!(
-                ", damping = {{ kind = \"stiffness-proportional\", time_s = {}, full_depth_um = 1.0 }}",
-                number(DAMPING_S)
-            ),
-        };
+        let model = mesh_model(with, running);
         text.push_str(&format!(
-            "\n[[gear_mesh]]\nname = {}\ngear_1 = {}\ngear_2 = {}\n{plain}model = {{ {model}{damping} }}\nteeth = {{ flanks = \"{flanks}\" }}\n",
+            "\n[[gear_mesh]]\nname = {}\ngear_1 = {}\ngear_2 = {}\n{plain}model = {{ {model} }}\nteeth = {{ flanks = \"{flanks}\" }}\n",
             quoted(&mesh.name),
             quoted(&a.name),
             quoted(&b.name)
