@@ -348,8 +348,8 @@ impl GearPair {
         })
     }
 
-    /// Least room \[m\] between the tips of a gear inside a ring and those of the ring while it comes in along the line of
-    /// centres; negative where they collide: then it comes in along its axis only. None of external gears.
+    /// Least room \[m\] between the tips of a gear inside a ring and those of the ring while it comes in along the line
+    /// of centres; negative where they collide: then it comes in along its axis only. None of external gears.
     #[must_use]
     pub fn radial_room_m(&self) -> Option<f64> {
         let (inside, ring) = self.inside_and_ring()?;

@@ -75,9 +75,9 @@ pub(crate) fn deepest(ring: &ToothGeometry, pinion: &RollingPinion) -> Overlap {
     worst
 }
 
-/// Least room \[m\] between a corner of a gear inside a ring and the ring's corner beside which it comes in along the line
-/// of centres, on the ring's tip circle; negative where they collide, so that the gear comes in along its axis only.
-/// Whichever teeth stand on the line of centres.
+/// Least room \[m\] between a corner of a gear inside a ring and the ring's corner beside which it comes in along the
+/// line of centres, on the ring's tip circle; negative where they collide, so that the gear comes in along its axis
+/// only. Whichever teeth stand on the line of centres.
 ///
 /// A tooth at φ from that line has its far corner at θ₁ = φ + ψ₁, and all along the way at the height y = r_a1 sin θ₁.
 /// The ring's corner on that side of the space at φ z₁/z₂ must stand farther out, asin(y/r_a2) ≤ φ z₁/z₂ + σ₂, with ψ₁

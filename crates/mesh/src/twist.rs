@@ -2,7 +2,8 @@
 //!
 //! The teeth turn by γ(z) = z tan β/r. A body of revolution may turn with them: it stays the same body, and no element
 //! is sheared more than by the helix itself. Openings must stay straight: there the turn fades out between the root
-//! circle and the openings' outer radius, by a polynomial that is flat at both ends; so do lugs, on the outside of a ring.
+//! circle and the openings' outer radius, by a polynomial that is flat at both ends; so do lugs, on the outside of a
+//! ring.
 
 use gearmesh_geometry::GearDefinition;
 

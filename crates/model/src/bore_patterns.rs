@@ -1,8 +1,8 @@
-//! Motions of a bore: what they do to the flanks, and the forces on the bore that go with them.
+//! Motions of a bore: the displacement of the flanks under each, and the forces that the bore then carries.
 //!
-//! With the bore held the flanks deflect by C_hub f. Let the bore move by Σ_p q_p P_p, where P are radial, tangential and
-//! axial displacements, harmonics around the axis times polynomials along it, Ψ the displacements of the body that go
-//! with them:
+//! With the bore held the flanks deflect by C_hub f. Let the bore move by Σ_p q_p P_p, where P are radial, tangential
+//! and axial displacements, harmonics around the axis times polynomials along it, Ψ the displacements of the body that
+//! go with them:
 //!
 //! ```text
 //! flanks  C_hub f + s q,   s = NᵀΨ        forces on the bore along P  S q − sᵀ f,   S = PᵀKΨ
@@ -31,8 +31,9 @@ pub enum BoreMotion {
     Axial = 2,
 }
 
-/// Motions of a bore. Their number m = components · (2 H + 1) · L; motion ((component · (2 H + 1) + wave) · L + degree):
-/// wave 0 is constant around, 2n − 1 is cos nφ, 2n is sin nφ; the degree is that of a Legendre polynomial along the bore.
+/// Motions of a bore. Their number m = components · (2 H + 1) · L; motion ((component · (2 H + 1) + wave) · L +
+/// degree): wave 0 is constant around, 2n − 1 is cos nφ, 2n is sin nφ; the degree is that of a Legendre polynomial
+/// along the bore.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BorePatterns {
     /// Highest harmonic H.
@@ -73,7 +74,8 @@ impl BorePatterns {
         component as usize * each..(component as usize + 1) * each
     }
 
-    /// What the motions of one component are at a place of the bore, `[wave][degree]`, by polar angle \[rad\] and z \[m\].
+    /// What the motions of one component are at a place of the bore, `[wave][degree]`, by polar angle \[rad\] and z
+    /// \[m\].
     #[must_use]
     pub fn at(&self, polar_rad: f64, z_m: f64) -> Vec<f64> {
         let along = legendre(self.place_along(z_m), self.along);

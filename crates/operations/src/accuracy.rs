@@ -109,15 +109,18 @@ pub fn demand_kept(found: &Accuracy) -> Result<(), Failure> {
     Ok(())
 }
 
+/// A figure of each column.
+pub(crate) fn by_column(columns: &[String], figures: &[f64]) -> Value {
+    let named = columns
+        .iter()
+        .cloned()
+        .zip(figures.iter().map(|f| json!(f)));
+    Value::Object(named.collect())
+}
+
 /// For other programs.
 #[must_use]
 pub fn figures(found: &Accuracy) -> Value {
-    let by_column = |errors: &[f64]| {
-        let errors = found.columns.iter().zip(errors);
-        errors
-            .map(|(c, e)| (c.clone(), json!(e)))
-            .collect::<serde_json::Map<_, _>>()
-    };
     let effort = |effort: &Effort| {
         json!({
             "wall_s": effort.wall_s, "cpu_s": effort.cpu_s, "states": effort.states,
@@ -132,13 +135,13 @@ pub fn figures(found: &Accuracy) -> Value {
             .map(|(knob, rung)| (knob.name.clone(), json!(rung)))
             .collect();
         value["one_knob_alone"] = json!(one.alone.is_some());
-        value["errors"] = json!(by_column(&one.errors));
+        value["errors"] = by_column(&found.columns, &one.errors);
         value["reduction_s"] = json!(one.reduction_s);
         value
     };
     let effect = |one: &EffectFound| {
         json!({
-            "effect": one.effect.name, "in_scene": one.effect.present, "changes": by_column(&one.changes),
+            "effect": one.effect.name, "in_scene": one.effect.present, "changes": by_column(&found.columns, &one.changes),
             "with": effort(&one.with), "without": effort(&one.without),
         })
     };
@@ -150,8 +153,8 @@ pub fn figures(found: &Accuracy) -> Value {
         "effects": found.effects.iter().map(effect).collect::<Vec<_>>(),
         "judged_by": found.time.words(),
         "last_step_of_reference": found.unsettled().map(|(knob, error)| json!({"knob": knob.name, "change": error})),
-        "reference_may_be_off": by_column(&found.doubts()),
-        "chaotic": !found.spread.is_empty(), "spread": by_column(&found.spread),
+        "reference_may_be_off": by_column(&found.columns, &found.doubts()),
+        "chaotic": !found.spread.is_empty(), "spread": by_column(&found.columns, &found.spread),
         "no_setting_within": found.open.iter().map(|goal| goal_in_words(*goal)).collect::<Vec<_>>(),
         "not_varied": found.left_out, "failed": found.failed,
     })

@@ -1,6 +1,6 @@
 //! A scene is run in the cheapest setting that is found to be exact enough.
 
-use crate::accuracy::{AccuracyRequest, bench_of};
+use crate::accuracy::{AccuracyRequest, bench_of, by_column};
 use crate::failure::Failure;
 use crate::reduce::reduced_for_study;
 use crate::run::{Ran, RunHow, run};
@@ -84,10 +84,9 @@ pub fn lines(found: &Chosen) -> Vec<String> {
 /// The same for other programs.
 #[must_use]
 pub fn figures(found: &Chosen) -> Value {
-    let errors = found.columns.iter().zip(&found.errors);
-    let errors: serde_json::Map<_, _> = errors.map(|(c, e)| (c.clone(), json!(e))).collect();
     json!({
-        "goal": found.goal, "is_within": found.is_within(), "errors": errors,
+        "goal": found.goal, "is_within": found.is_within(),
+        "errors": by_column(&found.columns, &found.errors),
         "settings_run": found.runs, "begun": found.begun, "toml": found.toml,
     })
 }

@@ -1,4 +1,4 @@
-//! Motions of a bore: what they do to the flanks, and the forces that go with them.
+//! Motions of a bore: the displacement of the flanks under each, and the forces that the bore then carries.
 //!
 //! The bore is held in all other figures. P are radial, tangential and axial displacements of its nodes, K the
 //! stiffness of the body, f its free nodes, n a load on a flank:

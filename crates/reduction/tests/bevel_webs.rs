@@ -99,7 +99,8 @@ fn identities_hold() {
         betti(&model),
     ];
     assert!(found.iter().all(|error| *error < 1e-9), "{found:?}");
-    // That of other teeth is over several, of which the neighbours, which move most, are exact to a tenth of the loaded one.
+    // That of other teeth is over several, of which the neighbours, which move most, are exact to a tenth of the loaded
+    // one.
     for (name, least) in [
         (ReductionChecks::LOADED_TOOTH_ERROR, 1e-3),
         (ReductionChecks::OTHER_TEETH_ERROR, 1e-4),

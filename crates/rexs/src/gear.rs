@@ -38,7 +38,8 @@ pub struct Gear {
     pub file: String,
     /// Teeth; of a ring without sign.
     pub teeth: u32,
-    /// Whether it is a ring with internal teeth. Its diameters have no sign, its profile shift is positive towards the tip.
+    /// Whether it is a ring with internal teeth. Its diameters have no sign, its profile shift is positive towards the
+    /// tip.
     pub internal: bool,
     /// Normal module \[mm\].
     pub module_mm: f64,

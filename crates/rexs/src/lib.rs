@@ -9,6 +9,7 @@
 //! loads → gear files, scenes, bearing files, bevel pair files as text ([`mod@import`]). docs/rexs.md says what
 //! becomes of what.
 
+pub mod backlash;
 pub mod bearing;
 pub mod bearings_and_couplings;
 pub mod bevel;

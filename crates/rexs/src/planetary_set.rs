@@ -13,7 +13,6 @@ use crate::source::Source;
 use crate::structure::Structure;
 use crate::text::{number, numbers, quoted};
 use crate::train::Train;
-use crate::train_finish;
 use crate::units::MM;
 use std::f64::consts::TAU;
 
@@ -176,8 +175,8 @@ fn equal_deg(planets: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Angles of the planets about the sun's axis, counted as `[[planetary]]` does, at the nearest places where they fit; none
-/// where the file does not set them apart.
+/// Angles of the planets about the sun's axis, counted as `[[planetary]]` does, at the nearest places where they fit;
+/// none where the file does not set them apart.
 fn angles_deg(sun: &Frame, frames: &[Option<Frame>], places: u32) -> Option<Vec<f64>> {
     let [x, y, z] = sun.axes[0];
     let (sin_a, cos_a) = if y.hypot(z) < 1e-12 {
@@ -239,15 +238,6 @@ fn of_planet(
             .max(0.4 * first.radial_n_per_mm.max(1.0));
     }
     found
-}
-
-/// Makes teeth of sets thinner that have no backlash.
-pub fn give_backlash(source: &Source<'_>, train: &mut Train) {
-    for set in &train.sets {
-        for pair in [[set.sun, set.planet], [set.planet, set.ring]] {
-            train_finish::give_backlash(source, &mut train.gears, pair, set.distance_mm);
-        }
-    }
 }
 
 /// Tables of all sets.

@@ -83,8 +83,8 @@ fn between(gear: &ReducedGear, radius_m: f64) -> f64 {
     work.sum::<f64>() / (LINE_LOAD * FACE_M)
 }
 
-/// What a sliding bore adds \[nm\], with tangential motions up to a harmonic: fᵀ s S⁻¹ sᵀ f over those that are free. The
-/// moments cancel, so that the uniform motion has no part in it.
+/// What a sliding bore adds \[nm\], with tangential motions up to a harmonic: fᵀ s S⁻¹ sᵀ f over those that are free.
+/// The moments cancel, so that the uniform motion has no part in it.
 fn sliding_adds_nm(gear: &ReducedGear, radius_m: f64, harmonics: usize) -> f64 {
     let bore = gear.bore.as_ref().unwrap();
     let first = bore.motions_of(BoreMotion::Tangential).start;

@@ -329,10 +329,10 @@ fn gearbox() -> String {
     )
 }
 
-/// Bearings of the five shafts within 2 % of the larger one of their shaft by hand, those of suns and carriers within 2 % of
-/// the tooth forces and the axial one of itself: planets push sun and carrier sideways by
-/// nothing, the helical sun along its axis by T tan β/r, pinion and wheel as in any cylindrical stage. Torques are those of
-/// Willis' ratios, planet bearings carry both of a planet's meshes, and a page is written.
+/// Bearings of the five shafts within 2 % of the larger one of their shaft by hand, those of suns and carriers within 2
+/// % of the tooth forces and the axial one of itself: planets push sun and carrier sideways by
+/// nothing, the helical sun along its axis by T tan β/r, pinion and wheel as in any cylindrical stage. Torques are
+/// those of Willis' ratios, planet bearings carry both of a planet's meshes, and a page is written.
 #[test]
 fn a_gearbox_with_planetary_stages_is_imported_and_runs() {
     let desk = Desk::new();

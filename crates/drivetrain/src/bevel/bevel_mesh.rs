@@ -56,8 +56,8 @@ pub struct BevelMesh {
     facets: Option<[Facets; 2]>,
 }
 
-/// Why flanks have no relative curvature: they touch along a line, or, where the exact ones do not, the patches that stand
-/// for them do not follow a surface that turns back close below.
+/// Why flanks have no relative curvature: they touch along a line, or, where the exact ones do not, the patches that
+/// stand for them do not follow a surface that turns back close below.
 fn no_point_contact(blank: &PairBlank, design: &PairDesign, flank: Flank) -> DrivetrainError {
     let flanks = [0, 1].map(|m: usize| design.teeth[m].flank(side_of(blank, m, flank)));
     match are_conjugate(flanks, blank) {
@@ -85,9 +85,9 @@ impl BevelMesh {
     /// The flanks of a pair that has been designed.
     ///
     /// # Errors
-    /// [`DrivetrainError::Bevel`] where a surface does not reach over its blank, [`DrivetrainError::FlankTurnsBack`] where
-    /// it turns back so close below the flank that its curvature is not known well enough, [`DrivetrainError::LineContact`] for
-    /// conjugate flanks.
+    /// [`DrivetrainError::Bevel`] where a surface does not reach over its blank, [`DrivetrainError::FlankTurnsBack`]
+    /// where it turns back so close below the flank that its curvature is not known well enough,
+    /// [`DrivetrainError::LineContact`] for conjugate flanks.
     pub fn new(blank: &PairBlank, design: &PairDesign) -> Result<Self, DrivetrainError> {
         let sides = [
             Side::new(blank, design, Flank::Right)?,

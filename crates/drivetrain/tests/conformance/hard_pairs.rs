@@ -101,7 +101,8 @@ impl HardPair {
     }
 }
 
-/// Near undercut the series that stands for a flank settles slowly, and a scene says so; the exact flanks touch in a point.
+/// Near undercut the series that stands for a flank settles slowly, and a scene says so; the exact flanks touch in a
+/// point.
 #[test]
 fn a_pair_whose_flank_turns_back_is_refused_with_that_reason() {
     let text = "title = \"drawn\"\n[bevel]\nteeth = [13, 14]\nouter_module_mm = 7.03\nface_width_mm = [20.55, 20.55]\nspiral_angle_deg = 24.4\n\

@@ -1,4 +1,5 @@
-//! A planetary stage with a pinion on its carrier's shaft: what stands behind the stage turns and is loaded by Willis' equation. Whole files are run by the program's tests.
+//! A planetary stage with a pinion on its carrier's shaft: what stands behind the stage turns and is loaded by Willis'
+//! equation. Whole files are run by the program's tests.
 
 use crate::other_gearboxes::{component, demand_all_listed, model, shaft};
 use crate::{file, read};

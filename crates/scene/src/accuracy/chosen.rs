@@ -51,7 +51,7 @@ impl Chosen {
     }
 }
 
-/// Finds the setting for a goal. `progress` is told how many settings were run, and how many there are at most.
+/// Finds the setting for a goal. `progress` gets the number of settings that were run, and how many there are at most.
 ///
 /// # Errors
 /// [`StudyError`] for a scene without knobs, one whose most exact setting cannot be run, and on a stop.

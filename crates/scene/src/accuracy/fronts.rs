@@ -1,5 +1,5 @@
-//! Which rungs were the cheapest for a goal in the scenes that `cargo xtask accuracy-cost` runs. They are where a search
-//! begins, no promise: what it finds is judged by runs of the scene itself.
+//! Which rungs were the cheapest for a goal in the scenes that `cargo xtask accuracy-cost` runs. They are where a
+//! search begins, no promise: what it finds is judged by runs of the scene itself.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -32,8 +32,8 @@ struct Front {
     rungs: BTreeMap<String, usize>,
 }
 
-/// Rungs to begin with, and where they are from: those of the scene of the kind that has most knobs in common and fewest
-/// others. A knob that it has not begins at the top.
+/// Rungs to begin with, and where they are from: those of the scene of the kind that has most knobs in common and
+/// fewest others. A knob that it has not begins at the top.
 pub(super) fn start(kind: &str, goal: f64, knobs: &[Knob]) -> (Vec<usize>, String) {
     let stored = toml::from_str::<Stored>(STORED).map_or_else(|_| Vec::new(), |all| all.front);
     start_of(&stored, kind, goal, knobs)

@@ -207,9 +207,9 @@ fn pitch_errors_are_those_of_the_bodies() {
     }
 }
 
-/// Contact lines slant over both flanks, either gear driving. At rest a slice ends where rigid flanks do, as bodies where
-/// the loaded gear 2 stands: what is left is of second order in the load, a hundredth at a tenth of it (twice that is
-/// allowed), and at 100 N·m on the ring of the size that faults are allowed there.
+/// Contact lines slant over both flanks, either gear driving. At rest a slice ends where rigid flanks do, as bodies
+/// where the loaded gear 2 stands: what is left is of second order in the load, a hundredth at a tenth of it (twice
+/// that is allowed), and at 100 N·m on the ring of the size that faults are allowed there.
 #[test]
 fn helical_teeth_in_a_ring_are_those_of_the_bodies() {
     for (gears, flank) in [

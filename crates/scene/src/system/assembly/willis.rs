@@ -54,8 +54,9 @@ impl Planets {
         Self(found)
     }
 
-    /// A carrier or gear that is free, with the speed \[rad/s\] that Willis' equations of all planets give it. One of them
-    /// gives it where two of a, b and c are known; in trains with members in common, such as Simpson's, it takes several.
+    /// A carrier or gear that is free, with the speed \[rad/s\] that Willis' equations of all planets give it. One of
+    /// them gives it where two of a, b and c are known; in trains with members in common, such as Simpson's, it takes
+    /// several.
     pub(super) fn first_settled(
         &self,
         bodies: &Bodies,

@@ -183,8 +183,8 @@ fn phases(teeth: f64, angles_rad: &[f64]) -> Vec<f64> {
     angles_rad.iter().map(phase).collect()
 }
 
-/// How much of harmonic l of the ring meshes of planets at these angles a place of the ring sees at the order l z_r + k of
-/// the carrier's turn against it, |Σ_n e^{i (l z_r + k) ψ_n}|/N: k from what the place sees of a planet that passes.
+/// How much of harmonic l of the ring meshes of planets at these angles a place of the ring sees at the order l z_r + k
+/// of the carrier's turn against it, |Σ_n e^{i (l z_r + k) ψ_n}|/N: k from what the place sees of a planet that passes.
 #[must_use]
 pub fn passing_share(order: i64, angles_rad: &[f64]) -> f64 {
     let parts = angles_rad

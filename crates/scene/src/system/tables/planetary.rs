@@ -15,8 +15,8 @@ use super::function::FunctionTable;
 use super::gear_mesh::{EccentricityTable, TeethTable};
 use super::mesh_model::{HertzTable, MeshModel};
 
-/// `[[planetary]]` as written in the file. Angles count counter-clockwise about the axis of the set, from x, or from where
-/// x is after the turns about x and then y that take z into the axis.
+/// `[[planetary]]` as written in the file. Angles count counter-clockwise about the axis of the set, from x, or from
+/// where x is after the turns about x and then y that take z into the axis.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlanetaryTable {

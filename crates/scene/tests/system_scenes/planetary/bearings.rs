@@ -42,8 +42,8 @@ fn in_carrier(result: &SystemResult, planet: usize, row: usize) -> Vector2<f64> 
 }
 
 /// At rest a quasi-static bearing carries both mesh forces, 2 F cos α against the turn; its ring stands where the
-/// bearing alone has it under that force; and a linear bearing of the same force over displacement leaves sun and carrier
-/// where it does.
+/// bearing alone has it under that force; and a linear bearing of the same force over displacement leaves sun and
+/// carrier where it does.
 #[test]
 fn a_quasi_static_planet_bearing_carries_both_mesh_forces() {
     let folder = tempfile::tempdir().unwrap();

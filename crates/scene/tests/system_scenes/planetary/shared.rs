@@ -12,8 +12,8 @@ fn second(distance_mm: f64, parts: [&str; 5]) -> String {
 }
 
 /// Simpson's train: suns of two sets of 24/36/96 teeth on one shaft, the first carrier on the second ring, the second
-/// carrier held. ω_s + 4 ω_in = 5 ω_out and ω_s + 4 ω_out = 0: out over in 4/9; so the torques, and the held carrier takes
-/// the rest.
+/// carrier held. ω_s + 4 ω_in = 5 ω_out and ω_s + 4 ω_out = 0: out over in 4/9; so the torques, and the held carrier
+/// takes the rest.
 #[test]
 fn two_sets_on_one_sun_shaft_are_simpsons_train() {
     let folder = tempfile::tempdir().unwrap();

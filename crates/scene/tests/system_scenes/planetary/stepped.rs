@@ -56,8 +56,8 @@ fn speeds_of_stepped_planets_follow_willis() {
 }
 
 /// At rest all planets carry the same (their phases fit), sun and ring mesh as F_s z_1 = F_r z_2, and the pin what is
-/// left of both with their moment. Planets are one part: the step between their gears is the same but for teeth that are
-/// alike, 2π/72.
+/// left of both with their moment. Planets are one part: the step between their gears is the same but for teeth that
+/// are alike, 2π/72.
 #[test]
 fn forces_of_stepped_planets_are_in_equilibrium() {
     let folder = tempfile::tempdir().unwrap();
@@ -152,8 +152,8 @@ fn stepped_planets_stand_where_both_gears_fit() {
         let refusal = built(1.2 * (f64::from(k) + 0.5)).err().unwrap().to_string();
         assert!(refusal.contains("360/300 deg"), "{refusal}");
     }
-    // By hand: a planet that the sun turns as it is taken round by ψ fits the ring where its second gear is beside a tooth
-    // space by a common pitch of both gears.
+    // By hand: a planet that the sun turns as it is taken round by ψ fits the ring where its second gear is beside a
+    // tooth space by a common pitch of both gears.
     let fits = |psi: f64| {
         let off = psi * (TEETH[0] / TEETH[1] + TEETH[3] / TEETH[2]);
         let pitches = off / (PI / 36.0);

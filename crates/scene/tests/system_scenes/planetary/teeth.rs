@@ -1,5 +1,5 @@
-//! Teeth that are thinner, a ring that is not round, tilted pins: what they do to forces, to the line load and to the
-//! transmission error, against springs with gaps (`positions.rs`).
+//! Teeth that are thinner, a ring that is not round, tilted pins: their effect on forces, on the line load and on
+//! the transmission error, against springs with gaps (`positions.rs`).
 
 use std::f64::consts::TAU;
 
@@ -75,9 +75,9 @@ fn a_planet_with_thin_teeth_carries_less() {
 
 /// Waves of the ring turn with it against the planets. Three waves come to three planets at once: they are in the
 /// transmission error, and shares stay equal. Two waves shift load between planets and are not in the transmission
-/// error. Each tooth opens the mesh by A (sin α cos n(φ − φ_0) + σ cos α sin n(φ − φ_0)/n), φ its middle; teeth in contact
-/// stand within a pitch of the planet's angle, half a pitch for the path of contact and half for the middle of a tooth
-/// against its flank.
+/// error. Each tooth opens the mesh by A (sin α cos n(φ − φ_0) + σ cos α sin n(φ − φ_0)/n), φ its middle; teeth in
+/// contact stand within a pitch of the planet's angle, half a pitch for the path of contact and half for the middle of
+/// a tooth against its flank.
 #[test]
 fn waves_of_the_ring_are_in_transmission_error_or_shares() {
     let folder = tempfile::tempdir().unwrap();
@@ -143,8 +143,8 @@ fn waves_of_the_ring_are_in_transmission_error_or_shares() {
 }
 
 /// A tilted pin opens both meshes of its planet by (f·t) z and −(g·t) z: the line load falls over the face, its sum and
-/// the transmission error stay. What is left out is that a circle of radius r is an ellipse seen along another axis, t² r/2
-/// smaller, in both meshes.
+/// the transmission error stay. What is left out is that a circle of radius r is an ellipse seen along another axis, t²
+/// r/2 smaller, in both meshes.
 #[test]
 fn a_tilted_pin_tilts_the_line_load() {
     let folder = tempfile::tempdir().unwrap();
