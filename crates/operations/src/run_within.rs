@@ -11,23 +11,46 @@ use gearmesh_scene::SceneFile;
 use gearmesh_scene::accuracy::{Chosen, choose};
 use gearmesh_scene::study::Subject;
 use serde_json::{Value, json};
+use std::path::PathBuf;
 
-/// Looks for the setting, then runs the scene with it. Of `a` scene, columns and the time from which they count are
-/// used. A goal that cannot be met is a warning; the result is that of the most exact setting then.
+/// A scene, and how exact it is to be.
+#[derive(Debug, Clone)]
+pub struct WithinRequest {
+    /// Scene file.
+    pub scene: PathBuf,
+    /// Largest relative error.
+    pub goal: f64,
+    /// Columns that are to be that exact, as those of a study. None: what the model decides.
+    pub columns: Vec<String>,
+    /// Figures of multibody runs from this time on.
+    pub from_s: f64,
+}
+
+/// Looks for the setting, then runs the scene with it. A goal that cannot be met is a warning; the result is that of
+/// the most exact setting then.
 ///
 /// # Errors
 /// [`Failure`] for a scene or column that is wrong, a scene that is none, and as [`run`].
 pub fn run_within(
-    a: &AccuracyRequest,
-    goal: f64,
+    a: WithinRequest,
     how: &RunHow<'_>,
     watch: &Watch<'_>,
 ) -> Result<(Ran, Chosen), Failure> {
+    // A file that is no scene is refused before any setting is run.
+    SceneFile::read(&a.scene)?;
+    let request = AccuracyRequest {
+        scene: a.scene,
+        columns: a.columns,
+        from_s: a.from_s,
+        by_processor_time: false,
+        elements: None,
+        output: None,
+    };
     let scratch = Scratch::new()?;
     let reduce = |gear: &_| reduced_for_study(gear, watch);
-    let bench = bench_of(a, &scratch, &reduce, watch)?;
+    let bench = bench_of(&request, &scratch, &reduce, watch)?;
     let task = watch.listener.begin("settings");
-    let found = choose(&bench, goal, &|done, count| {
+    let found = choose(&bench, a.goal, &|done, count| {
         task.advance(done as f64, count as f64)
     });
     drop(task);
@@ -37,11 +60,8 @@ pub fn run_within(
         Subject::Pair(scene) => SceneFile::Pair(scene),
         Subject::System(scene) => SceneFile::System(scene),
         Subject::Bevel(_) | Subject::Bearing(_) => {
-            let file = a.scene.display();
-            let problem = format!(
-                "{file}: --accuracy belongs to scenes; `gearmesh accuracy` judges a bevel pair's analysis"
-            );
-            return Err(Failure::input(problem));
+            let file = request.scene.display();
+            return Err(Failure::input(format!("{file}: is no scene")));
         }
     };
     if !found.is_within() {
@@ -52,7 +72,7 @@ pub fn run_within(
         };
         watch.warning(format!(
             "no setting of this scene is known to be within {} %: {off} in the most exact one, which was run",
-            percent(goal)
+            percent(a.goal)
         ));
     }
     Ok((run(scene, how, watch)?, found))
@@ -76,6 +96,7 @@ pub fn lines(found: &Chosen) -> Vec<String> {
     )];
     let errors = found.columns.iter().zip(&found.errors);
     lines.extend(errors.map(|(column, error)| format!("  {column}: error {} %", percent(*error))));
+    lines.extend(found.failed.iter().map(|told| format!("  failed: {told}")));
     lines.push("the setting, to paste into the scene:".to_owned());
     lines.extend(found.toml.iter().map(|line| format!("  {line}")));
     lines
@@ -88,6 +109,7 @@ pub fn figures(found: &Chosen) -> Value {
         "goal": found.goal, "is_within": found.is_within(),
         "errors": by_column(&found.columns, &found.errors),
         "settings_run": found.runs, "begun": found.begun, "toml": found.toml,
+        "failed": found.failed,
     })
 }
 

@@ -2,9 +2,8 @@
 
 use crate::arguments::RunArguments;
 use crate::{console, interrupt};
-use gearmesh_operations::accuracy::AccuracyRequest;
 use gearmesh_operations::run::{Ran, RunHow, run as run_scene};
-use gearmesh_operations::run_within::{self, run_within};
+use gearmesh_operations::run_within::{self, WithinRequest, run_within};
 use gearmesh_operations::{Failure, Watch, output_name};
 use gearmesh_scene::SceneFile;
 use gearmesh_scene::accuracy::Chosen;
@@ -27,15 +26,13 @@ pub fn run(a: &RunArguments) -> Result<(), Failure> {
     let (ran, found) = match a.accuracy {
         None => (run_scene(SceneFile::read(&a.scene)?, &how, &watch)?, None),
         Some(goal) => {
-            let request = AccuracyRequest {
+            let request = WithinRequest {
                 scene: a.scene.clone(),
+                goal,
                 columns: a.columns.clone(),
                 from_s: a.from_s,
-                by_processor_time: false,
-                elements: None,
-                output: None,
             };
-            let (ran, found) = run_within(&request, goal, &how, &watch)?;
+            let (ran, found) = run_within(request, &how, &watch)?;
             (ran, Some(found))
         }
     };

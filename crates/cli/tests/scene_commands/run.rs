@@ -70,6 +70,19 @@ fn a_run_within_a_goal_is_that_of_the_setting_it_names() {
         refused(&gearmesh(&all), 2, &["--accuracy"]);
         assert!(!output.exists());
     }
+    let pair = desk.file("pair.toml", "[pinion]\nteeth = 13\n[wheel]\nteeth = 30\n");
+    let refusal = |words: &[&str]| {
+        let output = desk.path("refused.h5");
+        let all = [
+            &["run", argument(&pair), "-o", argument(&output)][..],
+            words,
+        ]
+        .concat();
+        let answer = gearmesh(&all);
+        refused(&answer, 2, &["pair.toml"]);
+        answer.stderr
+    };
+    assert_eq!(refusal(&["--accuracy", "1%"]), refusal(&[]));
 }
 
 /// The harmonics are those of the mesh cycle, however many pitches are run.

@@ -270,6 +270,10 @@ impl<'a> Bench<'a> {
     }
 
     /// Runs a case once.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a case that cannot be run, and one in which a column has no number at all: nothing could be
+    /// judged by it.
     pub(super) fn measure_once(&self, case: &Case) -> Result<Measured, StudyError> {
         let mut files = MadeFiles::new();
         let subject = self.subject(case, &mut files)?;
@@ -278,9 +282,17 @@ impl<'a> Bench<'a> {
         let (selected, effort) = evaluate(subject, wanted, &self.rest, &self.scratch)?;
         let columns = self.options.wanted.len();
         let of_column = |k: usize| selected.iter().skip(k).step_by(columns).map(number);
+        let values: Vec<f64> = (0..columns).flat_map(of_column).collect();
+        if let Some(empty) = without_number(&values, columns) {
+            let name = self.options.wanted[empty].name();
+            let problem = format!(
+                "`{name}` is not a number here, so no setting can be judged by it; name other columns"
+            );
+            return Err(self.refused(problem).into());
+        }
         Ok(Measured {
             effort,
-            values: (0..columns).flat_map(of_column).collect(),
+            values,
             reduction_s,
         })
     }
@@ -363,5 +375,25 @@ impl<'a> Bench<'a> {
             Some(one) => Err(format!("has no column `{}`", one.column)),
             None => Ok(()),
         }
+    }
+}
+
+/// The first column that has no number, of values column by column.
+fn without_number(values: &[f64], columns: usize) -> Option<usize> {
+    let each = (values.len() / columns.max(1)).max(1);
+    let mut of_columns = values.chunks(each);
+    of_columns.position(|column| !column.iter().any(|value| value.is_finite()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_number;
+
+    #[test]
+    fn a_column_without_any_number_is_found() {
+        let gap = f64::NAN;
+        assert_eq!(without_number(&[1.0, gap, 2.0, 3.0], 2), None);
+        assert_eq!(without_number(&[1.0, 2.0, gap, f64::INFINITY], 2), Some(1));
+        assert_eq!(without_number(&[], 2), None);
     }
 }

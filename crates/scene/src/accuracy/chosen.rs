@@ -5,7 +5,7 @@ use super::bench::{Bench, Measured};
 use super::doubt::in_one_direction;
 use super::fronts;
 use super::knobs::{Knob, case_of};
-use super::ladder::{errors, largest, top_of};
+use super::ladder::{errors, largest, top_of, words};
 use super::paste::to_paste;
 use crate::study::{StudyError, Subject};
 
@@ -33,6 +33,8 @@ pub struct Chosen {
     pub begun: String,
     /// Settings that were run.
     pub runs: usize,
+    /// Settings that could not be run, and why.
+    pub failed: Vec<String>,
 }
 
 impl Chosen {
@@ -74,6 +76,7 @@ pub fn choose(
     let left = top.iter().zip(&rungs).map(|(top, rung)| top - rung);
     let most = 2 + left.max().unwrap_or(0);
     let mut runs = 0;
+    let mut failed = Vec::new();
     let mut measured = |rungs: &[usize]| {
         progress(runs, most);
         runs += 1;
@@ -81,7 +84,11 @@ pub fn choose(
         match outcome {
             // A coarse setting may fail where a finer one does not.
             Err(error) if bench.is_stopped() || rungs == top => Err(error),
-            outcome => Ok(outcome.ok()),
+            Err(error) => {
+                failed.push(format!("{}: {error}", words(&knobs, rungs)));
+                Ok(None)
+            }
+            Ok(outcome) => Ok(Some(outcome)),
         }
     };
     let count = bench.names().len();
@@ -117,6 +124,7 @@ pub fn choose(
         goal,
         begun,
         runs,
+        failed,
     })
 }
 
