@@ -81,11 +81,23 @@ pub fn read(
     let frames: Vec<Option<Frame>> = frames.collect();
     let distance_mm = distance_mm(source, train, parts, (&own, &frames[0]), [sun, planet]);
     let teeth = s.teeth + r.teeth;
-    let angles_deg = angles_deg(&own, &frames, teeth).unwrap_or_else(|| {
-        let about = "its planets have no places of their own around the axis: at equal angles";
-        source.assume(stage, About::Small, about);
-        equal_deg(parts.planets.len())
-    });
+    let angles_deg = match angles_deg(&own, &frames, teeth) {
+        Some((angles_deg, moved_deg)) => {
+            if moved_deg > ROUNDING_DEG {
+                let about = format!(
+                    "its teeth do not fit where its planets are: moved by up to {moved_deg:.3} deg about its axis, \
+                     to the nearest places where they do"
+                );
+                source.assume(stage, About::Place, about);
+            }
+            angles_deg
+        }
+        None => {
+            let about = "its planets have no places of their own around the axis: at equal angles";
+            source.assume(stage, About::Small, about);
+            equal_deg(parts.planets.len())
+        }
+    };
     let reversed = frames[0].is_some_and(|f| dot(f.axes[0], own.axes[0]) < 0.0);
     let bearings = of_planet(structure, train, (parts.planets[0], planet), reversed);
     let ring_shaft = ring.shaft;
@@ -175,9 +187,12 @@ fn equal_deg(planets: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Angles of the planets about the sun's axis, counted as `[[planetary]]` does, at the nearest places where they fit;
-/// none where the file does not set them apart.
-fn angles_deg(sun: &Frame, frames: &[Option<Frame>], places: u32) -> Option<Vec<f64>> {
+/// Planets are moved by less than this where a file rounds their places \[°\]: a micrometre at a radius of 6 mm.
+const ROUNDING_DEG: f64 = 0.01;
+
+/// Angles of the planets about the sun's axis, counted as `[[planetary]]` does, at the nearest places where they fit,
+/// and by how much the farthest was moved; none where the file does not set them apart.
+fn angles_deg(sun: &Frame, frames: &[Option<Frame>], places: u32) -> Option<(Vec<f64>, f64)> {
     let [x, y, z] = sun.axes[0];
     let (sin_a, cos_a) = if y.hypot(z) < 1e-12 {
         (0.0, 1.0)
@@ -192,19 +207,18 @@ fn angles_deg(sun: &Frame, frames: &[Option<Frame>], places: u32) -> Option<Vec<
         let [c, s] = across.map(|direction| dot(between, direction));
         found.push(s.atan2(c));
     }
-    let place = |angle: &f64| {
-        ((angle - found[0]) / TAU * f64::from(places))
-            .round()
-            .rem_euclid(f64::from(places))
-    };
-    let at: Vec<f64> = found.iter().map(place).collect();
+    let places = f64::from(places);
+    let turned = found.iter().map(|angle| (angle - found[0]) / TAU * places);
+    let turned: Vec<f64> = turned.collect();
+    let at: Vec<f64> = { turned.iter() }
+        .map(|at| at.round().rem_euclid(places))
+        .collect();
+    let moved = { turned.iter() }.map(|at| 360.0 * (at - at.round()).abs() / places);
     let apart = |i: usize| !at[..i].contains(&at[i]);
     let first = found[0].to_degrees();
-    (0..at.len()).all(apart).then(|| {
-        at.iter()
-            .map(|k| first + 360.0 * k / f64::from(places))
-            .collect()
-    })
+    let angles = at.iter().map(|k| first + 360.0 * k / places).collect();
+    let all_apart = (0..at.len()).all(apart);
+    all_apart.then(|| (angles, moved.fold(0.0, f64::max)))
 }
 
 /// Bearings between the shaft of a planet and its pin, with their places.

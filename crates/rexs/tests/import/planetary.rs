@@ -8,6 +8,11 @@ use gearmesh_rexs::Import;
 /// Sun 20, three planets 22, ring 64, as an industry program writes them: pins without a relation of their own, carriers in two
 /// halves. `brake` is what the ring's shaft is joined to: the casing, or nothing; `ring_load` a load on that shaft.
 fn gearbox(held: &str, loads: &[(&str, usize, &str)]) -> String {
+    gearbox_of([0.0, 120.0, 240.0], held, loads)
+}
+
+/// The same with planets at other angles.
+fn gearbox_of(planets_deg: [f64; 3], held: &str, loads: &[(&str, usize, &str)]) -> String {
     let gear = |teeth, width, place| {
         [
             ("number_of_teeth", "none", teeth),
@@ -74,15 +79,11 @@ fn gearbox(held: &str, loads: &[(&str, usize, &str)]) -> String {
             relations.push(("side", refs));
         }
     }
-    for planet in 0..3 {
+    for (planet, angle_deg) in planets_deg.into_iter().enumerate() {
         let [on, pin, own, sun, ring] = [300, 310, 320, 330, 340].map(|base| base + planet);
-        parts += &shaft(
-            on,
-            &format!("planet shaft {planet}"),
-            "160 0 42",
-            "1 0 0",
-            &[],
-        );
+        let (sin, cos) = angle_deg.to_radians().sin_cos();
+        let place = format!("160 {:.4} {:.4}", 42.0 * sin, 42.0 * cos);
+        parts += &shaft(on, &format!("planet shaft {planet}"), &place, "1 0 0", &[]);
         parts += &shaft(pin, &format!("pin {planet}"), "150 0 42", "1 0 0", &[]);
         parts += &component(
             own,
@@ -206,4 +207,31 @@ fn three_turning_members_pass_nothing() {
     let words = told(&made, "planetary_stage");
     assert!(words.contains("do not pass through"), "{words}");
     assert!(words.contains("sun, ring, carrier"), "{words}");
+}
+
+/// Planets stay where the file has them, but for its rounding. Teeth of 20 and 64 fit every 360/84 deg; a planet between
+/// two such places is moved to the nearer one, and the import says so.
+#[test]
+fn planets_that_are_moved_are_named() {
+    let loads = [("motor", 10, "50"), ("machine", 14, "")];
+    for (off_deg, told) in [(0.0, None), (1.0, Some("moved by up to 1.000 deg"))] {
+        let made = read(&gearbox_of([0.0, 120.0 + off_deg, 240.0], "brake", &loads));
+        let of_set = |e: &&gearmesh_rexs::Entry| {
+            e.subject.starts_with("planetary_stage") && e.text.contains("moved")
+        };
+        let found = made.ledger.assumed.iter().find(of_set);
+        match told {
+            None => assert!(found.is_none(), "{found:?}"),
+            Some(words) => assert!(found.is_some_and(|e| e.text.contains(words)), "{found:?}"),
+        }
+        let scene = file(&made, "box.toml");
+        let angles = scene.split_once("angles_deg = [").unwrap().1;
+        let angles: Vec<f64> = (angles.split_once(']').unwrap().0.split(','))
+            .map(|angle| angle.trim().parse().unwrap())
+            .collect();
+        for apart in [angles[1] - angles[0], angles[2] - angles[1]] {
+            let off = apart.rem_euclid(120.0);
+            assert!(off.min(120.0 - off) < 1e-6, "{angles:?}");
+        }
+    }
 }
