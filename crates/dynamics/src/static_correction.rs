@@ -1,11 +1,12 @@
 //! One correction of a static equilibrium.
 //!
-//! It is the smallest that solves Newton's equations, by singular values of the scaled matrix: directions that nothing resists are thereby found. In large
-//! systems a sparse factorisation comes first, and is taken if the matrix is regular by far.
+//! It is the smallest that solves Newton's equations. Where the scaled matrix is regular by far, orthogonal factors (in
+//! large systems sparse ones) give it. Else singular values do, which find the directions that nothing resists.
 
 use std::sync::Arc;
 
-use faer::Mat;
+use faer::linalg::solvers::Solve;
+use faer::{ColRef, Mat};
 
 use crate::equations::Equations;
 use crate::error::DynamicsError;
@@ -27,7 +28,8 @@ const FELT: f64 = 1e-5;
 /// Unknowns of motions and joints from which a sparse factorisation is tried first.
 const LARGE: usize = 300;
 
-/// Largest growth of a vector by the inverse of the scaled matrix at which it counts as regular: far from where singular values count as zero.
+/// Largest growth of a vector by the inverse of the scaled matrix, and largest ratio of two pivots of its orthogonal
+/// factors, at which it counts as regular: a hundred times below where singular values count as zero.
 const REGULAR: f64 = 1e9;
 
 /// A scaled Newton matrix, decomposed, with what it says about free motions.
@@ -42,6 +44,18 @@ pub(crate) struct Correction {
     pub load: Vec<f64>,
 }
 
+impl Correction {
+    /// Of a regular matrix, which leaves no motion free; none where a value is no number.
+    fn of_regular(values: Vec<f64>) -> Option<Self> {
+        values.iter().all(|x| x.is_finite()).then(|| Self {
+            values,
+            free: Vec::new(),
+            share: Vec::new(),
+            load: Vec::new(),
+        })
+    }
+}
+
 /// The correction at an evaluated motion; `pushing`: all that pushes on each degree of freedom, whatever its sign.
 pub(crate) fn correct(
     system: &System,
@@ -54,7 +68,11 @@ pub(crate) fn correct(
     {
         return Ok(correction);
     }
-    by_singular_values(system, equations, pushing)
+    let scaled = Scaled::new(system, equations);
+    match scaled.by_orthogonal_factors() {
+        Some(correction) => Ok(correction),
+        None => by_singular_values(&scaled, equations, pushing),
+    }
 }
 
 /// `None` if the matrix is singular or nearly so.
@@ -113,19 +131,81 @@ fn by_sparse_factors(system: &System, equations: &Equations) -> Option<Correctio
     saddle.solve(&right, &violation, &mut delta, &mut mu);
     let reactions = system.kept.iter().map(|&equation| mu[equation] * stiffest);
     let values: Vec<f64> = delta.iter().copied().chain(reactions).collect();
-    values.iter().all(|x| x.is_finite()).then(|| Correction {
-        values,
-        free: Vec::new(),
-        share: Vec::new(),
-        load: Vec::new(),
-    })
+    Correction::of_regular(values)
 }
 
-fn by_singular_values(
-    system: &System,
-    equations: &Equations,
-    pushing: &[f64],
-) -> Result<Correction, DynamicsError> {
+/// Newton's matrix, its rows and columns scaled to largest entries of about 1.
+struct Scaled {
+    matrix: Mat<f64>,
+    /// Of rows, and of columns.
+    scale: Vec<f64>,
+    /// Scaled right-hand side.
+    right: Vec<f64>,
+}
+
+impl Scaled {
+    fn new(system: &System, equations: &Equations) -> Self {
+        let n = equations.residual.len();
+        let kept = &system.kept;
+        let total = n + kept.len();
+        let mut matrix = without_rounding(system, equations);
+        // From scales of the mass matrix.
+        let masses = system.mass_diagonal();
+        let mut scale: Vec<f64> = masses.iter().map(|mass| 1.0 / mass.sqrt()).collect();
+        scale.resize(total, 1.0);
+        for _ in 0..4 {
+            let mut most = vec![0.0_f64; total];
+            for j in 0..total {
+                for i in 0..total {
+                    let entry = matrix[(i, j)].abs();
+                    most[i] = most[i].max(entry * scale[j]);
+                    most[j] = most[j].max(entry * scale[i]);
+                }
+            }
+            for (scale, most) in scale.iter_mut().zip(most) {
+                let change = most * *scale;
+                if change > 0.0 {
+                    *scale /= change.sqrt();
+                }
+            }
+        }
+        for j in 0..total {
+            for i in 0..total {
+                matrix[(i, j)] *= scale[i] * scale[j];
+            }
+        }
+        let violation = kept.iter().map(|&equation| equations.violation[equation]);
+        let right = equations.residual.iter().copied().chain(violation);
+        let right = right.zip(&scale).map(|(x, scale)| -scale * x).collect();
+        Self {
+            matrix,
+            scale,
+            right,
+        }
+    }
+
+    /// The correction by orthogonal factors with pivots; none where the matrix is singular or nearly so. It is then the
+    /// only solution, and so the smallest.
+    fn by_orthogonal_factors(&self) -> Option<Correction> {
+        let factors = self.matrix.col_piv_qr();
+        let r = factors.R();
+        let pivots = (0..self.right.len()).map(|k| r[(k, k)].abs());
+        let (least, most) = pivots.fold((f64::INFINITY, 0.0_f64), |(least, most), pivot| {
+            (least.min(pivot), most.max(pivot))
+        });
+        let is_regular = least * REGULAR > most;
+        if !is_regular {
+            return None;
+        }
+        let solved = factors.solve(ColRef::from_slice(&self.right));
+        let values = self.scale.iter().zip(solved.iter());
+        let values: Vec<f64> = values.map(|(scale, x)| scale * x).collect();
+        Correction::of_regular(values)
+    }
+}
+
+/// Newton's matrix without what is rounding in it.
+fn without_rounding(system: &System, equations: &Equations) -> Mat<f64> {
     let n = equations.residual.len();
     let kept = &system.kept;
     let total = n + kept.len();
@@ -134,77 +214,58 @@ fn by_singular_values(
         .iter()
         .map(|mass| 1.0 / mass.sqrt())
         .collect();
+    // What has no mass is not measured by it.
     let weighs: Vec<bool> = system.masses().iter().map(|mass| *mass > 0.0).collect();
+    let mut matrix = Mat::zeros(total, total);
     // Stiffness at the level of rounding is none: the largest stiffness and, over a radian, the loads say how much that is.
-    let noise = ROUNDING
-        * (0..n).fold(0.0_f64, |most, j| {
-            if !weighs[j] {
-                return most;
-            }
-            let column = equations.stiffness.entries(j).filter(|(i, _)| weighs[*i]);
-            let stiffest = column.fold(0.0_f64, |most, (i, k)| {
-                most.max((mass[i] * k * mass[j]).abs())
-            });
-            most.max(stiffest)
-                .max((equations.residual[j] * mass[j] * mass[j]).abs())
+    let mut most = 0.0_f64;
+    for j in (0..n).filter(|&j| weighs[j]) {
+        let column = equations.stiffness.entries(j).filter(|(i, _)| weighs[*i]);
+        let stiffest = column.fold(0.0_f64, |most, (i, k)| {
+            most.max((mass[i] * k * mass[j]).abs())
         });
+        let loaded = (equations.residual[j] * mass[j] * mass[j]).abs();
+        most = most.max(stiffest).max(loaded);
+    }
+    let noise = ROUNDING * most;
+    for j in 0..n {
+        for (i, k) in equations.stiffness.entries(j) {
+            let is_felt = !(weighs[i] && weighs[j]) || (mass[i] * k * mass[j]).abs() > noise;
+            matrix[(i, j)] = if is_felt { k } else { 0.0 };
+        }
+    }
     // So is what a joint equation has of a motion that it leaves free.
-    let felt: Vec<f64> = kept
-        .iter()
-        .map(|&equation| {
-            let entries = (0..n).filter(|i| weighs[*i]);
-            let entries = entries.map(|i| (mass[i] * equations.gradient.get(i, equation)).abs());
-            ROUNDING * entries.fold(0.0_f64, f64::max)
-        })
-        .collect();
-    let gradient = |i: usize, k: usize| {
-        let entry = equations.gradient.get(i, kept[k]);
-        if weighs[i] && (mass[i] * entry).abs() <= felt[k] {
-            0.0
-        } else {
-            entry
-        }
-    };
-    let entry = |i: usize, j: usize| match (i < n, j < n) {
-        // What has no mass is not measured by it.
-        (true, true)
-            if weighs[i]
-                && weighs[j]
-                && (mass[i] * equations.stiffness.get(i, j) * mass[j]).abs() <= noise =>
-        {
-            0.0
-        }
-        (true, true) => equations.stiffness.get(i, j),
-        (true, false) => gradient(i, j - n),
-        (false, true) => gradient(j, i - n),
-        (false, false) => 0.0,
-    };
-    // Scales that bring the largest entry of every row and column to about 1, from those of the mass matrix.
-    let mut scale = mass.clone();
-    scale.resize(total, 1.0);
-    for _ in 0..4 {
-        let most = |i: usize| {
-            (0..total).fold(0.0_f64, |most, j| {
-                most.max(
-                    (entry(i, j) * scale[j])
-                        .abs()
-                        .max((entry(j, i) * scale[j]).abs()),
-                )
-            })
-        };
-        let changes: Vec<f64> = (0..total).map(|i| most(i) * scale[i]).collect();
-        for (scale, change) in scale.iter_mut().zip(changes) {
-            if change > 0.0 {
-                *scale /= change.sqrt();
+    for (place, &equation) in kept.iter().enumerate() {
+        let entries = || equations.gradient.entries(equation);
+        let weighed = entries().filter(|(i, _)| weighs[*i]);
+        let most = weighed.fold(0.0_f64, |most, (i, b)| most.max((mass[i] * b).abs()));
+        for (i, b) in entries() {
+            if !weighs[i] || (mass[i] * b).abs() > ROUNDING * most {
+                matrix[(i, n + place)] = b;
+                matrix[(n + place, i)] = b;
             }
         }
     }
-    let scaled = Mat::from_fn(total, total, |i, j| scale[i] * entry(i, j) * scale[j]);
+    matrix
+}
+
+fn by_singular_values(
+    scaled: &Scaled,
+    equations: &Equations,
+    pushing: &[f64],
+) -> Result<Correction, DynamicsError> {
+    let Scaled {
+        matrix,
+        scale,
+        right,
+    } = scaled;
+    let n = equations.residual.len();
+    let total = right.len();
     let singular = || DynamicsError::Singular {
         what: "the static stiffness (it has entries that are not finite)",
         time_s: 0.0,
     };
-    let svd = scaled.svd().map_err(|_| singular())?;
+    let svd = matrix.svd().map_err(|_| singular())?;
     let rank = {
         let s = svd.S().column_vector();
         (0..total).take_while(|&k| s[k] > FREE * s[0]).count()
@@ -212,9 +273,9 @@ fn by_singular_values(
     // A motion that nothing resists changes no load; yet off the equilibrium other motions change the load along it, by as much as loads are unbalanced.
     // Scaled up, that little would weigh as much as all else: the equation along a free motion is left out.
     let along_free = svd.V().subcols(rank, total - rank).to_owned();
-    let unequal = along_free.transpose() * &scaled;
+    let unequal = along_free.transpose() * matrix;
     let svd = if unequal.norm_max() > FREE * svd.S().column_vector()[0] {
-        let equal = &scaled - &along_free * unequal;
+        let equal = matrix - &along_free * unequal;
         let equal = equal.svd().map_err(|_| singular())?;
         (
             equal.U().to_owned(),
@@ -229,14 +290,6 @@ fn by_singular_values(
         )
     };
     let (u, s, v) = svd;
-    let right = |i: usize| {
-        -scale[i]
-            * if i < n {
-                equations.residual[i]
-            } else {
-                equations.violation[kept[i - n]]
-            }
-    };
     let mut correction = Correction {
         values: vec![0.0; total],
         free: Vec::new(),
@@ -245,7 +298,7 @@ fn by_singular_values(
     };
     let most_push = pushing.iter().fold(0.0_f64, |most, push| most.max(*push));
     for k in 0..total {
-        let along: f64 = (0..total).map(|i| u[(i, k)] * right(i)).sum();
+        let along: f64 = (0..total).map(|i| u[(i, k)] * right[i]).sum();
         if s[k] > FREE * s[0] {
             for i in 0..total {
                 correction.values[i] += scale[i] * v[(i, k)] * along / s[k];
@@ -276,4 +329,37 @@ fn by_singular_values(
         return Err(singular());
     }
     Ok(correction)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Regular as far as pivots 1e8 apart; none of a matrix that is singular to rounding, or no number.
+    #[test]
+    fn orthogonal_factors_solve_what_is_regular() {
+        let scaled = |least: f64| {
+            let turned = Mat::from_fn(3, 3, |i, j| {
+                [[2.0, 1.0, 0.0], [0.0, 2.0, 1.0], [1.0, 0.0, 2.0]][i][j]
+            });
+            let diagonal =
+                Mat::from_fn(3, 3, |i, j| if i == j { [1.0, 0.5, least][i] } else { 0.0 });
+            let matrix = &turned * &diagonal * turned.transpose();
+            let x = Mat::from_fn(3, 1, |i, _| [1.0, -2.0, 3.0][i]);
+            let right = (&matrix * x).col(0).iter().copied().collect();
+            Scaled {
+                matrix,
+                scale: vec![1.0, 2.0, 1.0],
+                right,
+            }
+        };
+        let found = scaled(1e-8).by_orthogonal_factors().unwrap();
+        for (found, exact) in found.values.iter().zip([1.0, -4.0, 3.0]) {
+            assert!((found - exact).abs() < 1e-6, "{found} {exact}");
+        }
+        assert!(found.free.is_empty());
+        for least in [1e-14, 0.0, f64::NAN] {
+            assert!(scaled(least).by_orthogonal_factors().is_none());
+        }
+    }
 }

@@ -300,6 +300,7 @@ fn equilibria_follow_the_load_factor() {
         angle_rad: None,
         time_s: 0.0,
         load_factor,
+        steps: 1,
     };
     let desk = Desk::new();
     let kind = RunKind::Static(StaticJob {
@@ -340,6 +341,7 @@ fn equilibria_follow_a_driver_over_several_turns() {
         angle_rad: Some(angle),
         time_s: i as f64,
         load_factor: 1.0,
+        steps: 1,
     };
     let desk = Desk::new();
     let nominal = system();

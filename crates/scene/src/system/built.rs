@@ -22,6 +22,8 @@ pub struct BuiltSystem {
     pub elements: Vec<BuiltPart>,
     /// Gear meshes.
     pub meshes: Vec<BuiltMesh>,
+    /// Pitches that the fastest toothed mesh goes through for a radian of the motion that a static series varies.
+    pub pitches_per_rad: f64,
     /// Gauges to read.
     pub gauges: Vec<BuiltGauge>,
     /// What is judged after the run.

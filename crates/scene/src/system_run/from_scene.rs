@@ -46,6 +46,7 @@ impl RunJob {
             })
         };
         let mut variation = Variation::default();
+        let mut nominal = None;
         let kind = match &scene.run {
             Run::Transient { end_s } => RunKind::Transient(in_time(*end_s, Vec::new())?),
             Run::SpeedSweep(sweep) => {
@@ -63,7 +64,10 @@ impl RunJob {
                 if let Some(angles) = angles_rad {
                     refuse_functions(&loaded, &angles.motion)?;
                 }
-                RunKind::Static(static_job(&loaded, load_factors, angles_rad.clone())?)
+                let built = nominal.insert(loaded.build_varied(&variation)?);
+                let angles = angles_rad.clone();
+                let job = static_job(&loaded, load_factors, angles, built.pitches_per_rad)?;
+                RunKind::Static(job)
             }
             Run::Eigen {
                 settle_s,
@@ -85,7 +89,10 @@ impl RunJob {
                 RunKind::Eigen(job)
             }
         };
-        let built = loaded.build_varied(&variation)?;
+        let built = match nominal {
+            Some(built) => built,
+            None => loaded.build_varied(&variation)?,
+        };
         Ok(Self {
             head: head(&loaded, &built),
             selection: selection(&loaded, &built.system),
@@ -104,20 +111,30 @@ pub(super) fn varied(motion: &str, function: Motion, load_factor: f64) -> Variat
     }
 }
 
+/// Longest step between two equilibria \[pitches\]: what only teeth carry along stays in the same space, half a pitch wide.
+const LONGEST_STEP_PITCHES: f64 = 0.25;
+
 /// The points of a static series: every angle at every load factor. The angle is a function of a time that counts the
 /// angles; it begins at the start of the scene, where teeth touch.
 fn static_job(
     loaded: &LoadedSystem,
     load_factors: &[f64],
     angles: Option<MotionValues>,
+    pitches_per_rad: f64,
 ) -> Result<StaticJob, SystemRunError> {
     let values = angles.as_ref().map(|angles| &angles.values[..]);
+    let steps_to = |i: usize| {
+        let turned = values.map_or(0.0, |v| v[i] - if i > 0 { v[i - 1] } else { 0.0 });
+        let pitches = turned.abs() * pitches_per_rad;
+        (pitches / LONGEST_STEP_PITCHES - 1e-9).ceil().max(1.0) as usize
+    };
     let of_factor = |&load_factor: &f64| {
         let count = values.map_or(1, <[f64]>::len);
         (0..count).map(move |i| StaticPoint {
             angle_rad: values.map(|values| values[i]),
             time_s: values.map_or(0.0, |_| i as f64 + 1.0),
             load_factor,
+            steps: steps_to(i),
         })
     };
     let points = load_factors.iter().flat_map(of_factor).collect();

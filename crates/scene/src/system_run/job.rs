@@ -25,6 +25,8 @@ pub struct StaticPoint {
     pub time_s: f64,
     /// Share of the scene's loads.
     pub load_factor: f64,
+    /// Steps of the way there from the point before, at least.
+    pub steps: usize,
 }
 
 /// Makes the system that a point of a series needs.

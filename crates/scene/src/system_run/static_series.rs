@@ -36,12 +36,16 @@ pub(super) fn run_static(
     let mut last: Option<(f64, System, State)> = None;
     for (number, point) in points.iter().enumerate() {
         let params = StaticParams::default();
+        let on_the_way = StaticParams {
+            load_steps: point.steps,
+            ..params
+        };
         let same = last
             .take()
             .filter(|(factor, ..)| factor.to_bits() == point.load_factor.to_bits());
         let (mut system, found) = match same {
             Some((_, mut system, state)) => {
-                let found = next_equilibrium(&mut system, &state, point.time_s, &params)?;
+                let found = next_equilibrium(&mut system, &state, point.time_s, &on_the_way)?;
                 (system, found)
             }
             None => {
@@ -50,7 +54,7 @@ pub(super) fn run_static(
                 let found = if first.is_none() && point.time_s > state.time_s {
                     // From where the scene begins, where teeth touch, and on to the first position.
                     let begun = equilibrium(&mut system, &state, &params)?;
-                    next_equilibrium(&mut system, &begun.state, point.time_s, &params)?
+                    next_equilibrium(&mut system, &begun.state, point.time_s, &on_the_way)?
                 } else {
                     state.time_s = point.time_s;
                     equilibrium(&mut system, &state, &params)?

@@ -110,7 +110,8 @@ impl PlacedMotion {
     }
 
     /// The fastest speed about the joint's axis in a run that steps through time \[rad/s\], where the angle is driven:
-    /// that of the values which the run gives the motion, or the largest of its function, looked at often.
+    /// that of the values which the run gives the motion, or the largest of its function, looked at often. Of
+    /// the motion of a static series it is 1 rad/s.
     pub(super) fn fastest_spin(&self, run: &Run) -> Option<f64> {
         let at = |time_s: f64| match (&self.motion, self.driven) {
             (_, Driven::Place) => None,
@@ -124,6 +125,8 @@ impl PlacedMotion {
                 speeds_rad_per_s: Some(speeds),
                 ..
             } if varied => speeds.values.clone(),
+            // What a radian of it is: 1 rad in a second.
+            Run::Static { .. } if varied => vec![1.0],
             _ => {
                 let end_s = run.simulated_s().unwrap_or(0.0);
                 let times = (0..=LOOKS).map(|i| end_s * f64::from(i) / f64::from(LOOKS));

@@ -67,6 +67,21 @@ pub(super) fn frequency_hz(mesh: &PreparedMesh, bodies: &Bodies) -> f64 {
     mesh.teeth[0] as f64 * spin_rad_per_s(mesh, bodies).abs() / TAU
 }
 
+/// The highest mesh frequency \[Hz\] of all states, and the mesh's name. A ratio has no teeth to be followed.
+pub(super) fn highest<'a>(
+    meshes: &'a [PreparedMesh],
+    states: &[&Bodies],
+) -> Option<(f64, &'a str)> {
+    let toothed = meshes
+        .iter()
+        .filter(|mesh| mesh.model != MeshKind::Kinematic);
+    let of_mesh = |mesh: &'a PreparedMesh| {
+        let each = states.iter();
+        each.map(move |bodies| (frequency_hz(mesh, bodies), &mesh.name[..]))
+    };
+    toothed.flat_map(of_mesh).max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
 /// Refuses a step that is too long for the meshes at the speeds that the scene states: those of the start and those to
 /// which its motions go.
 pub(super) fn refuse_long_steps(
@@ -81,13 +96,7 @@ pub(super) fn refuse_long_steps(
         StepControl::Fixed { step_s } => ("solver.step_s", step_s),
         StepControl::Adaptive(limits) => ("solver.adaptive.largest_step_s", limits.largest_step_s),
     };
-    // A ratio has no teeth to be followed.
-    let toothed = meshes
-        .iter()
-        .filter(|mesh| mesh.model != MeshKind::Kinematic);
-    let frequencies =
-        toothed.flat_map(|mesh| states.map(|bodies| (frequency_hz(mesh, bodies), &mesh.name)));
-    let Some((highest_hz, name)) = frequencies.max_by(|a, b| a.0.total_cmp(&b.0)) else {
+    let Some((highest_hz, name)) = highest(meshes, &states) else {
         return Ok(());
     };
     if step_s * highest_hz * STEPS_A_PERIOD <= 1.0 + 1e-9 {

@@ -249,6 +249,12 @@ impl LoadedSystem {
         let moved = (&motions[..], &fastest_of as &_);
         start_speeds::settle_speeds(&mut fastest, holds, moved, &meshes, &mut Vec::new());
         mesh_frequency::refuse_long_steps(&self.scene, &meshes, [&bodies, &fastest])?;
+        let pitches_per_rad = match self.scene.run {
+            Run::Static { .. } => {
+                mesh_frequency::highest(&meshes, &[&fastest]).map_or(0.0, |(hz, _)| hz)
+            }
+            _ => 0.0,
+        };
         stated_speeds::check(&tables.body, &bodies, &joints, document)?;
         let seeks_rest = at_rest || self.scene.solver.start == Start::Equilibrium;
         let at = (document, seeks_rest);
@@ -336,6 +342,7 @@ impl LoadedSystem {
             joints: parts.joints,
             elements: parts.elements,
             meshes: built_meshes,
+            pitches_per_rad,
             gauges,
             ratings,
             notes: parts.notes,

@@ -27,9 +27,6 @@ pub struct Drive {
     pub keys: [String; 3],
     /// What is driven, and by how much for a turn of the carrier against the ring \[deg\].
     pub driven: (&'static str, f64),
-    /// Share of the step between positions: a loaded member that only teeth couple turns by less than a pitch in it
-    /// where the rest moves by 0.9, so that its teeth do not slip (docs/limits.md).
-    pub share: f64,
     pub sense: f64,
 }
 
@@ -46,27 +43,23 @@ pub fn drives(force_n: f64) -> Vec<Drive> {
         Drive {
             keys: [still.clone(), held.clone(), against(2.0 * ARM_M)],
             driven: ("sun", 5.0 * 360.0),
-            share: 1.0,
             sense: 1.0,
         },
         Drive {
             keys: [against(36e-3), held.clone(), still.clone()],
             driven: ("carrier", 360.0),
-            share: 1.0,
             sense: -1.0,
         },
         // The sun is held: a turn of the carrier against the ring is -4 turns of itself.
         Drive {
             keys: [held.clone(), torque(144e-3), still.clone()],
             driven: ("carrier", -4.0 * 360.0),
-            share: 0.2,
             sense: 1.0,
         },
         // The carrier is held, the ring driven.
         Drive {
             keys: [torque(36e-3), still, held],
             driven: ("ring", -360.0),
-            share: 1.0,
             sense: 1.0,
         },
     ]
@@ -79,8 +72,7 @@ pub fn of_drive(
     (rows, pitches): (usize, f64),
 ) -> String {
     let (driven, turn_deg) = drive.driven;
-    let step_deg = drive.share * turn_deg * pitches / 96.0;
-    let angle = |i: usize| format!("{:?}", step_deg * i as f64);
+    let angle = |i: usize| format!("{:?}", turn_deg * pitches / 96.0 * i as f64);
     let angles: Vec<String> = (0..rows).map(angle).collect();
     let kind = format!(
         "kind = \"static\"\nmotion = \"set {driven} speed\"\nangles_deg = [{}]",
