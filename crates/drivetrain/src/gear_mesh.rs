@@ -26,6 +26,8 @@ use crate::pose::{Pose, Vector6};
 use crate::side_assembly::{Assembly, FlankFriction, Parts};
 use crate::teeth_model::{TeethLoads, TeethModel};
 
+mod coupled_side;
+
 /// How often each part of a mesh was computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct MeshEffort {
@@ -44,6 +46,8 @@ struct Side {
     loads: TeethLoads,
     /// Of each contact, zero where none was computed.
     friction: Vec<FlankFriction>,
+    /// Load on gear 2 per unit force of each contact that carries, where tangents are asked for; zero of others.
+    directions: Vec<Vector6>,
     /// How the gap rate of each contact changes with the pose, for the tangents of damping.
     rate_by_pose: Vec<Vector6>,
     modes: [Option<FlankModes>; 2],
@@ -124,6 +128,7 @@ impl GearMesh {
             found: FlankContacts::with_capacity(capacity),
             loads: TeethLoads::with_capacity(capacity),
             friction: Vec::with_capacity(capacity),
+            directions: Vec::with_capacity(capacity),
             rate_by_pose: Vec::with_capacity(capacity),
             modes: [None, None],
         });
@@ -327,6 +332,20 @@ impl GearMesh {
         modal: &ModalMotion<'_>,
         tangents: bool,
     ) -> Result<(), DrivetrainError> {
+        self.find(pose, modal, tangents)?;
+        self.settle(pose, modal, tangents)
+    }
+
+    /// First half of [`Self::update`]: the flanks that face each other.
+    ///
+    /// # Errors
+    /// [`DrivetrainError`] of the kinematics.
+    pub(crate) fn find(
+        &mut self,
+        pose: &Pose,
+        modal: &ModalMotion<'_>,
+        tangents: bool,
+    ) -> Result<(), DrivetrainError> {
         if tangents || self.has_tangents {
             self.load = MeshLoad::default();
         }
@@ -337,50 +356,74 @@ impl GearMesh {
         result.friction_w = 0.0;
         self.effort.poses += 1;
         self.modal.begin(tangents);
-        let rates = pose.rates();
         self.kinematics.locate(pose)?;
+        for number in 0..self.sides.len() {
+            self.find_side(number, pose, modal, 0.0);
+        }
+        Ok(())
+    }
+
+    /// The flanks of a side that face each other; none where all stand open by more than `reach_m`, nor where they
+    /// cannot touch by themselves and no reach is given.
+    fn find_side(&mut self, number: usize, pose: &Pose, modal: &ModalMotion<'_>, reach_m: f64) {
+        let side = &mut self.sides[number];
+        let rigid = side.modes.iter().all(Option::is_none);
+        let open_gap_m = rigid.then(|| self.kinematics.open_gap_m(side.flank));
+        let out_of_reach =
+            |gap_m: &f64| reach_m == 0.0 || *gap_m > reach_m + self.kinematics.most_added_m();
+        if let Some(gap_m) = open_gap_m.flatten().filter(out_of_reach) {
+            side.found.clear();
+            side.found.open_gap_m = Some(gap_m);
+            return;
+        }
+        let bent_m = |(gear, modes): (usize, &Option<FlankModes>)| {
+            let of_gear = modes.as_ref();
+            of_gear.map_or(0.0, |modes| modes.most_bent_m(modal.coordinates[gear]))
+        };
+        side.found.bent_m = side.modes.iter().enumerate().map(bent_m).sum();
+        match self.iterate {
+            Iterate::Correction => {
+                (self.kinematics).contacts_nearby(pose, side.flank, &mut side.found);
+            }
+            _ => (self.kinematics).contacts(pose, side.flank, &mut side.found),
+        }
+        for (gear, modes) in side.modes.iter().enumerate() {
+            let Some(modes) = modes else { continue };
+            modes.bend(gear, modal, &pose.rates(), &mut side.found);
+            if self.friction.is_some() {
+                let tangents = |contact: usize| {
+                    let own = self.kinematics.tangents_on_flanks(contact, side.flank);
+                    own.map(|own| own[gear])
+                };
+                modes.lay_sliding(
+                    (gear, self.kinematics.hand(side.flank)),
+                    tangents,
+                    &mut side.found,
+                );
+            }
+        }
+    }
+
+    /// Second half of [`Self::update`]: forces of the flanks that were found.
+    ///
+    /// # Errors
+    /// [`DrivetrainError`] of the model.
+    pub(crate) fn settle(
+        &mut self,
+        pose: &Pose,
+        modal: &ModalMotion<'_>,
+        tangents: bool,
+    ) -> Result<(), DrivetrainError> {
+        let rates = pose.rates();
+        let result = &mut self.load;
         for side in &mut self.sides {
-            let rigid = side.modes.iter().all(Option::is_none);
-            let open_gap_m = rigid.then(|| self.kinematics.open_gap_m(side.flank));
-            if let Some(gap_m) = open_gap_m.flatten() {
-                side.found.clear();
-                side.found.open_gap_m = Some(gap_m);
-                side.loads.begin(0, 0);
-                side.friction.clear();
-                continue;
-            }
-            let bent_m = |(gear, modes): (usize, &Option<FlankModes>)| {
-                let of_gear = modes.as_ref();
-                of_gear.map_or(0.0, |modes| modes.most_bent_m(modal.coordinates[gear]))
-            };
-            side.found.bent_m = side.modes.iter().enumerate().map(bent_m).sum();
-            match self.iterate {
-                Iterate::Correction => {
-                    (self.kinematics).contacts_nearby(pose, side.flank, &mut side.found);
-                }
-                _ => (self.kinematics).contacts(pose, side.flank, &mut side.found),
-            }
-            for (gear, modes) in side.modes.iter().enumerate() {
-                if let Some(modes) = modes {
-                    modes.bend(gear, modal, &rates, &mut side.found);
-                    if self.friction.is_some() {
-                        let tangents = |contact: usize| {
-                            let own = self.kinematics.tangents_on_flanks(contact, side.flank);
-                            own.map(|own| own[gear])
-                        };
-                        modes.lay_sliding(
-                            (gear, self.kinematics.hand(side.flank)),
-                            tangents,
-                            &mut side.found,
-                        );
-                    }
-                }
-            }
             let (contacts, sections) = (side.found.contacts.len(), side.found.sections.len());
             side.loads.single = side.model.acts_singly();
             side.loads.begin(contacts, sections);
             side.friction.clear();
             side.friction.resize(contacts, FlankFriction::default());
+            side.directions.clear();
+            side.directions.resize(contacts, Vector6::zeros());
             if contacts == 0 {
                 continue;
             }
@@ -420,6 +463,7 @@ impl GearMesh {
                 result: &mut *result,
                 modal: &mut self.modal,
                 friction: &mut side.friction,
+                directions: &mut side.directions,
                 effort: &mut self.effort,
             };
             assembly.add(parts, tangents);

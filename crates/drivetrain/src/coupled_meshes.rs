@@ -1,0 +1,222 @@
+//! Meshes that share gear bodies as one force element: their contacts are solved together, so that each feels what the
+//! forces of the others make of the bodies.
+//!
+//! ```text
+//! mesh A  gap_A = rigid gap_A + C_AA F_A + δ(F_A) + Σ_B C_AB F_B       C_AB: crates/contact, joint_contact.rs
+//! tangent ∂(load A) = Σ_i d_i ∂F_i,   ∂F_i = −Σ_j K_ij g_j ∂(pose of j's mesh)        K = (C + diag δ′)⁻¹ of all
+//! ```
+//!
+//! [`CoupledMeshes`] pushes on all bodies; a [`CoupledMesh`] stands for each mesh by its name and reports what that mesh
+//! does. Gears without vibration modes: those deflect all meshes of their body already.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use gearmesh_contact::JointContact;
+use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
+use gearmesh_dynamics::{BodyId, ElementFailure};
+use gearmesh_model::ReducedGear;
+
+use self::group::{Group, SideOfMesh, links};
+use crate::error::DrivetrainError;
+use crate::mesh_element::MeshElement;
+
+mod group;
+
+/// A mesh that is to be solved with others, and the models of its gears: none of a gear whose deflection stays with
+/// the mesh's own forces.
+pub struct MeshToCouple<'a> {
+    /// The mesh.
+    pub element: MeshElement,
+    /// Models of gear 1 and gear 2.
+    pub models: [Option<&'a ReducedGear>; 2],
+}
+
+/// Meshes whose contacts are solved together.
+pub struct CoupledMeshes {
+    name: String,
+    bodies: Vec<BodyId>,
+    /// Where their degrees of freedom begin.
+    places: Vec<usize>,
+    group: Arc<Mutex<Group>>,
+}
+
+/// One of them, for what it reports.
+pub struct CoupledMesh {
+    name: String,
+    bodies: [BodyId; 2],
+    number: usize,
+    group: Arc<Mutex<Group>>,
+}
+
+impl CoupledMeshes {
+    /// Couples meshes by the bodies that two or more of them have a model for. The first is the element that pushes.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::NotCoupled`] for a mesh whose model is not `hybrid` or whose gears have vibration modes,
+    /// [`DrivetrainError::Model`] for a model that does not carry the flanks' loads.
+    pub fn new(
+        name: &str,
+        meshes: Vec<MeshToCouple<'_>>,
+    ) -> Result<(Self, Vec<CoupledMesh>), DrivetrainError> {
+        let (mut elements, mut models) = (Vec::new(), Vec::new());
+        for mesh in meshes {
+            elements.push(mesh.element);
+            models.push(mesh.models);
+        }
+        let mut sides = Vec::new();
+        let mut capacity = 0;
+        for (number, element) in elements.iter_mut().enumerate() {
+            let mesh = element.mesh_mut();
+            if !mesh.couples() {
+                let mesh = element.name().to_owned();
+                return Err(DrivetrainError::NotCoupled { mesh });
+            }
+            for side in 0..mesh.side_count() {
+                if let Some(model) = mesh.coupled_model(side) {
+                    capacity += model.slices().capacity();
+                    model.join();
+                }
+                sides.push(SideOfMesh { mesh: number, side });
+            }
+        }
+        let links = links(&elements, &models, &sides)?;
+        let mut bodies: Vec<BodyId> = Vec::new();
+        for body in elements.iter().flat_map(MeshElement::gear_bodies) {
+            if !bodies.contains(&body) {
+                bodies.push(body);
+            }
+        }
+        let group = Arc::new(Mutex::new(Group {
+            motions: Vec::with_capacity(elements.len()),
+            jacobians: Vec::with_capacity(elements.len()),
+            sides,
+            joint: JointContact::new(links, capacity),
+            bodies: bodies.clone(),
+            known: Vec::with_capacity(bodies.len()),
+            ahead_m: Vec::with_capacity(capacity),
+            drag_n: Vec::with_capacity(capacity),
+            meshes: elements,
+        }));
+        let each = |(number, mesh): (usize, &MeshElement)| CoupledMesh {
+            name: mesh.name().to_owned(),
+            bodies: mesh.gear_bodies(),
+            number,
+            group: Arc::clone(&group),
+        };
+        let parts = lock(&group).meshes.iter().enumerate().map(each).collect();
+        let name = name.to_owned();
+        let coupled = Self {
+            name,
+            places: Vec::with_capacity(bodies.len()),
+            bodies,
+            group,
+        };
+        Ok((coupled, parts))
+    }
+
+    /// Pairs of sides that feel each other through a body.
+    #[must_use]
+    pub fn link_count(&self) -> usize {
+        lock(&self.group).joint.links().len()
+    }
+}
+
+/// A group that a panic has left is as good as another: nothing is kept from one evaluation to the next but starts.
+fn lock(group: &Mutex<Group>) -> MutexGuard<'_, Group> {
+    group.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl ForceElement for CoupledMeshes {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
+        let mut group = lock(&self.group);
+        let tangents = loads.wants_tangents();
+        group.update(view, tangents)?;
+        let starts: &[usize] = loads.starts();
+        // Of the few bodies each element has.
+        self.places.clear();
+        self.places.extend_from_slice(&starts[..self.bodies.len()]);
+        let place = |body: BodyId| {
+            let number = self.bodies.iter().position(|own| *own == body);
+            number.map_or(0, |number| self.places[number])
+        };
+        for (element, motion) in group.meshes.iter().zip(&group.motions) {
+            element.push(motion, element.gear_bodies().map(place), loads);
+        }
+        if tangents {
+            group.add_cross_tangents(place, loads);
+        }
+        Ok(())
+    }
+
+    fn admits(&self, view: &View<'_>) -> Result<(), ElementFailure> {
+        let group = lock(&self.group);
+        group.meshes.iter().try_for_each(|mesh| mesh.admits(view))
+    }
+
+    fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
+        let mut group = lock(&self.group);
+        let mut meshes = group.meshes.iter_mut();
+        meshes.try_for_each(|mesh| mesh.commit(view))
+    }
+
+    fn save(&self, out: &mut Vec<f64>) {
+        lock(&self.group)
+            .meshes
+            .iter()
+            .for_each(|mesh| mesh.save(out));
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        let mut rest = numbers;
+        for mesh in &mut lock(&self.group).meshes {
+            let mut own = Vec::new();
+            mesh.save(&mut own);
+            let (own, after) = rest.split_at(own.len().min(rest.len()));
+            mesh.restore(own);
+            rest = after;
+        }
+    }
+}
+
+impl ForceElement for CoupledMesh {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    /// Its forces are among those of the [`CoupledMeshes`].
+    fn evaluate(&mut self, _view: &View<'_>, _loads: &mut Loads) -> Result<(), ElementFailure> {
+        Ok(())
+    }
+
+    /// Nothing depends on anything.
+    fn couplings(&self, starts: &[usize]) -> Vec<Vec<usize>> {
+        vec![vec![starts[0]]]
+    }
+
+    fn channels(&self) -> Vec<Channel> {
+        lock(&self.group).meshes[self.number].channels()
+    }
+
+    fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
+        let mut group = lock(&self.group);
+        if !group.is_at(view) && group.update(view, false).is_err() {
+            group.known.clear();
+            out.fill(f64::NAN);
+            return;
+        }
+        let motion = group.motions[self.number];
+        group.meshes[self.number].sample_updated(view, &motion, out);
+    }
+}
