@@ -1,5 +1,6 @@
 //! The stress of a result's gears for its page: of each gear at the moment at which its roots are stressed most, or at one that is named.
 
+use crate::bevel_stress::{self, BevelStressRequest};
 use crate::cross_section::{CROSS_SECTION, FieldCase, picture};
 use crate::failure::Failure;
 use crate::recover::scene_of;
@@ -100,6 +101,15 @@ pub fn of_pair(
             "--stress-at-s is for runs in time; {} is a pair at rest, use --stress-angle-deg",
             path.display()
         )));
+    }
+    if result.bevel.is_some() {
+        let request = BevelStressRequest {
+            stress: true,
+            angle_deg: a.angle_deg,
+            ..BevelStressRequest::default()
+        };
+        let made = bevel_stress::asked(&request, Some(result), watch)?;
+        return Ok(made.unwrap_or_else(|| (head(&result.title), Vec::new())));
     }
     let loaded = scene_of(result, path)?;
     let torques = result.torque_nm.iter().enumerate();

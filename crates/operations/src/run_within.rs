@@ -36,11 +36,10 @@ pub fn run_within(
     let scene = match found.subject.clone() {
         Subject::Pair(scene) => SceneFile::Pair(scene),
         Subject::System(scene) => SceneFile::System(scene),
-        Subject::Bevel(_) | Subject::Bearing(_) => {
+        Subject::Bevel(scene) => SceneFile::Bevel(scene),
+        Subject::Bearing(_) => {
             let file = a.scene.display();
-            let problem = format!(
-                "{file}: --accuracy belongs to scenes; `gearmesh accuracy` judges a bevel pair's analysis"
-            );
+            let problem = format!("{file}: --accuracy belongs to scenes and bevel pairs");
             return Err(Failure::input(problem));
         }
     };

@@ -1,7 +1,6 @@
 //! The page of a tooth contact analysis: contact pattern, transmission error, ease-off, and what assembly errors do.
 
 use crate::failure::Failure;
-use crate::loaded_bevel::{self, Loaded};
 use crate::page_file;
 use crate::tca_sides::{NO_MEAN, Side, headline, moves, vh_rows, worth_of_points};
 use crate::watch::Watch;
@@ -13,6 +12,7 @@ use gearmesh_report::page::{
     Align, Axis, FieldPicture, FieldValues, FlankChart, KeyFigures, LineChart, LineSeries, Page,
     Section, Table, Text,
 };
+use gearmesh_report::scene_page::{SceneChapter, pair_sections};
 use gearmesh_report::short;
 use std::path::Path;
 
@@ -32,10 +32,8 @@ pub struct Analysed<'a> {
     pub backlash_m: Option<f64>,
     /// How thick the teeth are.
     pub thicknesses: &'a [String],
-    /// Under load, where the file asks for it.
-    pub loaded: Option<&'a Loaded>,
-    /// Pictures of both members' stress, where they are asked for.
-    pub stress: Option<Section>,
+    /// Under load, where the file asks for it, with pictures of both members' stress where they are asked for.
+    pub loaded: Option<SceneChapter>,
 }
 
 /// Writes the page.
@@ -48,25 +46,21 @@ pub fn write(
     path: &Path,
     watch: &Watch<'_>,
 ) -> Result<(), Failure> {
-    let page = page(of, pair).map_err(Failure::work)?;
+    let page = page(of, pair)?;
     page_file::write(&page, path, watch)
 }
 
-fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, BevelError> {
-    let load = of
-        .loaded
-        .map_or("without load", |_| "without and with load");
+fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, Failure> {
+    let load = (of.loaded.as_ref()).map_or("without load", |_| "without and with load");
     let mut page = Page::new(of.file.title.clone())
         .subtitle(format!(
             "Tooth contact analysis: {}, {load}",
             of.sides[0].name()
         ))
         .section(at_a_glance(of));
-    if let Some(loaded) = of.loaded {
-        page = page.section(loaded_bevel::section(loaded));
-    }
-    if let Some(stress) = &of.stress {
-        page = page.section(stress.clone());
+    if let Some(loaded) = &of.loaded {
+        let sections = pair_sections(loaded).map_err(Failure::work)?;
+        page = sections.into_iter().fold(page, Page::section);
     }
     let mut pattern = Section::new("Contact pattern").push(Text::paragraph(format!(
         "What touches at the positions at which this pair of teeth leads: ellipses on which the flanks are nearer than {} µm, and the path. \
@@ -80,14 +74,15 @@ fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, BevelError> {
         match &side.contact {
             Some(contact) => {
                 for member in [1, 0] {
-                    pattern = pattern.push(self::pattern(of, (side.flanks, contact), member)?);
+                    let drawn = self::pattern(of, (side.flanks, contact), member);
+                    pattern = pattern.push(drawn.map_err(Failure::work)?);
                 }
                 errors = errors.push(error(of, side, contact));
                 moves = assembly_errors(moves, side);
             }
             None => pattern = pattern.push(Text::paragraph(headline(side))),
         }
-        ease_offs = ease_offs.push(ease_off(of, side)?);
+        ease_offs = ease_offs.push(ease_off(of, side).map_err(Failure::work)?);
     }
     Ok(page
         .section(pattern)
@@ -103,17 +98,7 @@ fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, BevelError> {
 
 fn at_a_glance(of: &Analysed<'_>) -> Section {
     let error = &of.file.tca.error;
-    let under_load = of.loaded.iter().flat_map(|loaded| &loaded.found);
-    let figures = under_load.fold(KeyFigures::new(), |figures, found| {
-        figures.figure(
-            format!(
-                "transmission error at {} N m, peak to peak",
-                found.torque_nm
-            ),
-            short(1e6 * found.peak_to_peak_rad()),
-            "µrad of the gear",
-        )
-    });
+    let figures = KeyFigures::new();
     let figures = of
         .sides
         .iter()
@@ -123,7 +108,7 @@ fn at_a_glance(of: &Analysed<'_>) -> Section {
                 return figures;
             };
             let whose = if i == 0 { "" } else { "other flanks: " };
-            let load = of.loaded.map_or("", |_| " without load");
+            let load = of.loaded.as_ref().map_or("", |_| " without load");
             figures
                 .figure(
                     format!("{whose}transmission error{load}, peak to peak"),

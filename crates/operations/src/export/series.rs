@@ -67,6 +67,10 @@ fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<An
             return Err(Failure::input(problem));
         }
     }
+    if result.bevel.is_some() {
+        let problem = "gears that move are drawn of cylindrical pairs and of runs in time; run the bevel pair as a [[gear_mesh]]";
+        return Err(Failure::input(problem));
+    }
     let torques = &result.torque_nm;
     let torque = match a.torque_Nm {
         None => (0..torques.len()).max_by(|i, j| torques[*i].abs().total_cmp(&torques[*j].abs())),

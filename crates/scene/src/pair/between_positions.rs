@@ -9,8 +9,10 @@
 //! Only the first period of the run is looked at: the others are alike. Means, spectra and everything else that goes
 //! over a period are those of the even grid.
 
+use super::contact_places::ContactPlaces;
 use super::position::{Position, PositionSolver};
 use super::run::RunError;
+use gearmesh_contact::FlanksAtRest;
 use std::ops::Range;
 
 /// Halvings of an even step for an event: it is known to 1/32 of a step, on both sides.
@@ -48,6 +50,10 @@ pub struct BetweenPositions {
     pub force_n: Vec<f64>,
     /// Hertz pressure \[Pa\], `[E][L][S]`.
     pub pressure_pa: Vec<f64>,
+    /// Pair of teeth of each line, `[E][L]`, and where the slices touch; of families that store places with each position.
+    pub pair: Vec<f64>,
+    /// Where the slices touch, `[E][L][S]`.
+    pub places: Option<ContactPlaces>,
     /// What steps of this length still leave open: of the transmission error's peak-to-peak value, as a share of it, T.
     pub te_error: Vec<f64>,
     /// Of the largest pressure, T.
@@ -89,6 +95,16 @@ impl BetweenPositions {
             it.unloaded_m.push(p.unloaded_m);
             it.tangent_n_per_m.push(p.tangent_n_per_m);
             let unused = it.slots * slices - p.force_n.len();
+            if !p.places.is_empty() {
+                let no_pair = std::iter::repeat(0.0);
+                it.pair.extend(
+                    (p.pairs.iter().map(|pair| *pair as f64))
+                        .chain(no_pair)
+                        .take(it.slots),
+                );
+                let places = it.places.get_or_insert_default();
+                places.push(p.places.iter().copied(), it.slots * slices);
+            }
             for (all, own) in [
                 (&mut it.force_n, p.force_n),
                 (&mut it.pressure_pa, p.pressure_pa),
@@ -128,8 +144,8 @@ impl Node<'_> {
 ///
 /// # Errors
 /// [`RunError::Contact`] where a position has no solution.
-pub(super) fn find(
-    solver: &mut PositionSolver<'_>,
+pub(super) fn find<F: FlanksAtRest>(
+    solver: &mut PositionSolver<'_, F>,
     even: &[Position],
     repeats: bool,
 ) -> Result<Found, RunError> {
@@ -198,8 +214,8 @@ fn spread(nodes: &[Node<'_>], value: fn(&Position) -> f64) -> f64 {
 
 /// Halves the step between two positions at which other pairs carry, and each half in which that is so, and keeps the
 /// positions in between.
-fn halve(
-    solver: &mut PositionSolver<'_>,
+fn halve<F: FlanksAtRest>(
+    solver: &mut PositionSolver<'_, F>,
     [a, b]: [&Position; 2],
     halvings: usize,
     found: &mut Vec<Position>,
@@ -215,8 +231,8 @@ fn halve(
 }
 
 /// Follows the highest peaks of a figure; returns how far the highest may still be off.
-fn follow(
-    solver: &mut PositionSolver<'_>,
+fn follow<F: FlanksAtRest>(
+    solver: &mut PositionSolver<'_, F>,
     nodes: &mut Vec<Node<'_>>,
     value: fn(&Position) -> f64,
     scale: f64,
