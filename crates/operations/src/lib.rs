@@ -51,6 +51,7 @@ mod ratings;
 pub mod recover;
 pub mod reduce;
 pub mod report;
+mod result_scene;
 pub mod result_stress;
 pub mod run;
 pub mod run_within;

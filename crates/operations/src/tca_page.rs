@@ -52,22 +52,26 @@ pub fn write(
 
 fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, Failure> {
     let load = (of.loaded.as_ref()).map_or("without load", |_| "without and with load");
-    let mut page = Page::new(of.file.title.clone())
-        .subtitle(format!(
-            "Tooth contact analysis: {}, {load}",
-            of.sides[0].name()
-        ))
-        .section(at_a_glance(of));
+    // Sections under load have the same subjects.
+    let (titles, glance) = match of.loaded {
+        Some(_) => (" without load", "Without load"),
+        None => ("", "At a glance"),
+    };
+    let mut page = Page::new(of.file.title.clone()).subtitle(format!(
+        "Tooth contact analysis: {}, {load}",
+        of.sides[0].name()
+    ));
     if let Some(loaded) = &of.loaded {
         let sections = pair_sections(loaded).map_err(Failure::work)?;
         page = sections.into_iter().fold(page, Page::section);
     }
-    let mut pattern = Section::new("Contact pattern").push(Text::paragraph(format!(
+    page = page.section(at_a_glance(of, glance));
+    let mut pattern = Section::new(format!("Contact pattern{titles}")).push(Text::paragraph(format!(
         "What touches at the positions at which this pair of teeth leads: ellipses on which the flanks are nearer than {} µm, and the path. \
          Across is the distance from the apex along the pitch cone, up the height above it. The flanks that drive first, then the others.",
         short(1e6 * of.file.tca.marking_m)
     )));
-    let mut errors = Section::new("Transmission error");
+    let mut errors = Section::new(format!("Transmission error{titles}"));
     let mut ease_offs = Section::new("Ease-off");
     let mut moves = Section::new("Assembly errors");
     for side in of.sides {
@@ -96,7 +100,7 @@ fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, Failure> {
         )))
 }
 
-fn at_a_glance(of: &Analysed<'_>) -> Section {
+fn at_a_glance(of: &Analysed<'_>, title: &str) -> Section {
     let error = &of.file.tca.error;
     let figures = KeyFigures::new();
     let figures = of
@@ -142,7 +146,7 @@ fn at_a_glance(of: &Analysed<'_>) -> Section {
             short(1e3 * error.shaft_angle_rad),
             "mrad",
         );
-    let section = Section::new("At a glance").push(figures);
+    let section = Section::new(title).push(figures);
     let worth = of.sides.iter().flat_map(|s| worth_of_points(s.flanks));
     worth
         .chain(of.thicknesses.iter().cloned())

@@ -3,7 +3,7 @@
 use super::ExportRequest;
 use crate::answer::Answer;
 use crate::failure::Failure;
-use crate::recover::scene_of;
+use crate::result_scene::scene_of;
 use crate::stressed_gear::{StressedGear, forces_on};
 use crate::system_moments::{SystemMoments, WantedMoments, stressed, surface};
 use crate::watch::Watch;
