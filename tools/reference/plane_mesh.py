@@ -68,16 +68,21 @@ def stiffness(u, v, w):
 
 class PlaneBody:
     """A mesh that is held on its circle of radius `held`, all round or where `holds` is true of an edge's polar angle; where it `slides`, it is free along the
-    circle but for one node, which keeps it from turning: loads without moment leave no force there."""
+    circle but for one node, which keeps it from turning: loads without moment leave no force there. Where it `floats`, the circle is free but for what keeps the
+    body from moving, at its nodes at 0 and 180 degrees: loads in balance leave no force there."""
 
-    def __init__(self, mesh, held, holds=lambda angle: angle == angle, slides=False):
+    def __init__(self, mesh, held, holds=lambda angle: angle == angle, slides=False, floats=False):
         self.mesh, self.element = mesh, ElementVector(ElementTriP2())
         self.basis = Basis(mesh, self.element, intorder=4)
         self.boundary = mesh.boundary_facets()
         self.middles = mesh.p[:, mesh.facets[:, self.boundary]].mean(axis=1)
         ends = np.hypot(*mesh.p)[mesh.facets[:, self.boundary]]
         on = self.boundary[(np.abs(ends - held) < 1e-6 * held).all(axis=0) & holds(np.arctan2(self.middles[1], self.middles[0]))]
-        self.free = np.setdiff1d(np.arange(self.basis.N), self.basis.get_dofs(on).all())
+        fixed = self.basis.get_dofs(on).all()
+        if floats:
+            front, back = self.at(np.array([held, 0.0])), self.at(np.array([-held, 0.0]))
+            fixed = np.array([*front, back[1]])
+        self.free = np.setdiff1d(np.arange(self.basis.N), fixed)
         rows, columns, values = self.free, np.arange(len(self.free)), np.ones(len(self.free))
         if slides:
             nodes = np.unique(mesh.facets[:, on])
@@ -109,6 +114,19 @@ class PlaneBody:
         total = sum(normal[i] * (f[basis.nodal_dofs[i]].sum() + f[basis.facet_dofs[i]].sum()) for i in range(2))
         assert abs(total - 1) < 5e-3, total
         return f / total
+
+    def pad(self, circle, angle, half_angle):
+        """Nodal forces of 1 N/mm away from the centre, even over an arc of the circle; nodes must stand at its ends."""
+        turn = np.angle(np.exp(1j * (np.arctan2(self.middles[1], self.middles[0]) - angle)))
+        on = np.hypot(*self.middles) < 1.01 * circle
+        near = self.boundary[on & (np.abs(turn) < half_angle)]
+
+        @LinearForm
+        def pressure(v, w):
+            r = np.hypot(w.x[0], w.x[1])
+            return (w.x[0] * v[0] + w.x[1] * v[1]) / r / (2 * half_angle * circle)
+
+        return pressure.assemble(FacetBasis(self.mesh, self.element, facets=near, intorder=6))
 
     def solve(self, loads):
         return self.moves @ self.factor.solve(self.moves.T @ np.column_stack(loads))

@@ -10,6 +10,8 @@
 //! | what is a slice of a contact line, of whatever gears | [`ContactPatch`] | `contact_patch.rs` |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs`, `coupled_places.rs`, `station_blocks.rs` |
 //! | the same of a bevel gear | [`SliceCompliance::of_bevel`] | `bevel_slices.rs` |
+//! | how does the force of one mesh of a gear deflect it at another | [`CrossCompliance`] | `cross_compliance.rs` |
+//! | the forces of several meshes and what they deflect together | [`JointContact`] | `joint_contact.rs` |
 //! | what a root crack adds to that | [`crack_rows`] | `crack_rows.rs` |
 //! | where does a slice stand that has walked along the tooth | [`SliceWalk`] | `walked_slice.rs` |
 //! | how do the slices of a mesh sit on a flank, of either family | [`FlankSlices`] | `flank_slices.rs` |
@@ -48,6 +50,7 @@ pub mod contact_patch;
 pub mod contact_zone;
 pub mod coupled_places;
 pub mod crack_rows;
+pub mod cross_compliance;
 pub mod drive;
 pub mod flank_deflection;
 pub mod flank_deviations;
@@ -57,6 +60,7 @@ pub mod flanks_at_rest;
 pub mod half_spaces;
 pub mod hertz;
 mod involute_at_rest;
+pub mod joint_contact;
 pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
@@ -77,6 +81,7 @@ pub use contact_error::ContactError;
 pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
 pub use contact_zone::{ContactZone, SliceLayout};
+pub use cross_compliance::CrossCompliance;
 pub use drive::Drive;
 pub use flank_deviations::FlankDeviations;
 pub use flank_slices::FlankSlices;
@@ -84,6 +89,7 @@ pub use flank_surface::{FlankSurface, InvoluteSurface, RelativeCurvature, Surfac
 pub use flanks_at_rest::FlanksAtRest;
 pub use half_spaces::HalfSpaces;
 pub use involute_at_rest::InvoluteAtRest;
+pub use joint_contact::{JointContact, JointRow, MeshLink};
 pub use local_contact::LocalContact;
 pub use profile_shares::{ProfileHats, ProfilePlace};
 pub use runout::{GearSeat, Placement, Runout};

@@ -18,6 +18,22 @@ pub struct ToothPlace {
     pub(crate) walked: Option<WalkedSlice>,
 }
 
+impl ToothPlace {
+    /// Tooth of the sector that is stored for this place, and the tooth of so many `teeth` that stands to it as `other`
+    /// stands to this place's own.
+    #[inline(always)]
+    pub(crate) fn with_response(&self, other: usize, teeth: usize) -> (usize, usize) {
+        let (tooth, turned) = self.in_sector;
+        let response = other + teeth - turned;
+        let response = if response < teeth {
+            response
+        } else {
+            response - teeth
+        };
+        (tooth, response)
+    }
+}
+
 /// Share of a slice's force on the middle of each of its neighbours.
 ///
 /// A slice has axial stations at its edges and its middle. Equal forces on all slices make a uniform load whenever the

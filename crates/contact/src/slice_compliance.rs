@@ -16,7 +16,8 @@ use crate::profile_shares::{ProfileHats, ProfilePlace};
 use crate::slice_spread::NeighbourTerm;
 use crate::station_blocks::StationBlocks;
 use crate::walked_slice::SliceWalk;
-use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
+use gearmesh_model::{Flank, FlankGrid, ReducedGear, ReducedGearError};
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Slice compliance of one gear for loads on one hand of flank.
@@ -131,23 +132,20 @@ impl SliceCompliance {
         } = geometry;
         let grid = &gear.grid;
         let (stations, slices) = (grid.roll_angles_rad.len(), spread.slices());
-        let size = stations * slices;
         let own = gear.teeth_per_sector();
-        // Loads and shares of each (station, slice).
-        let axial: Vec<Vec<(usize, f64)>> = (0..size)
-            .map(|k| {
-                let shares = spread.shares(k % slices).iter();
-                shares
-                    .map(|&(i, share)| (grid.load(k / slices, i), share))
-                    .collect()
-            })
-            .collect();
+        let axial = loads_of_slices(grid, spread);
         let blocks = match gear.flank_patterns(flank, local.part() == CompliancePart::Patterns) {
             Some(patterns) => {
-                let patterns = patterns.combined(&axial);
-                StationBlocks::of_patterns(stations, slices, patterns, gear.teeth)
+                let patterns = (patterns.combined(&axial), [0, 0]);
+                StationBlocks::of_patterns(stations, [slices; 2], patterns, gear.teeth)
             }
-            None => blocks_of_all(gear, (flank, local.part()), (stations, slices), &axial),
+            None => {
+                let block = |tooth: usize, other: usize| match local.part() {
+                    CompliancePart::Patterns => gear.c_g_block(tooth, flank, other, flank),
+                    CompliancePart::Hub => gear.c_hub_block(tooth, flank, other, flank),
+                };
+                blocks_of_all(gear, block, [&axial; 2])
+            }
         };
         let slice_width_m = spread.width_m();
         let k = 2.0 * (1.0 - gear.poisson * gear.poisson) / (PI * gear.young_pa);
@@ -303,13 +301,7 @@ impl SliceCompliance {
     #[inline(always)]
     #[must_use]
     pub fn between<'a>(&'a self, a: &'a ToothPlace, b: &'a ToothPlace) -> CoupledPlaces<'a> {
-        let (tooth, turned) = a.in_sector;
-        let response = b.tooth + self.teeth - turned;
-        let response = if response < self.teeth {
-            response
-        } else {
-            response - self.teeth
-        };
+        let (tooth, response) = a.with_response(b.tooth, self.teeth);
         let neighboured = !self.spread.is_empty() && a.tooth == b.tooth;
         CoupledPlaces {
             blocks: (self.blocks).at(tooth * self.teeth + response, [&a.place, &b.place]),
@@ -344,25 +336,38 @@ impl SliceCompliance {
     }
 }
 
-/// T of all pairs of flanks: of a sector's teeth with all teeth. `axial`: loads and shares of each (station, slice).
-fn blocks_of_all(
-    gear: &ReducedGear,
-    (flank, part): (Flank, CompliancePart),
-    (stations, slices): (usize, usize),
-    axial: &[Vec<(usize, f64)>],
+/// Loads and shares of each (station, slice).
+pub(crate) fn loads_of_slices(grid: &FlankGrid, spread: &AxialSpread) -> Vec<Vec<(usize, f64)>> {
+    let slices = spread.slices();
+    let of_slice = |k: usize| {
+        let shares = spread.shares(k % slices).iter();
+        shares
+            .map(|&(i, share)| (grid.load(k / slices, i), share))
+            .collect()
+    };
+    (0..grid.roll_angles_rad.len() * slices)
+        .map(of_slice)
+        .collect()
+}
+
+/// T of all pairs of flanks: of a sector's teeth with all teeth, by their compliance `block(tooth, response tooth)`.
+/// `axial`: loads and shares of each (station, slice) of the first flank and of the second.
+pub(crate) fn blocks_of_all<'a>(
+    gear: &'a ReducedGear,
+    block: impl Fn(usize, usize) -> Cow<'a, [f64]>,
+    axial: [&[Vec<(usize, f64)>]; 2],
 ) -> StationBlocks {
     let own = gear.teeth_per_sector();
-    let (loads, size) = (gear.grid.len(), stations * slices);
+    let (loads, stations) = (gear.grid.len(), gear.grid.roll_angles_rad.len());
+    let sizes = axial.map(<[_]>::len);
+    let slices = sizes.map(|size| size / stations);
     let mut blocks = StationBlocks::new(stations, slices, own * gear.teeth);
-    let mut condensed = vec![0.0; size * size];
+    let mut condensed = vec![0.0; sizes[0] * sizes[1]];
     let mut loaded = vec![0.0; loads];
     for tooth in 0..own {
         for other in 0..gear.teeth {
-            let block = match part {
-                CompliancePart::Patterns => gear.c_g_block(tooth, flank, other, flank),
-                CompliancePart::Hub => gear.c_hub_block(tooth, flank, other, flank),
-            };
-            for (row, responses) in axial.iter().zip(condensed.chunks_exact_mut(size)) {
+            let block = block(tooth, other);
+            for (row, responses) in axial[0].iter().zip(condensed.chunks_exact_mut(sizes[1])) {
                 // First the loads, then the responses: each entry of the block is used a few times only.
                 loaded.fill(0.0);
                 for &(l, share) in row {
@@ -370,11 +375,13 @@ fn blocks_of_all(
                         *sum += share * c;
                     }
                 }
-                for (response, column) in responses.iter_mut().zip(axial) {
+                for (response, column) in responses.iter_mut().zip(axial[1]) {
                     *response = column.iter().map(|&(m, share)| share * loaded[m]).sum();
                 }
             }
-            blocks.push(|[a, i], [b, j]| condensed[(a * slices + i) * size + b * slices + j]);
+            blocks.push(|[a, i], [b, j]| {
+                condensed[(a * slices[0] + i) * sizes[1] + b * slices[1] + j]
+            });
         }
     }
     blocks

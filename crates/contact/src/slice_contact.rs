@@ -51,6 +51,32 @@ struct Run {
     rates: [LawRate; 2],
 }
 
+/// What was prepared, as a complementarity problem has it.
+#[derive(Debug, Clone, Copy)]
+pub struct Prepared<'a> {
+    /// C \[m/N\], `[patch][patch]`.
+    pub compliance: &'a [f64],
+    /// Local laws.
+    pub local: &'a [LocalLaw],
+    /// Gaps \[m\].
+    pub separation_m: &'a [f64],
+    /// See [`crate::contact_patch::PatchBalance`].
+    pub closing: &'a [f64],
+    /// See [`crate::contact_patch::PatchBalance`].
+    pub lever_m: &'a [f64],
+}
+
+/// Where a patch stands on a gear.
+#[derive(Debug, Clone, Copy)]
+pub struct Standing<'a> {
+    /// Tooth and place along the profile.
+    pub place: &'a ToothPlace,
+    /// Its slice.
+    pub slice: usize,
+    /// Component of the patch's normal along that of the flank.
+    pub along_normal: f64,
+}
+
 /// Two elastic gears in contact, with all memory that a solve needs.
 #[derive(Debug, Clone)]
 pub struct SliceContact {
@@ -198,6 +224,42 @@ impl SliceContact {
     /// [`Workspace::start_from`].
     pub fn start_from(&mut self, forces_n: &[f64]) {
         self.work.start_from(forces_n);
+    }
+
+    /// The patches that were prepared.
+    #[must_use]
+    pub fn prepared(&self) -> Prepared<'_> {
+        let n = self.separation_m.len();
+        Prepared {
+            compliance: &self.c[..n * n],
+            local: &self.local,
+            separation_m: &self.separation_m,
+            closing: &self.closing,
+            lever_m: &self.lever_m,
+        }
+    }
+
+    /// Where a patch that was prepared stands on gear 0 or 1.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    #[must_use]
+    pub fn stands(&self, patch: usize, gear: usize) -> Standing<'_> {
+        let run = &self.runs[self.run[patch]];
+        Standing {
+            place: &run.places[gear],
+            slice: self.slice[patch],
+            along_normal: run.along_normals[gear],
+        }
+    }
+
+    /// Takes forces \[N\] that were found with those of other contacts as the solution of the patches that were
+    /// prepared.
+    pub fn accept(&mut self, forces_n: &[f64]) {
+        self.work.start_from(forces_n);
+        if self.with_rates && !self.rates_are_known {
+            self.fill_rates();
+        }
     }
 
     /// Takes R Rᵀ from the compliance of the patches that were prepared: what `columns` quantities of R,

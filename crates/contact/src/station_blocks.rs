@@ -35,7 +35,8 @@ impl std::ops::AddAssign for Coupling {
 /// T of all slices of all pairs of flanks.
 #[derive(Debug, Clone)]
 pub struct StationBlocks {
-    slices: usize,
+    /// Of the first flank of a pair and of the second.
+    slices: [usize; 2],
     stations: usize,
     /// Stations and, where they are fewer than the shares of a place, as many zeros more.
     stride: usize,
@@ -54,40 +55,44 @@ enum Values {
 /// Flanks of a body that does not repeat: of the thousands of pairs of its teeth a run touches neighbours only.
 #[derive(Debug)]
 struct OnDemand {
-    /// Of the loads (station, slice).
+    /// Of the loads (station, slice) of the first flank, then of the second where that is another one.
     patterns: HubPatterns,
+    /// First loads of both flanks.
+    first: [usize; 2],
     teeth: usize,
     pairs: Vec<OnceLock<Vec<f64>>>,
 }
 
 impl StationBlocks {
-    /// Empty, for flanks with so many stations and slices; then one [`Self::push`] for each pair of flanks.
+    /// Empty, for flanks with so many stations, the first and the second of a pair with so many slices; then one
+    /// [`Self::push`] for each pair of flanks.
     #[must_use]
-    pub fn new(stations: usize, slices: usize, pairs: usize) -> Self {
+    pub fn new(stations: usize, slices: [usize; 2], pairs: usize) -> Self {
         let stride = stations.max(SHARES);
         Self {
             slices,
             stations,
             stride,
             values: Values::All(Vec::with_capacity(
-                pairs * slices * slices * stride * stride,
+                pairs * slices[0] * slices[1] * stride * stride,
             )),
         }
     }
 
     /// Of a body's patterns, combined to its stations and slices, each pair `[tooth][response tooth]` when it is asked
-    /// for first.
+    /// for first. `first`: where the loads of the first and the second flank begin among those of the patterns.
     #[must_use]
     pub fn of_patterns(
         stations: usize,
-        slices: usize,
-        patterns: HubPatterns,
+        slices: [usize; 2],
+        (patterns, first): (HubPatterns, [usize; 2]),
         teeth: usize,
     ) -> Self {
         let pairs = (0..teeth * teeth).map(|_| OnceLock::new()).collect();
         Self {
             values: Values::OnDemand(Arc::new(OnDemand {
                 patterns,
+                first,
                 teeth,
                 pairs,
             })),
@@ -108,7 +113,7 @@ impl StationBlocks {
     #[must_use]
     pub fn at<'a>(&'a self, pair: usize, places: [&'a ProfilePlace; 2]) -> CombinedBlocks<'a> {
         let block = self.stride * self.stride;
-        let size = self.slices * self.slices * block;
+        let size = self.slices[0] * self.slices[1] * block;
         let first = places[0].first() * self.stride + places[1].first();
         let values = match &self.values {
             Values::All(values) => &values[pair * size..(pair + 1) * size],
@@ -119,7 +124,7 @@ impl StationBlocks {
         };
         CombinedBlocks {
             values: &values[first..],
-            slices: self.slices,
+            slices: self.slices[1],
             stride: self.stride,
             places,
         }
@@ -128,14 +133,15 @@ impl StationBlocks {
     #[cold]
     fn asked_first<'a>(&self, found: &'a OnDemand, pair: usize) -> &'a [f64] {
         found.pairs[pair].get_or_init(|| {
-            let (slices, size) = (self.slices, self.stations * self.slices);
+            let [of_a, of_b] = self.slices;
+            let sizes = self.slices.map(|slices| self.stations * slices);
             let teeth = [pair / found.teeth, pair % found.teeth];
-            let block = found.patterns.block(teeth, [0, 0], size);
+            let block = found.patterns.block(teeth, found.first, sizes);
             let mut values = Vec::new();
             append(
                 &mut values,
-                (slices, self.stations, self.stride),
-                |[a, i], [b, j]| block[(a * slices + i) * size + b * slices + j],
+                (self.slices, self.stations, self.stride),
+                |[a, i], [b, j]| block[(a * of_a + i) * sizes[1] + b * of_b + j],
             );
             values
         })
@@ -145,10 +151,10 @@ impl StationBlocks {
 /// Appends a pair of flanks; stations beyond those that exist are zeros.
 fn append(
     values: &mut Vec<f64>,
-    (slices, stations, stride): (usize, usize, usize),
+    (slices, stations, stride): ([usize; 2], usize, usize),
     entry: impl Fn([usize; 2], [usize; 2]) -> f64,
 ) {
-    for (i, j) in (0..slices).flat_map(|i| (0..slices).map(move |j| (i, j))) {
+    for (i, j) in (0..slices[0]).flat_map(|i| (0..slices[1]).map(move |j| (i, j))) {
         for (a, b) in (0..stride).flat_map(|a| (0..stride).map(move |b| (a, b))) {
             let exists = a < stations && b < stations;
             values.push(if exists { entry([a, i], [b, j]) } else { 0.0 });
@@ -161,6 +167,7 @@ fn append(
 pub struct CombinedBlocks<'a> {
     /// From the first entry that is needed on.
     values: &'a [f64],
+    /// Of the second flank.
     slices: usize,
     stride: usize,
     places: [&'a ProfilePlace; 2],

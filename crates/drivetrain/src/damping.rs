@@ -14,6 +14,7 @@ use gearmesh_dynamics::Iterate;
 
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::FlankContacts;
+use crate::models::hybrid::ReducedTeeth;
 use crate::step::step;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
@@ -91,16 +92,8 @@ impl<M: TeethModel> Damped<M> {
         })
     }
 
-    fn proportional(
-        &mut self,
-        (flanks, tangents): (&FlankContacts, bool),
-        loads: &mut TeethLoads,
-        [time_s, full_m]: [f64; 2],
-    ) -> Result<(), DrivetrainError> {
-        // Open flanks feel what is there: nothing to copy.
-        if flanks.contacts.iter().all(|contact| contact.gap_m >= 0.0) {
-            return self.teeth.evaluate(flanks, tangents, loads);
-        }
+    /// Sets the gaps that the teeth feel, g + τ s ġ.
+    fn feel(&mut self, flanks: &FlankContacts, [time_s, full_m]: [f64; 2]) {
         self.felt.along_teeth = flanks.along_teeth;
         self.felt.action_m_per_u = flanks.action_m_per_u;
         self.felt.lines.clone_from(&flanks.lines);
@@ -119,6 +112,19 @@ impl<M: TeethModel> Damped<M> {
             self.felt_by
                 .push([1.0 - time_s * rate * slope, time_s * share]);
         }
+    }
+
+    fn proportional(
+        &mut self,
+        (flanks, tangents): (&FlankContacts, bool),
+        loads: &mut TeethLoads,
+        law: [f64; 2],
+    ) -> Result<(), DrivetrainError> {
+        // Open flanks feel what is there: nothing to copy.
+        if flanks.contacts.iter().all(|contact| contact.gap_m >= 0.0) {
+            return self.teeth.evaluate(flanks, tangents, loads);
+        }
+        self.feel(flanks, law);
         self.teeth.evaluate(&self.felt, tangents, loads)?;
         let n = flanks.contacts.len();
         self.drag_n.resize(n, 0.0);
@@ -206,6 +212,38 @@ impl<M: TeethModel> TeethModel for Damped<M> {
 
     fn takes_modes(&self) -> bool {
         self.teeth.takes_modes()
+    }
+
+    fn coupled(&self) -> Option<&ReducedTeeth> {
+        self.teeth.coupled()
+    }
+
+    fn coupled_mut(&mut self) -> Option<&mut ReducedTeeth> {
+        self.teeth.coupled_mut()
+    }
+
+    fn prepare(&mut self, flanks: &FlankContacts, deepest_m: f64) -> Result<(), DrivetrainError> {
+        let open = flanks.contacts.iter().all(|contact| contact.gap_m >= 0.0);
+        match self.damping {
+            Damping::StiffnessProportional {
+                time_s,
+                full_depth_m,
+            } if !open => {
+                self.feel(flanks, [time_s, full_depth_m]);
+                self.teeth.prepare(&self.felt, deepest_m)
+            }
+            _ => {
+                self.felt_by.clear();
+                self.teeth.prepare(flanks, deepest_m)
+            }
+        }
+    }
+
+    fn felt(&self, contact: usize) -> ([f64; 2], f64) {
+        match self.felt_by.get(contact) {
+            Some(felt_by) => (*felt_by, self.advance_m[contact]),
+            None => ([1.0, 0.0], 0.0),
+        }
     }
 
     fn remember(&mut self) {

@@ -106,6 +106,14 @@ pub enum DrivetrainError {
         "the iso6336 mesh is one spring at the pitch point, which these flanks do not have: take another mesh model"
     )]
     NoCommonGap,
+    /// A mesh whose contacts cannot be solved with those of others.
+    #[error(
+        "mesh `{mesh}` cannot be solved with other meshes of its gears: that takes kind = \"hybrid\" and gears without vibration modes"
+    )]
+    NotCoupled {
+        /// Name of the mesh.
+        mesh: String,
+    },
     /// Beams for the teeth of a ring.
     #[error(
         "gear {gear} is a ring with internal teeth, which the analytic mesh has no beams for: take impact, or hybrid with reduced gears"

@@ -14,7 +14,7 @@ use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
 use crate::error::DrivetrainError;
-use crate::flank_contacts::FlankContacts;
+use crate::flank_contacts::{FlankContacts, ToothContact};
 use crate::flank_kinematics::FlankKinematics;
 use crate::flank_modes::{FlankModes, ModalMotion};
 use crate::friction::Friction;
@@ -22,6 +22,7 @@ use crate::involute_mesh::InvoluteMesh;
 use crate::mesh_kinematics::MeshKinematics;
 pub use crate::mesh_load::MeshLoad;
 use crate::modal_loads::ModalLoads;
+use crate::models::hybrid::{OUT_OF_REACH, ReducedTeeth};
 use crate::pose::{Pose, Vector6};
 use crate::side_assembly::{Assembly, FlankFriction, Parts};
 use crate::teeth_model::{TeethLoads, TeethModel};
@@ -44,9 +45,21 @@ struct Side {
     loads: TeethLoads,
     /// Of each contact, zero where none was computed.
     friction: Vec<FlankFriction>,
+    /// Load on gear 2 per unit force of each contact that carries, where tangents are asked for; zero of others.
+    directions: Vec<Vector6>,
     /// How the gap rate of each contact changes with the pose, for the tangents of damping.
     rate_by_pose: Vec<Vector6>,
     modes: [Option<FlankModes>; 2],
+}
+
+/// A side whose forces are found with those of other meshes.
+pub(crate) struct CoupledSide<'a> {
+    pub contacts: &'a [ToothContact],
+    /// Load on gear 2 per unit force of each contact that carries, where tangents were asked for.
+    pub directions: &'a [Vector6],
+    /// Says how gaps are felt ([`TeethModel::felt`]).
+    pub felt: &'a dyn TeethModel,
+    pub model: &'a ReducedTeeth,
 }
 
 /// A mesh of two gears.
@@ -124,6 +137,7 @@ impl GearMesh {
             found: FlankContacts::with_capacity(capacity),
             loads: TeethLoads::with_capacity(capacity),
             friction: Vec::with_capacity(capacity),
+            directions: Vec::with_capacity(capacity),
             rate_by_pose: Vec::with_capacity(capacity),
             modes: [None, None],
         });
@@ -327,6 +341,20 @@ impl GearMesh {
         modal: &ModalMotion<'_>,
         tangents: bool,
     ) -> Result<(), DrivetrainError> {
+        self.find(pose, modal, tangents)?;
+        self.settle(pose, modal, tangents)
+    }
+
+    /// First half of [`Self::update`]: the flanks that face each other.
+    ///
+    /// # Errors
+    /// [`DrivetrainError`] of the kinematics.
+    pub(crate) fn find(
+        &mut self,
+        pose: &Pose,
+        modal: &ModalMotion<'_>,
+        tangents: bool,
+    ) -> Result<(), DrivetrainError> {
         if tangents || self.has_tangents {
             self.load = MeshLoad::default();
         }
@@ -337,50 +365,129 @@ impl GearMesh {
         result.friction_w = 0.0;
         self.effort.poses += 1;
         self.modal.begin(tangents);
-        let rates = pose.rates();
         self.kinematics.locate(pose)?;
+        for number in 0..self.sides.len() {
+            self.find_side(number, pose, modal, 0.0);
+        }
+        Ok(())
+    }
+
+    /// The flanks of a side that face each other; none where all stand open by more than `reach_m`, nor where they
+    /// cannot touch by themselves and no reach is given.
+    fn find_side(&mut self, number: usize, pose: &Pose, modal: &ModalMotion<'_>, reach_m: f64) {
+        let side = &mut self.sides[number];
+        let rigid = side.modes.iter().all(Option::is_none);
+        let open_gap_m = rigid.then(|| self.kinematics.open_gap_m(side.flank));
+        let out_of_reach =
+            |gap_m: &f64| reach_m == 0.0 || *gap_m > reach_m + self.kinematics.most_added_m();
+        if let Some(gap_m) = open_gap_m.flatten().filter(out_of_reach) {
+            side.found.clear();
+            side.found.open_gap_m = Some(gap_m);
+            return;
+        }
+        let bent_m = |(gear, modes): (usize, &Option<FlankModes>)| {
+            let of_gear = modes.as_ref();
+            of_gear.map_or(0.0, |modes| modes.most_bent_m(modal.coordinates[gear]))
+        };
+        side.found.bent_m = side.modes.iter().enumerate().map(bent_m).sum();
+        match self.iterate {
+            Iterate::Correction => {
+                (self.kinematics).contacts_nearby(pose, side.flank, &mut side.found);
+            }
+            _ => (self.kinematics).contacts(pose, side.flank, &mut side.found),
+        }
+        for (gear, modes) in side.modes.iter().enumerate() {
+            let Some(modes) = modes else { continue };
+            modes.bend(gear, modal, &pose.rates(), &mut side.found);
+            if self.friction.is_some() {
+                let tangents = |contact: usize| {
+                    let own = self.kinematics.tangents_on_flanks(contact, side.flank);
+                    own.map(|own| own[gear])
+                };
+                modes.lay_sliding(
+                    (gear, self.kinematics.hand(side.flank)),
+                    tangents,
+                    &mut side.found,
+                );
+            }
+        }
+    }
+
+    /// The deepest overlap of all sides that were found \[m\].
+    pub(crate) fn deepest_overlap_m(&self) -> f64 {
+        let each = self.sides.iter().map(|side| side.found.deepest_overlap_m());
+        each.fold(0.0, f64::max)
+    }
+
+    /// Finds flanks that are not out of reach of the deepest overlap of all meshes, too, and prepares the models for
+    /// forces that are found with those of other meshes.
+    ///
+    /// # Errors
+    /// As [`TeethModel::prepare`].
+    pub(crate) fn prepare(&mut self, pose: &Pose, deepest_m: f64) -> Result<(), DrivetrainError> {
+        let reach_m = OUT_OF_REACH * deepest_m;
+        for number in 0..self.sides.len() {
+            if reach_m > 0.0 && self.sides[number].found.open_gap_m.is_some() {
+                self.find_side(number, pose, &ModalMotion::default(), reach_m);
+            }
+            let side = &mut self.sides[number];
+            side.model.prepare(&side.found, deepest_m)?;
+        }
+        Ok(())
+    }
+
+    /// Number of its sides.
+    pub(crate) fn side_count(&self) -> usize {
+        self.sides.len()
+    }
+
+    /// The flank of gear 0 or 1 that touches on the side with this number.
+    pub(crate) fn flank_of(&self, gear: usize, side: usize) -> Flank {
+        self.kinematics.side_of(gear, self.sides[side].flank)
+    }
+
+    /// Whether the forces of all sides can be found with those of other meshes.
+    pub(crate) fn couples(&self) -> bool {
+        let mut sides = self.sides.iter();
+        sides.all(|side| side.model.coupled().is_some()) && self.modal.count() == 0
+    }
+
+    /// A side whose forces are found with those of other meshes.
+    pub(crate) fn coupled_side(&self, number: usize) -> Option<CoupledSide<'_>> {
+        let side = &self.sides[number];
+        Some(CoupledSide {
+            contacts: &side.found.contacts,
+            directions: &side.directions,
+            felt: &side.model,
+            model: side.model.coupled()?,
+        })
+    }
+
+    /// Its model.
+    pub(crate) fn coupled_model(&mut self, number: usize) -> Option<&mut ReducedTeeth> {
+        self.sides[number].model.coupled_mut()
+    }
+
+    /// Second half of [`Self::update`]: forces of the flanks that were found.
+    ///
+    /// # Errors
+    /// [`DrivetrainError`] of the model.
+    pub(crate) fn settle(
+        &mut self,
+        pose: &Pose,
+        modal: &ModalMotion<'_>,
+        tangents: bool,
+    ) -> Result<(), DrivetrainError> {
+        let rates = pose.rates();
+        let result = &mut self.load;
         for side in &mut self.sides {
-            let rigid = side.modes.iter().all(Option::is_none);
-            let open_gap_m = rigid.then(|| self.kinematics.open_gap_m(side.flank));
-            if let Some(gap_m) = open_gap_m.flatten() {
-                side.found.clear();
-                side.found.open_gap_m = Some(gap_m);
-                side.loads.begin(0, 0);
-                side.friction.clear();
-                continue;
-            }
-            let bent_m = |(gear, modes): (usize, &Option<FlankModes>)| {
-                let of_gear = modes.as_ref();
-                of_gear.map_or(0.0, |modes| modes.most_bent_m(modal.coordinates[gear]))
-            };
-            side.found.bent_m = side.modes.iter().enumerate().map(bent_m).sum();
-            match self.iterate {
-                Iterate::Correction => {
-                    (self.kinematics).contacts_nearby(pose, side.flank, &mut side.found);
-                }
-                _ => (self.kinematics).contacts(pose, side.flank, &mut side.found),
-            }
-            for (gear, modes) in side.modes.iter().enumerate() {
-                if let Some(modes) = modes {
-                    modes.bend(gear, modal, &rates, &mut side.found);
-                    if self.friction.is_some() {
-                        let tangents = |contact: usize| {
-                            let own = self.kinematics.tangents_on_flanks(contact, side.flank);
-                            own.map(|own| own[gear])
-                        };
-                        modes.lay_sliding(
-                            (gear, self.kinematics.hand(side.flank)),
-                            tangents,
-                            &mut side.found,
-                        );
-                    }
-                }
-            }
             let (contacts, sections) = (side.found.contacts.len(), side.found.sections.len());
             side.loads.single = side.model.acts_singly();
             side.loads.begin(contacts, sections);
             side.friction.clear();
             side.friction.resize(contacts, FlankFriction::default());
+            side.directions.clear();
+            side.directions.resize(contacts, Vector6::zeros());
             if contacts == 0 {
                 continue;
             }
@@ -420,6 +527,7 @@ impl GearMesh {
                 result: &mut *result,
                 modal: &mut self.modal,
                 friction: &mut side.friction,
+                directions: &mut side.directions,
                 effort: &mut self.effort,
             };
             assembly.add(parts, tangents);

@@ -137,7 +137,17 @@ impl MeshElement {
         &self.mesh
     }
 
-    fn motion(&self, view: &View<'_>) -> RelativeMotion {
+    /// Bodies of gear 1 and gear 2.
+    #[must_use]
+    pub fn gear_bodies(&self) -> [BodyId; 2] {
+        self.bodies
+    }
+
+    pub(crate) fn mesh_mut(&mut self) -> &mut GearMesh {
+        &mut self.mesh
+    }
+
+    pub(crate) fn motion(&self, view: &View<'_>) -> RelativeMotion {
         let [gear_1, gear_2] = self.bodies.map(|body| view.body(body));
         self.pair.motion(gear_1, gear_2)
     }
@@ -183,6 +193,20 @@ impl MeshElement {
         }
         self.mesh.expect(view.iterate);
         self.mesh.update(&Pose::from(motion), &modal, tangents)
+    }
+
+    /// Adds load, tangents and power of a mesh that is at this motion; `places`: where the bodies' degrees of freedom
+    /// begin.
+    pub(crate) fn push(&self, motion: &RelativeMotion, places: [usize; 2], loads: &mut Loads) {
+        let mesh = self.mesh.load();
+        loads.power.stored_j += mesh.power.stored_j;
+        loads.power.dissipated_w += mesh.power.dissipated_w;
+        loads.power.supplied_w += mesh.power.supplied_w;
+        loads.add_pair_force(places, &motion.generalised_force(&mesh.load));
+        if loads.wants_tangents() {
+            let on_pair = PairTangents::new(mesh, motion);
+            loads.add_pair_tangents(places, &on_pair.by_position, &on_pair.by_velocity);
+        }
     }
 
     /// Adds forces on modes and their tangents; `places`: where the bodies' degrees of freedom begin.
@@ -239,16 +263,9 @@ impl ForceElement for MeshElement {
         let motion = self.motion(view);
         let tangents = loads.wants_tangents();
         self.update(view, &motion, tangents)?;
-        let mesh = self.mesh.load();
-        loads.power = mesh.power;
-        let force = motion.generalised_force(&mesh.load);
         // Modal coordinates of gear 1 stand between the two.
         let places = [0, 6 + view.modal(self.bodies[0]).len()];
-        loads.add_pair_force(places, &force);
-        if tangents {
-            let on_pair = PairTangents::new(mesh, &motion);
-            loads.add_pair_tangents(places, &on_pair.by_position, &on_pair.by_velocity);
-        }
+        self.push(&motion, places, loads);
         if self.mesh.modal_loads().count() > 0 {
             self.add_modal(&motion, places, loads);
         }
@@ -308,6 +325,18 @@ impl ForceElement for MeshElement {
             out.fill(f64::NAN);
             return;
         }
+        self.sample_updated(view, &motion, out);
+    }
+}
+
+impl MeshElement {
+    /// [`ForceElement::sample`] of a mesh that is at this motion.
+    pub(crate) fn sample_updated(
+        &mut self,
+        view: &View<'_>,
+        motion: &RelativeMotion,
+        out: &mut [f64],
+    ) {
         let own = if self.mesh.rubs() { POWERS } else { 0 };
         let (out, powers) = out.split_at_mut(out.len() - own);
         let force = motion.generalised_force(&self.mesh.load().load);
@@ -330,7 +359,7 @@ impl ForceElement for MeshElement {
                 .filter(|line| loaded(line.contacts.0, line.contacts.1))
                 .count();
         }
-        out[sides] = self.transmission_error_m(view, &motion);
+        out[sides] = self.transmission_error_m(view, motion);
         out[sides + 1] = pairs as f64;
         out[sides + 2] = f64::from(u8::from(self.mesh.is_apart()));
         let mut places = out[sides + 3..].iter_mut();
@@ -349,7 +378,7 @@ impl ForceElement for MeshElement {
         moments.copy_from_slice(&[force[5], force[11]]);
         let of_pairs = self.pairs.map_or(0, ToothPairs::count);
         let (slices, pairs) = rest.split_at_mut(rest.len() - of_pairs);
-        forces.copy_from_slice(&force_on_gear_1(&self.mesh, &Pose::from(&motion)));
+        forces.copy_from_slice(&force_on_gear_1(&self.mesh, &Pose::from(motion)));
         if let Some(line_loads) = &self.line_loads {
             line_loads.write(&self.mesh, slices);
         }

@@ -27,6 +27,8 @@ pub(crate) struct Parts<'a> {
     pub result: &'a mut MeshLoad,
     pub modal: &'a mut ModalLoads,
     pub friction: &'a mut [FlankFriction],
+    /// Load on gear 2 per unit force of each contact.
+    pub directions: &'a mut [Vector6],
     pub effort: &'a mut MeshEffort,
 }
 
@@ -85,6 +87,7 @@ impl Assembly<'_> {
                 }
             }
             result.load += force * direction;
+            parts.directions[i] = direction;
             if parts.modal.count() > 0 {
                 parts.modal.add_force(i, (force, friction_n), found);
             }

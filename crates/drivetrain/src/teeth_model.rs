@@ -12,6 +12,7 @@ use gearmesh_dynamics::Iterate;
 
 use crate::error::DrivetrainError;
 use crate::flank_contacts::FlankContacts;
+use crate::models::hybrid::ReducedTeeth;
 
 /// Normal forces of the contacts of one side of the teeth, and their derivatives. Reused from call to call.
 #[derive(Debug, Clone, Default)]
@@ -138,6 +139,32 @@ pub trait TeethModel: Send {
         false
     }
 
+    /// The reduced teeth behind the model, where its contacts can be solved with those of other meshes: between
+    /// [`Self::prepare`] and [`Self::evaluate`] forces are then found outside.
+    fn coupled(&self) -> Option<&ReducedTeeth> {
+        None
+    }
+
+    /// The same to be changed.
+    fn coupled_mut(&mut self) -> Option<&mut ReducedTeeth> {
+        None
+    }
+
+    /// Of models that couple: takes the contacts within reach, for forces that are found with those of other meshes.
+    /// `deepest_m`: the deepest overlap of all of them.
+    ///
+    /// # Errors
+    /// As [`Self::evaluate`].
+    fn prepare(&mut self, _flanks: &FlankContacts, _deepest_m: f64) -> Result<(), DrivetrainError> {
+        Ok(())
+    }
+
+    /// ∂(gap that the teeth feel)/∂gap and ∂/∂(gap rate) of a contact that was prepared, and how far the felt gap is
+    /// ahead of the gap \[m\].
+    fn felt(&self, _contact: usize) -> ([f64; 2], f64) {
+        ([1.0, 0.0], 0.0)
+    }
+
     /// Takes the forces of the last evaluation as the start of the next ones. Not called after evaluations for output: a run must not
     /// depend on when it is looked at.
     fn remember(&mut self) {}
@@ -183,6 +210,22 @@ impl TeethModel for Box<dyn TeethModel> {
 
     fn takes_modes(&self) -> bool {
         (**self).takes_modes()
+    }
+
+    fn coupled(&self) -> Option<&ReducedTeeth> {
+        (**self).coupled()
+    }
+
+    fn coupled_mut(&mut self) -> Option<&mut ReducedTeeth> {
+        (**self).coupled_mut()
+    }
+
+    fn prepare(&mut self, flanks: &FlankContacts, deepest_m: f64) -> Result<(), DrivetrainError> {
+        (**self).prepare(flanks, deepest_m)
+    }
+
+    fn felt(&self, contact: usize) -> ([f64; 2], f64) {
+        (**self).felt(contact)
     }
 
     fn remember(&mut self) {

@@ -93,9 +93,9 @@ impl HubPatterns {
     }
 
     /// The block of C_hub between two flanks, `[load][response]`: of tooth `a` from its load `from` on, of tooth `b`
-    /// from its load `to` on, `loads` each.
+    /// from its load `to` on, so many `loads` of each.
     #[must_use]
-    pub fn block(&self, [a, b]: [usize; 2], [from, to]: [usize; 2], loads: usize) -> Vec<f64> {
+    pub fn block(&self, [a, b]: [usize; 2], [from, to]: [usize; 2], loads: [usize; 2]) -> Vec<f64> {
         let r = self.count;
         let all = self.shares.len() / r.max(1);
         let mut between = vec![0.0; r * r];
@@ -105,9 +105,9 @@ impl HubPatterns {
             }
         }
         let share = |load: usize| &self.shares[load * r..(load + 1) * r];
-        let mut block = vec![0.0; loads * loads];
+        let mut block = vec![0.0; loads[0] * loads[1]];
         let mut passed = vec![0.0; r];
-        for (l, row) in block.chunks_exact_mut(loads).enumerate() {
+        for (l, row) in block.chunks_exact_mut(loads[1]).enumerate() {
             passed.fill(0.0);
             for (v, line) in share(from + l).iter().zip(between.chunks_exact(r)) {
                 add(&mut passed, *v, line);

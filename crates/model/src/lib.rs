@@ -54,6 +54,7 @@ mod row_log;
 mod seal;
 mod shaft_faces;
 mod shaft_faces_file;
+mod sliding_bore;
 mod staged_folder;
 mod stored_gear;
 #[doc(hidden)]

@@ -236,7 +236,7 @@ impl ReducedGear {
         if let Some(patterns) = &self.hub_patterns {
             let loads = self.grid.len();
             let first = [load_flank, response_flank].map(|flank| flank * loads);
-            return Cow::Owned(patterns.block([load_tooth, response_tooth], first, loads));
+            return Cow::Owned(patterns.block([load_tooth, response_tooth], first, [loads; 2]));
         }
         let tooth_in_sector = load_tooth % self.teeth_per_sector();
         let response = (response_tooth + teeth - (load_tooth - tooth_in_sector)) % teeth;

@@ -77,6 +77,22 @@ pub enum ReducedGearError {
         /// The gear.
         gear: String,
     },
+    /// The model carries no motions of its bore.
+    #[error(
+        "gear \"{gear}\" carries no motions of its bore, which bore = \"sliding\" needs; add a table [reduction.bore] to the gear's file and reduce it again"
+    )]
+    NoBoreMotions {
+        /// The gear.
+        gear: String,
+    },
+    /// A stiffness of the bore's motions that no body has.
+    #[error(
+        "the stiffness of gear \"{gear}\" for tangential and axial motions of its bore is not positive; reduce the gear again"
+    )]
+    BoreStiffness {
+        /// The gear.
+        gear: String,
+    },
     /// The model carries no natural modes.
     #[error(
         "gear \"{gear}\" carries no natural modes; add a table [modes] to the gear's file and reduce it again"

@@ -1,8 +1,11 @@
-//! A spur set of four planets with eight meshes on rigid bodies: time of a step by kind of mesh, and of a static turn
-//! of one mesh period at 60 positions.
+//! A spur set of four planets with eight meshes: time of a step by kind of mesh, and of a static turn of one mesh period
+//! at 60 positions; on rigid bodies, and `hybrid` on made-up elastic ones with and without coupling.
 //!
 //! `cargo bench --workspace --bench planetary --profile dev`; on a busy machine the figures are too high.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
+
+#[path = "../tests/made_up_gears/mod.rs"]
+mod made_up_gears;
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -25,6 +28,19 @@ fn scene(model: &str, run: &str) -> String {
          planets = {{ gear = \"planet.toml\", count = 4, bearings = [{{ model = {{ kind = \"linear\", radial_stiffness_N_per_mm = 2e5, \
          axial_stiffness_N_per_mm = 1e4, tilt_stiffness_Nm_per_rad = 1e4 }} }}] }}\n"
     )
+}
+
+/// Teeth 27, 24, 75 and angles at which four planets fit; elastic gears, five slices.
+fn hybrid(coupling: &str, run: &str) -> String {
+    let own = format!("coupling = \"{coupling}\"");
+    let angles = [0, 26, 51, 77].map(|k| 360.0 * f64::from(k) / 102.0);
+    let model = "{ kind = \"hybrid\", local = \"weber-banaschek\", damping = { kind = \"stiffness-proportional\", time_s = 2e-6, full_depth_um = 1.0 } }";
+    scene(model, run)
+        .replace("52.0", "76.5")
+        .replace("sun.toml\"", &format!("sun.h5\", {own}"))
+        .replace("ring.toml\"", &format!("ring.h5\", {own}"))
+        .replace("planet.toml\"", &format!("planet.h5\", {own}"))
+        .replace("count = 4", &format!("angles_deg = {angles:?}"))
 }
 
 fn write_gears(folder: &Path) {
@@ -80,6 +96,17 @@ fn main() {
     }
     // One mesh period is 360/28 degrees of the sun against the carrier, which turns by 28/104 of the sun.
     let period = 360.0 / 28.0 / (1.0 - 28.0 / 104.0);
+    made_up_gears::write_set(folder.path());
+    for coupling in ["all-meshes", "own-mesh"] {
+        let (found, _) = result(&hybrid(coupling, IN_TIME), folder.path());
+        let record = found.record.unwrap();
+        println!(
+            "hybrid, {coupling:<10} {:8.1} us a step, {:.2} evaluations and {:.3} factorisations a step",
+            1e6 * record.wall_s / record.steps,
+            record.evaluations / record.steps,
+            record.factorisations / record.steps
+        );
+    }
     let angles: Vec<String> = (0..60)
         .map(|i| format!("{:?}", period * f64::from(i) / 60.0))
         .collect();
@@ -93,4 +120,11 @@ fn main() {
         "iso6336    {:8.1} ms for 60 equilibria over a mesh period, with building and writing",
         1e3 * wall.as_secs_f64()
     );
+    for coupling in ["all-meshes", "own-mesh"] {
+        let (_, wall) = result(&hybrid(coupling, &series), folder.path());
+        println!(
+            "hybrid, {coupling:<10} {:8.1} ms for 60 equilibria",
+            1e3 * wall.as_secs_f64()
+        );
+    }
 }

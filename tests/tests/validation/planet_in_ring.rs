@@ -1,15 +1,13 @@
 //! Validation: transmission error of a planet in a ring at rest, from a scene, against an independent plane-strain
 //! solution of both bodies (reference/plane_planet): one and two pairs of teeth, three loads, either gear driving.
 
-use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::write_reduced_gear;
-use gearmesh_reduction::{ReductionOptions, Silent, reduce};
 use gearmesh_scene::{Scene, SceneResult, load, run};
 use std::path::Path;
 
-const FACE_M: f64 = 10e-3;
+use crate::plane_gears::{FACE_M, planet, ring};
+
 const MODULE_M: f64 = 2e-3;
 /// Loads along the line of action \[N/m\].
 const LOADS: [f64; 3] = [20e3, 100e3, 300e3];
@@ -26,20 +24,6 @@ fn reference() -> Vec<(usize, usize, [f64; 3])> {
         (place, v[1] as usize, [v[2], v[3], v[4]])
     };
     text.lines().skip(1).map(row).collect()
-}
-
-fn write_model(folder: &Path, name: &str, tooth: &str, blank: &str) {
-    let text = format!(
-        "name = \"{name}\"\n[tooth]\nmodule_mm = 2.0\nface_width_mm = 10.0\n{tooth}\n[blank]\n{blank}\n\
-         [material]\nyoung_GPa = 206.0\npoisson = 0.3\n[mesh]\nplane_strain = true\nelement = \"hex20\"\n"
-    );
-    let gear = GearDefinition::from_document(&InputDocument::new("plane.toml", text)).unwrap();
-    let options = ReductionOptions {
-        estimate_error: false,
-    };
-    let python = PythonEnvironment::find().unwrap();
-    let (model, _) = reduce(&gear, &python, options, &Silent).unwrap();
-    write_reduced_gear(&folder.join(format!("{name}.h5")), &model).unwrap();
 }
 
 /// The pair at rest; `base_2_m`: base radius of the driven gear.
@@ -59,20 +43,9 @@ fn at_rest(folder: &Path, gears: [&str; 2], flank: &str, base_2_m: f64) -> Scene
 #[test]
 fn the_transmission_error_of_a_planet_in_a_ring_agrees() {
     let folder = tempfile::tempdir().unwrap();
-    let planet = "teeth = 24\nrack_tip_radius = 0.38";
-    write_model(
-        folder.path(),
-        "planet",
-        planet,
-        "kind = \"solid\"\nbore_diameter_mm = 20.0",
-    );
-    let ring = "teeth = -75\naddendum = 0.8\n[tooth.cutter]\nteeth = 27";
-    write_model(
-        folder.path(),
-        "ring",
-        ring,
-        "kind = \"ring\"\nouter_diameter_mm = 170.0",
-    );
+    for (name, model) in [("planet", planet(false)), ("ring", ring())] {
+        write_reduced_gear(&folder.path().join(format!("{name}.h5")), model).unwrap();
+    }
     let base_m = |teeth: f64| 0.5 * MODULE_M * teeth * 20f64.to_radians().cos();
     let driven = at_rest(folder.path(), ["planet", "ring"], "right", base_m(75.0));
     let mut seen = [false; 2];

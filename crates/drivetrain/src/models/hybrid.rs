@@ -28,7 +28,7 @@ use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// A slice that is open by more than this many times the deepest penetration of all is left out. No unit. What loaded
 /// teeth make of other flanks' gaps is at most their own deflection times √(C_ii/C_jj), which stays below 3 on one gear.
-const OUT_OF_REACH: f64 = 3.0;
+pub(crate) const OUT_OF_REACH: f64 = 3.0;
 
 /// A contact that is left out.
 const NOWHERE: usize = usize::MAX;
@@ -50,6 +50,21 @@ pub struct ReducedTeeth {
     /// Teeth and slice forces that the next solution starts from.
     known: KnownForces,
     iterate: Iterate,
+    /// Where the forces are found with those of other meshes: what came of it.
+    joint: Option<JointShare>,
+}
+
+/// What the solution of several meshes together says of one side.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct JointShare {
+    /// −∂F/∂gap of its own patches \[N/m\], `[force][gap]`.
+    pub stiffness_n_per_m: Vec<f64>,
+    /// What the gaps that are felt ahead make of the forces, K a \[N\] of all meshes' a.
+    pub drag_n: Vec<f64>,
+    /// Half of the energy that it shares with others \[J\].
+    pub stored_j: f64,
+    /// ∂E*/∂u of the energy that it shares with others, `[patch][gear]` \[J per u\].
+    pub energy_by_u: Vec<[f64; 2]>,
 }
 
 /// Forces by tooth pair: lines come, go and change their number.
@@ -152,8 +167,40 @@ impl ReducedTeeth {
             modal_rows: [empty(), empty()],
             known: KnownForces::with_capacity(capacity),
             iterate: Iterate::Single,
+            joint: None,
             slices,
         })
+    }
+
+    /// Lets the forces be found with those of other meshes.
+    pub(crate) fn join(&mut self) {
+        self.joint = Some(JointShare::default());
+    }
+
+    /// The patches within reach.
+    pub(crate) fn slices(&self) -> &SliceContact {
+        &self.slices
+    }
+
+    /// Number of patches within reach.
+    pub(crate) fn patch_count(&self) -> usize {
+        self.patches.len()
+    }
+
+    /// The patch of a contact; none where it is out of reach.
+    pub(crate) fn patch_of(&self, contact: usize) -> Option<usize> {
+        self.row.get(contact).copied().filter(|row| *row != NOWHERE)
+    }
+
+    /// Forces of the patches to start from, after [`Self::lay_known`] \[N\].
+    pub(crate) fn known_n(&self) -> &[f64] {
+        &self.change
+    }
+
+    /// Takes forces that were found with those of other meshes.
+    pub(crate) fn accept(&mut self, forces_n: &[f64]) -> &mut JointShare {
+        self.slices.accept(forces_n);
+        self.joint.get_or_insert_default()
     }
 
     /// Where the slices lie: the layout that the mesh kinematics must have.
@@ -174,13 +221,13 @@ impl ReducedTeeth {
         })
     }
 
-    /// Takes the patches within reach.
-    fn take(&mut self, flanks: &FlankContacts) {
+    /// Takes the patches within reach of so deep an overlap.
+    fn take(&mut self, flanks: &FlankContacts, deepest_m: f64) {
         self.teeth.clear();
         self.patches.clear();
         self.row.clear();
         self.row.resize(flanks.contacts.len(), NOWHERE);
-        let reach = OUT_OF_REACH * flanks.deepest_overlap_m();
+        let reach = OUT_OF_REACH * deepest_m;
         for line in &flanks.lines {
             let begin = self.patches.len();
             let (first, count) = line.contacts;
@@ -217,8 +264,8 @@ impl ReducedTeeth {
         }
     }
 
-    /// Starts from what is known, from nothing where nothing is.
-    fn begin_solution(&mut self) {
+    /// Lays forces that are known of the patches, zero where none are.
+    pub(crate) fn lay_known(&mut self) {
         let slices = self.slices.slices();
         self.change.clear();
         for on_line in self.patches.chunk_by(|a, b| a.line == b.line) {
@@ -226,6 +273,11 @@ impl ReducedTeeth {
             let force = |patch: &ContactPatch| known.map_or(0.0, |forces| forces[patch.slice]);
             self.change.extend(on_line.iter().map(force));
         }
+    }
+
+    /// Starts from what is known, from nothing where nothing is.
+    fn begin_solution(&mut self) {
+        self.lay_known();
         if self.change.iter().any(|force| *force > 0.0) {
             self.slices.start_from(&self.change);
         } else {
@@ -262,6 +314,17 @@ impl ReducedTeeth {
     fn fill_tangent(&mut self, loads: &mut TeethLoads) {
         let n = self.row.len();
         let size = self.patches.len();
+        if let Some(joint) = &self.joint {
+            for (j, &column) in self.row.iter().enumerate() {
+                for (i, &row) in self.row.iter().enumerate() {
+                    if row != NOWHERE && column != NOWHERE {
+                        loads.stiffness_n_per_m[i * n + j] =
+                            joint.stiffness_n_per_m[row * size + column];
+                    }
+                }
+            }
+            return;
+        }
         self.change.resize(size, 0.0);
         self.unit.clear();
         self.unit.resize(size, 0.0);
@@ -280,6 +343,30 @@ impl ReducedTeeth {
         }
     }
 
+    /// Writes the forces of the last solution.
+    fn fill(&mut self, flanks: &FlankContacts, tangents: bool, loads: &mut TeethLoads) {
+        let forces = self.slices.forces_n();
+        for (force, &row) in loads.normal_n.iter_mut().zip(&self.row) {
+            if row != NOWHERE {
+                *force = forces[row];
+            }
+        }
+        loads.stored_j = self.slices.stored_energy_j();
+        if tangents {
+            self.fill_tangent(loads);
+        }
+        self.fill_energy(flanks, loads);
+    }
+
+    /// Writes the forces that were found with those of other meshes.
+    fn fill_joint(&mut self, flanks: &FlankContacts, tangents: bool, loads: &mut TeethLoads) {
+        if self.patches.is_empty() {
+            return;
+        }
+        self.fill(flanks, tangents, loads);
+        loads.stored_j += self.joint.as_ref().map_or(0.0, |joint| joint.stored_j);
+    }
+
     fn fill_energy(&self, flanks: &FlankContacts, loads: &mut TeethLoads) {
         for (number, section) in flanks.sections.iter().enumerate() {
             let (first, count) = section.contacts;
@@ -291,7 +378,11 @@ impl ReducedTeeth {
             for gear in 0..2 {
                 // At the end of a flank the contact no longer walks.
                 if section.walks(gear) {
-                    let walking = rows.clone().map(|row| self.slices.energy_by_u(row, gear));
+                    let joint = self.joint.as_ref();
+                    let shared =
+                        |row: usize| joint.map_or(0.0, |joint| joint.energy_by_u[row][gear]);
+                    let walking =
+                        (rows.clone()).map(|row| self.slices.energy_by_u(row, gear) + shared(row));
                     let of_modes = (flanks, &flanks.modal[gear].slopes[..]);
                     loads.energy_by_roll[number][gear] =
                         walking.sum::<f64>() - self.modal_energy(of_modes, loads, (number, gear));
@@ -318,13 +409,17 @@ impl TeethModel for ReducedTeeth {
         tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
+        if self.joint.is_some() {
+            self.fill_joint(flanks, tangents, loads);
+            return Ok(());
+        }
         if flanks.contacts.iter().all(|contact| contact.gap_m >= 0.0) {
             self.patches.clear();
             self.teeth.clear();
             return Ok(());
         }
         self.check_displacement(flanks)?;
-        self.take(flanks);
+        self.take(flanks, flanks.deepest_overlap_m());
         let (patches, floor_n) = (&self.patches, self.floor_n);
         let goes_on = match self.iterate {
             Iterate::Single => self.slices.prepare(patches, floor_n, true).map(|()| false),
@@ -336,18 +431,24 @@ impl TeethModel for ReducedTeeth {
             self.begin_solution();
         }
         self.slices.solve(Drive::TransmissionError(0.0))?;
-        let forces = self.slices.forces_n();
-        for (force, &row) in loads.normal_n.iter_mut().zip(&self.row) {
-            if row != NOWHERE {
-                *force = forces[row];
-            }
-        }
-        loads.stored_j = self.slices.stored_energy_j();
-        if tangents {
-            self.fill_tangent(loads);
-        }
-        self.fill_energy(flanks, loads);
+        self.fill(flanks, tangents, loads);
         Ok(())
+    }
+
+    fn coupled(&self) -> Option<&ReducedTeeth> {
+        Some(self)
+    }
+
+    fn coupled_mut(&mut self) -> Option<&mut ReducedTeeth> {
+        Some(self)
+    }
+
+    fn prepare(&mut self, flanks: &FlankContacts, deepest_m: f64) -> Result<(), DrivetrainError> {
+        self.take(flanks, deepest_m.max(flanks.deepest_overlap_m()));
+        if !self.patches.is_empty() {
+            self.check_displacement(flanks)?;
+        }
+        Ok(self.slices.prepare(&self.patches, self.floor_n, true)?)
     }
 
     fn apply_stiffness(
@@ -360,6 +461,15 @@ impl TeethModel for ReducedTeeth {
         forces_n.fill(0.0);
         let size = self.patches.len();
         if size == 0 {
+            return;
+        }
+        if let Some(joint) = &self.joint {
+            // Asked of what is felt ahead only, which all meshes were solved for together.
+            for (&row, force) in self.row.iter().zip(forces_n) {
+                if row != NOWHERE {
+                    *force = joint.drag_n[row];
+                }
+            }
             return;
         }
         self.unit.clear();

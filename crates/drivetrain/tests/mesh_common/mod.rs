@@ -97,6 +97,23 @@ pub fn made_up_gear(tooth: &ToothGeometry) -> ReducedGear {
     }
 }
 
+/// A made-up gear on a rim that bends in waves, which flanks on all teeth and both sides feel.
+pub fn on_soft_rim(mut gear: ReducedGear) -> ReducedGear {
+    let (teeth, loads) = (gear.teeth, gear.grid.len());
+    for (block, values) in gear.c_hub.chunks_exact_mut(loads * loads).enumerate() {
+        let [load, response, response_flank] = [block / (2 * teeth), block / 2 % teeth, block % 2];
+        let apart = std::f64::consts::TAU * response as f64 / teeth as f64;
+        // Positive for any sum of waves, whatever sign a side has.
+        let sign = if load == response_flank { 1.0 } else { -1.0 };
+        let waves = (2.0 * apart).cos() + 0.5 * (3.0 * apart).cos();
+        let height = |l: usize| 1.0 + 0.1 * (l / gear.grid.z_m.len()) as f64;
+        for (k, value) in values.iter_mut().enumerate() {
+            *value += 4e-10 * sign * waves * height(k / loads) * height(k % loads);
+        }
+    }
+    gear
+}
+
 pub fn slice_planes() -> Vec<f64> {
     layout(SLICES).centres_m()
 }

@@ -127,7 +127,7 @@ pub(super) struct Found {
 /// A position of the even grid, of which only the figures are looked at, or one that was added.
 enum Node<'a> {
     Even(&'a Position),
-    Added(Position),
+    Added(Box<Position>),
 }
 
 impl Node<'_> {
@@ -169,7 +169,11 @@ pub(super) fn find<F: FlanksAtRest>(
             let mut found = Vec::new();
             halve(solver, [here, next], EVENT_HALVINGS, &mut found)?;
             found.sort_by(|a, b| a.angle_rad.total_cmp(&b.angle_rad));
-            nodes.extend(found.into_iter().map(Node::Added));
+            nodes.extend(
+                found
+                    .into_iter()
+                    .map(|position| Node::Added(Box::new(position))),
+            );
         }
     }
     nodes.extend(after.map(Node::Even));
@@ -191,7 +195,7 @@ pub(super) fn find<F: FlanksAtRest>(
         over(factor_error, highest(&nodes, factor)),
     ];
     let added = |node: Node<'_>| match node {
-        Node::Added(position) => Some(position),
+        Node::Added(position) => Some(*position),
         Node::Even(_) => None,
     };
     let positions = nodes.into_iter().filter_map(added).collect();
@@ -257,8 +261,8 @@ fn follow<F: FlanksAtRest>(
         for _ in 0..MOST_HALVINGS {
             let before = at(nodes, peak);
             let [a, b, c] = [peak - 1, peak, peak + 1].map(|k| nodes[k].get().angle_rad);
-            nodes.insert(peak + 1, Node::Added(solver.at(0.5 * (b + c))?));
-            nodes.insert(peak, Node::Added(solver.at(0.5 * (a + b))?));
+            nodes.insert(peak + 1, Node::Added(Box::new(solver.at(0.5 * (b + c))?)));
+            nodes.insert(peak, Node::Added(Box::new(solver.at(0.5 * (a + b))?)));
             // The old peak is the one in the middle now.
             peak = [peak, peak + 2].into_iter().fold(peak + 1, |top, k| {
                 if at(nodes, k) > at(nodes, top) {

@@ -6,6 +6,9 @@ use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::{ContactPatch, Drive, FlanksAtRest, StaticContact, TipGear};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// Where a patch touches at a driver angle \[rad\].
+pub(super) type PlaceOf<'a> = dyn Fn(f64, &ContactPatch) -> PatchPlace + Sync + 'a;
+
 /// What positions of a pair are measured by.
 pub(super) struct Measures<'a> {
     /// Distance of one tooth from the next along the line of action \[m\].
@@ -17,7 +20,7 @@ pub(super) struct Measures<'a> {
     /// Slices of a whole line, where a line counts as whole; the slices that are on the path where none.
     pub whole_line: Option<f64>,
     /// Where patches touch, for families that store it with each position.
-    pub place_of: Option<&'a (dyn Fn(f64, &ContactPatch) -> PatchPlace + Sync)>,
+    pub place_of: Option<&'a PlaceOf<'a>>,
 }
 
 /// What is found at a driver angle.

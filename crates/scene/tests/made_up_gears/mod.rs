@@ -69,6 +69,26 @@ pub fn write_planet_and_ring(folder: &Path, helix_deg: f64) {
     }
 }
 
+/// Writes `sun.h5`, `planet.h5` and `ring.h5`: 27, 24 and 75 teeth at 76.5 mm, on soft rims.
+pub fn write_set(folder: &Path) {
+    write_planet_and_ring(folder, 0.0);
+    let sun = mesh_common::pair_common::tooth(27, -0.2, 0.0);
+    let sun = gearmesh_geometry::ToothGeometry::new(&sun).unwrap();
+    let sun = ReducedGear {
+        input: StoredGear::of_older_file(gear_file(27, -0.2)),
+        near_field: None,
+        ..modal_gear("made up 27", &sun)
+    };
+    let read = |teeth: usize| {
+        let path = folder.join(format!("gear_{teeth}.h5"));
+        gearmesh_model::read_reduced_gear(&path).unwrap()
+    };
+    for (name, gear) in [("sun", sun), ("planet", read(24)), ("ring", read(75))] {
+        let gear = mesh_common::on_soft_rim(gear);
+        write_reduced_gear(&folder.join(format!("{name}.h5")), &gear).unwrap();
+    }
+}
+
 /// Gear 1 drives at `speed_rpm` against 100 N m on gear 2; `of_gear_2` is put into its `[[body]]`, `further` at the
 /// end.
 pub fn scene(run: &str, speed_rpm: f64, of_gear_2: &str, further: &str) -> String {

@@ -13,6 +13,7 @@ use gearmesh_model::ReducedGear;
 use super::bevel_hybrid::BevelModels;
 use super::bevel_mesh::SceneBevel;
 use super::bodies::Bodies;
+use super::coupled::MeshOfGroup;
 use super::gears::Gear;
 use super::mesh_model::SceneMesh;
 use super::parts::Parts;
@@ -21,6 +22,14 @@ use crate::system::stage_summary::StageSummary;
 use crate::system::tables::gear_mesh::{EccentricityTable, GearMeshTable, TeethTable};
 use crate::system::tables::mesh_model::{MeshKind, MeshModel};
 use crate::system::tables::{MM, UM};
+
+/// Where a mesh goes.
+pub(super) enum MeshPlace<'a> {
+    /// Into the system.
+    Own(&'a mut SystemBuilder),
+    /// To those that it is solved with.
+    Group(&'a mut Vec<MeshOfGroup>),
+}
 
 /// A mesh of two bodies, ready but for its place in the system.
 pub(super) struct PreparedMesh {
@@ -204,13 +213,12 @@ impl PreparedMesh {
         pose(bodies, self.bodies, &self.seats)
     }
 
-    /// Adds the mesh to the system, with the gauges that read its slice forces.
+    /// Adds the mesh to the system or to its group, with the gauges that read its slice forces.
     pub(super) fn add(
         self,
         bodies: &Bodies,
-        gauges: &[BuiltGauge],
-        keys: &TableKeys<'_>,
-        builder: &mut SystemBuilder,
+        (gauges, keys): (&[BuiltGauge], &TableKeys<'_>),
+        place: MeshPlace<'_>,
         parts: &mut Parts,
     ) -> Result<(), InputError> {
         let ends = self.bodies.map(Some);
@@ -248,7 +256,17 @@ impl PreparedMesh {
                         .with_gauges(gear, &first.model, &names, modal)
                         .map_err(|e| keys.error("", e))?;
                 }
-                builder.element(element);
+                match place {
+                    MeshPlace::Own(builder) => {
+                        builder.element(element);
+                    }
+                    MeshPlace::Group(group) => group.push(MeshOfGroup {
+                        name: self.name.clone(),
+                        element,
+                        bodies: self.bodies,
+                        key: self.key,
+                    }),
+                }
                 let kind = match self.model {
                     MeshKind::Kinematic => "kinematic mesh",
                     MeshKind::Impact => "impact mesh",
@@ -263,7 +281,9 @@ impl PreparedMesh {
                 let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
                 let teeth = [0, 1]
                     .map(|i: usize| (self.teeth[i] as i64) * self.base_radii_m[i].signum() as i64);
-                builder.joint(kinematic_mesh(&self.name, markers, teeth));
+                if let MeshPlace::Own(builder) = place {
+                    builder.joint(kinematic_mesh(&self.name, markers, teeth));
+                }
                 parts.joint(&self.name, "kinematic mesh", bodies, ends);
             }
         }

@@ -16,6 +16,9 @@ use nalgebra::{Matrix3, Vector3};
 use super::cut_into_shaft::OnFaces;
 use crate::microgeometry_words::microgeometry_words;
 use crate::system::scene::SystemScene;
+use crate::system::tables::body::{BoreHold, Flexibility};
+use crate::system::tables::gear_mesh::GearMeshTable;
+use crate::system::tables::mesh_model::MeshKind;
 
 /// A gear from a gear file or a model.
 #[derive(Debug)]
@@ -114,7 +117,11 @@ fn instead(keys: &TableKeys<'_>, error: &DrivetrainError) -> InputError {
 
 /// Gears by file, so that each is read once.
 #[derive(Debug, Default)]
-pub(super) struct GearFiles(BTreeMap<PathBuf, BodyGear>);
+pub(super) struct GearFiles {
+    read: BTreeMap<PathBuf, BodyGear>,
+    /// Models with bores that slide.
+    sliding: BTreeMap<PathBuf, Arc<ReducedGear>>,
+}
 
 impl GearFiles {
     /// The gear of a file.
@@ -123,12 +130,65 @@ impl GearFiles {
         path: &Path,
         keys: &TableKeys<'_>,
     ) -> Result<BodyGear, InputError> {
-        if let Some(gear) = self.0.get(path) {
+        if let Some(gear) = self.read.get(path) {
             return Ok(gear.clone());
         }
         let gear = BodyGear::read(path, keys)?;
-        self.0.insert(path.to_path_buf(), gear.clone());
+        self.read.insert(path.to_path_buf(), gear.clone());
         Ok(gear)
+    }
+
+    /// The gear of a body with the bore that the body states.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key, where nothing would feel it, or where the model has no motions of its bore.
+    pub(super) fn with_own_bore(
+        &mut self,
+        gear: Option<BodyGear>,
+        scene: &SystemScene,
+        body: usize,
+    ) -> Result<Option<BodyGear>, InputError> {
+        let table = &scene.tables.body[body];
+        let Some(bore) = table.bore else {
+            return Ok(gear);
+        };
+        let path = format!("body.{body}");
+        let keys = TableKeys::new(&scene.document, &path);
+        let is_hybrid = |mesh: &&GearMeshTable| {
+            let own = mesh.gear_1 == table.name || mesh.gear_2 == table.name;
+            own && mesh.model.kind() == MeshKind::Hybrid
+        };
+        let cylindrical = gear.as_ref().and_then(BodyGear::cylindrical);
+        let reduced = cylindrical.and_then(|gear| Some((gear, gear.model.as_ref()?)));
+        let problem = match reduced {
+            None => "is not used: it is of cylindrical reduced gears (.h5); remove it",
+            Some(_) if !scene.tables.gear_mesh.iter().any(|mesh| is_hybrid(&mesh)) => {
+                "is not used: the body is in no hybrid mesh; remove it"
+            }
+            Some(_) if table.flexibility == Some(Flexibility::Modal) => {
+                "is not used with flexibility = \"modal\", whose modes are those of a held bore; remove one of the two"
+            }
+            Some(_) if bore == BoreHold::Bonded => return Ok(gear),
+            Some((gear, model)) => {
+                let model = match self.sliding.get(&gear.file) {
+                    Some(model) => Arc::clone(model),
+                    None => {
+                        let made = model.with_sliding_bore();
+                        let made = Arc::new(made.map_err(|e| keys.error("bore", e))?);
+                        self.sliding.insert(gear.file.clone(), Arc::clone(&made));
+                        made
+                    }
+                };
+                return Ok(Some(BodyGear::Cylindrical(Arc::new(Gear {
+                    file: gear.file.clone(),
+                    definition: gear.definition.clone(),
+                    model: Some(model),
+                    microgeometry_of_scene: gear.microgeometry_of_scene,
+                    on_faces: None,
+                }))));
+            }
+        };
+        Err(keys.error("bore", problem))
     }
 }
 

@@ -13,6 +13,7 @@
 //! | how often teeth come into mesh, and whether steps follow it | `mesh_frequency.rs` |
 //! | speeds that contradict a joint, stiffnesses that no run resolves | `stated_speeds.rs`, `stiffness.rs` |
 //! | joints and motions, loads and springs, bearings | `joints.rs`, `elements.rs`, `bearings/` |
+//! | which meshes are solved together | `coupled.rs` |
 //! | whether the tables fit each other | `consistency.rs` |
 //! | gears that overlap, loads that drive | `overlaps.rs`, `load_powers.rs` |
 //! | what is judged after the run | `ratings.rs` |
@@ -23,6 +24,7 @@ mod bevel_mesh;
 mod bodies;
 mod carriers;
 mod consistency;
+mod coupled;
 mod cut_into_shaft;
 mod elements;
 mod gear_mesh;
@@ -64,8 +66,9 @@ use gearmesh_geometry::input::{InputDocument, TableKeys};
 use self::bearings::tangent::Tangent;
 use self::bearings::{cages, housing, rigid};
 use self::bodies::{Bodies, PlacedBody};
+use self::coupled::{Groups, MeshOfGroup};
 use self::elements::Manner;
-use self::gear_mesh::PreparedMesh;
+use self::gear_mesh::{MeshPlace, PreparedMesh};
 use self::gears::{BodyGear, GearFiles};
 use self::joints::PlacedMotion;
 use self::parts::Parts;
@@ -76,6 +79,7 @@ use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
 use super::stage_summary::StageSummary;
+use super::tables::body::BoreHold;
 use super::tables::function::Sources;
 use super::tables::mesh_model::MeshKind;
 use super::tables::run::Run;
@@ -122,6 +126,7 @@ impl SystemScene {
             let read = |path| files.get(&self.folder.join(path), &keys);
             let gear = table.gear.as_ref().map(read).transpose()?;
             let gear = gears::with_own_microgeometry(gear, &self, i)?;
+            let gear = files.with_own_bore(gear, &self, i)?;
             gears.push(cut_into_shaft::on_its_shaft(gear, &self, i)?);
         }
         Ok(LoadedSystem { scene: self, gears })
@@ -305,10 +310,20 @@ impl LoadedSystem {
         let gauges = self.gauges(&bodies, &meshes)?;
         let ratings = ratings::build(&self.scene, &bodies, &meshes, &gauges)?;
         let built_meshes = meshes.iter().map(|mesh| describe(mesh, &bodies)).collect();
-        for mesh in meshes {
+        let groups = Groups::new(&tables.body, document, &bodies, &meshes)?;
+        let mut left: Vec<Vec<MeshOfGroup>> = groups.meshes.iter().map(|_| Vec::new()).collect();
+        for (mesh, group) in meshes.into_iter().zip(&groups.of_mesh) {
             let key = mesh.key.clone();
             let keys = TableKeys::new(document, &key);
-            mesh.add(&bodies, &gauges, &keys, &mut builder, &mut parts)?;
+            let own = match group {
+                Some(group) => MeshPlace::Group(&mut left[*group]),
+                None => MeshPlace::Own(&mut builder),
+            };
+            mesh.add(&bodies, (&gauges, &keys), own, &mut parts)?;
+        }
+        for meshes in left {
+            let note = groups.add(meshes, (document, &bodies), &mut builder)?;
+            parts.notes.push(note);
         }
         self.add_gravity(&bodies, &mut builder, &mut parts)?;
         self.check_output(&bodies, &parts)?;
@@ -367,6 +382,15 @@ impl LoadedSystem {
             let key = format!("gauge.{i}");
             let keys = TableKeys::new(&self.scene.document, &key);
             let body = bodies.find_body(&keys, "body", &table.body)?;
+            if self.scene.tables.body.get(body).and_then(|body| body.bore)
+                == Some(BoreHold::Sliding)
+            {
+                let problem = format!(
+                    "`{}` has bore = \"sliding\", under which no gauge is read: its rows are those of a held bore; remove the gauge, or take \"bonded\"",
+                    table.body
+                );
+                return Err(keys.error("body", problem));
+            }
             let model = bodies.list[body].model();
             let of_bevel = || meshes.iter().find_map(|mesh| mesh.bevel_model(body));
             let model = model.or_else(of_bevel).ok_or_else(|| {

@@ -17,13 +17,15 @@ use crate::system::tables::MM;
 use crate::system::tables::planetary::{MemberTable, PlanetaryTable, SupportWord};
 
 /// Keys of `[[body]]` that members and planets have.
-pub(super) const BODY_KEYS: [&str; 8] = [
+pub(super) const BODY_KEYS: [&str; 10] = [
     "gear",
     "microgeometry",
     "mass_kg",
     "inertia_kg_m2",
     "centre_of_mass_mm",
     "flexibility",
+    "coupling",
+    "bore",
     "modes_up_to_Hz",
     "modal_damping_ratio",
 ];

@@ -35,6 +35,13 @@ pub struct BodyTable {
     /// Gears: "rigid"; "reduced", the static patterns of the model deflect in `hybrid` meshes; "modal", its natural
     /// modes vibrate, too, and carry their inertia. Rigid or reduced, as the meshes need, where not given.
     pub flexibility: Option<Flexibility>,
+    /// Gear in several `hybrid` meshes: "all-meshes", each mesh feels what the forces of the others make of the body;
+    /// "own-mesh", each feels its own forces alone. "all-meshes" where not given. Not of meshes with modal gears, whose
+    /// modes all meshes feel.
+    pub coupling: Option<Coupling>,
+    /// Reduced gear with [reduction.bore]: "bonded", the bore is glued to a rigid pin; "sliding", it slides on it.
+    /// "bonded" where not given.
+    pub bore: Option<BoreHold>,
     /// `modal`: modes up to this frequency; all of the model where not given.
     #[serde(rename = "modes_up_to_Hz")]
     pub modes_up_to_hz: Option<f64>,
@@ -52,6 +59,27 @@ pub struct BodyTable {
     pub speed_rpm: Option<f64>,
     /// Angular velocity, body axes, instead of `speed_rpm`.
     pub angular_velocity_rad_per_s: Option<[f64; 3]>,
+}
+
+/// Whose forces a mesh feels in a body that it shares with others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Coupling {
+    /// Those of all meshes.
+    #[default]
+    AllMeshes,
+    /// Its own.
+    OwnMesh,
+}
+
+/// How the bore of a gear is held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BoreHold {
+    /// Glued to a rigid pin.
+    Bonded,
+    /// It slides along a rigid pin, which holds it radially all round.
+    Sliding,
 }
 
 /// How a gear body deflects.

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::bearing::{BearingModel, HousingTable};
-use super::body::Flexibility;
+use super::body::{BoreHold, Coupling, Flexibility};
 use super::flank_errors::FlankErrorTable;
 use super::function::FunctionTable;
 use super::gear_mesh::{EccentricityTable, TeethTable};
@@ -78,6 +78,10 @@ pub struct MemberTable {
     pub centre_of_mass_mm: Option<[f64; 3]>,
     /// How the gear deflects.
     pub flexibility: Option<Flexibility>,
+    /// Whose forces its meshes feel in it.
+    pub coupling: Option<Coupling>,
+    /// How its bore is held.
+    pub bore: Option<BoreHold>,
     /// With "modal": modes up to this frequency.
     #[serde(rename = "modes_up_to_Hz")]
     pub modes_up_to_hz: Option<f64>,
@@ -197,6 +201,10 @@ pub struct PlanetsTable {
     pub inertia_kg_m2: Option<Vec<f64>>,
     /// How the gear deflects.
     pub flexibility: Option<Flexibility>,
+    /// Whose forces its meshes feel in it.
+    pub coupling: Option<Coupling>,
+    /// How its bore is held.
+    pub bore: Option<BoreHold>,
     /// With "modal": modes up to this frequency.
     #[serde(rename = "modes_up_to_Hz")]
     pub modes_up_to_hz: Option<f64>,
@@ -232,6 +240,10 @@ pub struct SecondGearTable {
     pub inertia_kg_m2: Option<Vec<f64>>,
     /// How the gear deflects.
     pub flexibility: Option<Flexibility>,
+    /// Whose forces its meshes feel in it.
+    pub coupling: Option<Coupling>,
+    /// How its bore is held.
+    pub bore: Option<BoreHold>,
 }
 
 /// How one planet differs.

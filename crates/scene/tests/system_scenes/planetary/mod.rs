@@ -1,6 +1,7 @@
 //! Planetary sets from one table: natural frequencies of a published set, load sharing, phases, refusals, motion.
 
 mod bearings;
+mod coupling;
 mod errors;
 mod modes;
 mod motion;

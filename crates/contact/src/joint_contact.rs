@@ -1,0 +1,302 @@
+//! The contacts of several meshes that share gear bodies, solved together: one complementarity problem over all of them.
+//!
+//! ```text
+//! g_A = C_AA F_A + δ(F_A) + e_A + Σ_B C_AB F_B          C_AB = Σ_(bodies of A and B) Φ_Aᵀ C_hub Φ_B
+//! ```
+//!
+//! Each mesh side has its own compliance and laws ([`SliceContact`]); what it feels of another one comes in by the body
+//! that both are on ([`CrossCompliance`]). Bodies that are no gears, such as the rollers of a bearing, add
+//! rows of their own ([`JointRow`]).
+
+use std::sync::Arc;
+
+use crate::contact_error::ContactError;
+use crate::cross_compliance::CrossCompliance;
+use crate::nlcp::{Info, LocalLaw, Params, Problem, Workspace, solve_position};
+use crate::slice_contact::SliceContact;
+
+/// Two sides on one body.
+#[derive(Debug, Clone)]
+pub struct MeshLink {
+    /// Their numbers.
+    pub sides: [usize; 2],
+    /// Which gear the body is of each, 0 or 1.
+    pub gears: [usize; 2],
+    /// What the body deflects at the first under the forces of the second.
+    pub compliance: Arc<CrossCompliance>,
+}
+
+/// A contact besides those of teeth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointRow {
+    /// Its own deflection.
+    pub law: LocalLaw,
+    /// Gap without load \[m\].
+    pub gap_m: f64,
+}
+
+/// Contacts of several sides, with all memory that a solve needs. Steps of a solution: [`Self::lay`], [`Self::take`]
+/// and [`Self::couple`] for each side and link, [`Self::solve`].
+#[derive(Debug, Clone)]
+pub struct JointContact {
+    links: Vec<MeshLink>,
+    /// First contact of each side, and the end of the last one.
+    starts: Vec<usize>,
+    c: Vec<f64>,
+    local: Vec<LocalLaw>,
+    separation_m: Vec<f64>,
+    closing: Vec<f64>,
+    lever_m: Vec<f64>,
+    begin_n: Vec<f64>,
+    work: Workspace,
+    params: Params,
+    /// −∂F/∂gap, `[force][gap]`.
+    stiffness: Vec<f64>,
+    unit: Vec<f64>,
+    change: Vec<f64>,
+    /// Σ_B C_AB F_B of each contact \[m\].
+    felt_m: Vec<f64>,
+    /// How the energy between sides changes as a contact walks over the flank of gear 0 or 1 \[J per u\].
+    energy_by_u: Vec<[f64; 2]>,
+    iterations: u64,
+}
+
+impl JointContact {
+    /// For up to so many contacts.
+    #[must_use]
+    pub fn new(links: Vec<MeshLink>, capacity: usize) -> Self {
+        let empty = || Vec::with_capacity(capacity);
+        Self {
+            links,
+            starts: Vec::new(),
+            c: Vec::new(),
+            local: Vec::with_capacity(capacity),
+            separation_m: empty(),
+            closing: empty(),
+            lever_m: empty(),
+            begin_n: empty(),
+            work: Workspace::new(capacity),
+            params: Params::default(),
+            stiffness: Vec::new(),
+            unit: empty(),
+            change: empty(),
+            felt_m: empty(),
+            energy_by_u: Vec::with_capacity(capacity),
+            iterations: 0,
+        }
+    }
+
+    /// The links.
+    #[must_use]
+    pub fn links(&self) -> &[MeshLink] {
+        &self.links
+    }
+
+    /// Newton corrections of all solutions so far.
+    #[must_use]
+    pub fn iterations(&self) -> u64 {
+        self.iterations
+    }
+
+    /// Begins with sides of so many contacts each.
+    pub fn lay(&mut self, sizes: impl Iterator<Item = usize>) {
+        self.starts.clear();
+        self.starts.push(0);
+        let mut end = 0;
+        for size in sizes {
+            end += size;
+            self.starts.push(end);
+        }
+        self.c.clear();
+        self.c.resize(end * end, 0.0);
+        self.local.clear();
+        for values in [
+            &mut self.separation_m,
+            &mut self.closing,
+            &mut self.lever_m,
+            &mut self.begin_n,
+        ] {
+            values.clear();
+        }
+        self.felt_m.clear();
+        self.felt_m.resize(end, 0.0);
+        self.energy_by_u.clear();
+        self.energy_by_u.resize(end, [0.0; 2]);
+    }
+
+    /// Number of contacts.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.starts.last().copied().unwrap_or_default()
+    }
+
+    /// The contacts of a side.
+    #[must_use]
+    pub fn contacts_of(&self, side: usize) -> std::ops::Range<usize> {
+        self.starts[side]..self.starts[side + 1]
+    }
+
+    /// Takes a side that was prepared, the next one in their order; `begin_n`: forces to start from.
+    pub fn take(&mut self, side: usize, contact: &SliceContact, begin_n: &[f64]) {
+        let (n, own) = (self.size(), self.contacts_of(side));
+        let problem = contact.prepared();
+        for (row, values) in own
+            .clone()
+            .zip(problem.compliance.chunks_exact(own.len().max(1)))
+        {
+            self.c[row * n..][own.clone()].copy_from_slice(values);
+        }
+        self.local.extend_from_slice(problem.local);
+        self.separation_m.extend_from_slice(problem.separation_m);
+        self.closing.extend_from_slice(problem.closing);
+        self.lever_m.extend_from_slice(problem.lever_m);
+        self.begin_n.extend_from_slice(begin_n);
+    }
+
+    /// Takes contacts of no teeth as a side, the next one in their order.
+    pub fn take_rows(&mut self, rows: &[JointRow], begin_n: &[f64]) {
+        for row in rows {
+            self.local.push(row.law);
+            self.separation_m.push(row.gap_m);
+            self.closing.push(1.0);
+            self.lever_m.push(1.0);
+        }
+        self.begin_n.extend_from_slice(begin_n);
+    }
+
+    /// Adds to the compliance of two contacts, and of these the other way round.
+    pub fn add_compliance(&mut self, [i, j]: [usize; 2], value: f64) {
+        let n = self.size();
+        self.c[i * n + j] += value;
+        if i != j {
+            self.c[j * n + i] += value;
+        }
+    }
+
+    /// Takes what the body of a link deflects between its sides.
+    pub fn couple(&mut self, link: usize, contacts: [&SliceContact; 2]) {
+        let MeshLink { sides, gears, .. } = self.links[link];
+        let compliance = Arc::clone(&self.links[link].compliance);
+        let starts = sides.map(|side| self.starts[side]);
+        for i in 0..contacts[0].prepared().separation_m.len() {
+            for j in 0..contacts[1].prepared().separation_m.len() {
+                let a = contacts[0].stands(i, gears[0]);
+                let b = contacts[1].stands(j, gears[1]);
+                let found = compliance.between([a.place, b.place], [a.slice, b.slice]);
+                let value = a.along_normal * b.along_normal * found.value;
+                self.add_compliance([starts[0] + i, starts[1] + j], value);
+            }
+        }
+    }
+
+    /// Solves for all forces where the gaps stand.
+    ///
+    /// # Errors
+    /// [`ContactError::Nlcp`].
+    pub fn solve(&mut self) -> Result<Info, ContactError> {
+        let problem = Problem::new(
+            &self.c,
+            &self.local,
+            &self.separation_m,
+            &self.closing,
+            &self.lever_m,
+        )?;
+        if self.begin_n.iter().any(|force| *force > 0.0) {
+            self.work.start_from(&self.begin_n);
+        } else {
+            self.work.reset();
+        }
+        let info = solve_position(&problem, 0.0, &self.params, &mut self.work)?;
+        self.iterations += info.iterations as u64;
+        let (n, forces) = (self.size(), self.work.forces());
+        for side in 0..self.starts.len() - 1 {
+            let own = self.starts[side]..self.starts[side + 1];
+            for i in own.clone() {
+                let row = &self.c[i * n..][..n];
+                let others = (0..n).filter(|j| !own.contains(j));
+                self.felt_m[i] = others.map(|j| row[j] * forces[j]).sum();
+            }
+        }
+        Ok(info)
+    }
+
+    /// After [`Self::solve`]: how the energy between the sides of a link changes as contacts walk.
+    pub fn walk(&mut self, link: usize, contacts: [&SliceContact; 2]) {
+        let MeshLink { sides, gears, .. } = self.links[link];
+        let compliance = Arc::clone(&self.links[link].compliance);
+        let starts = sides.map(|side| self.starts[side]);
+        let [on_a, on_b] = sides.map(|side| self.contacts_of(side));
+        for (i, at_a) in on_a.enumerate() {
+            for (j, at_b) in on_b.clone().enumerate() {
+                let forces = self.work.forces();
+                let both = forces[at_a] * forces[at_b];
+                if both == 0.0 {
+                    continue;
+                }
+                let a = contacts[0].stands(i, gears[0]);
+                let b = contacts[1].stands(j, gears[1]);
+                let found = compliance.between([a.place, b.place], [a.slice, b.slice]);
+                let both = both * a.along_normal * b.along_normal;
+                self.energy_by_u[starts[0] + i][gears[0]] += both * found.by_a;
+                self.energy_by_u[starts[1] + j][gears[1]] += both * found.by_b;
+            }
+        }
+    }
+
+    /// Forces of all contacts \[N\].
+    #[must_use]
+    pub fn forces_n(&self) -> &[f64] {
+        self.work.forces()
+    }
+
+    /// Of each contact the deflection by the forces of other sides \[m\].
+    #[must_use]
+    pub fn felt_m(&self) -> &[f64] {
+        &self.felt_m
+    }
+
+    /// Of each contact ∂E*/∂u on gear 0 and gear 1 \[J per u\], the part between sides.
+    #[must_use]
+    pub fn energy_by_u(&self) -> &[[f64; 2]] {
+        &self.energy_by_u
+    }
+
+    /// K a: what gaps that are felt by a \[m\] closer make of the forces \[N\], negative where they open.
+    pub fn drag(&mut self, ahead_m: &[f64], drag_n: &mut Vec<f64>) {
+        drag_n.clear();
+        drag_n.resize(self.size(), 0.0);
+        if ahead_m.iter().any(|ahead| *ahead != 0.0) {
+            self.work.apply_tangent(ahead_m, drag_n);
+            drag_n.iter_mut().for_each(|force| *force = -*force);
+        }
+    }
+
+    /// Computes −∂F/∂gap of all contacts.
+    pub fn fill_stiffness(&mut self) {
+        let n = self.size();
+        self.stiffness.clear();
+        self.stiffness.resize(n * n, 0.0);
+        self.unit.clear();
+        self.unit.resize(n, 0.0);
+        self.change.clear();
+        self.change.resize(n, 0.0);
+        for j in 0..n {
+            if self.work.forces()[j] <= 0.0 {
+                continue;
+            }
+            self.unit[j] = -1.0;
+            self.work.apply_tangent(&self.unit, &mut self.change);
+            self.unit[j] = 0.0;
+            for (i, change) in self.change.iter().enumerate() {
+                self.stiffness[i * n + j] = *change;
+            }
+        }
+    }
+
+    /// −∂F/∂gap of one force by all gaps \[N/m\], after [`Self::fill_stiffness`].
+    #[must_use]
+    pub fn stiffness_of(&self, contact: usize) -> &[f64] {
+        let n = self.size();
+        &self.stiffness[contact * n..][..n]
+    }
+}

@@ -1,0 +1,104 @@
+//! Meshes of a set that feel each other through its gears: what that changes, what it takes, what is refused.
+
+use super::*;
+use crate::made_up_gears;
+
+/// A set of three planets with hybrid meshes; keys of sun, ring and planets.
+fn set([sun, ring, planets]: [&str; 3]) -> String {
+    let angles: Vec<f64> = (0..6).map(|k| -3.0 * f64::from(k)).collect();
+    let model = "{ model = { kind = \"hybrid\", local = \"weber-banaschek\" } }";
+    format!(
+        "title = \"set\"\n[run]\nkind = \"static\"\nmotion = \"set sun speed\"\nangles_deg = {angles:?}\n\
+         [[planetary]]\nname = \"set\"\ncentre_distance_mm = 76.5\nsun_torque = \"negative\"\nsun_mesh = {model}\nring_mesh = {model}\n\
+         carrier = {{ mass_kg = 3.0, inertia_kg_m2 = [6e-3, 6e-3, 9e-3], torque_Nm = 900.0 }}\n\
+         [planetary.sun]\ngear = \"sun.h5\"\nspeed_rpm = 0.0\n{sun}\n[planetary.ring]\ngear = \"ring.h5\"\nsupport = \"held\"\n{ring}\n\
+         [planetary.planets]\ngear = \"planet.h5\"\ncount = 3\ndeviation = [{{ planet = 1, tangential_um = 10.0 }}]\n{planets}\n"
+    )
+}
+
+/// Mean normal force of the first planet's sun mesh \[N\], and corrections of all equilibria.
+fn carried(keys: [&str; 3], folder: &Path) -> (f64, f64) {
+    let result = run(&set(keys), folder);
+    let read = |column: &str| result.rows.read(column).unwrap();
+    let forces = read("elements/set sun-planet 1/normal_force_right_N");
+    let mean = forces.iter().sum::<f64>() / forces.len() as f64;
+    (mean, read("iterations").iter().sum())
+}
+
+/// The forces of a set with soft rims change when each mesh feels its own alone (the rims of these made-up gears bend
+/// by a tenth of what teeth do), and equilibria take no more corrections with the coupling than without, but for one each:
+/// tangents hold it. Nothing else changes: gears that are all left to their own meshes carry as two that share none.
+#[test]
+fn meshes_of_a_set_feel_each_other() {
+    let folder = tempfile::tempdir().unwrap();
+    made_up_gears::write_set(folder.path());
+    let own = "coupling = \"own-mesh\"";
+    let (together, corrections) = carried([""; 3], folder.path());
+    let (apart, fewer) = carried([own; 3], folder.path());
+    assert!((together / apart - 1.0).abs() > 1e-3, "{together} {apart}");
+    assert!(corrections <= fewer + 6.0, "{corrections} {fewer}");
+    // Each body's part of it by itself.
+    for keys in [["", own, own], [own, "", own], [own, own, ""]] {
+        let (one, _) = carried(keys, folder.path());
+        assert!((one / apart - 1.0).abs() > 1e-6, "{keys:?}: {one} {apart}");
+    }
+}
+
+#[test]
+fn couplings_and_bores_that_nothing_follows_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    made_up_gears::write_set(folder.path());
+    let own = "coupling = \"own-mesh\"";
+    let modal = "flexibility = \"modal\"";
+    let (sliding, bonded) = ("bore = \"sliding\"", "bore = \"bonded\"");
+    let without_meshes = |text: String| {
+        let impact = "kind = \"impact\", stiffness_N_per_mm_e = 1e6, exponent = 1.5, damping_N_s_per_mm = 100.0, full_damping_depth_um = 5.0";
+        text.replace("kind = \"hybrid\", local = \"weber-banaschek\"", impact)
+    };
+    for (text, expected) in [
+        // Of one planet the sun is in one mesh.
+        (
+            set([own, "", ""]).replace("count = 3", "angles_deg = [0.0]"),
+            &["coupling of [[body]]", "`set sun` is in 1"][..],
+        ),
+        (
+            set([own, "", ""]).replace(
+                "[planetary.sun]",
+                "[planetary.sun]\nflexibility = \"modal\"",
+            ),
+            &[
+                "coupling of [[body]]",
+                "no vibration modes",
+                "`set sun` is in 0",
+            ],
+        ),
+        (
+            without_meshes(set(["", own, ""])),
+            &["coupling of [[body]]", "`set ring` is in 0"],
+        ),
+        (
+            set(["", "", sliding]),
+            &[
+                "gear \"made up 24\" carries no motions of its bore",
+                "[reduction.bore]",
+            ],
+        ),
+        (
+            without_meshes(set(["", "", bonded])),
+            &[
+                "bore of [[body]]",
+                "is not used: the body is in no hybrid mesh",
+            ],
+        ),
+        (
+            set(["", "", &format!("{sliding}\n{modal}")]),
+            &["is not used with flexibility = \"modal\""],
+        ),
+    ] {
+        let refused = build_in(&text, folder.path());
+        let message = refused.map(|_| ()).unwrap_err().to_string();
+        for words in expected {
+            assert!(message.contains(words), "{words}: {message}");
+        }
+    }
+}
