@@ -5,8 +5,7 @@
 //! ```
 //!
 //! Each mesh side has its own compliance and laws ([`SliceContact`]); what it feels of another one comes in by the body
-//! that both are on ([`CrossCompliance`]). Bodies that are no gears, such as the rollers of a bearing, add
-//! rows of their own ([`JointRow`]).
+//! that both are on ([`CrossCompliance`]).
 
 use std::sync::Arc;
 
@@ -24,15 +23,6 @@ pub struct MeshLink {
     pub gears: [usize; 2],
     /// What the body deflects at the first under the forces of the second.
     pub compliance: Arc<CrossCompliance>,
-}
-
-/// A contact besides those of teeth.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct JointRow {
-    /// Its own deflection.
-    pub law: LocalLaw,
-    /// Gap without load \[m\].
-    pub gap_m: f64,
 }
 
 /// Contacts of several sides, with all memory that a solve needs. Steps of a solution: [`Self::lay`], [`Self::take`]
@@ -58,7 +48,6 @@ pub struct JointContact {
     felt_m: Vec<f64>,
     /// How the energy between sides changes as a contact walks over the flank of gear 0 or 1 \[J per u\].
     energy_by_u: Vec<[f64; 2]>,
-    iterations: u64,
 }
 
 impl JointContact {
@@ -69,7 +58,7 @@ impl JointContact {
         Self {
             links,
             starts: Vec::new(),
-            c: Vec::new(),
+            c: Vec::with_capacity(capacity * capacity),
             local: Vec::with_capacity(capacity),
             separation_m: empty(),
             closing: empty(),
@@ -77,12 +66,11 @@ impl JointContact {
             begin_n: empty(),
             work: Workspace::new(capacity),
             params: Params::default(),
-            stiffness: Vec::new(),
+            stiffness: Vec::with_capacity(capacity * capacity),
             unit: empty(),
             change: empty(),
             felt_m: empty(),
             energy_by_u: Vec::with_capacity(capacity),
-            iterations: 0,
         }
     }
 
@@ -90,12 +78,6 @@ impl JointContact {
     #[must_use]
     pub fn links(&self) -> &[MeshLink] {
         &self.links
-    }
-
-    /// Newton corrections of all solutions so far.
-    #[must_use]
-    pub fn iterations(&self) -> u64 {
-        self.iterations
     }
 
     /// Begins with sides of so many contacts each.
@@ -153,38 +135,21 @@ impl JointContact {
         self.begin_n.extend_from_slice(begin_n);
     }
 
-    /// Takes contacts of no teeth as a side, the next one in their order.
-    pub fn take_rows(&mut self, rows: &[JointRow], begin_n: &[f64]) {
-        for row in rows {
-            self.local.push(row.law);
-            self.separation_m.push(row.gap_m);
-            self.closing.push(1.0);
-            self.lever_m.push(1.0);
-        }
-        self.begin_n.extend_from_slice(begin_n);
-    }
-
-    /// Adds to the compliance of two contacts, and of these the other way round.
-    pub fn add_compliance(&mut self, [i, j]: [usize; 2], value: f64) {
-        let n = self.size();
-        self.c[i * n + j] += value;
-        if i != j {
-            self.c[j * n + i] += value;
-        }
-    }
-
     /// Takes what the body of a link deflects between its sides.
     pub fn couple(&mut self, link: usize, contacts: [&SliceContact; 2]) {
         let MeshLink { sides, gears, .. } = self.links[link];
         let compliance = Arc::clone(&self.links[link].compliance);
         let starts = sides.map(|side| self.starts[side]);
+        let n = self.size();
         for i in 0..contacts[0].prepared().separation_m.len() {
             for j in 0..contacts[1].prepared().separation_m.len() {
                 let a = contacts[0].stands(i, gears[0]);
                 let b = contacts[1].stands(j, gears[1]);
                 let found = compliance.between([a.place, b.place], [a.slice, b.slice]);
                 let value = a.along_normal * b.along_normal * found.value;
-                self.add_compliance([starts[0] + i, starts[1] + j], value);
+                let (here, across) = (starts[0] + i, starts[1] + j);
+                self.c[here * n + across] += value;
+                self.c[across * n + here] += value;
             }
         }
     }
@@ -207,7 +172,6 @@ impl JointContact {
             self.work.reset();
         }
         let info = solve_position(&problem, 0.0, &self.params, &mut self.work)?;
-        self.iterations += info.iterations as u64;
         let (n, forces) = (self.size(), self.work.forces());
         for side in 0..self.starts.len() - 1 {
             let own = self.starts[side]..self.starts[side + 1];
@@ -261,11 +225,11 @@ impl JointContact {
         &self.energy_by_u
     }
 
-    /// K a: what gaps that are felt by a \[m\] closer make of the forces \[N\], negative where they open.
+    /// K a: by how much forces \[N\] are smaller for gaps that are felt wider by a \[m\].
     pub fn drag(&mut self, ahead_m: &[f64], drag_n: &mut Vec<f64>) {
         drag_n.clear();
         drag_n.resize(self.size(), 0.0);
-        if ahead_m.iter().any(|ahead| *ahead != 0.0) {
+        if !self.work.active().is_empty() && ahead_m.iter().any(|ahead| *ahead != 0.0) {
             self.work.apply_tangent(ahead_m, drag_n);
             drag_n.iter_mut().for_each(|force| *force = -*force);
         }

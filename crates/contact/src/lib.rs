@@ -89,7 +89,7 @@ pub use flank_surface::{FlankSurface, InvoluteSurface, RelativeCurvature, Surfac
 pub use flanks_at_rest::FlanksAtRest;
 pub use half_spaces::HalfSpaces;
 pub use involute_at_rest::InvoluteAtRest;
-pub use joint_contact::{JointContact, JointRow, MeshLink};
+pub use joint_contact::{JointContact, MeshLink};
 pub use local_contact::LocalContact;
 pub use profile_shares::{ProfileHats, ProfilePlace};
 pub use runout::{GearSeat, Placement, Runout};

@@ -61,13 +61,38 @@ fn steps_and_output_do_not_allocate() {
 fn steps_do_not_allocate(pair: &gearmesh_geometry::GearPair) {
     use mesh_common::running_pair::*;
     let system = running_pair(pair, running_mesh("hybrid", pair), 8);
-    let mut run = gearmesh_dynamics::Simulation::new(system.build().unwrap(), params()).unwrap();
+    let run = gearmesh_dynamics::Simulation::new(system.build().unwrap(), params());
+    count_in_steps(run.unwrap(), STEP_S);
+}
+
+/// Meshes that are solved together, damped.
+#[test]
+fn steps_of_an_idler_do_not_allocate() {
+    use mesh_common::idler::*;
+    let damping = Damping::StiffnessProportional {
+        time_s: 1e-6,
+        full_depth_m: 1e-6,
+    };
+    let how = Meshes {
+        damping: Some(damping),
+        ends: PathEnds::Extended,
+        ..PLAIN
+    };
+    // A pitch takes 60 steps.
+    let system = idler(0.0, [5e-6, 5e-6], how, (45.0, 150.0));
+    let step_s = std::f64::consts::TAU / 41.0 / 45.0 / 60.0;
+    let params = gearmesh_dynamics::Params::fixed(step_s);
+    let run = gearmesh_dynamics::Simulation::new(system, params);
+    count_in_steps(run.unwrap(), step_s);
+}
+
+fn count_in_steps(mut run: gearmesh_dynamics::Simulation, step_s: f64) {
     let names = run.system().channels();
     let of = |name: &str| names.iter().filter(|(element, _)| element == name).count();
     let counts: Vec<usize> = run.system().elements().map(of).collect();
     let mut out = vec![0.0; names.len()];
     let (mut before, mut steps) = (0, 0);
-    run.run(200.0 * STEP_S, |step| {
+    run.run(200.0 * step_s, |step| {
         step.system.sample(step.to, &counts, &mut out);
         steps += 1;
         // One mesh period warms everything up.

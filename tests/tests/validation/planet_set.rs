@@ -58,17 +58,20 @@ fn scene(thin: bool, load: f64, planets: &str, angles_deg: &[f64]) -> String {
     )
 }
 
-fn run(text: &str, folder: &Path) -> (SystemResult, f64) {
+fn loaded(text: &str, folder: &Path) -> LoadedSystem {
     let scene = SystemScene::from_document(InputDocument::new("scene.toml", text), folder);
-    let loaded = scene.unwrap().load().unwrap();
-    // Turn of the sun at the start, the planet on x.
-    let sun = loaded.build().unwrap();
-    let body = sun
-        .system
-        .bodies()
-        .iter()
-        .find(|body| body.name == "set sun");
-    let turn_rad = body.unwrap().orientation.scaled_axis().z;
+    scene.unwrap().load().unwrap()
+}
+
+/// Turn of the sun at the start \[rad\], the planet on x.
+fn sun_at_start_rad(text: &str, folder: &Path) -> f64 {
+    let built = loaded(text, folder).build().unwrap();
+    let mut bodies = built.system.bodies().iter();
+    let sun = bodies.find(|body| body.name == "set sun").unwrap();
+    sun.orientation.scaled_axis().z
+}
+
+fn run(text: &str, folder: &Path) -> SystemResult {
     let output = folder.join("result.h5");
     let stop = AtomicBool::new(false);
     let options = RunOptions {
@@ -94,7 +97,7 @@ fn approaches_um(
     folder: &Path,
 ) -> Vec<f64> {
     let pitch_rad = TAU / TEETH[0];
-    let begin_rad = begin_rad(&scene(thin, load, planets, &[0.0]), folder);
+    let begin_rad = sun_at_start_rad(&scene(thin, load, planets, &[0.0]), folder);
     // A tooth of the sun stands half its thickness beside the line of centres, and the sun turns clockwise. Against the
     // carrier it turns by the share of the ring.
     let against = TEETH[2] / (TEETH[0] + TEETH[2]);

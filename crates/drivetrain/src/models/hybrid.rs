@@ -26,6 +26,10 @@ use crate::flank_contacts::FlankContacts;
 use crate::pose::Vector6;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
+mod joint;
+
+use joint::JointShare;
+
 /// A slice that is open by more than this many times the deepest penetration of all is left out. No unit. What loaded
 /// teeth make of other flanks' gaps is at most their own deflection times √(C_ii/C_jj), which stays below 3 on one gear.
 pub(crate) const OUT_OF_REACH: f64 = 3.0;
@@ -52,19 +56,6 @@ pub struct ReducedTeeth {
     iterate: Iterate,
     /// Where the forces are found with those of other meshes: what came of it.
     joint: Option<JointShare>,
-}
-
-/// What the solution of several meshes together says of one side.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct JointShare {
-    /// −∂F/∂gap of its own patches \[N/m\], `[force][gap]`.
-    pub stiffness_n_per_m: Vec<f64>,
-    /// What the gaps that are felt ahead make of the forces, K a \[N\] of all meshes' a.
-    pub drag_n: Vec<f64>,
-    /// Half of the energy that it shares with others \[J\].
-    pub stored_j: f64,
-    /// ∂E*/∂u of the energy that it shares with others, `[patch][gear]` \[J per u\].
-    pub energy_by_u: Vec<[f64; 2]>,
 }
 
 /// Forces by tooth pair: lines come, go and change their number.
@@ -170,37 +161,6 @@ impl ReducedTeeth {
             joint: None,
             slices,
         })
-    }
-
-    /// Lets the forces be found with those of other meshes.
-    pub(crate) fn join(&mut self) {
-        self.joint = Some(JointShare::default());
-    }
-
-    /// The patches within reach.
-    pub(crate) fn slices(&self) -> &SliceContact {
-        &self.slices
-    }
-
-    /// Number of patches within reach.
-    pub(crate) fn patch_count(&self) -> usize {
-        self.patches.len()
-    }
-
-    /// The patch of a contact; none where it is out of reach.
-    pub(crate) fn patch_of(&self, contact: usize) -> Option<usize> {
-        self.row.get(contact).copied().filter(|row| *row != NOWHERE)
-    }
-
-    /// Forces of the patches to start from, after [`Self::lay_known`] \[N\].
-    pub(crate) fn known_n(&self) -> &[f64] {
-        &self.change
-    }
-
-    /// Takes forces that were found with those of other meshes.
-    pub(crate) fn accept(&mut self, forces_n: &[f64]) -> &mut JointShare {
-        self.slices.accept(forces_n);
-        self.joint.get_or_insert_default()
     }
 
     /// Where the slices lie: the layout that the mesh kinematics must have.
@@ -356,15 +316,6 @@ impl ReducedTeeth {
             self.fill_tangent(loads);
         }
         self.fill_energy(flanks, loads);
-    }
-
-    /// Writes the forces that were found with those of other meshes.
-    fn fill_joint(&mut self, flanks: &FlankContacts, tangents: bool, loads: &mut TeethLoads) {
-        if self.patches.is_empty() {
-            return;
-        }
-        self.fill(flanks, tangents, loads);
-        loads.stored_j += self.joint.as_ref().map_or(0.0, |joint| joint.stored_j);
     }
 
     fn fill_energy(&self, flanks: &FlankContacts, loads: &mut TeethLoads) {

@@ -7,6 +7,7 @@ pub mod pair_common;
 pub use pair_common::ring_pair;
 
 pub mod cracked_gear;
+pub mod idler;
 pub mod made_up_bevel;
 pub mod modal_gear;
 pub mod running_pair;

@@ -1,0 +1,289 @@
+//! Meshes that are solved together: the bodies that link them, their joint solution and its tangents.
+
+use std::sync::Arc;
+
+use gearmesh_contact::{AxialSpread, CrossCompliance, JointContact, MeshLink};
+use gearmesh_dynamics::elements::{Loads, View};
+use gearmesh_dynamics::relative_motion::Jacobian;
+use gearmesh_dynamics::{BodyId, BodyMotion, GROUND, RelativeMotion};
+use gearmesh_geometry::Flank;
+use gearmesh_model::ReducedGear;
+
+use crate::error::DrivetrainError;
+use crate::flank_modes::ModalMotion;
+use crate::mesh_element::MeshElement;
+use crate::pose::Pose;
+use crate::slice_plane::Matrix6;
+
+/// One side of a mesh in the group.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SideOfMesh {
+    pub mesh: usize,
+    pub side: usize,
+}
+
+/// The meshes, and what their solution needs.
+pub(super) struct Group {
+    pub meshes: Vec<MeshElement>,
+    pub sides: Vec<SideOfMesh>,
+    pub joint: JointContact,
+    pub motions: Vec<RelativeMotion>,
+    /// Of the motions, where tangents were asked for.
+    pub jacobians: Vec<Jacobian>,
+    /// Motions of all bodies at the last evaluation.
+    pub bodies: Vec<BodyId>,
+    pub known: Vec<BodyMotion>,
+    /// How far gaps are felt ahead, and what that makes of the forces.
+    pub ahead_m: Vec<f64>,
+    pub drag_n: Vec<f64>,
+}
+
+/// One cross compliance for all links that are alike.
+struct KnownCompliance<'a> {
+    model: &'a ReducedGear,
+    flanks: [Flank; 2],
+    spreads: [AxialSpread; 2],
+    compliance: Arc<CrossCompliance>,
+}
+
+/// Links of all pairs of sides of different meshes on one body.
+pub(super) fn links(
+    meshes: &[MeshElement],
+    models: &[[Option<&ReducedGear>; 2]],
+    sides: &[SideOfMesh],
+) -> Result<Vec<MeshLink>, DrivetrainError> {
+    let mut known: Vec<KnownCompliance<'_>> = Vec::new();
+    let mut links = Vec::new();
+    let gears = || (0..2).flat_map(|g| (0..2).map(move |h| [g, h]));
+    for (a, of_a) in sides.iter().enumerate() {
+        for (b, of_b) in sides.iter().enumerate().skip(a + 1) {
+            let both = [of_a.mesh, of_b.mesh];
+            for gears in gears().filter(|_| both[0] != both[1]) {
+                let body = |k: usize| meshes[both[k]].gear_bodies()[gears[k]];
+                let model = |k: usize| models[both[k]][gears[k]];
+                let (Some(model), Some(_)) = (model(0), model(1)) else {
+                    continue;
+                };
+                if body(0) != body(1) || body(0) == GROUND {
+                    continue;
+                }
+                let flank = |k: usize, side: usize| meshes[both[k]].mesh().flank_of(gears[k], side);
+                let flanks = [flank(0, of_a.side), flank(1, of_b.side)];
+                let spread = |k: usize| {
+                    let layout = meshes[both[k]].mesh().kinematics().layout();
+                    layout.spread(gears[k] + 1, model)
+                };
+                let spreads = [spread(0), spread(1)];
+                let alike = |known: &&KnownCompliance<'_>| {
+                    std::ptr::eq(known.model, model)
+                        && known.flanks == flanks
+                        && known.spreads == spreads
+                };
+                let compliance = match known.iter().find(alike) {
+                    Some(found) => Arc::clone(&found.compliance),
+                    None => {
+                        let made = CrossCompliance::new(model, flanks, [&spreads[0], &spreads[1]])?;
+                        let compliance = Arc::new(made);
+                        known.push(KnownCompliance {
+                            model,
+                            flanks,
+                            spreads,
+                            compliance: Arc::clone(&compliance),
+                        });
+                        compliance
+                    }
+                };
+                links.push(MeshLink {
+                    sides: [a, b],
+                    gears,
+                    compliance,
+                });
+            }
+        }
+    }
+    Ok(links)
+}
+
+impl Group {
+    /// Takes all meshes to a motion.
+    pub fn update(&mut self, view: &View<'_>, tangents: bool) -> Result<(), DrivetrainError> {
+        self.known.clear();
+        self.motions.clear();
+        let none = ModalMotion::default();
+        for element in &mut self.meshes {
+            let motion = element.motion(view);
+            let mesh = element.mesh_mut();
+            mesh.expect(view.iterate);
+            mesh.find(&Pose::from(&motion), &none, tangents)?;
+            self.motions.push(motion);
+        }
+        let each = self.meshes.iter();
+        let each = each.map(|element| element.mesh().deepest_overlap_m());
+        let deepest_m = each.fold(0.0, f64::max);
+        for (element, motion) in self.meshes.iter_mut().zip(&self.motions) {
+            (element.mesh_mut()).prepare(&Pose::from(motion), deepest_m)?;
+        }
+        self.solve(tangents)?;
+        self.jacobians.clear();
+        if tangents {
+            self.jacobians
+                .extend(self.motions.iter().map(RelativeMotion::jacobian));
+        }
+        for (element, motion) in self.meshes.iter_mut().zip(&self.motions) {
+            (element.mesh_mut()).settle(&Pose::from(motion), &none, tangents)?;
+        }
+        self.known
+            .extend(self.bodies.iter().map(|body| *view.body(*body)));
+        Ok(())
+    }
+
+    /// Whether the last evaluation was at this motion.
+    pub fn is_at(&self, view: &View<'_>) -> bool {
+        self.known.len() == self.bodies.len()
+            && (self.bodies.iter().zip(&self.known)).all(|(body, known)| view.body(*body) == known)
+    }
+
+    /// Finds all forces together and gives each side its own.
+    fn solve(&mut self, tangents: bool) -> Result<(), DrivetrainError> {
+        let (joint, meshes, sides) = (&mut self.joint, &mut self.meshes, &self.sides);
+        for at in sides {
+            if let Some(model) = meshes[at.mesh].mesh_mut().coupled_model(at.side) {
+                model.lay_known();
+            }
+        }
+        let side = |at: SideOfMesh| meshes[at.mesh].mesh().coupled_side(at.side);
+        let count = |at: &SideOfMesh| side(*at).map_or(0, |side| side.model.patch_count());
+        joint.lay(sides.iter().map(count));
+        for (number, at) in sides.iter().enumerate() {
+            if let Some(side) = side(*at) {
+                joint.take(number, side.model.slices(), side.model.known_n());
+            }
+        }
+        let ends = |link: &MeshLink| {
+            let [a, b] = link.sides.map(|number| side(sides[number]));
+            Some([a?.model.slices(), b?.model.slices()])
+        };
+        for link in 0..joint.links().len() {
+            if let Some(ends) = ends(&joint.links()[link]) {
+                joint.couple(link, ends);
+            }
+        }
+        joint.solve()?;
+        for link in 0..joint.links().len() {
+            if let Some(ends) = ends(&joint.links()[link]) {
+                joint.walk(link, ends);
+            }
+        }
+        self.feel_ahead();
+        if tangents {
+            self.joint.fill_stiffness();
+        }
+        self.hand_out(tangents);
+        Ok(())
+    }
+
+    /// What the gaps that damping lets be felt ahead make of all forces.
+    fn feel_ahead(&mut self) {
+        self.ahead_m.clear();
+        self.ahead_m.resize(self.joint.size(), 0.0);
+        for (number, at) in self.sides.iter().enumerate() {
+            let Some(side) = self.meshes[at.mesh].mesh().coupled_side(at.side) else {
+                continue;
+            };
+            let first = self.joint.contacts_of(number).start;
+            for contact in 0..side.contacts.len() {
+                if let Some(patch) = side.model.patch_of(contact) {
+                    self.ahead_m[first + patch] = side.felt.felt(contact).1;
+                }
+            }
+        }
+        self.joint.drag(&self.ahead_m, &mut self.drag_n);
+    }
+
+    /// Gives each side its part of the solution.
+    fn hand_out(&mut self, tangents: bool) {
+        let joint = &self.joint;
+        for (number, at) in self.sides.iter().enumerate() {
+            let own = joint.contacts_of(number);
+            let Some(model) = self.meshes[at.mesh].mesh_mut().coupled_model(at.side) else {
+                continue;
+            };
+            let forces_n = &joint.forces_n()[own.clone()];
+            let share = model.accept(forces_n);
+            let shared = joint.felt_m()[own.clone()].iter().zip(forces_n);
+            share.stored_j = 0.5 * shared.map(|(felt, force)| felt * force).sum::<f64>();
+            refill(&mut share.energy_by_u, &joint.energy_by_u()[own.clone()]);
+            refill(&mut share.drag_n, &self.drag_n[own.clone()]);
+            share.stiffness_n_per_m.clear();
+            for row in own.clone().filter(|_| tangents) {
+                let of_row = &joint.stiffness_of(row)[own.clone()];
+                share.stiffness_n_per_m.extend_from_slice(of_row);
+            }
+        }
+    }
+
+    /// How the loads of each mesh change with the motion of the others; `places`: where the bodies' degrees of freedom
+    /// begin.
+    pub fn add_cross_tangents(&self, places: impl Fn(BodyId) -> usize, loads: &mut Loads) {
+        for (a, of_a) in self.sides.iter().enumerate() {
+            for (b, of_b) in self.sides.iter().enumerate() {
+                if of_a.mesh == of_b.mesh {
+                    continue;
+                }
+                let Some([by_pose, by_rates]) = self.cross_block([(a, of_a), (b, of_b)]) else {
+                    continue;
+                };
+                let both = [of_a.mesh, of_b.mesh];
+                let [left, right] = both.map(|mesh| &self.jacobians[mesh]);
+                let at = both.map(|mesh| self.meshes[mesh].gear_bodies().map(&places));
+                let turned = self.motions[of_b.mesh].rate_jacobian(right);
+                let blocks = [
+                    left.tr_mul(&(by_pose * right + by_rates * turned)),
+                    left.tr_mul(&(by_rates * right)),
+                ];
+                for (i, j) in (0..12).flat_map(|i| (0..12).map(move |j| (i, j))) {
+                    let (row, column) = (at[0][i / 6] + i % 6, at[1][j / 6] + j % 6);
+                    loads.add_by_position(row, column, blocks[0][(i, j)]);
+                    if by_rates != Matrix6::zeros() {
+                        loads.add_by_velocity(row, column, blocks[1][(i, j)]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// How the load of one side changes with pose and rates of another mesh; none where nothing carries.
+    fn cross_block(&self, [a, b]: [(usize, &SideOfMesh); 2]) -> Option<[Matrix6; 2]> {
+        let side = |at: &SideOfMesh| self.meshes[at.mesh].mesh().coupled_side(at.side);
+        let (of_a, of_b) = (side(a.1)?, side(b.1)?);
+        let starts = [a.0, b.0].map(|number| self.joint.contacts_of(number).start);
+        let (mut by_pose, mut by_rates) = (Matrix6::zeros(), Matrix6::zeros());
+        let mut carries = false;
+        for i in 0..of_a.contacts.len() {
+            let Some(row) = of_a.model.patch_of(i) else {
+                continue;
+            };
+            let stiffness = self.joint.stiffness_of(starts[0] + row);
+            for (j, contact) in of_b.contacts.iter().enumerate() {
+                let Some(column) = of_b.model.patch_of(j) else {
+                    continue;
+                };
+                let k = stiffness[starts[1] + column];
+                if k != 0.0 {
+                    carries = true;
+                    let ([by_gap, by_rate], _) = of_b.felt.felt(j);
+                    let rank_one = of_a.directions[i] * contact.gradient.transpose();
+                    by_pose -= k * by_gap * rank_one;
+                    by_rates -= k * by_rate * rank_one;
+                }
+            }
+        }
+        carries.then_some([by_pose, by_rates])
+    }
+}
+
+/// Takes the values in the memory that is there.
+fn refill<T: Copy>(own: &mut Vec<T>, values: &[T]) {
+    own.clear();
+    own.extend_from_slice(values);
+}
