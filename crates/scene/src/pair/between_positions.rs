@@ -50,7 +50,7 @@ pub struct BetweenPositions {
     pub force_n: Vec<f64>,
     /// Hertz pressure \[Pa\], `[E][L][S]`.
     pub pressure_pa: Vec<f64>,
-    /// Pair of teeth of each line, `[E][L]`, and where the slices touch; of families that store places with each position.
+    /// Pair of teeth of each line, `[E][L]`; of families that store places with each position, as the next.
     pub pair: Vec<f64>,
     /// Where the slices touch, `[E][L][S]`.
     pub places: Option<ContactPlaces>,
