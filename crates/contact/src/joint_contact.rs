@@ -154,11 +154,12 @@ impl JointContact {
         }
     }
 
-    /// Solves for all forces where the gaps stand.
+    /// Solves for all forces where the gaps stand; `goes_on`: from those of the last solution, if it was of as many
+    /// contacts, not from those that were taken.
     ///
     /// # Errors
     /// [`ContactError::Nlcp`].
-    pub fn solve(&mut self) -> Result<Info, ContactError> {
+    pub fn solve(&mut self, goes_on: bool) -> Result<Info, ContactError> {
         let problem = Problem::new(
             &self.c,
             &self.local,
@@ -166,10 +167,11 @@ impl JointContact {
             &self.closing,
             &self.lever_m,
         )?;
-        if self.begin_n.iter().any(|force| *force > 0.0) {
-            self.work.start_from(&self.begin_n);
-        } else {
-            self.work.reset();
+        let known = self.begin_n.iter().any(|force| *force > 0.0);
+        match goes_on && self.work.forces().len() == self.begin_n.len() {
+            true => {}
+            false if known => self.work.start_from(&self.begin_n),
+            false => self.work.reset(),
         }
         let info = solve_position(&problem, 0.0, &self.params, &mut self.work)?;
         let (n, forces) = (self.size(), self.work.forces());

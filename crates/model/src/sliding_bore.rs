@@ -107,7 +107,6 @@ fn forward(factor: &[Vec<f64>], v: &mut [f64]) {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use super::*;
     use crate::synthetic::{small_bored_gear, small_reduced_gear};
 
     /// x of A x = b by Gauss-Jordan, A positive.

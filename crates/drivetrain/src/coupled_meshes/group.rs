@@ -5,7 +5,7 @@ use std::sync::Arc;
 use gearmesh_contact::{AxialSpread, CrossCompliance, JointContact, MeshLink};
 use gearmesh_dynamics::elements::{Loads, View};
 use gearmesh_dynamics::relative_motion::Jacobian;
-use gearmesh_dynamics::{BodyId, BodyMotion, GROUND, RelativeMotion};
+use gearmesh_dynamics::{BodyId, BodyMotion, GROUND, Iterate, RelativeMotion};
 use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
@@ -123,7 +123,7 @@ impl Group {
         for (element, motion) in self.meshes.iter_mut().zip(&self.motions) {
             (element.mesh_mut()).prepare(&Pose::from(motion), deepest_m)?;
         }
-        self.solve(tangents)?;
+        self.solve(view.iterate, tangents)?;
         self.jacobians.clear();
         if tangents {
             self.jacobians
@@ -144,7 +144,7 @@ impl Group {
     }
 
     /// Finds all forces together and gives each side its own.
-    fn solve(&mut self, tangents: bool) -> Result<(), DrivetrainError> {
+    fn solve(&mut self, iterate: Iterate, tangents: bool) -> Result<(), DrivetrainError> {
         let (joint, meshes, sides) = (&mut self.joint, &mut self.meshes, &self.sides);
         for at in sides {
             if let Some(model) = meshes[at.mesh].mesh_mut().coupled_model(at.side) {
@@ -168,7 +168,7 @@ impl Group {
                 joint.couple(link, ends);
             }
         }
-        joint.solve()?;
+        joint.solve(iterate == Iterate::Correction)?;
         for link in 0..joint.links().len() {
             if let Some(ends) = ends(&joint.links()[link]) {
                 joint.walk(link, ends);
