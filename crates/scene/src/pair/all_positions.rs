@@ -101,18 +101,7 @@ pub(super) fn curves(
         }
     }
     let first = || found.iter().take(1).flat_map(|found| &found.even);
-    // Under another torque other lines may be near.
-    let pairs: Vec<Vec<i64>> = (0..first().count())
-        .map(|angle| {
-            let mut all: Vec<i64> = Vec::new();
-            for pair in found.iter().flat_map(|found| &found.even[angle].pairs) {
-                if !all.contains(pair) {
-                    all.push(*pair);
-                }
-            }
-            all
-        })
-        .collect();
+    let pairs = pairs_of_angles(&found);
     let slots = pairs.iter().map(Vec::len).fold(least_slots, usize::max);
     let flatten = |part: fn(&Position) -> f64| -> Vec<f64> {
         let even = found.iter().flat_map(|found| &found.even);
@@ -170,6 +159,21 @@ pub(super) fn curves(
         warnings: warnings.sentences(),
         ..SceneResult::default()
     }
+}
+
+/// Pairs of teeth at each even angle: under another torque other lines may be near.
+fn pairs_of_angles(found: &[TorquePositions]) -> Vec<Vec<i64>> {
+    let angles = found.first().map_or(0, |found| found.even.len());
+    let of_angle = |angle: usize| {
+        let mut all: Vec<i64> = Vec::new();
+        for pair in found.iter().flat_map(|found| &found.even[angle].pairs) {
+            if !all.contains(pair) {
+                all.push(*pair);
+            }
+        }
+        all
+    };
+    (0..angles).map(of_angle).collect()
 }
 
 /// Places of families that store them with each position: a slice touches in one place, under whichever torque.
