@@ -3,15 +3,14 @@
 
 mod common;
 
+use common::doors::one_table_at_all_doors;
 use common::{
     Desk, SOLID, THIN, argument, changed, gearmesh, largest_difference, number, refused, succeeds,
 };
-use gearmesh_scene::pair::figure_table::{FIGURES, RestFigure};
+use gearmesh_scene::SceneResult;
 use gearmesh_scene::system_run::SystemResult;
-use gearmesh_scene::{Scene, SceneResult, load};
 use serde_json::Value;
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const TORQUE_NM: f64 = 40.0;
 
@@ -72,7 +71,7 @@ fn both_hands_run_through_the_whole_chain() {
     );
     let row = &figures["rows"][0];
     assert!(number(&row["torque_balance"]) < 1e-10);
-    one_table_at_all_doors(&desk, "scene.toml", &result, &figures);
+    one_table_at_all_doors(&desk, ("scene.toml", "run"), &result, &figures);
     // T/r_b tan β_b, from the definition alone; a right-hand driver on right flanks is pushed to −z.
     let (beta, alpha_n) = (22f64.to_radians(), 20f64.to_radians());
     let alpha_t = (alpha_n.tan() / beta.cos()).atan();
@@ -189,7 +188,7 @@ fn with_tip_edges(desk: &Desk, rigid_path: &SceneResult) {
     );
     let result = desk.path("extended.h5");
     let figures = succeeds(&["run", argument(&file), "-o", argument(&result), "--json"]).json();
-    one_table_at_all_doors(desk, "extended.toml", &result, &figures);
+    one_table_at_all_doors(desk, ("extended.toml", "run"), &result, &figures);
     let found = SceneResult::read(&result).unwrap();
     let share = found.figures(0).te_mean_m / rigid_path.figures(0).te_mean_m;
     assert!((0.94..1.02).contains(&share), "{share}");
@@ -197,63 +196,4 @@ fn with_tip_edges(desk: &Desk, rigid_path: &SceneResult) {
     succeeds(&["recover", argument(&result), "-o", argument(&strain)]);
     let again = SceneResult::read(&strain).unwrap();
     assert_eq!(again.strain[0].method_2, found.strain[0].method_2);
-}
-
-/// Figures of the first torque by `--json`, the table `torques`, a study, the page and the console: equal to the last
-/// digit that each has.
-fn one_table_at_all_doors(desk: &Desk, scene: &str, result: &Path, figures: &Value) {
-    let row = figures["rows"][0].as_object().unwrap();
-    let words = ["export", argument(result), "--table", "torques", "-o"];
-    let (csv, html) = (
-        desk.path(&format!("{scene}.csv")),
-        desk.path(&format!("{scene}.html")),
-    );
-    succeeds(&[&words[..], &[argument(&csv)]].concat());
-    let csv = std::fs::read_to_string(csv).unwrap();
-    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let (heads, values) = (lines.next().unwrap(), lines.next().unwrap());
-    let exported: HashMap<_, f64> = heads
-        .into_iter()
-        .zip(values.iter().map(|v| v.parse().unwrap_or(f64::NAN)))
-        .collect();
-    let columns = FIGURES.iter().filter(|figure| figure.is_studied());
-    let columns: Vec<String> = columns.map(RestFigure::name_in_studies).collect();
-    let study = format!(
-        "title = \"one\"\nscene = \"{scene}\"\ncolumns = {columns:?}\n[[parameter]]\nname = \"T\"\nkeys = [\"run.torques_Nm.0\"]\nvalues = [40.0]\n"
-    );
-    let (study, out) = (
-        desk.file(&format!("one-{scene}"), study),
-        desk.path(&format!("one-{scene}-results")),
-    );
-    let studied = succeeds(&["study", argument(&study), "-o", argument(&out), "--json"])
-        .json()
-        .to_string();
-    succeeds(&["report", argument(result), "-o", argument(&html)]);
-    let page = std::fs::read_to_string(html).unwrap();
-    let (file, again) = (desk.path(scene), desk.path(&format!("{scene}.h5")));
-    let console = succeeds(&["run", argument(&file), "-o", argument(&again)]).stdout;
-    let loaded = load(Scene::read(&desk.path(scene)).unwrap()).unwrap();
-    let over = Some(loaded.layout.reference.width_m);
-    let of_result = SceneResult::read(result).unwrap();
-    for figure in FIGURES {
-        let name = figure.name_in_files();
-        let value = (figure.of)(&of_result.figures(0));
-        assert_eq!(number(&row[&name]), value, "{name}");
-        assert_eq!(exported[name.as_str()], value, "{name}");
-        let text = figure.text(&of_result.figures(0), over);
-        if of_result.shows(figure) {
-            assert!(
-                page.contains(&text.replace('-', "−")) || page.contains(&text),
-                "{name} {text}"
-            );
-            assert!(console.contains(&text), "{name} {text}");
-        }
-        if figure.is_studied() {
-            let read = figure.studied(&of_result.figures(0), over);
-            assert!(
-                studied.contains(&Value::from(read).to_string()),
-                "{name} {read} {studied}"
-            );
-        }
-    }
 }

@@ -7,6 +7,7 @@
 
 use crate::contact_error::ContactError;
 use crate::contact_patch::ContactPatch;
+use crate::tip_contact::TipGear;
 
 /// Flanks of two gears of which gear 1 is turned and gear 2 follows.
 pub trait FlanksAtRest {
@@ -24,6 +25,19 @@ pub trait FlanksAtRest {
 
     /// Lines at the last driver angle; some may have no patch.
     fn lines(&self) -> usize;
+
+    /// Pair of teeth of a line of the last driver angle, as the family numbers them, and the gear whose tip edge touches
+    /// along it, if one does.
+    fn pair_and_tip(&self, line: usize) -> (i64, Option<TipGear>);
+
+    /// Whether the patches that were found are all that close by this approach \[m\]. Where they are not, the next search
+    /// reaches farther.
+    ///
+    /// # Errors
+    /// An approach that no search reaches.
+    fn reaches(&mut self, _approach_m: f64) -> Result<bool, ContactError> {
+        Ok(true)
+    }
 
     /// Radius \[m\] at gear 2 along whose circle the transmission error is counted; of involute gears that of the base
     /// circle.

@@ -8,6 +8,7 @@ use crate::contact_zone::SliceLayout;
 use crate::flank_deviations::FlankDeviations;
 use crate::flanks_at_rest::FlanksAtRest;
 use crate::runout::{Placement, Runout};
+use crate::tip_contact::TipGear;
 
 /// Gap of a slice without flank \[m\]: beyond any deflection, and small enough for the solver's sums.
 const NO_FLANK_M: f64 = 1.0;
@@ -98,6 +99,11 @@ impl FlanksAtRest for InvoluteAtRest {
 
     fn lines(&self) -> usize {
         self.active.len()
+    }
+
+    fn pair_and_tip(&self, line: usize) -> (i64, Option<TipGear>) {
+        let line = &self.active[line];
+        (line.pair, line.tip.map(|tip| tip.tip_gear))
     }
 
     fn radius_2_m(&self) -> f64 {

@@ -23,6 +23,7 @@ use crate::local_contact::LocalContact;
 use crate::nlcp::{FLOOR_FRACTION, Info};
 use crate::runout::Runout;
 use crate::slice_contact::SliceContact;
+use crate::tip_contact::TipGear;
 use gearmesh_model::ReducedGear;
 
 /// What a contact computation includes.
@@ -161,6 +162,12 @@ impl<F: FlanksAtRest> StaticContact<F> {
         &self.patches
     }
 
+    /// Pairs of teeth of the lines of the last position, in the order of the forces, and the gear whose tip edge touches
+    /// along each, if one does.
+    pub fn pairs_and_tips(&self) -> impl Iterator<Item = (i64, Option<TipGear>)> {
+        (0..self.flanks.lines()).map(|line| self.flanks.pair_and_tip(line))
+    }
+
     /// Normal forces of the last position \[N\], `[line][slice]`, zero for slices that are off the path.
     pub fn forces_n(&self) -> &[f64] {
         &self.forces
@@ -209,16 +216,21 @@ impl<F: FlanksAtRest> StaticContact<F> {
         driver_angle_rad: f64,
         drive: Drive,
     ) -> Result<ContactState, ContactError> {
-        self.patches.clear();
-        (self.flanks).patches_at(driver_angle_rad, &mut self.patches)?;
         let radius_2_m = self.flanks.radius_2_m();
-        let scale_force = match drive {
-            Drive::Torque(torque) => torque.abs() / (radius_2_m * self.patches.len() as f64),
-            Drive::TransmissionError(_) => 0.0,
+        let (first_contact, info) = loop {
+            self.patches.clear();
+            (self.flanks).patches_at(driver_angle_rad, &mut self.patches)?;
+            let scale_force = match drive {
+                Drive::Torque(torque) => torque.abs() / (radius_2_m * self.patches.len() as f64),
+                Drive::TransmissionError(_) => 0.0,
+            };
+            let floor = FLOOR_FRACTION * scale_force.max(1.0);
+            self.slices.prepare(&self.patches, floor, false)?;
+            let (first_contact, info) = self.slices.solve(drive)?;
+            if self.flanks.reaches(info.approach_m)? {
+                break (first_contact, info);
+            }
         };
-        let floor = FLOOR_FRACTION * scale_force.max(1.0);
-        self.slices.prepare(&self.patches, floor, false)?;
-        let (first_contact, info) = self.slices.solve(drive)?;
         let forces = self.slices.forces_n();
         let slices = self.slices.slices();
         self.forces.clear();

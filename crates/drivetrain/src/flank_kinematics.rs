@@ -109,6 +109,15 @@ pub trait FlankKinematics: Send {
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError>;
 
+    /// Whether [`Self::contacts`] finds all patches that close where the gears approach each other by this from the pose
+    /// \[m\]; where it does not, its next call looks farther. In motion the pose is that under load.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Value`] for an approach that no search reaches.
+    fn reaches(&mut self, _approach_m: f64) -> Result<bool, DrivetrainError> {
+        Ok(true)
+    }
+
     /// Second derivative of the gap of a contact that [`Self::contacts`] found last on this side by the increments of
     /// the pose.
     fn gap_curvature(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6;

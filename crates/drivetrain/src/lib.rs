@@ -67,10 +67,7 @@ pub mod tooth_compliance;
 pub mod tooth_overlap;
 mod tooth_zero;
 
-pub use bevel::{
-    BevelMesh, BevelSlices, FacetKind, FacetSize, LoadedContact, LoadedPair, LoadedPatch,
-    LoadedPosition,
-};
+pub use bevel::{BevelAtRest, BevelMesh, BevelSlices, FacetKind, FacetSize, PlaceAtRest};
 pub use coupled_meshes::{CoupledMesh, CoupledMeshes, MeshToCouple};
 pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;

@@ -11,7 +11,7 @@
 //!
 //! On involute flanks b₁ = r_b1 cos β_b and b₂ = r_b2 cos β_b. Without friction.
 
-use gearmesh_contact::{ContactError, ContactPatch, FlanksAtRest, PatchBalance};
+use gearmesh_contact::{ContactError, ContactPatch, FlanksAtRest, PatchBalance, TipGear};
 use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
@@ -79,6 +79,16 @@ impl<K: FlankKinematics, P: Fn(f64) -> Pose> FlanksAtRest for PosedFlanks<K, P> 
 
     fn lines(&self) -> usize {
         self.found.lines.len()
+    }
+
+    /// The tooth of gear 1; edges are places on the flanks.
+    fn pair_and_tip(&self, line: usize) -> (i64, Option<TipGear>) {
+        (self.found.lines[line].teeth[0] as i64, None)
+    }
+
+    fn reaches(&mut self, approach_m: f64) -> Result<bool, ContactError> {
+        let reached = self.kinematics.reaches(approach_m);
+        reached.map_err(|cause| ContactError::Flanks(Box::new(cause)))
     }
 
     fn radius_2_m(&self) -> f64 {

@@ -1,22 +1,22 @@
 //! Stress in the bodies of a bevel pair under its loads: pictures for the page, whole fields for other programs.
 
 use crate::failure::Failure;
-use crate::loaded_bevel::Loaded;
 use crate::mesh_file::{LengthUnit, export_bevel_mesh};
 use crate::result_stress::{StressSection, add_worst};
 use crate::stressed_gear::{StressedBody, StressedGear};
 use crate::tooth_stress;
 use crate::watch::Watch;
 use gearmesh_bevel::BevelGear;
-use gearmesh_drivetrain::{LoadedContact, LoadedPosition};
 use gearmesh_geometry::Flank;
 use gearmesh_mesh::BevelMesh;
-use gearmesh_model::ReducedGear;
+use gearmesh_model::{ReducedGear, read_reduced_gear};
 use gearmesh_recovery::PlacedForce;
 use gearmesh_reduction::GearBody;
 use gearmesh_reduction::field::Field;
 use gearmesh_reduction::skin::{SkinFace, von_mises_on_faces};
 use gearmesh_report::page::{FieldPicture, FieldValues, Section, Text};
+use gearmesh_scene::SceneResult;
+use gearmesh_scene::pair::bevel_result::Pressing;
 use std::path::{Path, PathBuf};
 
 const MEMBERS: [&str; 2] = ["pinion", "gear"];
@@ -26,9 +26,11 @@ const MEMBERS: [&str; 2] = ["pinion", "gear"];
 pub struct BevelStressRequest {
     /// Pictures of both members for the page.
     pub stress: bool,
+    /// Driver angle of the pictures; that of the largest root stress where not given.
+    pub angle_deg: Option<f64>,
     /// Member, 1 or 2, of which the whole field is written.
     pub field_gear: Option<u8>,
-    /// Turn of the pinion of the field; where a pair of teeth carries most if not given.
+    /// Driver angle of the field; where a pair of teeth carries most if not given.
     pub field_angle_deg: Option<f64>,
     /// Torque of the field; the largest where not given.
     pub field_torque_nm: Option<f64>,
@@ -36,18 +38,20 @@ pub struct BevelStressRequest {
     pub field_output: Option<PathBuf>,
 }
 
-/// A position under a torque.
+/// A position under a torque, by their numbers in the result.
+#[derive(Clone, Copy)]
 struct Case<'a> {
-    torque: &'a LoadedContact,
-    position: &'a LoadedPosition,
+    result: &'a SceneResult,
+    torque: usize,
+    angle: usize,
 }
 
 impl Case<'_> {
     fn words(&self) -> String {
         format!(
-            "{} N m, pinion at {:.2} deg",
-            self.torque.torque_nm,
-            self.position.pinion_turn_rad.to_degrees()
+            "{} N m, driver angle {:.2} deg",
+            self.result.torque_nm[self.torque],
+            self.result.angle_rad[self.angle].to_degrees()
         )
     }
 }
@@ -58,7 +62,7 @@ impl Case<'_> {
 /// [`Failure`] where the pair has no reduced models or is not loaded by the torque, and for files that cannot be written.
 pub fn asked(
     a: &BevelStressRequest,
-    loaded: Option<&Loaded>,
+    result: Option<&SceneResult>,
     watch: &Watch<'_>,
 ) -> Result<Option<StressSection>, Failure> {
     let option = match (a.stress, a.field_gear) {
@@ -66,12 +70,13 @@ pub fn asked(
         (false, Some(_)) => "--field-gear",
         (false, None) => return Ok(None),
     };
-    let with_models = loaded.and_then(|loaded| Some((loaded, loaded.models.as_ref()?)));
-    let Some((loaded, models)) = with_models else {
+    let with_models = result.filter(|result| !result.model_files[0].is_empty());
+    let Some(result) = with_models else {
         return Err(Failure::input(format!(
             "{option} needs the bodies of both members under load: name their reduced models, `models` of [load] in the pair file"
         )));
     };
+    let models = models_of(result)?;
     let mut bodies: [Option<StressedGear>; 2] = [None, None];
     let mut section = a.stress.then(|| {
         let section = Section::new("Stress in the bodies");
@@ -87,34 +92,51 @@ pub fn asked(
         if !has_field && section.is_none() {
             continue;
         }
-        let (model, file) = &models[member];
+        let model = &models[member];
         let body = body.insert(StressedGear::of_bevel(
             model,
-            &file.display().to_string(),
+            &result.model_files[member],
             watch,
         )?);
         if let Some(page) = section.take() {
-            section = Some(pictures(page, loaded, (member, model, body), watch)?);
+            section = Some(pictures(page, (a, result), (member, body), watch)?);
         }
         if let (true, Some(output)) = (has_field, &a.field_output) {
-            write_field(a, loaded, (member, model, body), (output, watch))?;
+            write_field(a, result, (member, body), (output, watch))?;
         }
     }
     Ok(section)
 }
 
+/// The reduced members of a result.
+///
+/// # Errors
+/// [`Failure`] where one cannot be read, or has been made again.
+pub fn models_of(result: &SceneResult) -> Result<[ReducedGear; 2], Failure> {
+    let read = |i: usize| {
+        let file = &result.model_files[i];
+        let model = read_reduced_gear(Path::new(file)).map_err(Failure::input)?;
+        if model.input != result.gears[i] {
+            return Err(Failure::input(format!(
+                "{file} has been made again from another gear file since the result was computed; run the pair again"
+            )));
+        }
+        Ok(model)
+    };
+    Ok([read(0)?, read(1)?])
+}
+
 /// The largest torque, or the one that is named.
-fn torque_of(loaded: &Loaded, named: Option<f64>) -> Result<&LoadedContact, Failure> {
-    let all = loaded.found.iter();
+fn torque_of(result: &SceneResult, named: Option<f64>) -> Result<usize, Failure> {
+    let torques = &result.torque_nm;
     let found = match named {
-        None => all.max_by(|a, b| a.torque_nm.abs().total_cmp(&b.torque_nm.abs())),
+        None => (0..torques.len()).max_by(|a, b| torques[*a].total_cmp(&torques[*b])),
         Some(wanted) => {
-            let near = |c: &&LoadedContact| (c.torque_nm - wanted).abs() <= 1e-9 * wanted.abs();
-            all.clone().find(near)
+            let near = |torque: &f64| (torque - wanted).abs() <= 1e-9 * wanted.abs();
+            torques.iter().position(near)
         }
     };
     found.ok_or_else(|| {
-        let torques: Vec<f64> = loaded.found.iter().map(|c| c.torque_nm).collect();
         let named = named.unwrap_or_default();
         Failure::input(format!(
             "--field-torque-Nm: found {named}, the pair is loaded by {torques:?}"
@@ -122,43 +144,43 @@ fn torque_of(loaded: &Loaded, named: Option<f64>) -> Result<&LoadedContact, Fail
     })
 }
 
-/// The position nearest to a turn of the pinion, or the one at which one pair of teeth carries most.
-fn case(torque: &LoadedContact, angle_deg: Option<f64>) -> Result<Case<'_>, Failure> {
-    let most = |p: &LoadedPosition| p.pair_forces_n().first().map_or(0.0, |(_, force)| *force);
-    let positions = torque.positions.iter();
-    let position = match angle_deg {
-        None => positions.max_by(|a, b| most(a).total_cmp(&most(b))),
+/// The position nearest to a driver angle, or the one at which one pair of teeth carries most.
+fn angle_of(result: &SceneResult, torque: usize, angle_deg: Option<f64>) -> usize {
+    let most = |angle: usize| {
+        let forces = result
+            .even_position(torque, angle)
+            .map(|p| p.pair_forces_n());
+        forces
+            .and_then(|forces| forces.first().copied())
+            .map_or(0.0, |(_, force)| force)
+    };
+    let apart = |angle: usize, wanted: f64| (result.angle_rad[angle].to_degrees() - wanted).abs();
+    let found = match angle_deg {
+        None => (0..result.points_per_pitch()).max_by(|a, b| most(*a).total_cmp(&most(*b))),
         Some(wanted) => {
-            let apart = |p: &LoadedPosition| (p.pinion_turn_rad.to_degrees() - wanted).abs();
-            positions.min_by(|a, b| apart(a).total_cmp(&apart(b)))
+            (0..result.angles()).min_by(|a, b| apart(*a, wanted).total_cmp(&apart(*b, wanted)))
         }
     };
-    let position = position.ok_or_else(|| Failure::work("no position was computed"))?;
-    Ok(Case { torque, position })
+    found.unwrap_or_default()
 }
 
 /// What presses on a member.
-fn forces(
-    loaded: &Loaded,
-    case: &Case<'_>,
-    member: usize,
-    model: &ReducedGear,
-) -> Vec<PlacedForce> {
-    let patches = case.position.patches.iter();
-    patches
-        .map(|patch| {
-            let [s, u] = patch.places[member];
-            PlacedForce {
-                tooth: patch.teeth[member],
-                side: loaded.side,
-                u,
-                v_m: (s - 0.5) * model.face_width_m,
-                width_m: loaded.slice_width_m(),
-                normal_n: patch.force_n,
-                tangential_n: 0.0,
-            }
-        })
-        .collect()
+fn forces(case: Case<'_>, member: usize) -> Vec<PlacedForce> {
+    let Some((bevel, position)) =
+        (case.result.bevel).zip(case.result.even_position(case.torque, case.angle))
+    else {
+        return Vec::new();
+    };
+    let force = |at: Pressing<'_>| PlacedForce {
+        tooth: bevel.teeth_of(at.pair)[member],
+        side: bevel.side,
+        u: at.up(member),
+        v_m: at.along_m(member),
+        width_m: bevel.face_widths_m[0] / case.result.slices as f64,
+        normal_n: at.force_n,
+        tangential_n: 0.0,
+    };
+    position.pressing().map(force).collect()
 }
 
 /// The bevel body, which it always is here.
@@ -171,12 +193,17 @@ fn bevel(gear: &StressedGear) -> Result<(&BevelGear, &GearBody<BevelMesh>), Fail
 
 fn write_field(
     a: &BevelStressRequest,
-    loaded: &Loaded,
-    (member, model, stressed): (usize, &ReducedGear, &StressedGear),
+    result: &SceneResult,
+    (member, stressed): (usize, &StressedGear),
     (output, watch): (&Path, &Watch<'_>),
 ) -> Result<(), Failure> {
-    let case = case(torque_of(loaded, a.field_torque_nm)?, a.field_angle_deg)?;
-    let field = stressed.field(&forces(loaded, &case, member, model))?;
+    let torque = torque_of(result, a.field_torque_nm)?;
+    let case = Case {
+        result,
+        torque,
+        angle: angle_of(result, torque, a.field_angle_deg),
+    };
+    let field = stressed.field(&forces(case, member))?;
     let (gear, body) = bevel(stressed)?;
     let file = (output, LengthUnit::M);
     export_bevel_mesh(gear, &body.mesh, (&field).into(), file, watch)?;
@@ -191,16 +218,23 @@ fn write_field(
 
 fn pictures(
     made: StressSection,
-    loaded: &Loaded,
-    (member, model, stressed): (usize, &ReducedGear, &StressedGear),
+    (a, result): (&BevelStressRequest, &SceneResult),
+    (member, stressed): (usize, &StressedGear),
     watch: &Watch<'_>,
 ) -> Result<StressSection, Failure> {
-    let torque = torque_of(loaded, None)?;
-    let positions = torque.positions.iter();
-    let cases: Vec<Case<'_>> = positions
-        .map(|position| Case { torque, position })
-        .collect();
-    let of_cases = cases.iter().map(|case| forces(loaded, case, member, model));
+    let torque = torque_of(result, None)?;
+    let angles = match a.angle_deg {
+        // A pitch: the others are alike.
+        None => (0..result.points_per_pitch()).collect(),
+        Some(_) => vec![angle_of(result, torque, a.angle_deg)],
+    };
+    let case = |angle| Case {
+        result,
+        torque,
+        angle,
+    };
+    let cases: Vec<Case<'_>> = angles.into_iter().map(case).collect();
+    let of_cases = cases.iter().map(|case| forces(*case, member));
     let of_cases: Vec<Vec<PlacedForce>> = of_cases.collect();
     let name = MEMBERS[member];
     let words = |k: usize| cases[k].words();
@@ -212,7 +246,8 @@ fn pictures(
     let (gear, body) = bevel(stressed)?;
     let drawn = figures.last().and_then(|f| f["tooth"].as_u64());
     let tooth = drawn.unwrap_or_default() as usize;
-    let unrolled = tooth_surface(gear, body, &field, (tooth, loaded.side))?;
+    let side = result.bevel.map_or(Flank::Right, |bevel| bevel.side);
+    let unrolled = tooth_surface(gear, body, &field, (tooth, side))?;
     let words = words(worst);
     let section = section
         .push(along_axis(
@@ -222,7 +257,7 @@ fn pictures(
         ))
         .push(unrolled.titled(&format!(
             "{name}, tooth {tooth}, {} side unrolled, toe left, tip up, {words}",
-            loaded.side
+            side
         )));
     Ok((section, figures))
 }

@@ -235,6 +235,7 @@ fn scene(scene: SceneFile) -> Result<Finding, Failure> {
             finding.notes = loaded.scene.notes;
             Ok(finding)
         }
+        SceneFile::Bevel(scene) => bevel_pair(&scene.document),
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
             let built = loaded.build()?;

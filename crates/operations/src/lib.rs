@@ -17,7 +17,6 @@
 
 pub mod accuracy;
 mod answer;
-mod bevel_gauges;
 pub mod bevel_pair;
 pub mod bevel_stress;
 pub mod by_name;
@@ -32,8 +31,7 @@ mod file_words;
 pub mod gear_file;
 pub mod import;
 pub mod import_trial;
-pub mod loaded_bevel;
-mod losses;
+pub mod losses;
 pub mod memory;
 pub mod mesh;
 mod mesh_axes;
@@ -53,6 +51,7 @@ mod ratings;
 pub mod recover;
 pub mod reduce;
 pub mod report;
+mod result_scene;
 pub mod result_stress;
 pub mod run;
 pub mod run_within;

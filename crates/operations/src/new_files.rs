@@ -130,8 +130,8 @@ pub fn look(kind: NewKind, folder: &Path) -> Result<Vec<String>, Failure> {
             Some(TextKind::Gear) => drop(GearFile::read(&path, &watch)?),
             Some(TextKind::Scene) => match SceneFile::read(&path)? {
                 SceneFile::Pair(scene) => demand_gears_that_fit(&scene)?,
-                SceneFile::System(_) => {
-                    let problem = "is a multibody scene; allowed is a pair here";
+                SceneFile::Bevel(_) | SceneFile::System(_) => {
+                    let problem = "allowed is a pair of cylindrical gears here";
                     return Err(Failure::input(problem).about(&path));
                 }
             },

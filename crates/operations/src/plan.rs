@@ -3,6 +3,7 @@
 use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::watch::Watch;
+use gearmesh_scene::pair::ModelShelf;
 use gearmesh_scene::system::SystemPlan;
 use gearmesh_scene::system_run::{ResultSize, RunCost, RunJob};
 use gearmesh_scene::{SceneFile, load};
@@ -26,6 +27,12 @@ pub fn plan(scene: SceneFile, watch: &Watch<'_>) -> Result<Answer, Failure> {
                 lines: plan.lines,
                 figures,
             })
+        }
+        SceneFile::Bevel(scene) => {
+            watch.unit_slips(scene.document.unit_slips());
+            let lines = scene.load(&ModelShelf::default())?.plan();
+            let figures = json!({ "lines": lines });
+            Ok(Answer { lines, figures })
         }
         SceneFile::System(scene) => {
             let loaded = scene.load()?;

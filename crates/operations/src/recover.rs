@@ -1,14 +1,16 @@
 //! Strain of all gauges of a pair's result, and a whole field on request.
 
+use crate::bevel_stress::{self, BevelStressRequest};
 use crate::cross_section::{FieldCase, field_of};
 use crate::failure::Failure;
 use crate::mesh_file::{LengthUnit, export_mesh};
+use crate::result_scene::scene_of;
 use crate::watch::Watch;
 use crate::{output_name, overwriting};
-use gearmesh_geometry::input::InputDocument;
 use gearmesh_reduction::GearBody;
 use gearmesh_report::run_figures::coverage;
-use gearmesh_scene::{LoadedScene, Scene, SceneResult, load};
+use gearmesh_scene::pair::bevel_result::strain;
+use gearmesh_scene::{LoadedScene, SceneResult};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -25,7 +27,7 @@ pub struct RecoverRequest {
     pub output: PathBuf,
     /// Write the displacement and von Mises field of this gear (1 or 2), too
     #[arg(long, requires = "field_angle_deg", requires = "field_output")]
-    pub field_gear: Option<usize>,
+    pub field_gear: Option<u8>,
     /// Driver angle of the field: the nearest computed position is taken
     #[arg(long)]
     pub field_angle_deg: Option<f64>,
@@ -36,6 +38,10 @@ pub struct RecoverRequest {
     #[arg(long)]
     pub field_output: Option<PathBuf>,
 }
+
+/// Why there is nothing to recover.
+const NO_GAUGE: &str =
+    "neither model has a gauge; add [[gauge]] to a gear file and reduce it again";
 
 /// Ranges of strain at a gauge under a torque.
 #[derive(Debug, Clone)]
@@ -96,14 +102,15 @@ pub fn recover(a: &RecoverRequest, watch: &Watch<'_>) -> Result<SceneResult, Fai
     for output in std::iter::once(&a.output).chain(&a.field_output) {
         overwriting::apart(output, &models)?;
     }
+    if result.bevel.is_some() {
+        return recover_bevel(a, result, watch);
+    }
     let loaded = scene_of(&result, &a.result)?;
     let all: Vec<(usize, usize)> = (1..=2)
         .flat_map(|gear| (0..loaded.models[gear - 1].gauges.len()).map(move |k| (gear, k)))
         .collect();
     if all.is_empty() && a.field_gear.is_none() {
-        return Err(Failure::input(
-            "neither model has a gauge; add [[gauge]] to a gear file and reduce it again",
-        ));
+        return Err(Failure::input(NO_GAUGE));
     }
     let request = field_request(a, &result)?;
     let clock = std::time::Instant::now();
@@ -118,37 +125,37 @@ pub fn recover(a: &RecoverRequest, watch: &Watch<'_>) -> Result<SceneResult, Fai
     Ok(result)
 }
 
-/// The scene of a result, with its models; their paths are those of the run.
-pub fn scene_of(result: &SceneResult, path: &Path) -> Result<LoadedScene, Failure> {
-    let document = InputDocument::new(
-        format!("scene inside {}", path.display()),
-        result.scene_toml.clone(),
-    );
-    let mut scene = Scene::from_document(document, Path::new(""))?.with_known_forces();
-    scene.gear_1 = result.model_files[0].clone().into();
-    scene.gear_2 = result.model_files[1].clone().into();
-    let mut loaded = load(scene.clone())?;
-    if scene.path_by_default && !loaded.has_lines_of(result) {
-        // Written when the rigid path was the default.
-        scene.edge_radius_m = None;
-        loaded = load(scene)?;
+/// The same of a bevel pair, whose result says where on both flanks its teeth press.
+fn recover_bevel(
+    a: &RecoverRequest,
+    mut result: SceneResult,
+    watch: &Watch<'_>,
+) -> Result<SceneResult, Failure> {
+    if result.model_files[0].is_empty() {
+        return Err(Failure::input(
+            "the gears are rigid: their bodies have no strain; name reduced models, `models` of [load] in the pair file",
+        ));
     }
-    if !loaded.has_lines_of(result) {
-        return Err(Failure::input(format!(
-            "the scene inside {} does not give its contact lines; run the scene again",
-            path.display()
-        )));
+    let models = bevel_stress::models_of(&result)?;
+    let of = |gear: usize| (0..models[gear - 1].gauges.len()).map(move |k| (gear, k));
+    let gauges: Vec<(usize, usize)> = (1..=2).flat_map(of).collect();
+    if gauges.is_empty() && a.field_gear.is_none() {
+        return Err(Failure::input(NO_GAUGE));
     }
-    for (k, model) in loaded.models.iter().enumerate() {
-        if model.input != result.gears[k] {
-            return Err(Failure::input(format!(
-                "{} has been made again from another gear file since {} was computed; run the scene again",
-                result.model_files[k],
-                path.display()
-            )));
-        }
-    }
-    Ok(loaded)
+    let clock = std::time::Instant::now();
+    result.strain = strain(models.each_ref(), &result, &gauges).map_err(Failure::work)?;
+    result.seconds[1] = clock.elapsed().as_secs_f64();
+    let request = BevelStressRequest {
+        field_gear: a.field_gear,
+        field_angle_deg: a.field_angle_deg,
+        field_torque_nm: a.field_torque_Nm,
+        field_output: a.field_output.clone(),
+        ..BevelStressRequest::default()
+    };
+    bevel_stress::asked(&request, Some(&result), watch)?;
+    watch.go_on()?;
+    result.write(&a.output)?;
+    Ok(result)
 }
 
 /// The field that was asked for.
@@ -162,7 +169,7 @@ fn field_request<'a>(
     a: &'a RecoverRequest,
     result: &SceneResult,
 ) -> Result<Option<FieldRequest<'a>>, Failure> {
-    let Some(gear) = a.field_gear else {
+    let Some(gear) = a.field_gear.map(usize::from) else {
         return Ok(None);
     };
     if !(1..=2).contains(&gear) {

@@ -1,15 +1,16 @@
 //! One HTML page for one or more results.
 
 use crate::answer::Answer;
+use crate::bevel_stress::{self, BevelStressRequest};
 use crate::failure::Failure;
-use crate::result_stress::{self, StressRequest};
+use crate::result_stress::{self, StressRequest, StressSection};
 use crate::watch::Watch;
 use crate::{output_name, overwriting, page_file};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_report::overlay::{overlaid_pairs, overlaid_systems};
 use gearmesh_report::page::Page;
 use gearmesh_report::scene_page::{SceneChapter, SystemChapter, scene_page};
-use gearmesh_scene::ResultFile;
+use gearmesh_scene::{ResultFile, SceneResult};
 use serde::Deserialize;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -116,7 +117,7 @@ pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
         };
         names[0].push(files[k].clone());
         let stress = match a.stress {
-            true => Some(result_stress::of_pair(&how, &result, path, watch)?),
+            true => stress_at_rest(&how, &result, path, watch)?,
             false => None,
         };
         let stress = stress.map(|(section, own)| {
@@ -146,6 +147,30 @@ pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
         figures: told,
         lines: Vec::new(),
     })
+}
+
+/// The stress of a pair at rest.
+fn stress_at_rest(
+    how: &StressRequest,
+    result: &SceneResult,
+    path: &Path,
+    watch: &Watch<'_>,
+) -> Result<Option<StressSection>, Failure> {
+    if how.at_s.is_some() {
+        return Err(Failure::input(format!(
+            "--stress-at-s is for runs in time; {} is a pair at rest, use --stress-angle-deg",
+            path.display()
+        )));
+    }
+    if result.bevel.is_none() {
+        return Ok(Some(result_stress::of_pair(how, result, path, watch)?));
+    }
+    let request = BevelStressRequest {
+        stress: true,
+        angle_deg: how.angle_deg,
+        ..BevelStressRequest::default()
+    };
+    bevel_stress::asked(&request, Some(result), watch)
 }
 
 /// Names of files as a chart tells them apart: bare, or as given where two are alike.

@@ -2,7 +2,7 @@
 
 use crate::cross_section::{CROSS_SECTION, FieldCase, picture};
 use crate::failure::Failure;
-use crate::recover::scene_of;
+use crate::result_scene::scene_of;
 use crate::stressed_gear::{RootSearch, StressedBody, StressedGear, forces_on};
 use crate::system_moments::{SystemMoments, WantedMoments, stressed};
 use crate::tooth_stress::{self, LoadedGear};
@@ -95,12 +95,6 @@ pub fn of_pair(
     path: &Path,
     watch: &Watch<'_>,
 ) -> Result<StressSection, Failure> {
-    if a.at_s.is_some() {
-        return Err(Failure::input(format!(
-            "--stress-at-s is for runs in time; {} is a pair at rest, use --stress-angle-deg",
-            path.display()
-        )));
-    }
     let loaded = scene_of(result, path)?;
     let torques = result.torque_nm.iter().enumerate();
     let torque = torques.max_by(|x, y| x.1.abs().total_cmp(&y.1.abs()));

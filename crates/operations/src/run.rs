@@ -7,6 +7,7 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::Named;
 use gearmesh_report::run_figures::pair_figures;
 use gearmesh_scene::pair::run::run_until;
+use gearmesh_scene::pair::{BevelScene, ModelShelf};
 use gearmesh_scene::rating::RatingResult;
 use gearmesh_scene::system::LoadedSystem;
 use gearmesh_scene::system_run::{
@@ -86,6 +87,10 @@ pub fn run(scene: SceneFile, how: &RunHow<'_>, watch: &Watch<'_>) -> Result<Ran,
             let result = run_pair(&load(*scene)?, how, watch)?;
             Ok(Ran::Pair(Box::new(result)))
         }
+        SceneFile::Bevel(scene) => {
+            let result = run_bevel(&scene, how, watch)?;
+            Ok(Ran::Pair(Box::new(result)))
+        }
         SceneFile::System(scene) => {
             let result = run_system(scene.load()?, how, watch)?;
             Ok(Ran::System(Box::new(result)))
@@ -119,15 +124,45 @@ pub fn run_pair(
         how,
         watch,
     )?;
+    // Slips of units are among the warnings of the result; what is refused may follow from them.
+    let result = with_torques(watch, |progress| run_until(loaded, progress, watch.stop))
+        .inspect_err(|_| watch.unit_slips(loaded.unit_slips()))?;
+    written(result, how, watch)
+}
+
+/// Runs a bevel pair under the torques of its `[load]`; stopped, nothing is written.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_bevel(
+    scene: &BevelScene,
+    how: &RunHow<'_>,
+    watch: &Watch<'_>,
+) -> Result<SceneResult, Failure> {
+    refuse_restart(how)?;
+    let loaded = scene.load(&ModelShelf::default())?;
+    let assembled = loaded.assembled().map_err(Failure::work)?;
+    assembled.jam.iter().for_each(|words| watch.warning(words));
+    let result = with_torques(watch, |progress| loaded.run(progress, watch.stop))
+        .inspect_err(|_| watch.unit_slips(scene.document.unit_slips()))?;
+    written(result, how, watch)
+}
+
+/// Tells how many torques are solved.
+fn with_torques<T>(watch: &Watch<'_>, run: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
     let task = watch.listener.begin("torques");
-    let told = |done: usize, total: usize| {
+    run(&|done, total| {
         task.advance(done as f64, total as f64);
         watch.note(format!("torque {done} of {total} solved"));
-    };
-    // Slips of units are among the warnings of the result; what is refused may follow from them.
-    let result = run_until(loaded, &told, watch.stop)
-        .inspect_err(|_| watch.unit_slips(loaded.unit_slips()))?;
-    drop(task);
+    })
+}
+
+/// Writes a pair's result where a file is named, and tells its warnings.
+fn written(
+    result: SceneResult,
+    how: &RunHow<'_>,
+    watch: &Watch<'_>,
+) -> Result<SceneResult, Failure> {
     watch.go_on()?;
     if let Some(output) = how.output {
         result.write(output)?;

@@ -59,7 +59,8 @@ pub fn run_within(
     let scene = match found.subject.clone() {
         Subject::Pair(scene) => SceneFile::Pair(scene),
         Subject::System(scene) => SceneFile::System(scene),
-        Subject::Bevel(_) | Subject::Bearing(_) => {
+        Subject::Bevel(scene) => SceneFile::Bevel(scene),
+        Subject::Bearing(_) => {
             let file = request.scene.display();
             return Err(Failure::input(format!("{file}: is no scene")));
         }

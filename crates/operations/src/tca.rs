@@ -4,17 +4,23 @@ use crate::answer::Answer;
 use crate::bevel_pair::{say, thickness_figures, thickness_words};
 use crate::bevel_stress::{self, BevelStressRequest};
 use crate::failure::Failure;
+use crate::run::{RunHow, run_bevel};
 use crate::tca_sides::{
     NO_MEAN, Side, backlash_words, edge_words, figures, headline, moves, side, vh_rows,
     worth_of_points,
 };
 use crate::watch::Watch;
-use crate::{loaded_bevel, output_name, overwriting, tca_page};
+use crate::{output_name, overwriting, pair_table, recover, tca_page};
 use gearmesh_bevel::{AssembledPair, BevelError, FlankSide, PairFile, ToothContact};
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_report::run_figures::pair_figures;
+use gearmesh_report::scene_page::SceneChapter;
+use gearmesh_scene::SceneResult;
+use gearmesh_scene::pair::BevelScene;
 use serde::Deserialize;
 use serde_json::json;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// What is analysed and written.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
@@ -71,7 +77,9 @@ pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
     let (design, _) = file.checked_design(&document)?;
     let fault = |error: BevelError| Failure::work(error.in_file(&document));
     let pair = AssembledPair::new(&file, &design).map_err(fault)?;
-    pair.jam.iter().for_each(|words| watch.warning(words));
+    if file.load.is_none() {
+        pair.jam.iter().for_each(|words| watch.warning(words));
+    }
     let backlash_m = pair.backlash_m;
     let shown = |pinion: FlankSide, contact| side(&file, &design, (pinion, contact));
     let mut sides = vec![shown(file.pinion_flank, pair.driving).map_err(fault)?];
@@ -85,17 +93,23 @@ pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
         let words = edge_words(side.flanks[0].side, side.contact.as_ref());
         words.iter().for_each(|words| watch.warning(words));
     }
+    let scene = BevelScene {
+        file: file.clone(),
+        document: document.clone(),
+    };
+    let in_memory = RunHow {
+        output: None,
+        restart: false,
+        most_result_gb: f64::INFINITY,
+        checkpoint_interval: Duration::MAX,
+    };
     let loaded = match &file.load {
-        Some(load) => Some(loaded_bevel::analyse(
-            (&file, &design),
-            load,
-            &a.pair,
-            watch,
-        )?),
+        Some(_) => Some(run_bevel(&scene, &in_memory, watch)?),
         None => None,
     };
     let request = BevelStressRequest {
         stress: a.stress,
+        angle_deg: None,
         field_gear: a.field_gear,
         field_angle_deg: a.field_angle_deg,
         field_torque_nm: a.field_torque_Nm,
@@ -109,8 +123,11 @@ pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
             sides: &sides,
             backlash_m,
             thicknesses: &thicknesses,
-            loaded: loaded.as_ref(),
-            stress,
+            loaded: loaded.clone().map(|result| SceneChapter {
+                result,
+                record: None,
+                stress,
+            }),
         };
         watch.go_on()?;
         tca_page::write(&analysed, &a.pair, path, watch)?;
@@ -125,17 +142,25 @@ pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
     all["other_side"] = json!(sides.get(1).map(|side| figures(&file, side)));
     let mut lines = Vec::new();
     if let Some(loaded) = &loaded {
-        all["load"] = loaded_bevel::figures(loaded);
+        all["load"] = under_load(loaded);
         if let Some(figures) = stress_figures {
             all["stress"] = figures.into();
         }
-        lines = loaded_bevel::lines(&file, loaded);
+        lines = pair_table::table(loaded);
     }
     lines.extend(table(&file, &sides, &thicknesses, backlash_m));
     Ok(Answer {
         figures: all,
         lines,
     })
+}
+
+/// Figures under load and of the gauges; without times, so that the same pair gives the same.
+fn under_load(result: &SceneResult) -> serde_json::Value {
+    let mut figures = pair_figures(result);
+    figures["strain"] = recover::figures(result)["rows"].clone();
+    figures.as_object_mut().map(|all| all.remove("seconds"));
+    figures
 }
 
 fn table(

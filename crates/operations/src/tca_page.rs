@@ -1,7 +1,6 @@
 //! The page of a tooth contact analysis: contact pattern, transmission error, ease-off, and what assembly errors do.
 
 use crate::failure::Failure;
-use crate::loaded_bevel::{self, Loaded};
 use crate::page_file;
 use crate::tca_sides::{NO_MEAN, Side, headline, moves, vh_rows, worth_of_points};
 use crate::watch::Watch;
@@ -13,6 +12,7 @@ use gearmesh_report::page::{
     Align, Axis, FieldPicture, FieldValues, FlankChart, KeyFigures, LineChart, LineSeries, Page,
     Section, Table, Text,
 };
+use gearmesh_report::scene_page::{SceneChapter, pair_sections};
 use gearmesh_report::short;
 use std::path::Path;
 
@@ -32,10 +32,8 @@ pub struct Analysed<'a> {
     pub backlash_m: Option<f64>,
     /// How thick the teeth are.
     pub thicknesses: &'a [String],
-    /// Under load, where the file asks for it.
-    pub loaded: Option<&'a Loaded>,
-    /// Pictures of both members' stress, where they are asked for.
-    pub stress: Option<Section>,
+    /// Under load, where the file asks for it, with pictures of both members' stress where they are asked for.
+    pub loaded: Option<SceneChapter>,
 }
 
 /// Writes the page.
@@ -48,46 +46,47 @@ pub fn write(
     path: &Path,
     watch: &Watch<'_>,
 ) -> Result<(), Failure> {
-    let page = page(of, pair).map_err(Failure::work)?;
+    let page = page(of, pair)?;
     page_file::write(&page, path, watch)
 }
 
-fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, BevelError> {
-    let load = of
-        .loaded
-        .map_or("without load", |_| "without and with load");
-    let mut page = Page::new(of.file.title.clone())
-        .subtitle(format!(
-            "Tooth contact analysis: {}, {load}",
-            of.sides[0].name()
-        ))
-        .section(at_a_glance(of));
-    if let Some(loaded) = of.loaded {
-        page = page.section(loaded_bevel::section(loaded));
+fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, Failure> {
+    let load = (of.loaded.as_ref()).map_or("without load", |_| "without and with load");
+    // Sections under load have the same subjects.
+    let (titles, glance) = match of.loaded {
+        Some(_) => (" without load", "Without load"),
+        None => ("", "At a glance"),
+    };
+    let mut page = Page::new(of.file.title.clone()).subtitle(format!(
+        "Tooth contact analysis: {}, {load}",
+        of.sides[0].name()
+    ));
+    if let Some(loaded) = &of.loaded {
+        let sections = pair_sections(loaded).map_err(Failure::work)?;
+        page = sections.into_iter().fold(page, Page::section);
     }
-    if let Some(stress) = &of.stress {
-        page = page.section(stress.clone());
-    }
-    let mut pattern = Section::new("Contact pattern").push(Text::paragraph(format!(
+    page = page.section(at_a_glance(of, glance));
+    let mut pattern = Section::new(format!("Contact pattern{titles}")).push(Text::paragraph(format!(
         "What touches at the positions at which this pair of teeth leads: ellipses on which the flanks are nearer than {} µm, and the path. \
          Across is the distance from the apex along the pitch cone, up the height above it. The flanks that drive first, then the others.",
         short(1e6 * of.file.tca.marking_m)
     )));
-    let mut errors = Section::new("Transmission error");
+    let mut errors = Section::new(format!("Transmission error{titles}"));
     let mut ease_offs = Section::new("Ease-off");
     let mut moves = Section::new("Assembly errors");
     for side in of.sides {
         match &side.contact {
             Some(contact) => {
                 for member in [1, 0] {
-                    pattern = pattern.push(self::pattern(of, (side.flanks, contact), member)?);
+                    let drawn = self::pattern(of, (side.flanks, contact), member);
+                    pattern = pattern.push(drawn.map_err(Failure::work)?);
                 }
                 errors = errors.push(error(of, side, contact));
                 moves = assembly_errors(moves, side);
             }
             None => pattern = pattern.push(Text::paragraph(headline(side))),
         }
-        ease_offs = ease_offs.push(ease_off(of, side)?);
+        ease_offs = ease_offs.push(ease_off(of, side).map_err(Failure::work)?);
     }
     Ok(page
         .section(pattern)
@@ -101,19 +100,9 @@ fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, BevelError> {
         )))
 }
 
-fn at_a_glance(of: &Analysed<'_>) -> Section {
+fn at_a_glance(of: &Analysed<'_>, title: &str) -> Section {
     let error = &of.file.tca.error;
-    let under_load = of.loaded.iter().flat_map(|loaded| &loaded.found);
-    let figures = under_load.fold(KeyFigures::new(), |figures, found| {
-        figures.figure(
-            format!(
-                "transmission error at {} N m, peak to peak",
-                found.torque_nm
-            ),
-            short(1e6 * found.peak_to_peak_rad()),
-            "µrad of the gear",
-        )
-    });
+    let figures = KeyFigures::new();
     let figures = of
         .sides
         .iter()
@@ -123,7 +112,7 @@ fn at_a_glance(of: &Analysed<'_>) -> Section {
                 return figures;
             };
             let whose = if i == 0 { "" } else { "other flanks: " };
-            let load = of.loaded.map_or("", |_| " without load");
+            let load = of.loaded.as_ref().map_or("", |_| " without load");
             figures
                 .figure(
                     format!("{whose}transmission error{load}, peak to peak"),
@@ -157,7 +146,7 @@ fn at_a_glance(of: &Analysed<'_>) -> Section {
             short(1e3 * error.shaft_angle_rad),
             "mrad",
         );
-    let section = Section::new("At a glance").push(figures);
+    let section = Section::new(title).push(figures);
     let worth = of.sides.iter().flat_map(|s| worth_of_points(s.flanks));
     worth
         .chain(of.thicknesses.iter().cloned())

@@ -86,7 +86,7 @@ pub(crate) fn check_scene(
     let document = InputDocument::new(file, text);
     let scene = SceneFile::from_document(document, &folder).map_err(input_error)?;
     let kind = match &scene {
-        SceneFile::Pair(_) => "pair",
+        SceneFile::Pair(_) | SceneFile::Bevel(_) => "pair",
         SceneFile::System(_) => "system",
     };
     Ok((kind, scene.title().to_owned()))

@@ -10,7 +10,7 @@ use gearmesh_operations::Watch;
 use gearmesh_operations::plan::plan as plan_scene;
 use gearmesh_operations::run::{self as operations, RunHow};
 use gearmesh_scene::SceneFile;
-use gearmesh_scene::pair::Scene;
+use gearmesh_scene::pair::{BevelScene, Scene};
 use gearmesh_scene::study::RestCases;
 use gearmesh_scene::system::{HostFunctions, SystemScene};
 use pyo3::prelude::*;
@@ -76,6 +76,7 @@ pub(crate) fn run(
     let asked = (output, restart, most_result_gb);
     let outcome = match scene {
         SceneFile::Pair(scene) => run_pair(py, *scene, asked, progress.as_ref()),
+        SceneFile::Bevel(scene) => run_bevel(py, *scene, asked, progress.as_ref()),
         SceneFile::System(scene) => run_system(py, *scene, asked, progress.as_ref()),
     };
     let (result, notes) = functions.judge(outcome)?;
@@ -85,10 +86,10 @@ pub(crate) fn run(
 /// The scene with the functions of the caller.
 fn with_functions(scene: SceneFile, host: HostFunctions) -> PyResult<SceneFile> {
     match scene {
-        SceneFile::Pair(_) if !host.is_empty() => Err(InputError::new_err(
+        SceneFile::Pair(_) | SceneFile::Bevel(_) if !host.is_empty() => Err(InputError::new_err(
             "functions: a gear pair at rest has no loads, motions or elements that call one; leave them out",
         )),
-        SceneFile::Pair(scene) => Ok(SceneFile::Pair(scene)),
+        SceneFile::Pair(_) | SceneFile::Bevel(_) => Ok(scene),
         SceneFile::System(mut scene) => {
             scene.host = host;
             Ok(SceneFile::System(scene))
@@ -121,6 +122,20 @@ fn run_pair(
         let slips = slips.iter().map(ToString::to_string);
         let notes = loaded.scene.notes.iter().cloned().chain(slips).collect();
         Ok((operations::run_pair(&loaded, &how(&asked), watch)?, notes))
+    })?;
+    Ok((NativeResult::of_pair(py, result)?, notes))
+}
+
+fn run_bevel(
+    py: Python<'_>,
+    scene: BevelScene,
+    asked: Asked,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(NativeResult, Vec<String>)> {
+    let (result, notes) = watched(py, progress, OnInterrupt::Leave, None, move |watch| {
+        let slips = scene.document.unit_slips();
+        let notes = slips.iter().map(ToString::to_string).collect();
+        Ok((operations::run_bevel(&scene, &how(&asked), watch)?, notes))
     })?;
     Ok((NativeResult::of_pair(py, result)?, notes))
 }

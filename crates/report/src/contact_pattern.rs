@@ -13,8 +13,11 @@ const STRIPS_PER_POSITION: f64 = 0.7;
 /// Fields on the flank; `None` where an older program has not stored where the slices touch.
 pub(crate) fn section(r: &SceneResult) -> Option<Section> {
     let places = r.places.as_ref()?;
-    let gear = r.gears[0].definition()?;
-    let flank = Flank::new(r, places, gear.profile.base_radius_m)?;
+    let up = match &r.bevel {
+        Some(bevel) => Up::Share(bevel.flank_heights_m[0]),
+        None => Up::Roll(r.gears[0].definition()?.profile.base_radius_m),
+    };
+    let flank = Flank::new(r, places, up)?;
     let last = r.torque_nm.len() - 1;
     let block = r.force_n.len() / r.torque_nm.len();
     let of = |values: &[f64], torque: usize| values[torque * block..(torque + 1) * block].to_vec();
@@ -26,7 +29,7 @@ pub(crate) fn section(r: &SceneResult) -> Option<Section> {
     };
     let mut section = Section::new(format!("{}: contact pattern", r.title)).push(Text::paragraph(
         "The flank of gear 1 from mid-face, root below and tip above: at each place the largest value of all positions. What is not coloured \
-         does not touch. Across is the axial place z, up the radius.",
+         does not touch. Across is the axial place z, up the radius, of bevel gears the way up the flank.",
     ));
     let mut shown = vec![last];
     if last > 0 {
@@ -58,9 +61,17 @@ pub(crate) fn section(r: &SceneResult) -> Option<Section> {
     Some(section)
 }
 
+/// What places along the profile are drawn at.
+enum Up {
+    /// The radius of a roll angle; base radius \[m\].
+    Roll(f64),
+    /// The share of a way up the flank \[m\].
+    Share(f64),
+}
+
 /// Strips along the profile by slices across the face.
 struct Flank {
-    base_radius_m: f64,
+    up: Up,
     slices: usize,
     /// Edges of the strips, roll angles \[rad\].
     edges_rad: Vec<f64>,
@@ -69,7 +80,7 @@ struct Flank {
 }
 
 impl Flank {
-    fn new(r: &SceneResult, places: &ContactPlaces, base_radius_m: f64) -> Option<Self> {
+    fn new(r: &SceneResult, places: &ContactPlaces, up: Up) -> Option<Self> {
         let touching =
             || (places.width_m.iter().zip(&places.roll_1_rad)).filter(|(w, _)| **w > 0.0);
         let low = touching()
@@ -80,9 +91,22 @@ impl Flank {
             return None;
         }
         let step_rad = r.angle_rad.get(1)? - r.angle_rad[0];
-        let strips = (STRIPS_PER_POSITION * (high - low) / step_rad) as usize;
+        let positions = match up {
+            Up::Roll(_) => (high - low) / step_rad,
+            Up::Share(_) => r.points_per_pitch() as f64,
+        };
+        let strips = (STRIPS_PER_POSITION * positions) as usize;
         let strips = strips.clamp(4, MOST_STRIPS);
         let edges = (0..=strips).map(|k| low + (high - low) * k as f64 / strips as f64);
+        if let Some(bevel) = &r.bevel {
+            let side = |k: usize| 1e3 * bevel.face_widths_m[0] * (k as f64 / r.slices as f64 - 0.5);
+            return Some(Self {
+                up,
+                slices: r.slices,
+                edges_rad: edges.collect(),
+                sides_mm: (0..=r.slices).map(side).collect(),
+            });
+        }
         let width = places.width_m.iter().copied().fold(0.0, f64::max);
         let mut sides_mm = Vec::new();
         for slice in 0..r.slices {
@@ -96,7 +120,7 @@ impl Flank {
             sides_mm.push(1e3 * (middle + 0.5 * width));
         }
         Some(Self {
-            base_radius_m,
+            up,
             slices: r.slices,
             edges_rad: edges.collect(),
             sides_mm,
@@ -122,9 +146,12 @@ impl Flank {
                 *cell = cell.max(value);
             }
         }
-        let radius_mm = |roll: f64| 1e3 * self.base_radius_m * (1.0 + roll * roll).sqrt();
+        let up_mm = |at: f64| match self.up {
+            Up::Roll(base_radius_m) => 1e3 * base_radius_m * (1.0 + at * at).sqrt(),
+            Up::Share(height_m) => 1e3 * height_m * at,
+        };
         let across = self.sides_mm.len();
-        let along = self.edges_rad.iter().map(|roll| radius_mm(*roll));
+        let along = self.edges_rad.iter().map(|roll| up_mm(*roll));
         let nodes = along.flat_map(|r| self.sides_mm.iter().map(move |z| [*z, r]));
         let (mut quads, mut shown) = (Vec::new(), Vec::new());
         for (cell, value) in largest

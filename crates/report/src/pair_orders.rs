@@ -44,6 +44,12 @@ pub struct PairOrders {
 impl PairOrders {
     /// Those of a result's gears; none where they are not known.
     pub fn of(result: &SceneResult) -> Option<Self> {
+        if let Some(bevel) = &result.bevel {
+            return Some(Self {
+                teeth: bevel.teeth,
+                openings: [0; 2],
+            });
+        }
         let [Some(gear_1), Some(gear_2)] = result.gears.each_ref().map(StoredGear::definition)
         else {
             return None;

@@ -3,7 +3,7 @@
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 use gearmesh_model::Named;
 use gearmesh_scene::SceneResult;
-use gearmesh_scene::pair::figure_table::{FIGURE_ERRORS, FIGURES};
+use gearmesh_scene::pair::figure_table::FIGURE_ERRORS;
 use gearmesh_scene::rating::RatingResult;
 use serde_json::{Map, Value, json};
 
@@ -13,8 +13,8 @@ use serde_json::{Map, Value, json};
 pub fn pair_figures(result: &SceneResult) -> Value {
     let row = |k: usize| {
         let f = result.figures(k);
-        let figures = FIGURES
-            .iter()
+        let figures = result
+            .stated_figures()
             .map(|row| (row.name_in_files(), json!((row.of)(&f))));
         let mut row: Map<String, Value> = figures.collect();
         let curve = result.averaged(&result.tangent_n_per_m, k);
@@ -38,7 +38,9 @@ pub fn pair_figures(result: &SceneResult) -> Value {
     };
     let rows: Value = (0..result.torque_nm.len()).map(row).collect();
     let over = result.overlap_width_m().ok();
-    let shown = FIGURES.iter().filter(|figure| result.shows(figure));
+    let shown = result
+        .stated_figures()
+        .filter(|figure| result.shows(figure));
     let columns: Value = shown
         .map(|figure| {
             let unit = figure.kind.read_unit(over);

@@ -13,6 +13,7 @@ use crate::ratings;
 use crate::record::ReferenceRecord;
 use crate::result_series::series;
 use crate::scene_comparison::{SceneComparisonError, compare_scene};
+use crate::short_number::short;
 use crate::system_page;
 use gearmesh_model::FileError;
 use gearmesh_scene::SceneResult;
@@ -88,36 +89,8 @@ pub fn scene_page(
         [title] => Page::new(*title).subtitle("gearmesh report"),
         _ => Page::new("gearmesh report").subtitle(titles.join(" - ")),
     };
-    for chapter in chapters {
-        let r = &chapter.result;
-        page = page
-            .section(overview(r))
-            .section(transmission_error(chapter))
-            .section(contact(r));
-        if let Some(section) = contact_pattern::section(r) {
-            page = page.section(section);
-        }
-        if !r.strain.is_empty() {
-            page = page.section(root_strain(chapter));
-        }
-        if let Some(section) = ratings::section(&r.title, &r.ratings) {
-            page = page.section(section);
-        }
-        if let Some(record) = &chapter.record {
-            let table = comparison_table(&compare_scene(r, record)?);
-            page = page.section(
-                Section::new(format!("{}: comparison", r.title))
-                    .push(Text::paragraph(format!(
-                        "Both sides went through the rig pipeline. The reference is {}: {}. {}",
-                        record.kind, record.title, record.source
-                    )))
-                    .push(Text::preformatted(table)),
-            );
-        }
-        if let Some(stress) = &chapter.stress {
-            page = page.section(stress.clone());
-        }
-        page = page.section(provenance(r));
+    for section in chapters.iter().map(pair_sections) {
+        page = section?.into_iter().fold(page, Page::section);
     }
     for chapter in systems {
         for section in system_page::sections(&chapter.result, chapter.stress.clone())? {
@@ -134,6 +107,34 @@ pub fn scene_page(
         .map(|(version, created)| format!("{version} {created}"))
         .collect();
     Ok(page.footer(format!("gearmesh {}", made.join(", "))))
+}
+
+/// The sections of a pair.
+///
+/// # Errors
+/// [`ScenePageError`] when its comparison cannot be made.
+pub fn pair_sections(chapter: &SceneChapter) -> Result<Vec<Section>, ScenePageError> {
+    let r = &chapter.result;
+    let mut all = vec![overview(r), transmission_error(chapter), contact(r)];
+    all.extend(contact_pattern::section(r));
+    if !r.strain.is_empty() {
+        all.push(root_strain(chapter));
+    }
+    all.extend(ratings::section(&r.title, &r.ratings));
+    if let Some(record) = &chapter.record {
+        let table = comparison_table(&compare_scene(r, record)?);
+        all.push(
+            Section::new(format!("{}: comparison", r.title))
+                .push(Text::paragraph(format!(
+                    "Both sides went through the rig pipeline. The reference is {}: {}. {}",
+                    record.kind, record.title, record.source
+                )))
+                .push(Text::preformatted(table)),
+        );
+    }
+    all.extend(chapter.stress.clone());
+    all.push(provenance(r));
+    Ok(all)
 }
 
 fn overview(r: &SceneResult) -> Section {
@@ -263,10 +264,18 @@ fn transmission_error(chapter: &SceneChapter) -> Section {
         Some(_) => " Dashed: the reference.",
         None => "",
     };
+    let what = match &r.bevel {
+        Some(bevel) => format!(
+            "How far the gear is ahead of constant ratio at a radius of {} mm, zero where it leads most without load.",
+            short(1e3 * bevel.radius_2_m)
+        ),
+        None => "TE = r_b2 theta_2 − r_b1 theta_1, zero where unmodified flanks first touch without load, negative under load.".to_owned(),
+    };
+    if r.bevel.is_some() {
+        chart = chart.series(LineSeries::new("without load", micro(&r.unloaded_m)));
+    }
     let section = Section::new(format!("{}: transmission error", r.title))
-        .push(Text::paragraph(
-            format!("TE = r_b2 theta_2 − r_b1 theta_1, zero where unmodified flanks first touch without load, negative under load.{dashed}"),
-        ))
+        .push(Text::paragraph(format!("{what}{dashed}")))
         .push(chart);
     match order_spectrum(r) {
         Ok(Some(spectrum)) => section.push(spectrum),
@@ -450,7 +459,7 @@ fn stress_picture(picture: &GearPicture) -> FieldPicture {
 }
 
 fn provenance(r: &SceneResult) -> Section {
-    Section::new(format!("{}: scene and gears", r.title))
+    let section = Section::new(format!("{}: scene and gears", r.title))
         .push(Text::paragraph(format!(
             "gearmesh {}, computed {}; contact {:.3} s, strain {:.3} s; largest relative residual {:.1e}, torque balance {:.1e}.",
             r.version,
@@ -460,7 +469,10 @@ fn provenance(r: &SceneResult) -> Section {
             r.residual.iter().copied().fold(0.0, f64::max),
             r.torque_balance.iter().copied().fold(0.0, f64::max)
         )))
-        .push(Text::preformatted(r.scene_toml.clone()))
-        .push(Text::preformatted(r.gears[0].text.clone()))
-        .push(Text::preformatted(r.gears[1].text.clone()))
+        .push(Text::preformatted(r.scene_toml.clone()));
+    // Rigid gears have no files.
+    let texts = r.gears.iter().filter(|gear| !gear.text.is_empty());
+    texts.fold(section, |section, gear| {
+        section.push(Text::preformatted(gear.text.clone()))
+    })
 }

@@ -7,15 +7,15 @@
 //! | scene | how it is told | module |
 //! | --- | --- | --- |
 //! | one gear pair, static positions over driver angles | `[pair]` | [`pair`] |
+//! | a bevel pair under torques | `[bevel]` and `[load]` | [`pair`] |
 //! | a multibody system | `[[body]]` | [`system`] |
 //!
 //! [`periods`] says how much of what repeats a run has seen, [`rating`] judges what both have given. [`SceneFile`]
 //! tells them apart, [`ResultFile`] their results, [`schema`] writes down what may be in them. [`system_run`] runs
 //! multibody systems, [`study`] computes a scene again and again with keys that vary, [`optimise`] seeks the best of
-//! them, [`accuracy`] says what exactness costs in time. [`bevel_load`] puts torques on bevel pairs.
+//! them, [`accuracy`] says what exactness costs in time.
 
 pub mod accuracy;
-pub mod bevel_load;
 mod former_forms;
 mod microgeometry_words;
 mod named_files;

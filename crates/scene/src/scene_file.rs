@@ -7,7 +7,7 @@ use gearmesh_geometry::input::InputDocument;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-use crate::pair::Scene;
+use crate::pair::{BevelScene, Scene};
 use crate::system::SystemScene;
 
 /// A scene that has been read and checked.
@@ -15,6 +15,8 @@ use crate::system::SystemScene;
 pub enum SceneFile {
     /// One gear pair, static positions.
     Pair(Box<Scene>),
+    /// A bevel pair under the torques of its `[load]`.
+    Bevel(Box<BevelScene>),
     /// A multibody system.
     System(Box<SystemScene>),
 }
@@ -24,6 +26,7 @@ pub enum SceneFile {
 #[allow(non_snake_case)]
 struct Marks {
     pair: Option<IgnoredAny>,
+    bevel: Option<IgnoredAny>,
     body: Option<IgnoredAny>,
     shaft: Option<IgnoredAny>,
     planetary: Option<IgnoredAny>,
@@ -104,6 +107,9 @@ impl SceneFile {
                 "body",
                 "a scene has [pair] (one gear pair, static positions) or [[body]] and [[shaft]] (a multibody system), not both",
             )),
+            (None, None) if marks.bevel.is_some() => {
+                Ok(Self::Bevel(Box::new(BevelScene::from_document(document)?)))
+            }
             (None, None) if marks.tooth.is_some() => {
                 Err(document.error("tooth", "this is a gear file; a scene has [pair] or [[body]]"))
             }
@@ -118,6 +124,7 @@ impl SceneFile {
     pub fn title(&self) -> &str {
         match self {
             Self::Pair(scene) => &scene.title,
+            Self::Bevel(scene) => &scene.file.title,
             Self::System(scene) => &scene.title,
         }
     }

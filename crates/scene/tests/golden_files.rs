@@ -129,12 +129,14 @@ fn pair_result(version: u32) -> SceneResult {
             roll_1_rad: numbers(places, 0.01),
             z_m: numbers(places, 1e-3),
             width_m: numbers(places, 2e-3),
+            ..ContactPlaces::default()
         }),
         k_h_beta: vec![1.1, 1.2],
         iterations: vec![30, 31],
         residual: vec![1e-14, 2e-14],
         torque_balance: vec![1e-13, 2e-13],
         between: Default::default(),
+        bevel: None,
         strain: vec![StrainSeries {
             gear: 2,
             name: text("root"),

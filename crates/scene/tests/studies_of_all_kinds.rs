@@ -12,8 +12,8 @@ use gearmesh_bearings::{
 };
 use gearmesh_bevel::{PairFile, tooth_contact};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_scene::bevel_load::load_bevel;
 use gearmesh_scene::optimise::{Optimisation, optimise};
+use gearmesh_scene::pair::{BevelScene, ModelShelf};
 use gearmesh_scene::study::{SelectedValue, Study, StudyOptions, StudyOutcome, run_study};
 
 fn fe_models() -> PathBuf {
@@ -112,16 +112,19 @@ fn a_bevel_pair_is_loaded_in_each_assembly() {
     let (outcome, table) = studied(&fe_models(), &text).unwrap();
     assert!(table.starts_with("offset,torque,torque_Nm,loaded_te_mean_urad,pressure_largest_MPa,contact_ratio,file,failure\n"));
     for (case, offset_m, second_nm) in [(0, 0.0, 100.0), (1, 20e-6, 100.0), (2, 0.0, 80.0)] {
-        let mut file = PairFile::read(&fe_models().join("bevel_20_20_loaded.toml")).unwrap();
-        file.tca.error.offset_m = offset_m;
-        let mut load = file.load.clone().unwrap();
-        load.torques_nm[1] = second_nm;
-        let design = file.design().unwrap();
-        let expected = load_bevel((&file, &design), &load, None).unwrap().found;
+        let document = InputDocument::read(&fe_models().join("bevel_20_20_loaded.toml")).unwrap();
+        let mut scene = BevelScene::from_document(document).unwrap();
+        scene.file.tca.error.offset_m = offset_m;
+        let torques_nm = &mut scene.file.load.as_mut().unwrap().torques_nm;
+        torques_nm[1] = second_nm;
+        let pair = scene.load(&ModelShelf::default()).unwrap();
+        let expected = pair.run(&|_, _| (), &AtomicBool::new(false)).unwrap();
         let found = numbers(&outcome, case);
-        assert_eq!(found.len(), 3 * load.torques_nm.len());
-        for (row, of) in found.chunks(3).zip(&expected) {
-            let own = [1e6 * of.mean_rad(), 1e-6 * of.pressures_pa()[0]];
+        assert_eq!(found.len(), 3 * expected.torque_nm.len());
+        for (torque, row) in found.chunks(3).enumerate() {
+            let of = expected.figures(torque);
+            let mean_rad = of.te_mean_m / expected.bevel.unwrap().radius_2_m;
+            let own = [1e6 * mean_rad, 1e-6 * of.pressure_largest_pa];
             for (one, expected) in row.iter().zip(own) {
                 assert!((one / expected - 1.0).abs() < 1e-9, "{one} {expected}");
             }

@@ -33,6 +33,9 @@ impl Opened {
         }
         if path.extension().is_some_and(|ending| ending == "h5") {
             return match ResultFile::open(path)? {
+                ResultFile::Pair(result) if result.bevel.is_some() => Err(Problem::Input(format!(
+                    "{shown}: is the result of a bevel pair; `gearmesh report {shown} -o page.html` shows it"
+                ))),
                 ResultFile::Pair(result) => {
                     Ok(Self::Pair(Box::new(PairSession::of_result(path, &result)?)))
                 }
@@ -43,6 +46,9 @@ impl Opened {
         }
         match SceneFile::read(path)? {
             SceneFile::Pair(_) => Ok(Self::Pair(Box::new(PairSession::read(path)?))),
+            SceneFile::Bevel(_) => Err(Problem::Input(format!(
+                "{shown}: is a bevel pair; `gearmesh tca {shown} --report page.html` shows its contact, `gearmesh run` what it is under load"
+            ))),
             SceneFile::System(_) => Err(Problem::Input(format!(
                 "{shown}: is a multibody scene, which runs for minutes; run it with `gearmesh run {shown} -o result.h5` and open the result"
             ))),

@@ -8,7 +8,7 @@ use gearmesh_operations::Watch;
 use gearmesh_operations::changed_pair::ChangedPair;
 use gearmesh_report::words_and_unit;
 use gearmesh_scene::pair::PairWatch;
-use gearmesh_scene::study::{Case, Setting, pair_column_names};
+use gearmesh_scene::study::{Case, PairColumns, Setting};
 use gearmesh_scene::{LoadedScene, SceneResult};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -89,7 +89,7 @@ impl PairSession {
             form: Form { fields: Vec::new() },
             gauges: [gauge_names(model_1), gauge_names(model_2)],
             files: [read(model_1)?, read(model_2)?],
-            columns: pair_column_names(&loaded),
+            columns: PairColumns::of_scene(&loaded).names(),
             models: std::path::absolute(&folder).unwrap_or(folder),
             pair,
         };

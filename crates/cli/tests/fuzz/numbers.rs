@@ -12,6 +12,7 @@ use gearmesh_model::synthetic::{
 use gearmesh_model::{
     DataTree, FileFormat, MESH_FORMAT, REDUCED_GEAR_FORMAT, Values, write_mesh, write_reduced_gear,
 };
+use gearmesh_scene::pair::ModelShelf;
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{SceneFile, load, run as run_pair};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -204,6 +205,9 @@ fn is_run(text: &str, folder: &Path) -> bool {
             let _ = loaded.plan();
             run_pair(&loaded, &|_, _| ()).is_ok()
         }),
+        SceneFile::Bevel(scene) => scene
+            .load(&ModelShelf::default())
+            .is_ok_and(|pair| !pair.plan().is_empty()),
         SceneFile::System(scene) => scene
             .load()
             .is_ok_and(|loaded| loaded.build().is_ok() && RunJob::from_scene(loaded).is_ok()),

@@ -1,7 +1,9 @@
 //! `gearmesh bevel` and `gearmesh tca`.
 
 use gearmesh_bevel::{Flank, PairFile};
+use gearmesh_scene::SceneResult;
 
+use crate::common::doors::one_table_at_all_doors;
 use crate::common::{Desk, argument, changed, gearmesh, refused, succeeds};
 
 pub fn shipped(name: &str) -> String {
@@ -71,32 +73,29 @@ fn a_pair_file_with_loads_is_analysed_under_them() {
     let file = desk.file("pair.toml", &quick);
     let page = desk.path("page.html");
     let run = succeeds(&["tca", argument(&file), "--report", argument(&page)]).stdout;
-    let first: Vec<&str> = run.lines().take(5).collect();
-    assert!(
-        first[0].contains("rigid gears") && first[1].contains("TE pk-pk urad"),
-        "{first:?}"
-    );
-    let numbers = |line: &str| -> Vec<f64> {
-        line.split_whitespace()
-            .filter_map(|cell| cell.parse().ok())
-            .collect()
-    };
-    let [light, _, heavy] = [2, 3, 4].map(|line: usize| numbers(first[line]));
-    assert_eq!((light[0], heavy[0]), (50.0, 200.0));
-    assert!(heavy[1] < light[1] && light[1] < -300.0, "{first:?}");
+    assert!(run.contains("TE pk-pk urad"), "{run}");
     let html = std::fs::read_to_string(&page).unwrap();
-    assert!(html.contains("Under load") && html.contains("Largest pressure at 200 N·m"));
-    let json = succeeds(&["tca", argument(&file), "--json"]).json();
-    let torques = json["load"]["torques"].as_array().unwrap();
-    assert_eq!(torques.len(), 3);
-    let position = &torques[2]["positions"][0];
-    let force: f64 = position["patches"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|p| p["force_N"].as_f64().unwrap())
-        .sum();
+    for title in ["Mesh stiffness", "Largest Hertz pressure at 200 N·m"] {
+        assert!(html.contains(title), "{title}");
+    }
+    let result = desk.path("pair.h5");
+    let json = succeeds(&["run", argument(&file), "-o", argument(&result), "--json"]).json();
+    let rows = json["rows"].as_array().unwrap();
+    let number = |row: usize, name: &str| rows[row][name].as_f64().unwrap();
+    assert_eq!(
+        (number(0, "torque_Nm"), number(2, "torque_Nm")),
+        (50.0, 200.0)
+    );
+    let [light, heavy] = [0, 2].map(|row| number(row, "loaded_te_mean_rad"));
+    assert!(heavy < light && light < -300e-6, "{light} {heavy}");
+    let found = SceneResult::read(&result).unwrap();
+    let force = found.normal_force_n(2)[0];
     assert!((7000.0..10000.0).contains(&force), "{force}");
+    one_table_at_all_doors(&desk, ("pair.toml", "load"), &result, &json);
+    // Its bodies are rigid: they have neither strain nor stress.
+    let strain = desk.path("strain.h5");
+    let no_bodies = ["recover", argument(&result), "-o", argument(&strain)];
+    refused(&gearmesh(&no_bodies), 2, &["rigid", "models"]);
     for (from, to, parts) in [
         (
             "torques_Nm = [50.0, 100.0, 200.0]",
@@ -231,9 +230,9 @@ fn zerol_and_straight_pairs() {
     let asked = "settings = \"local-synthesis\"\nedge_radius_mm = 0.3\npath_angle_deg = [90.0, 90.0]\nellipse_half_length_mm = [5.0, 5.0]\n\
         transmission_curvature = [-0.003, -0.003]\n[load]\ntorques_Nm = [20.0]\nslices = 15\npositions_per_pitch = 8\n";
     let file = desk.file("zerol.toml", zerol + asked);
-    let printed = succeeds(&["tca", argument(&file)]).stdout;
-    let cells = printed.lines().nth(2).unwrap().split_whitespace();
-    assert_eq!(cells.rev().nth(4), Some("0.0"), "{printed}");
+    let found = succeeds(&["tca", argument(&file), "--json"]).json();
+    let share = &found["load"]["rows"][0]["load_on_tips_share"];
+    assert_eq!(share.to_string(), "0.0", "{found}");
     let straight = pair("form = \"straight\"", "settings = \"crown\"");
     desk.file("straight.toml", straight + "settings = \"crown\"\n");
     let body = "name = \"gear\"\n[bevel_gear]\npair = \"straight.toml\"\nmember = \"gear\"\n[blank]\nbore_diameter_mm = 24.0\n\
@@ -469,7 +468,8 @@ fn contact_analysis_says_what_is_wrong() {
     let heavy = desk.file("heavy.toml", heavy);
     let run = succeeds(&["tca", argument(&heavy)]);
     assert!(
-        run.stderr.contains("above 2 % (4.12 GPa) steel yields"),
+        run.stderr
+            .contains("at 5000 N m: elastic material: the Hertz pressure reaches"),
         "{}",
         run.stderr
     );

@@ -2,6 +2,7 @@
 
 use crate::common::{Desk, argument, gearmesh, refused, succeeds};
 use gearmesh_mesh::python::PythonEnvironment;
+use gearmesh_scene::SceneResult;
 use serde_json::Value;
 use std::path::Path;
 
@@ -164,7 +165,8 @@ fn at_rest(desk: &Desk) {
     ];
     let told = succeeds(&[&words[..], &["--json"]].concat());
     assert!(
-        told.stderr.contains("field of the gear, 100 N m"),
+        told.stderr
+            .contains("field of the gear, 100 N m, driver angle"),
         "{}",
         told.stderr
     );
@@ -173,17 +175,24 @@ fn at_rest(desk: &Desk) {
         assert!(html.contains(title), "{title}");
     }
     demand_pictures(&page, &told.json()["stress"]);
+    // The same pair by `run`: the page of its result draws the same, its strain is recovered as it was read.
+    let result = desk.path("loaded.h5");
+    succeeds(&["run", argument(&pair), "-o", argument(&result)]);
+    let passing = SceneResult::read(&result).unwrap();
+    let of_result = desk.path("of_result.html");
+    let words_of_report = ["report", argument(&result), "-o", argument(&of_result)];
+    let drawn = succeeds(&[&words_of_report[..], &["--stress", "--json"]].concat()).json();
+    assert_eq!(drawn["stress"], told.json()["stress"]);
+    let strain = desk.path("strain.h5");
+    succeeds(&["recover", argument(&result), "-o", argument(&strain)]);
+    assert_eq!(SceneResult::read(&strain).unwrap().strain, passing.strain);
     // A gauge in the picture reads of the field what it read in passing, by the reduced model's row.
     for gear in told.json()["stress"].as_array().unwrap() {
         let read = gear["gauges_ustrain"][0]["strain"].as_f64().unwrap();
-        let passing = told.json()["load"]["strain"].clone();
-        let of = passing
-            .as_array()
-            .unwrap()
-            .iter()
-            .find(|of| of["member"] == gear["gear"] && of["torque_Nm"].as_f64() == Some(100.0));
-        let series = numbers(&of.unwrap()["method_2_ustrain"]);
-        let off = series.iter().map(|x| (x / read - 1.0).abs());
+        let number = if gear["gear"] == "gear" { 2 } else { 1 };
+        let of = passing.strain.iter().find(|series| series.gear == number);
+        let series = passing.curve(&of.unwrap().method_2, 1);
+        let off = series.iter().map(|x| (1e6 * x / read - 1.0).abs());
         let off = off.fold(f64::INFINITY, f64::min);
         // Rows of the gear read slices where they were laid, up to 0.1 mm beside where the picture's forces touch it.
         let most = if gear["gear"] == "gear" { 1e-3 } else { 1e-8 };

@@ -160,7 +160,7 @@ fn a_bevel_pair_to_start_with_is_analysed_and_runs() {
         told.stderr
     );
     let found = succeeds(&["tca", argument(&folder.join("bevel_pair.toml")), "--json"]).json();
-    let torques = found["load"]["torques"].as_array().unwrap();
+    let torques = found["load"]["rows"].as_array().unwrap();
     assert_eq!(torques.len(), 3, "{found}");
     let (scene, result) = (folder.join("bevel_drive.toml"), desk.path("drive.h5"));
     let run = succeeds(&["run", argument(&scene), "-o", argument(&result)]);

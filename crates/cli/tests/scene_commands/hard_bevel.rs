@@ -1,16 +1,17 @@
 //! Loaded bevel pairs under assembly errors, and their reduced members in motion where it is hard.
 
+use gearmesh_scene::SceneResult;
 use gearmesh_scene::system_run::SystemResult;
-use serde_json::Value;
 
 use super::bevel::shipped;
-use super::loaded_bevel::{forces, loaded, members, numbers, scene, tca};
+use super::loaded_bevel::{at_rest, forces, loaded, members, numbers, scene, tca};
 use crate::common::{argument, changed, succeeds};
 
 /// Where the force of a loaded pair lies on the gear's flank in the mean over a pitch: along the face, up the flank.
-fn centre(torque: &Value) -> [f64; 2] {
-    let positions = torque["positions"].as_array().unwrap();
-    let all = positions.iter().flat_map(|position| forces(position, 1));
+fn centre(result: &SceneResult) -> [f64; 2] {
+    let all = result
+        .even_positions_of(0)
+        .flat_map(|position| forces(result, position, 1));
     let sums = all.fold([0.0; 3], |[f, s, v], (force, at)| {
         [f + force, s + force * at[0], v + force * at[1]]
     });
@@ -48,12 +49,11 @@ fn assembly_errors_move_the_loaded_pattern() {
         (reduced, 28.0, &ERRORS[..1]),
     ] {
         let at = |key: &str, error: f64| {
-            let found = tca(&format!(
-                "{text}\n[tca]\npositions_per_pitch = 8\n{key} = {error:?}\n"
-            ));
-            (centre(&found["load"]["torques"][0]), found)
+            let text = format!("{text}\n[tca]\npositions_per_pitch = 8\n{key} = {error:?}\n");
+            (centre(&at_rest(&text)), text)
         };
         let (centred, as_designed) = at("offset_um", 0.0);
+        let as_designed = tca(&as_designed);
         for (key, name, error) in errors {
             let [plus, minus] = [*error, -error].map(|error| at(key, error).0);
             let told = numbers(&as_designed["sensitivity"][name]);

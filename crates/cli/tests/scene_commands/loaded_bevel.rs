@@ -8,6 +8,8 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use gearmesh_bevel::{FlankPatch, FlankSide, PairFile};
+use gearmesh_scene::SceneResult;
+use gearmesh_scene::pair::bevel_result::{PressedPosition, Pressing};
 use gearmesh_scene::system_run::SystemResult;
 use serde_json::Value;
 
@@ -77,26 +79,24 @@ pub fn tca(text: &str) -> Value {
     succeeds(&["tca", argument(&file), "--json"]).json()
 }
 
+/// What `gearmesh run` finds of a pair file under its torques.
+pub fn at_rest(text: &str) -> SceneResult {
+    let desk = Desk::new();
+    let (file, result) = (desk.file("pair.toml", text), desk.path("pair.h5"));
+    succeeds(&["run", argument(&file), "-o", argument(&result)]);
+    SceneResult::read(&result).unwrap()
+}
+
 pub fn numbers(value: &Value) -> Vec<f64> {
     let list = value.as_array().unwrap();
     list.iter().map(|x| x.as_f64().unwrap()).collect()
 }
 
-/// One number of every position.
-fn of_positions(torque: &Value, key: &str) -> Vec<f64> {
-    let list = torque["positions"].as_array().unwrap();
-    list.iter().map(|p| p[key].as_f64().unwrap()).collect()
-}
-
-/// Force and place of all patches of a position, on the pinion (0) or the gear (1).
-pub fn forces(position: &Value, member: usize) -> Vec<(f64, [f64; 2])> {
-    let place = ["pinion_place", "gear_place"][member];
-    let list = position["patches"].as_array().unwrap();
-    let one = |patch: &Value| {
-        let at = numbers(&patch[place]);
-        (patch["force_N"].as_f64().unwrap(), [at[0], at[1]])
-    };
-    list.iter().map(one).collect()
+/// Force and place of all patches of a position, on the pinion (0) or the gear (1), shares along the face and up.
+pub fn forces(result: &SceneResult, of: PressedPosition<'_>, gear: usize) -> Vec<(f64, [f64; 2])> {
+    let width_m = result.bevel.unwrap().face_widths_m[gear];
+    let place = |at: Pressing<'_>| [at.along_m(gear) / width_m + 0.5, at.up(gear)];
+    of.pressing().map(|at| (at.force_n, place(at))).collect()
 }
 
 /// Flanks that carry, of pinion and gear, from the pair file alone.
@@ -119,24 +119,40 @@ fn lever_m(flank: &FlankPatch, place: [f64; 2]) -> f64 {
     (point.r.x * point.n.y - point.r.y * point.n.x).abs()
 }
 
+/// Turns of the pinion \[rad\].
+fn turns_rad(result: &SceneResult) -> Vec<f64> {
+    let sense = -result.bevel.unwrap().side.mirror();
+    result.angle_rad.iter().map(|angle| sense * angle).collect()
+}
+
+/// Transmission errors as turns of the gear \[µrad\].
+fn urad(result: &SceneResult, values_m: &[f64]) -> Vec<f64> {
+    let radius_m = result.bevel.unwrap().radius_2_m;
+    values_m
+        .iter()
+        .map(|error| 1e6 * error / radius_m)
+        .collect()
+}
+
 /// At rest the moments of all contacts about the gear's axis are the stated torque, those about the pinion's 13/35 of it; analyses are repeated to the last
 /// digit.
 #[test]
 fn loads_at_rest_balance() {
     let text = loaded("[50.0, 200.0]", "");
-    let found = tca(&text);
-    assert_eq!(found, tca(&text));
+    assert_eq!(tca(&text), tca(&text));
     let desk = Desk::new();
     let (file, page) = (desk.file("pair.toml", &text), desk.path("page.html"));
-    let shown = succeeds(&["tca", argument(&file), "--report", argument(&page)]).stdout;
-    let html = std::fs::read_to_string(page).unwrap();
-    assert!(shown.contains("pinion root") && html.contains("Root strain over the passage"));
-    let flanks = flanks();
-    for torque in found["load"]["torques"].as_array().unwrap() {
-        let stated = torque["torque_Nm"].as_f64().unwrap();
-        for position in torque["positions"].as_array().unwrap() {
+    succeeds(&["tca", argument(&file), "--report", argument(&page)]);
+    assert!(
+        std::fs::read_to_string(page)
+            .unwrap()
+            .contains("Gear 1, gauge root")
+    );
+    let (flanks, found) = (flanks(), at_rest(&text));
+    for (torque, stated) in found.torque_nm.iter().enumerate() {
+        for position in found.even_positions_of(torque) {
             let moment = |member: usize| -> f64 {
-                let all = forces(position, member);
+                let all = forces(&found, position, member);
                 let of = |(force, at): (f64, [f64; 2])| force * lever_m(&flanks[member], at);
                 all.into_iter().map(of).sum()
             };
@@ -155,10 +171,11 @@ fn loads_at_rest_balance() {
 /// times the square of half a slice, and nowhere ahead.
 #[test]
 fn no_load_is_the_tooth_contact_analysis() {
-    let found = tca(&loaded("[0.01]", ""));
-    let light = &found["load"]["torques"][0];
+    let text = loaded("[0.01]", "");
+    let (found, light) = (tca(&text), at_rest(&text));
+    let pitch = ..light.points_per_pitch();
     let [under, without] =
-        ["error_urad", "unloaded_urad"].map(|key: &str| of_positions(light, key));
+        [&light.te_m, &light.unloaded_m].map(|values| urad(&light, &values[pitch]));
     // 0.01 N m turn the gear by less than 0.1 µrad beyond first touch.
     for (under, without) in under.iter().zip(&without) {
         assert!((0.0..0.1).contains(&(without - under)), "{without} {under}");
@@ -183,7 +200,7 @@ fn no_load_is_the_tooth_contact_analysis() {
     let behind: Vec<f64> = behind.iter().map(|x| x - least).collect();
     for (k, behind) in behind.iter().enumerate() {
         // Where tips lead, which are more curved along themselves, three times as far.
-        let turn = light["positions"][k]["pinion_deg"].as_f64().unwrap();
+        let turn = turns_rad(&light)[k].to_degrees();
         let pitch_deg = 360.0 / TEETH[0];
         let leads = |point: &&Value| {
             let pitches = (point["pinion_deg"].as_f64().unwrap() - turn) / pitch_deg;
@@ -264,22 +281,21 @@ fn slow_motion_goes_through_positions_at_rest() {
         "positions_per_pitch = 16",
         "positions_per_pitch = 64",
     );
-    let found = tca(&text);
-    let rest = &found["load"]["torques"][0];
+    let found = at_rest(&text);
     let pitch = TAU / TEETH[0];
-    let turns = of_positions(rest, "pinion_deg");
+    let turns = turns_rad(&found);
     let curve = |values: Vec<f64>| {
         let mut curve: Vec<(f64, f64)> = (turns.iter().zip(values))
-            .map(|(turn, value)| (turn.to_radians().rem_euclid(pitch), value))
+            .map(|(turn, value)| (turn.rem_euclid(pitch), value))
             .collect();
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         curve
     };
-    let under = curve(of_positions(rest, "error_urad"));
-    let without = curve(of_positions(rest, "unloaded_urad"));
-    let total = |position: &Value| forces(position, 0).iter().map(|(force, _)| force).sum();
-    let positions = rest["positions"].as_array().unwrap();
-    let force = curve(positions.iter().map(total).collect());
+    let one = ..found.points_per_pitch();
+    let under = curve(urad(&found, &found.te_m[one]));
+    let without = curve(urad(&found, &found.unloaded_m[one]));
+    let total = |position: PressedPosition<'_>| position.pressing().map(|at| at.force_n).sum();
+    let force = curve(found.even_positions_of(0).map(total).collect());
 
     // There the mean point of the flank stands in the plane of the axes at turn 0, here the middle of tooth 0; turns count from first touch.
     let flank = &flanks()[0];
@@ -305,16 +321,11 @@ fn slow_motion_goes_through_positions_at_rest() {
 
     // Gauges in motion read what they read at rest while their tooth goes through the mesh. At rest turns count from where their tooth meets its mate's; which pitch of the
     // motion that is, a whole number, is sought.
-    for (member, gear) in [("pinion", 1), ("gear", 2)] {
-        let strain = found["load"]["strain"].as_array().unwrap();
-        let of = strain.iter().find(|s| s["member"] == member).unwrap();
-        let turns: Vec<f64> = numbers(&of["pinion_deg"])
-            .iter()
-            .map(|turn| turn.to_radians())
-            .collect();
-        for method in ["method_1", "method_2"] {
-            let values = numbers(&of[format!("{method}_ustrain")]);
-            let name = method.replace('_', "");
+    for gear in [1, 2] {
+        let of = found.strain.iter().find(|s| s.gear == gear).unwrap();
+        for (method, values) in [(1, &of.method_1), (2, &of.method_2)] {
+            let values: Vec<f64> = values.iter().map(|strain| 1e6 * strain).collect();
+            let name = format!("method{method}");
             let moving = read(&format!(
                 "elements/mesh/strain_gear{gear}_root_{name}_ustrain"
             ));
@@ -343,12 +354,12 @@ fn slow_motion_goes_through_positions_at_rest() {
             let (moved, rest) = (most(&moving), most(&values));
             assert!(
                 moved > 0.5 * rest && rest > 50.0,
-                "{member} {method}: {moved} {rest}"
+                "gear {gear} {name}: {moved} {rest}"
             );
             // The most where the next slice takes its load within a twentieth of a pitch.
             assert!(
                 worst < 0.05 * rest && rms < 0.01 * rest,
-                "{member} {method}: {worst}, {rms} of {rest}"
+                "gear {gear} {name}: {worst}, {rms} of {rest}"
             );
         }
     }

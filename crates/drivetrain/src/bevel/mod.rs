@@ -15,20 +15,19 @@
 //! | its sections once more at a pose nearby | `nearby_sections.rs` |
 //! | what deflects in it | `bevel_teeth.rs` |
 //! | where a section across the tooth is nearest | `section_points.rs` |
-//! | the pair at rest under a torque | `loaded_contact.rs` |
+//! | the pair at rest under a torque | `at_rest.rs` |
 //! | length and radius of the line of contact | `line_geometry.rs` |
 //! | place and ellipse of a contact, for channels | `touch.rs` |
 //!
 //! The theory is in docs/theory/bevel_gears.md, "Contact in motion".
 
+mod at_rest;
 mod bevel_mesh;
 mod bevel_teeth;
 mod bounding_spheres;
 mod facets;
 mod hertz_stiffness;
 mod line_geometry;
-mod loaded_between;
-mod loaded_contact;
 mod nearby_sections;
 mod nearest_points;
 mod nominal_contacts;
@@ -40,7 +39,7 @@ mod tooth_pairing;
 mod tooth_side;
 mod touch;
 
+pub use at_rest::{BevelAtRest, PlaceAtRest};
 pub use bevel_mesh::BevelMesh;
 pub use facets::{FacetKind, FacetSize};
-pub use loaded_contact::{LoadedContact, LoadedPair, LoadedPatch, LoadedPosition};
 pub use sliced_mesh::BevelSlices;

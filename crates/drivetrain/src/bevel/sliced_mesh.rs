@@ -33,6 +33,8 @@ use crate::slice_plane::Matrix6;
 const MARGIN_M: f64 = 3e-6;
 /// Sections that stand open by more than this many times the deepest overlap do not touch, see `OUT_OF_REACH` of the hybrid model.
 const REACH: f64 = 3.0;
+/// Sections of pairs at rest that stand open by more are not looked at, however far the gears approach each other \[m\].
+const MOST_REACH_M: f64 = 2e-3;
 /// Part of a slice over which the end of gear 2's face is rounded.
 const ROUNDING: f64 = 0.1;
 /// Slices along the teeth.
@@ -361,6 +363,23 @@ impl FlankKinematics for BevelSlices {
         self.is_apart[side as usize] = self.find(pose, side, places, found);
         self.put(side, own);
         self.guesses = guesses;
+    }
+
+    fn reaches(&mut self, approach_m: f64) -> Result<bool, DrivetrainError> {
+        // Within a fifth of the reach guesses of gaps may miss.
+        if approach_m < 0.8 * self.reach_m {
+            return Ok(true);
+        }
+        self.reach_m *= 2.0;
+        if self.reach_m <= MOST_REACH_M {
+            return Ok(false);
+        }
+        Err(DrivetrainError::Value {
+            owner: "bevel pair under load",
+            what: "the approach of the flanks in mm",
+            found: 1e3 * approach_m,
+            allowed: "less than 1.5: state smaller torques or errors of assembly",
+        })
     }
 
     fn contacts_nearby(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts) {

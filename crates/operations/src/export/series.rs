@@ -3,7 +3,7 @@
 use super::ExportRequest;
 use crate::answer::Answer;
 use crate::failure::Failure;
-use crate::recover::scene_of;
+use crate::result_scene::scene_of;
 use crate::stressed_gear::{StressedGear, forces_on};
 use crate::system_moments::{SystemMoments, WantedMoments, stressed, surface};
 use crate::watch::Watch;
@@ -66,6 +66,10 @@ fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<An
             let problem = format!("{name} is for results of multibody scenes; leave it out");
             return Err(Failure::input(problem));
         }
+    }
+    if result.bevel.is_some() {
+        let problem = "gears that move are drawn of cylindrical pairs and of runs in time; run the bevel pair as a [[gear_mesh]]";
+        return Err(Failure::input(problem));
     }
     let torques = &result.torque_nm;
     let torque = match a.torque_Nm {

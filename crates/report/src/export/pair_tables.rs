@@ -2,7 +2,7 @@
 
 use gearmesh_scene::SceneResult;
 use gearmesh_scene::pair::PairFigures;
-use gearmesh_scene::pair::figure_table::{FIGURE_ERRORS, FIGURES};
+use gearmesh_scene::pair::figure_table::FIGURE_ERRORS;
 
 use super::{Table, ratings_table};
 
@@ -106,7 +106,7 @@ pub fn torque_table(result: &SceneResult) -> Table<'static> {
     let figures: Vec<PairFigures> = (0..result.torque_nm.len())
         .map(|k| result.figures(k))
         .collect();
-    for figure in FIGURES {
+    for figure in result.stated_figures() {
         table.numbers(
             figure.name_in_files(),
             figures.iter().map(figure.of).collect(),

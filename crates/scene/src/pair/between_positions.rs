@@ -9,8 +9,10 @@
 //! Only the first period of the run is looked at: the others are alike. Means, spectra and everything else that goes
 //! over a period are those of the even grid.
 
+use super::contact_places::ContactPlaces;
 use super::position::{Position, PositionSolver};
 use super::run::RunError;
+use gearmesh_contact::FlanksAtRest;
 use std::ops::Range;
 
 /// Halvings of an even step for an event: it is known to 1/32 of a step, on both sides.
@@ -48,6 +50,10 @@ pub struct BetweenPositions {
     pub force_n: Vec<f64>,
     /// Hertz pressure \[Pa\], `[E][L][S]`.
     pub pressure_pa: Vec<f64>,
+    /// Pair of teeth of each line, `[E][L]`; of families that store places with each position, as the next.
+    pub pair: Vec<f64>,
+    /// Where the slices touch, `[E][L][S]`.
+    pub places: Option<ContactPlaces>,
     /// What steps of this length still leave open: of the transmission error's peak-to-peak value, as a share of it, T.
     pub te_error: Vec<f64>,
     /// Of the largest pressure, T.
@@ -89,6 +95,16 @@ impl BetweenPositions {
             it.unloaded_m.push(p.unloaded_m);
             it.tangent_n_per_m.push(p.tangent_n_per_m);
             let unused = it.slots * slices - p.force_n.len();
+            if !p.places.is_empty() {
+                let no_pair = std::iter::repeat(0.0);
+                it.pair.extend(
+                    (p.pairs.iter().map(|pair| *pair as f64))
+                        .chain(no_pair)
+                        .take(it.slots),
+                );
+                let places = it.places.get_or_insert_default();
+                places.push(p.places.iter().copied(), it.slots * slices);
+            }
             for (all, own) in [
                 (&mut it.force_n, p.force_n),
                 (&mut it.pressure_pa, p.pressure_pa),
@@ -111,7 +127,7 @@ pub(super) struct Found {
 /// A position of the even grid, of which only the figures are looked at, or one that was added.
 enum Node<'a> {
     Even(&'a Position),
-    Added(Position),
+    Added(Box<Position>),
 }
 
 impl Node<'_> {
@@ -128,8 +144,8 @@ impl Node<'_> {
 ///
 /// # Errors
 /// [`RunError::Contact`] where a position has no solution.
-pub(super) fn find(
-    solver: &mut PositionSolver<'_>,
+pub(super) fn find<F: FlanksAtRest>(
+    solver: &mut PositionSolver<'_, F>,
     even: &[Position],
     repeats: bool,
 ) -> Result<Found, RunError> {
@@ -153,7 +169,11 @@ pub(super) fn find(
             let mut found = Vec::new();
             halve(solver, [here, next], EVENT_HALVINGS, &mut found)?;
             found.sort_by(|a, b| a.angle_rad.total_cmp(&b.angle_rad));
-            nodes.extend(found.into_iter().map(Node::Added));
+            nodes.extend(
+                found
+                    .into_iter()
+                    .map(|position| Node::Added(Box::new(position))),
+            );
         }
     }
     nodes.extend(after.map(Node::Even));
@@ -175,7 +195,7 @@ pub(super) fn find(
         over(factor_error, highest(&nodes, factor)),
     ];
     let added = |node: Node<'_>| match node {
-        Node::Added(position) => Some(position),
+        Node::Added(position) => Some(*position),
         Node::Even(_) => None,
     };
     let positions = nodes.into_iter().filter_map(added).collect();
@@ -198,8 +218,8 @@ fn spread(nodes: &[Node<'_>], value: fn(&Position) -> f64) -> f64 {
 
 /// Halves the step between two positions at which other pairs carry, and each half in which that is so, and keeps the
 /// positions in between.
-fn halve(
-    solver: &mut PositionSolver<'_>,
+fn halve<F: FlanksAtRest>(
+    solver: &mut PositionSolver<'_, F>,
     [a, b]: [&Position; 2],
     halvings: usize,
     found: &mut Vec<Position>,
@@ -215,8 +235,8 @@ fn halve(
 }
 
 /// Follows the highest peaks of a figure; returns how far the highest may still be off.
-fn follow(
-    solver: &mut PositionSolver<'_>,
+fn follow<F: FlanksAtRest>(
+    solver: &mut PositionSolver<'_, F>,
     nodes: &mut Vec<Node<'_>>,
     value: fn(&Position) -> f64,
     scale: f64,
@@ -241,8 +261,8 @@ fn follow(
         for _ in 0..MOST_HALVINGS {
             let before = at(nodes, peak);
             let [a, b, c] = [peak - 1, peak, peak + 1].map(|k| nodes[k].get().angle_rad);
-            nodes.insert(peak + 1, Node::Added(solver.at(0.5 * (b + c))?));
-            nodes.insert(peak, Node::Added(solver.at(0.5 * (a + b))?));
+            nodes.insert(peak + 1, Node::Added(Box::new(solver.at(0.5 * (b + c))?)));
+            nodes.insert(peak, Node::Added(Box::new(solver.at(0.5 * (a + b))?)));
             // The old peak is the one in the middle now.
             peak = [peak, peak + 2].into_iter().fold(peak + 1, |top, k| {
                 if at(nodes, k) > at(nodes, top) {

@@ -1,7 +1,8 @@
 //! All figures of a torque of a pair at rest, a row each: how files, studies and people name a figure, in which unit,
 //! and where its value stands. Console, JSON, pages, overlays, exported tables, studies, Python and the studio show
-//! these rows; those of bevel pairs: `bevel_load.rs`.
+//! these rows.
 
+use super::bevel_result::{BevelFigures, BevelRest};
 use super::figures::{FigureErrors, PairFigures};
 use super::result::SceneResult;
 
@@ -37,13 +38,17 @@ pub enum Audience {
     Helical,
     /// Studies.
     Studies,
+    /// Bevel pairs.
+    Bevel,
+    /// Bevel pairs with a coefficient of friction.
+    BevelFriction,
     /// People at the console: how well the positions are solved.
     Console,
 }
 
 /// A figure.
 #[derive(Debug, Clone, Copy)]
-pub struct RestFigure<F = PairFigures> {
+pub struct RestFigure {
     /// Name without unit: `te_mean`.
     pub name: &'static str,
     /// The same for people: "TE mean".
@@ -53,21 +58,20 @@ pub struct RestFigure<F = PairFigures> {
     /// Who sees it.
     pub audience: Audience,
     /// Its value in SI units.
-    pub of: fn(&F) -> f64,
+    pub of: fn(&PairFigures) -> f64,
 }
 
 macro_rules! figures {
     ($($name:literal $words:literal $kind:ident $audience:ident $of:expr;)*) => {
-        [$($crate::pair::figure_table::RestFigure {
+        [$(RestFigure {
             name: $name,
             words: $words,
-            kind: $crate::pair::figure_table::FigureKind::$kind,
-            audience: $crate::pair::figure_table::Audience::$audience,
+            kind: FigureKind::$kind,
+            audience: Audience::$audience,
             of: $of,
         }),*]
     };
 }
-pub(crate) use figures;
 
 /// The rows, in the order in which people read them.
 pub const FIGURES: &[RestFigure] = &figures! {
@@ -80,12 +84,30 @@ pub const FIGURES: &[RestFigure] = &figures! {
     "stiffness_tangent_peak_to_peak" "tangent pk-pk" Stiffness Studies |f| f.tangent_peak_to_peak_n_per_m;
     "k_h_beta" "K_Hbeta" Factor All |f| f.k_h_beta;
     "pressure_largest" "p_H max" Pressure All |f| f.pressure_largest_pa;
+    "loaded_te_mean" "TE mean" Angle Bevel |f| of_bevel(f, |b| f.te_mean_m / b.radius_2_m);
+    "loaded_te_peak_to_peak" "TE pk-pk" Angle Bevel |f| of_bevel(f, |b| f.te_peak_to_peak_m / b.radius_2_m);
+    "best_pair_share_least" "best pair least" Share Bevel |f| of_bevel(f, |b| b.best_pair_shares[0]);
+    "best_pair_share_largest" "largest" Share Bevel |f| of_bevel(f, |b| b.best_pair_shares[1]);
+    "loaded_pairs_mean" "pairs" Factor Bevel |f| of_bevel(f, |b| b.mean_pairs);
+    "pressure_off_tips" "off tips" Pressure Bevel |f| of_bevel(f, |b| b.pressures_pa[0]);
+    "pressure_inside" "inside" Pressure Bevel |f| of_bevel(f, |b| b.pressures_pa[1]);
+    "load_on_tips_share" "on tips" Share Bevel |f| of_bevel(f, |b| b.tip_share);
+    "pattern_toe_share" "pattern toe" Share Bevel |f| of_bevel(f, |b| b.pattern[0][0]);
+    "pattern_heel_share" "heel" Share Bevel |f| of_bevel(f, |b| b.pattern[0][1]);
+    "pattern_root_share" "root" Share Bevel |f| of_bevel(f, |b| b.pattern[1][0]);
+    "pattern_tip_share" "tip" Share Bevel |f| of_bevel(f, |b| b.pattern[1][1]);
+    "efficiency" "efficiency" Share BevelFriction |f| of_bevel(f, |b| b.efficiency.unwrap_or(f64::NAN));
     "axial_force_1_mean" "axial force gear 1" Force Helical |f| f.axial_force_1_mean_n;
     "axial_over_normal_force" "axial over normal force" Factor Helical |f| f.axial_force_1_mean_n / f.normal_force_mean_n;
     "torque_balance" "balance" Residual Console |f| f.torque_balance;
     "residual" "residual" Residual Console |f| f.residual;
     "iterations_per_position" "iter/pos" Factor Console |f| f.iterations_per_position;
 };
+
+/// A figure that bevel pairs have.
+fn of_bevel(figures: &PairFigures, of: impl Fn(&BevelFigures) -> f64) -> f64 {
+    figures.bevel.as_ref().map_or(f64::NAN, of)
+}
 
 /// An estimated error out of those of a result, as a share; none where it was not estimated.
 pub type FigureError = fn(&FigureErrors) -> Option<f64>;
@@ -149,7 +171,7 @@ impl FigureKind {
     }
 }
 
-impl<F> RestFigure<F> {
+impl RestFigure {
     /// Name in files, where values are in SI units: `te_mean_m`.
     #[must_use]
     pub fn name_in_files(&self) -> String {
@@ -164,7 +186,7 @@ impl<F> RestFigure<F> {
 
     /// The value in the unit of studies.
     #[must_use]
-    pub fn studied(&self, figures: &F, over: OverWidth) -> f64 {
+    pub fn studied(&self, figures: &PairFigures, over: OverWidth) -> f64 {
         let factor = match self.kind {
             FigureKind::Share => 1.0,
             kind => kind.read_unit(over).factor,
@@ -172,10 +194,21 @@ impl<F> RestFigure<F> {
         factor * (self.of)(figures)
     }
 
-    /// Whether studies have the figure; they have a row for each torque.
+    /// Whether a pair states the figure; `bevel`: what it is as a bevel pair, if it is one.
     #[must_use]
-    pub fn is_studied(&self) -> bool {
-        self.audience != Audience::Console && self.kind != FigureKind::Torque
+    pub fn is_of(&self, bevel: Option<&BevelRest>) -> bool {
+        match self.audience {
+            Audience::Bevel => bevel.is_some(),
+            Audience::BevelFriction => bevel.is_some_and(|bevel| bevel.friction.is_some()),
+            _ => true,
+        }
+    }
+
+    /// Whether studies have the figure of such a pair; they have a row for each torque.
+    #[must_use]
+    pub fn is_studied(&self, bevel: Option<&BevelRest>) -> bool {
+        let hidden = self.audience == Audience::Console || self.kind == FigureKind::Torque;
+        !hidden && self.is_of(bevel)
     }
 
     /// Words and unit.
@@ -187,7 +220,7 @@ impl<F> RestFigure<F> {
 
     /// The value as people read it.
     #[must_use]
-    pub fn text(&self, figures: &F, over: OverWidth) -> String {
+    pub fn text(&self, figures: &PairFigures, over: OverWidth) -> String {
         let value = (self.of)(figures);
         let ReadUnit {
             factor, decimals, ..
@@ -249,11 +282,21 @@ impl FigureTable {
 }
 
 impl SceneResult {
+    /// The figures that files have of it.
+    pub fn stated_figures(&self) -> impl Iterator<Item = &'static RestFigure> {
+        let of_pair = |figure: &&RestFigure| figure.is_of(self.bevel.as_ref());
+        FIGURES.iter().filter(of_pair)
+    }
+
     /// Whether people see a figure of this result.
     #[must_use]
     pub fn shows(&self, figure: &RestFigure) -> bool {
-        figure.audience == Audience::All
-            || figure.audience == Audience::Helical && self.has_axial_force()
+        match figure.audience {
+            Audience::All => true,
+            Audience::Helical => self.has_axial_force(),
+            Audience::Bevel | Audience::BevelFriction => figure.is_of(self.bevel.as_ref()),
+            Audience::Studies | Audience::Console => false,
+        }
     }
 
     /// All torques as people read them; `console`: with what only the console shows.

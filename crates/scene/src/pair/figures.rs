@@ -10,6 +10,7 @@ use gearmesh_contact::ContactZone;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 
+use super::bevel_result::BevelFigures;
 use super::result::SceneResult;
 use super::scene_file::Scene;
 
@@ -44,6 +45,8 @@ pub struct PairFigures {
     pub residual: f64,
     /// Newton iterations, mean.
     pub iterations_per_position: f64,
+    /// Those of bevel pairs alone.
+    pub bevel: Option<BevelFigures>,
     /// How far the figures may be off.
     pub errors: FigureErrors,
 }
@@ -69,6 +72,9 @@ impl SceneResult {
     /// # Errors
     /// [`InputError`] where a gear file or the scene inside the result is not understood.
     pub fn overlap_width_m(&self) -> Result<f64, InputError> {
+        if let Some(bevel) = &self.bevel {
+            return Ok(bevel.face_widths_m[0].min(bevel.face_widths_m[1]));
+        }
         let mut widths = [0.0; 2];
         for (width, gear) in widths.iter_mut().zip(&self.gears) {
             *width = gear.definition_in("the result")?.tooth.face_width_m;
@@ -113,6 +119,7 @@ impl SceneResult {
             torque_balance: self.torque_balance[torque],
             residual: self.residual[torque],
             iterations_per_position: f64::from(self.iterations[torque]) / self.angles() as f64,
+            bevel: BevelFigures::of(self, torque),
             errors: self.errors(torque),
         }
     }

@@ -1,12 +1,16 @@
 //! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks,
-//! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it,
-//! `model_shelf.rs` keeps models that many scenes share, `taken_misalignment.rs` takes the axes from a gearbox's
-//! result, `run.rs` computes, position by position (`position.rs`, `between_positions.rs`), `figures.rs` makes the
-//! figures of a torque of it, `figure_table.rs` says how all doors show them, `contacts.rs` says where the teeth touch,
-//! `coverage.rs` says how much of each period that sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs`
-//! judges, `warnings.rs` tells where the model's assumptions are strained.
+//! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it, `model_shelf.rs`
+//! keeps models that many scenes share, `taken_misalignment.rs` takes the axes from a gearbox's result, `run.rs`
+//! computes, position by position (`all_positions.rs`, `position.rs`, `between_positions.rs`), `figures.rs` makes the
+//! figures of a torque of it, `figure_table.rs` says how all doors show them, `contacts.rs` says where the teeth
+//! touch, `coverage.rs` says how much of each period that sees, `result.rs` keeps, `result_record.rs` stores,
+//! `rating.rs` judges, `bevel.rs` puts bevel pairs at rest, `bevel_result.rs` says what their results have besides,
+//! `warnings.rs` tells where the model's assumptions are strained.
 
+mod all_positions;
 mod between_positions;
+pub mod bevel;
+pub mod bevel_result;
 mod contact_places;
 mod contacts;
 mod coverage;
@@ -25,6 +29,7 @@ pub mod taken_misalignment;
 pub mod warnings;
 
 pub use between_positions::{BetweenPositions, PEAK_SHARE};
+pub use bevel::{BevelScene, LoadedBevel};
 pub use contact_places::ContactPlaces;
 pub use figures::{FigureErrors, PairFigures};
 pub use model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};

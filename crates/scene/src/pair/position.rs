@@ -1,11 +1,30 @@
-//! Static positions of a loaded scene under one torque, one after the other.
+//! Static positions of a loaded pair under one torque, one after the other.
 
-use super::run::{LoadedScene, RunError};
+use super::contact_places::PatchPlace;
+use super::run::RunError;
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
-use gearmesh_contact::{ContactPatch, Drive, StaticContact, TipGear};
+use gearmesh_contact::{ContactPatch, Drive, FlanksAtRest, StaticContact, TipGear};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// Where a patch touches at a driver angle \[rad\].
+pub(super) type PlaceOf<'a> = dyn Fn(f64, &ContactPatch) -> PatchPlace + Sync + 'a;
+
+/// What positions of a pair are measured by.
+pub(super) struct Measures<'a> {
+    /// Distance of one tooth from the next along the line of action \[m\].
+    pub base_pitch_m: f64,
+    /// Least depth of the teeth behind the flanks \[m\]; infinite for rigid gears.
+    pub least_distance_m: f64,
+    /// Young's modulus of the softer gear \[Pa\].
+    pub young_pa: f64,
+    /// Slices of a whole line, where a line counts as whole; the slices that are on the path where none.
+    pub whole_line: Option<f64>,
+    /// Where patches touch, for families that store it with each position.
+    pub place_of: Option<&'a PlaceOf<'a>>,
+}
+
 /// What is found at a driver angle.
+#[derive(Clone)]
 pub(super) struct Position {
     /// Driver angle \[rad\].
     pub angle_rad: f64,
@@ -21,6 +40,10 @@ pub(super) struct Position {
     /// Slice forces \[N\] and pressures \[Pa\], `[line][slice]`.
     pub force_n: Vec<f64>,
     pub pressure_pa: Vec<f64>,
+    /// Pair of teeth of each line.
+    pub pairs: Vec<i64>,
+    /// Where the slices touch, `[line][slice]`; empty where the family does not store it.
+    pub places: Vec<PatchPlace>,
     /// Largest over mean line load of the most loaded line.
     pub k_h_beta: f64,
     /// Newton iterations, relative residual, relative error of the torque.
@@ -42,39 +65,15 @@ impl Position {
 }
 
 /// Solves positions, each begun from the one before.
-pub(super) struct PositionSolver<'a> {
-    contact: StaticContact,
-    torque_nm: f64,
-    base_2_m: f64,
-    base_pitch_m: f64,
-    least_distance_m: f64,
-    young_pa: f64,
-    stop: &'a AtomicBool,
+pub(super) struct PositionSolver<'a, F> {
+    pub contact: StaticContact<F>,
+    pub torque_nm: f64,
+    pub radius_2_m: f64,
+    pub measures: &'a Measures<'a>,
+    pub stop: &'a AtomicBool,
 }
 
-impl<'a> PositionSolver<'a> {
-    pub fn new(
-        loaded: &LoadedScene,
-        contact: StaticContact,
-        torque_nm: f64,
-        stop: &'a AtomicBool,
-    ) -> Self {
-        let pair = &loaded.lines.pair;
-        let distances = loaded.models.each_ref().map(|m| {
-            let distances = m.opposite_distance_m.iter().copied();
-            distances.fold(f64::INFINITY, f64::min)
-        });
-        Self {
-            contact,
-            torque_nm,
-            base_2_m: pair.gear_2.base_radius_m,
-            base_pitch_m: pair.pitch_1_rad() * pair.gear_1.base_radius_m,
-            least_distance_m: distances[0].min(distances[1]),
-            young_pa: loaded.models[0].young_pa.min(loaded.models[1].young_pa),
-            stop,
-        }
-    }
-
+impl<F: FlanksAtRest> PositionSolver<'_, F> {
     /// The position at a driver angle.
     ///
     /// # Errors
@@ -83,29 +82,34 @@ impl<'a> PositionSolver<'a> {
         if self.stop.load(Ordering::Relaxed) {
             return Err(RunError::Stopped);
         }
-        let Self { contact, .. } = self;
+        let Self {
+            contact, measures, ..
+        } = self;
         let state = contact.solve(angle_rad, Drive::Torque(self.torque_nm))?;
-        let stiffness = MeshStiffness::of(&state, self.base_2_m);
+        let stiffness = MeshStiffness::of(&state, self.radius_2_m);
         let slices = contact.slices();
         let force_n = contact.forces_n().to_vec();
         let mut pressure_pa = vec![0.0; force_n.len()];
+        let stored = measures.place_of.map_or(0, |_| force_n.len());
+        let mut places = vec![PatchPlace::default(); stored];
         let mut strained = [0.0f64; 4];
         for (number, patch) in contact.patches().iter().enumerate() {
             let (half_width, pressure) = contact.hertz(number, contact.force_n(patch));
-            pressure_pa[patch.line * slices + patch.slice] = pressure;
-            strained[0] = strained[0].max(half_width / self.least_distance_m);
-            strained[1] = strained[1].max(pressure / self.young_pa);
+            let at = patch.line * slices + patch.slice;
+            pressure_pa[at] = pressure;
+            if let Some(place_of) = measures.place_of {
+                places[at] = place_of(angle_rad, patch);
+            }
+            strained[0] = strained[0].max(half_width / measures.least_distance_m);
+            strained[1] = strained[1].max(pressure / measures.young_pa);
         }
-        strained[2] = (state.unloaded_m - state.transmission_error_m) / self.base_pitch_m;
+        strained[2] = (state.unloaded_m - state.transmission_error_m) / measures.base_pitch_m;
         strained[3] = state.info.cap_hits as f64;
-        let (heaviest, k_h_beta) = heaviest(contact);
-        let lines = contact.active_lines().iter().zip(force_n.chunks(slices));
+        let (heaviest, k_h_beta) = heaviest(contact, measures.whole_line);
+        let lines = contact.pairs_and_tips().zip(force_n.chunks(slices));
         let carriers = (lines.enumerate())
             .filter(|(_, (_, forces))| forces.iter().any(|force| *force > 0.0))
-            .map(|(number, (line, _))| {
-                let tip = line.tip.map(|tip| tip.tip_gear);
-                (line.pair, tip, number == heaviest)
-            })
+            .map(|(number, ((pair, tip), _))| (pair, tip, number == heaviest))
             .collect();
         Ok(Position {
             angle_rad,
@@ -121,6 +125,8 @@ impl<'a> PositionSolver<'a> {
             torque_balance: (state.torque_2_nm / self.torque_nm - 1.0).abs(),
             force_n,
             pressure_pa,
+            pairs: contact.pairs_and_tips().map(|(pair, _)| pair).collect(),
+            places,
             strained,
             carriers,
         })
@@ -128,13 +134,13 @@ impl<'a> PositionSolver<'a> {
 }
 
 /// The most loaded line, and its largest over its mean line load; a slice partly on the path counts with its share.
-fn heaviest(contact: &StaticContact) -> (usize, f64) {
+fn heaviest<F: FlanksAtRest>(contact: &StaticContact<F>, whole_line: Option<f64>) -> (usize, f64) {
     let mut heaviest = (0.0, (0, 1.0));
     for on_line in contact.patches().chunk_by(|a, b| a.line == b.line) {
         let force = |s: &ContactPatch| contact.force_n(s);
         let sum: f64 = on_line.iter().map(force).sum();
         if sum > heaviest.0 {
-            let length: f64 = on_line.iter().map(|s| s.share).sum();
+            let length = whole_line.unwrap_or_else(|| on_line.iter().map(|s| s.share).sum());
             let largest = on_line.iter().map(force).fold(0.0, f64::max);
             heaviest = (sum, (on_line[0].line, largest * length / sum));
         }

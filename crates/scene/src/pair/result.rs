@@ -1,6 +1,7 @@
 //! The result of a scene. Its file: `result_record.rs`.
 
 use super::between_positions::BetweenPositions;
+use super::bevel_result::BevelRest;
 use super::contact_places::ContactPlaces;
 use super::coverage::named;
 use crate::periods::Coverage;
@@ -96,6 +97,8 @@ pub struct SceneResult {
     pub torque_balance: Vec<f64>,
     /// Positions beside the even ones: at events and peaks.
     pub between: BetweenPositions,
+    /// What bevel pairs have besides.
+    pub bevel: Option<BevelRest>,
     /// Strain.
     pub strain: Vec<StrainSeries>,
     /// Ratings, torque by torque.

@@ -6,6 +6,7 @@ use gearmesh_model::{
     DataTree, Fields, FileError, FileFormat, OPEN, Record, StoredGear, read_record, write_record,
 };
 
+use super::bevel_result::BevelRest;
 use super::contact_places::ContactPlaces;
 use super::result::{SceneResult, StrainSeries};
 use crate::periods::{Coverage, Extent, PairPeriods};
@@ -98,6 +99,7 @@ impl Record for SceneResult {
         self.head_fields(f)?;
         self.curve_fields(f)?;
         self.contact_fields(f)?;
+        f.optional("bevel", &mut self.bevel, BevelRest::fields)?;
         let (t, a) = (
             ("torque", self.torque_nm.len()),
             ("driver angle", self.angle_rad.len()),
@@ -259,7 +261,7 @@ impl SceneResult {
         )?;
         // Older programs did not store the places.
         if f.has("contact/width_m") && (f.is_reading() || f.is_listing() || self.places.is_some()) {
-            place_fields(self.places.get_or_insert_default(), f, &[a, l, s])?;
+            place_fields(self.places.get_or_insert_default(), f, "", &[a, l, s])?;
         }
         Ok(())
     }
@@ -315,6 +317,17 @@ impl SceneResult {
             "Pa",
             what,
         )?;
+        let is_stored = if f.is_reading() {
+            f.has("between/pair")
+        } else {
+            f.is_listing() || it.places.is_some()
+        };
+        if is_stored {
+            let lines = [e, ("contact line between", it.slots)];
+            let what = "bevel gears: pair number of each contact line";
+            f.numbers("between/pair", &mut it.pair, &lines, "1", what)?;
+            place_fields(it.places.get_or_insert_default(), f, "between/", &axes)?;
+        }
         let what =
             "what of the transmission error's peak-to-peak value the positions leave open, over it";
         f.numbers("between/te_error", &mut it.te_error, &[t], "1", what)?;
@@ -338,17 +351,37 @@ impl SceneResult {
     }
 }
 
+/// Where slices touch, in the group `contact` of `prefix`.
 fn place_fields(
     it: &mut ContactPlaces,
     f: &mut Fields<'_>,
+    prefix: &str,
     axes: &[(&str, usize)],
 ) -> Result<(), FileError> {
-    let what = "roll angle tan(alpha) of the contact on gear 1";
-    f.bulk("contact/roll_1_rad", &mut it.roll_1_rad, axes, "rad", what)?;
+    let mut visit = |name: &str, values: &mut Vec<f64>, unit: &str, what: &str| {
+        f.bulk(&format!("{prefix}contact/{name}"), values, axes, unit, what)
+    };
+    let what = "roll angle tan(alpha) of the contact on gear 1; bevel gears: share of the way up the flank";
+    visit("roll_1_rad", &mut it.roll_1_rad, "rad", what)?;
     let what = "axial place of the contact from mid-face of gear 1";
-    f.bulk("contact/z_m", &mut it.z_m, axes, "m", what)?;
+    visit("z_m", &mut it.z_m, "m", what)?;
     let what = "touching width of the slice, zero where it does not touch";
-    f.bulk("contact/width_m", &mut it.width_m, axes, "m", what)
+    visit("width_m", &mut it.width_m, "m", what)?;
+    let is_there = !it.roll_2_rad.is_empty() || f.is_listing();
+    if !(is_there || f.is_reading() && f.has(&format!("{prefix}contact/roll_2_rad"))) {
+        return Ok(());
+    }
+    let mut visit = |name: &str, values: &mut Vec<f64>, unit: &str, what: &str| {
+        f.bulk(&format!("{prefix}contact/{name}"), values, axes, unit, what)
+    };
+    let what = "bevel gears: share of the way up the flank of gear 2";
+    visit("roll_2_rad", &mut it.roll_2_rad, "1", what)?;
+    let what = "bevel gears: axial place of the contact from mid-face of gear 2";
+    visit("z_2_m", &mut it.z_2_m, "m", what)?;
+    let what = "bevel gears: sliding speed over the speed of gear 1";
+    visit("sliding_m", &mut it.sliding_m, "m/rad", what)?;
+    let what = "bevel gears: way to the nearer tip of both gears, up the flank";
+    visit("to_tip_m", &mut it.to_tip_m, "m", what)
 }
 
 fn strain_fields(

@@ -1,30 +1,30 @@
 //! Loads the models of a scene, solves all positions, reads the gauges.
 
-use super::between_positions::{BetweenPositions, Found, find};
+use super::all_positions::{Positions, Watched, curves};
 use super::contact_places::ContactPlaces;
 use super::contacts;
 use super::flank_effects;
 use super::model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 use super::plan::Plan;
-use super::position::{Position, PositionSolver};
+use super::position::Measures;
 use super::rating::{PairRating, RatedPair, judged};
 use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
-use super::warnings::{ASSUMPTIONS, Warnings};
 use crate::periods::PairPeriods;
 use gearmesh_contact::{
     AxialSpread, ContactError, ContactLines, ContactPatch, FlankDeviations, PathExtension, Runout,
-    SliceLayout, StaticContact,
+    SliceLayout,
 };
+use gearmesh_drivetrain::DrivetrainError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
-use gearmesh_model::{FileError, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
+use gearmesh_model::{FileError, ReducedGear, ReducedGearError, read_reduced_gear};
 use gearmesh_recovery::GaugeReader;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize};
 use std::time::Instant;
 
 /// Why a scene could not be run.
@@ -42,6 +42,9 @@ pub enum RunError {
     /// No contact state.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// Flanks of a bevel pair, or models that are not those of the pair.
+    #[error(transparent)]
+    Flanks(#[from] DrivetrainError),
     /// [`PairWatch::stop`] was set.
     #[error("stopped; nothing is kept")]
     Stopped,
@@ -52,7 +55,7 @@ impl RunError {
     pub fn is_input(&self) -> bool {
         match self {
             Self::Contact(cause) => !cause.is_computation(),
-            Self::Stopped => false,
+            Self::Stopped | Self::Flanks(_) => false,
             Self::Input(_) | Self::File(_) | Self::Model(_) => true,
         }
     }
@@ -312,12 +315,6 @@ fn refuse_too_many_forces(scene: &Scene, slices_in_contact: usize) -> Result<(),
     Err(scene.document.error("run.pitches", problem))
 }
 
-/// All positions of one torque: those of the even grid, and those between.
-struct TorquePositions {
-    even: Vec<Position>,
-    between: Found,
-}
-
 /// Solves all positions of a scene; torques run in parallel, each warm from angle to angle.
 ///
 /// `progress` hears of each finished torque: done, total.
@@ -358,140 +355,67 @@ pub fn run_until(
 fn solve(
     loaded: &LoadedScene,
     progress: &(dyn Fn(usize, usize) + Sync),
-    watch: (&AtomicBool, &AtomicUsize),
+    (stop, solved): (&AtomicBool, &AtomicUsize),
 ) -> Result<SceneResult, RunError> {
     let scene = &loaded.scene;
     let angles = loaded.angles_rad();
     let clock = Instant::now();
-    let slots = loaded.line_slots(&angles);
-    let done = AtomicUsize::new(0);
     let contact = loaded.contact()?;
-    let found: Vec<TorquePositions> = scene
-        .torques_nm
-        .par_iter()
-        .map(|&torque| {
-            let found = solve_torque(loaded, contact.clone(), (&angles, torque), watch)?;
-            let finished = done.fetch_add(1, Ordering::Relaxed) + 1;
-            progress(finished, scene.torques_nm.len());
-            Ok(found)
-        })
-        .collect::<Result<_, RunError>>()?;
+    let coverage = loaded.contact_coverage();
+    let pitches = coverage.period_pitches.min(scene.pitches);
+    let pair = &loaded.lines.pair;
+    let distances = loaded.models.iter().flat_map(|m| &m.opposite_distance_m);
+    let positions = Positions {
+        torques_nm: &scene.torques_nm,
+        angles_rad: &angles,
+        looked_at: pitches * scene.points_per_pitch,
+        repeats: coverage.is_whole(),
+        measures: Measures {
+            base_pitch_m: pair.pitch_1_rad() * pair.gear_1.base_radius_m,
+            least_distance_m: distances.copied().fold(f64::INFINITY, f64::min),
+            young_pa: loaded.models[0].young_pa.min(loaded.models[1].young_pa),
+            whole_line: None,
+            place_of: None,
+        },
+    };
+    let watched = Watched {
+        progress,
+        stop,
+        solved,
+    };
+    let radius_2_m = pair.gear_2.base_radius_m;
+    let found = positions.solve(|| contact.clone(), radius_2_m, &watched)?;
     let contact_seconds = clock.elapsed().as_secs_f64();
-
-    let (mut pair, mut pair_count) = (Vec::new(), Vec::new());
-    for &angle in &angles {
-        let (_, lines) = loaded.lines_at(angle);
-        pair_count.push(lines.len() as u32);
-        pair.extend((0..slots).map(|k| lines.get(k).map_or(0.0, |l| l.pair as f64)));
-    }
-    let mut warnings = Warnings::default();
-    for (torque, found) in scene.torques_nm.iter().zip(&found) {
-        for position in found.all() {
-            for (assumption, value) in ASSUMPTIONS.into_iter().zip(position.strained) {
-                warnings.note(assumption, value, *torque);
-            }
-        }
-    }
-    let flatten = |part: fn(&Position) -> f64| -> Vec<f64> {
-        let even = found.iter().flat_map(|found| &found.even);
-        even.map(part).collect()
-    };
-    let slices = loaded.layout.slices;
-    let on_lines = |part: fn(&Position) -> &Vec<f64>| {
-        let even = found.iter().flat_map(|found| &found.even).map(part);
-        let mut all = Vec::with_capacity(found.len() * angles.len() * slots * slices);
-        for own in even {
-            all.extend(own);
-            all.extend(std::iter::repeat_n(0.0, slots * slices - own.len()));
-        }
-        all
-    };
-    let of_torques = |part: fn(&Position) -> f64| -> Vec<f64> {
-        let largest = |found: &TorquePositions| found.all().map(part).fold(0.0, f64::max);
-        found.iter().map(largest).collect()
-    };
-    let iterations = |found: &TorquePositions| {
-        let even = found.even.iter();
-        even.map(|position| position.iterations as u32).sum()
-    };
+    let size = (loaded.line_slots(&angles), loaded.layout.slices);
+    let curves = curves(&scene.torques_nm, found, size);
     let slips = loaded.unit_slips().into_iter().map(|slip| slip.to_string());
     let mut result = SceneResult {
         title: scene.title.clone(),
         scene_toml: scene.document.text.clone(),
         gears: loaded.models.each_ref().map(|model| model.input.clone()),
-        model_files: [&scene.gear_1, &scene.gear_2].map(|file| {
-            std::path::absolute(file)
-                .unwrap_or_else(|_| file.clone())
-                .display()
-                .to_string()
-        }),
-        version: env!("CARGO_PKG_VERSION").into(),
-        created_utc: utc_now(),
+        model_files: [&scene.gear_1, &scene.gear_2].map(|file| absolute(file)),
         pitches: scene.pitches,
         microgeometry: loaded.microgeometry.clone(),
-        contact_coverage: loaded.contact_coverage(),
+        contact_coverage: coverage,
         proposal: loaded.proposal(&loaded.gauges),
-        torque_nm: scene.torques_nm.clone(),
-        te_m: flatten(|p| p.te_m),
-        unloaded_m: found.first().map_or(Vec::new(), |found| {
-            found.even.iter().map(|p| p.unloaded_m).collect()
-        }),
-        torque_1_nm: flatten(|p| p.torque_1_nm),
-        axial_force_1_n: flatten(|p| p.axial_1_n),
-        secant_n_per_m: flatten(|p| p.secant_n_per_m),
-        tangent_n_per_m: flatten(|p| p.tangent_n_per_m),
-        slots,
-        slices,
-        pair,
-        pair_count,
-        force_n: on_lines(|p| &p.force_n),
-        pressure_pa: on_lines(|p| &p.pressure_pa),
-        places: Some(ContactPlaces::new(loaded, &angles, slots)),
-        k_h_beta: of_torques(|p| p.k_h_beta),
-        iterations: found.iter().map(iterations).collect(),
-        residual: of_torques(|p| p.residual),
-        torque_balance: of_torques(|p| p.torque_balance),
-        between: BetweenPositions::new(
-            found.into_iter().map(|found| found.between).collect(),
-            slices,
-        ),
-        strain: Vec::new(),
-        ratings: Vec::new(),
-        warnings: (slips.chain(warnings.sentences())).collect(),
-        seconds: [contact_seconds, 0.0],
-        angle_rad: angles,
+        places: Some(ContactPlaces::new(loaded, &angles, curves.slots)),
+        warnings: slips.chain(curves.warnings).collect(),
+        ..curves
     };
     let clock = Instant::now();
     result.strain = strain(loaded, &result, &loaded.gauges)?;
-    result.seconds[1] = clock.elapsed().as_secs_f64();
+    result.seconds = [contact_seconds, clock.elapsed().as_secs_f64()];
     result.ratings = judged(&loaded.ratings, &result);
     Ok(result)
 }
 
-impl TorquePositions {
-    fn all(&self) -> impl Iterator<Item = &Position> {
-        self.even.iter().chain(&self.between.positions)
-    }
-}
-
-fn solve_torque(
-    loaded: &LoadedScene,
-    contact: StaticContact,
-    (angles, torque): (&[f64], f64),
-    (stop, solved): (&AtomicBool, &AtomicUsize),
-) -> Result<TorquePositions, RunError> {
-    let mut solver = PositionSolver::new(loaded, contact, torque, stop);
-    let even = angles.iter().map(|angle| {
-        let position = solver.at(*angle)?;
-        solved.fetch_add(1, Ordering::Relaxed);
-        Ok(position)
-    });
-    let even = even.collect::<Result<Vec<Position>, RunError>>()?;
-    let coverage = loaded.contact_coverage();
-    let pitches = coverage.period_pitches.min(loaded.scene.pitches);
-    let looked_at = &even[..pitches * loaded.scene.points_per_pitch];
-    let between = find(&mut solver, looked_at, coverage.is_whole())?;
-    Ok(TorquePositions { even, between })
+/// A file's place, so that a result can be used from any folder.
+pub(super) fn absolute(file: &Path) -> String {
+    let found = std::path::absolute(file);
+    found
+        .unwrap_or_else(|_| file.to_owned())
+        .display()
+        .to_string()
 }
 
 /// Strain of gauges (gear, index in its model) for all positions of a result.

@@ -17,7 +17,6 @@ use super::subject::{SeriesOver, Subject};
 use super::system_cases;
 use super::table::table;
 use super::varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};
-use crate::bevel_load::BevelLoadError;
 use crate::pair::RunError;
 use crate::system::SystemScene;
 use crate::system_run::{Figures, SystemRunError, demand_result_size};
@@ -37,9 +36,6 @@ pub enum StudyError {
     /// A case of a bevel pair.
     #[error(transparent)]
     Bevel(InputError),
-    /// A case of a bevel pair under load.
-    #[error(transparent)]
-    BevelLoad(#[from] BevelLoadError),
     /// A case of a bearing.
     #[error(transparent)]
     Bearing(#[from] BearingError),
@@ -83,7 +79,6 @@ impl StudyError {
             Self::Input(_) => true,
             Self::Run(error) => error.is_input(),
             Self::Pair(error) => error.is_input(),
-            Self::BevelLoad(error) => matches!(error, BevelLoadError::Slices { .. }),
             Self::Bevel(_) | Self::Bearing(_) | Self::Column(_) | Self::Elsewhere(_) => false,
             Self::File(_) | Self::Folder { .. } | Self::Reduction { .. } | Self::Stopped => false,
         }

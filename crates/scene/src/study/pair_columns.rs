@@ -2,8 +2,9 @@
 
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 
+use crate::pair::bevel_result::BevelRest;
 use crate::pair::figure_table::{FIGURES, RestFigure};
-use crate::pair::{LoadedScene, PairFigures, SceneResult};
+use crate::pair::{LoadedScene, PairFigures, SceneResult, StrainSeries};
 use crate::system::unknown;
 
 /// Harmonics of the mesh frequency that are listed.
@@ -41,25 +42,66 @@ pub fn unit_of(name: &str) -> &'static str {
     found.map_or("1", |(_, unit)| unit)
 }
 
-fn harmonics_of(loaded: &LoadedScene) -> usize {
-    // Of a pitch sampled n times the first (n − 1)/2 are told apart.
-    HARMONICS.min((loaded.scene.points_per_pitch - 1) / 2)
+/// What decides the columns of a pair.
+pub struct PairColumns {
+    /// What it is as a bevel pair, if it is one.
+    pub bevel: Option<BevelRest>,
+    /// Positions of a pitch.
+    pub points_per_pitch: usize,
+    /// Gauges that are read: gear (1 or 2) and name.
+    pub gauges: Vec<(usize, String)>,
 }
 
-/// Names of all columns of a scene, in the order of `columns`.
-#[must_use]
-pub fn names(loaded: &LoadedScene) -> Vec<String> {
-    let figures = FIGURES.iter().filter(|figure| figure.is_studied());
-    let mut names: Vec<String> = figures.map(RestFigure::name_in_studies).collect();
-    names.extend((1..=harmonics_of(loaded)).map(|k| format!("te_harmonic_{k}_um")));
-    for &(gear, index) in &loaded.gauges {
-        let gauge = &loaded.models[gear - 1].gauges[index].name;
-        for method in [1, 2] {
-            let of = format!("strain_gear{gear}_{gauge}_method{method}");
-            names.extend(["range", "largest"].map(|what| format!("{of}_{what}_ustrain")));
+impl PairColumns {
+    /// Those of a scene.
+    #[must_use]
+    pub fn of_scene(loaded: &LoadedScene) -> Self {
+        let name = |&(gear, index): &(usize, usize)| {
+            (gear, loaded.models[gear - 1].gauges[index].name.clone())
+        };
+        Self {
+            bevel: None,
+            points_per_pitch: loaded.scene.points_per_pitch,
+            gauges: loaded.gauges.iter().map(name).collect(),
         }
     }
-    names
+
+    /// Those of a result.
+    #[must_use]
+    pub fn of_result(result: &SceneResult) -> Self {
+        let name = |series: &StrainSeries| (series.gear, series.name.clone());
+        Self {
+            bevel: result.bevel,
+            points_per_pitch: result.points_per_pitch(),
+            gauges: result.strain.iter().map(name).collect(),
+        }
+    }
+
+    fn figures(&self) -> impl Iterator<Item = &'static RestFigure> {
+        let bevel = self.bevel;
+        FIGURES
+            .iter()
+            .filter(move |figure| figure.is_studied(bevel.as_ref()))
+    }
+
+    fn harmonics(&self) -> usize {
+        // Of a pitch sampled n times the first (n − 1)/2 are told apart.
+        HARMONICS.min((self.points_per_pitch - 1) / 2)
+    }
+
+    /// Names of all columns, in the order of [`columns`].
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> = self.figures().map(RestFigure::name_in_studies).collect();
+        names.extend((1..=self.harmonics()).map(|k| format!("te_harmonic_{k}_um")));
+        for (gear, gauge) in &self.gauges {
+            for method in [1, 2] {
+                let of = format!("strain_gear{gear}_{gauge}_method{method}");
+                names.extend(["range", "largest"].map(|what| format!("{of}_{what}_ustrain")));
+            }
+        }
+        names
+    }
 }
 
 /// The place of a column among the names.
@@ -71,18 +113,18 @@ pub fn place(name: &str, names: &[String]) -> Result<usize, String> {
     found.ok_or_else(|| unknown("column", name, names))
 }
 
-/// All columns of a result of the scene.
+/// All columns of a result.
 #[must_use]
-pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<RestColumn> {
+pub fn columns(result: &SceneResult) -> Vec<RestColumn> {
+    let of = PairColumns::of_result(result);
     let torques = 0..result.torque_nm.len();
-    let over = Some(loaded.layout.reference.width_m);
+    let over = result.overlap_width_m().ok();
     let of_each = |of: &dyn Fn(usize) -> f64| torques.clone().map(of).collect::<Vec<f64>>();
     let figures: Vec<PairFigures> = torques.clone().map(|k| result.figures(k)).collect();
-    let mut values = Vec::new();
-    for figure in FIGURES.iter().filter(|figure| figure.is_studied()) {
-        values.push(figures.iter().map(|f| figure.studied(f, over)).collect());
-    }
-    let harmonics = harmonics_of(loaded);
+    let mut values: Vec<Vec<f64>> = (of.figures())
+        .map(|figure| figures.iter().map(|f| figure.studied(f, over)).collect())
+        .collect();
+    let harmonics = of.harmonics();
     let pitches = result.contact_coverage.averaged_pitches();
     let spectra: Vec<Vec<(f64, f64)>> = (torques.clone())
         .map(|k| mesh_harmonics(result.averaged(&result.te_m, k), pitches, harmonics).1)
@@ -100,5 +142,5 @@ pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<RestColumn> {
         }
     }
     let column = |(name, values)| RestColumn { name, values };
-    names(loaded).into_iter().zip(values).map(column).collect()
+    of.names().into_iter().zip(values).map(column).collect()
 }

@@ -11,7 +11,7 @@ use super::cases::{Selected, SelectedValue, StudyError};
 use super::evaluate::{Clock, Effort};
 use super::figure::Wanted;
 use super::loaded_columns;
-use super::pair_columns::{self, RestColumn, columns, place, unit_of};
+use super::pair_columns::{PairColumns, RestColumn, columns, place, unit_of};
 use super::rest_columns;
 use super::subject::Subject;
 use crate::named_files_and_theirs;
@@ -155,8 +155,8 @@ impl RestCases {
     /// As [`Self::load`].
     pub fn names(&self, subject: &Subject) -> Result<Option<Vec<String>>, StudyError> {
         Ok(match subject {
-            Subject::Pair(scene) => Some(pair_columns::names(&self.load(scene)?)),
-            Subject::Bevel(pair) => Some(loaded_columns::names(pair)),
+            Subject::Pair(scene) => Some(PairColumns::of_scene(&self.load(scene)?).names()),
+            Subject::Bevel(pair) => Some(loaded_columns::names(pair, &self.shelf)?),
             Subject::Bearing(bearing) => Some(rest_columns::bearing_names(bearing)),
             Subject::System(_) => None,
         })
@@ -191,7 +191,7 @@ impl RestCases {
                     ..clock.effort()
                 };
                 let figures = RestFigures {
-                    columns: columns(&loaded, &result),
+                    columns: columns(&result),
                     torques_nm: result.torque_nm,
                 };
                 Ok((figures, effort))

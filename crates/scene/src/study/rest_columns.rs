@@ -5,7 +5,8 @@ use gearmesh_bevel::{AssembledPair, BevelError, PairDesign, sensitivity};
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 use gearmesh_geometry::InputError;
 
-use super::subject::{BearingSubject, BevelSubject};
+use super::subject::BearingSubject;
+use crate::pair::BevelScene;
 
 /// Harmonics of the mesh that are listed.
 const HARMONICS: usize = 3;
@@ -40,7 +41,7 @@ pub(super) fn bevel_names() -> Vec<String> {
 ///
 /// # Errors
 /// As [`of_bevel`].
-pub(super) fn design(subject: &BevelSubject) -> Result<PairDesign, InputError> {
+pub(super) fn design(subject: &BevelScene) -> Result<PairDesign, InputError> {
     let found = subject.file.checked_design(&subject.document);
     Ok(found.map_err(without_line)?.0)
 }
@@ -57,8 +58,8 @@ fn without_line(error: InputError) -> InputError {
 ///
 /// # Errors
 /// [`InputError`] where the flanks cannot be made or do not touch, or teeth jam in the assembly.
-pub(super) fn of_bevel(subject: &BevelSubject) -> Result<Vec<f64>, InputError> {
-    let BevelSubject { file, document } = subject;
+pub(super) fn of_bevel(subject: &BevelScene) -> Result<Vec<f64>, InputError> {
+    let BevelScene { file, document } = subject;
     let design = design(subject)?;
     let flanks = design.flanks(file.pinion_flank);
     let fault = |error: BevelError| without_line(error.in_file(document));

@@ -8,7 +8,7 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 
 use super::bearing_operation::BearingOperation;
-use crate::pair::Scene;
+use crate::pair::{BevelScene, Scene};
 use crate::scene_file::{InputKind, SceneFile};
 use crate::system::{Run, SystemScene};
 
@@ -20,18 +20,9 @@ pub enum Subject {
     /// A multibody system.
     System(Box<SystemScene>),
     /// A bevel pair: its tooth contact analysis, with `[load]` under torques.
-    Bevel(Box<BevelSubject>),
+    Bevel(Box<BevelScene>),
     /// A bearing in equilibrium.
     Bearing(Box<BearingSubject>),
-}
-
-/// A bevel pair file.
-#[derive(Debug, Clone)]
-pub struct BevelSubject {
-    /// What it holds.
-    pub file: PairFile,
-    /// The file, for complaints and identity.
-    pub document: InputDocument,
 }
 
 /// A bearing file and what the bearing carries.
@@ -85,8 +76,7 @@ impl Subject {
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         if InputKind::of(&document)? == InputKind::Gear {
             if PairFile::recognises(&document)? {
-                let file = PairFile::from_document(&document)?;
-                return Ok(Self::Bevel(Box::new(BevelSubject { file, document })));
+                return Ok(Self::Bevel(Box::new(BevelScene::from_document(document)?)));
             }
             if is_bearing(&document)? {
                 return Ok(Self::Bearing(Box::new(BearingSubject::from_document(
@@ -96,6 +86,7 @@ impl Subject {
         }
         Ok(match SceneFile::from_document(document, folder)? {
             SceneFile::Pair(scene) => Self::Pair(scene),
+            SceneFile::Bevel(scene) => Self::Bevel(scene),
             SceneFile::System(scene) => Self::System(scene),
         })
     }
@@ -106,7 +97,7 @@ impl Subject {
         match self {
             Self::Pair(scene) => Some(&scene.folder),
             Self::System(scene) => Some(&scene.folder),
-            Self::Bevel(pair) => Path::new(&pair.document.file).parent(),
+            Self::Bevel(pair) => Some(pair.folder()),
             Self::Bearing(_) => None,
         }
     }
