@@ -332,6 +332,7 @@ fn by_singular_values(
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)] // test code
 mod tests {
     use super::*;
 
