@@ -2,10 +2,11 @@
 //! exact enough, and climbs until one rung more of every knob changes the columns by little enough.
 
 use super::bench::{Bench, Measured};
+use super::column_errors::{errors, largest};
 use super::doubt::in_one_direction;
 use super::fronts;
 use super::knobs::{Knob, case_of};
-use super::ladder::{errors, largest, top_of, words};
+use super::ladder::{top_of, words};
 use super::paste::to_paste;
 use crate::study::{StudyError, Subject};
 

@@ -2,8 +2,9 @@
 //! each other.
 
 use super::bench::{Bench, Measured};
+use super::column_errors::{errors, largest};
 use super::knobs::{Knob, case_of};
-use super::ladder::{Accuracy, errors, largest, top_of};
+use super::ladder::{Accuracy, top_of};
 use crate::study::StudyError;
 
 /// Runs that begin next to each other and part by more than this, a tenth of the finest goal, are chaotic: their

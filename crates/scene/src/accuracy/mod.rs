@@ -9,6 +9,7 @@
 //! | which settings are tried, and which one to take | [`accuracy`] | `ladder.rs` |
 //! | how far the reference itself may be off, chaotic runs | [`Accuracy::doubts`] | `doubt.rs` |
 //! | the setting for a goal, by a few runs | [`choose`] | `chosen.rs`, `fronts.rs` |
+//! | errors of columns | | `column_errors.rs` |
 //! | what is judged where nothing is named | | `default_columns.rs` |
 //! | the lines to paste | | `paste.rs` |
 //!
@@ -16,6 +17,7 @@
 
 mod bench;
 mod chosen;
+mod column_errors;
 mod default_columns;
 mod doubt;
 mod effects;

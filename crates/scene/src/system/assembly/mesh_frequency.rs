@@ -16,6 +16,7 @@ use nalgebra::Vector3;
 
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;
+use crate::system::Run;
 use crate::system::scene::SystemScene;
 use crate::system::tables::mesh_model::MeshKind;
 
@@ -80,6 +81,15 @@ pub(super) fn highest<'a>(
         each.map(move |bodies| (frequency_hz(mesh, bodies), &mesh.name[..]))
     };
     toothed.flat_map(of_mesh).max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// Pitches of the fastest toothed mesh for a radian of the motion that a static series varies, from the bodies at
+/// 1 rad/s of it; 0 in other runs.
+pub(super) fn pitches_per_rad(run: &Run, meshes: &[PreparedMesh], bodies: &Bodies) -> f64 {
+    match (run, highest(meshes, &[bodies])) {
+        (Run::Static { .. }, Some((hz, _))) => hz,
+        _ => 0.0,
+    }
 }
 
 /// Refuses a step that is too long for the meshes at the speeds that the scene states: those of the start and those to

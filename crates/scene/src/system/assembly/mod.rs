@@ -254,12 +254,7 @@ impl LoadedSystem {
         let moved = (&motions[..], &fastest_of as &_);
         start_speeds::settle_speeds(&mut fastest, holds, moved, &meshes, &mut Vec::new());
         mesh_frequency::refuse_long_steps(&self.scene, &meshes, [&bodies, &fastest])?;
-        let pitches_per_rad = match self.scene.run {
-            Run::Static { .. } => {
-                mesh_frequency::highest(&meshes, &[&fastest]).map_or(0.0, |(hz, _)| hz)
-            }
-            _ => 0.0,
-        };
+        let pitches_per_rad = mesh_frequency::pitches_per_rad(&self.scene.run, &meshes, &fastest);
         stated_speeds::check(&tables.body, &bodies, &joints, document)?;
         let seeks_rest = at_rest || self.scene.solver.start == Start::Equilibrium;
         let at = (document, seeks_rest);
