@@ -89,7 +89,7 @@ impl PairColumns {
         HARMONICS.min((self.points_per_pitch - 1) / 2)
     }
 
-    /// Names of all columns, in the order of [`columns`].
+    /// Names of all columns, in the order of `columns`.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = self.figures().map(RestFigure::name_in_studies).collect();
