@@ -11,7 +11,8 @@
 //! | mesh it, find its modes, load a tooth | [`mesh`], [`modes`], [`compliance`] |
 //! | strain of gauges, a whole field | [`recover`] |
 //! | a page, a comparison, files of other programs | [`report`], [`compare`], [`export`] |
-//! | a bevel pair under load, and the stress of its bodies | [`loaded_bevel`], [`bevel_stress`] |
+//! | the stress of a bevel pair's bodies | [`bevel_stress`] |
+//! | a scene, a pair of either family included, to its result | [`run`] |
 //!
 //! [`stressed_gear`] is a gear's body under forces, [`tooth_stress`] and [`result_stress`] are the pictures of it.
 
