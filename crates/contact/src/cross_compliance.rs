@@ -4,8 +4,8 @@
 //! C_ab = Φ_aᵀ C_hub Φ_b
 //! ```
 //!
-//! Φ_a and Φ_b combine the loads of each mesh's own flank and slices. Teeth of different meshes are different teeth: the
-//! near field of a contact does not reach from one to the other, and C_hub is the whole.
+//! Φ_a and Φ_b combine the loads of each mesh's own flank and slices. Teeth of different meshes are different teeth:
+//! the near field of a contact does not reach from one to the other, and C_hub is the whole.
 
 use crate::axial_spread::AxialSpread;
 use crate::placed_slice::ToothPlace;

@@ -26,12 +26,12 @@ pub trait FlanksAtRest {
     /// Lines at the last driver angle; some may have no patch.
     fn lines(&self) -> usize;
 
-    /// Pair of teeth of a line of the last driver angle, as the family numbers them, and the gear whose tip edge touches
-    /// along it, if one does.
+    /// Pair of teeth of a line of the last driver angle, as the family numbers them, and the gear whose tip edge
+    /// touches along it, if one does.
     fn pair_and_tip(&self, line: usize) -> (i64, Option<TipGear>);
 
-    /// Whether the patches that were found are all that close by this approach \[m\]. Where they are not, the next search
-    /// reaches farther.
+    /// Whether the patches that were found are all that close by this approach \[m\]. Where they are not, the next
+    /// search reaches farther.
     ///
     /// # Errors
     /// An approach that no search reaches.

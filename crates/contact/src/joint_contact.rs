@@ -1,4 +1,4 @@
-//! The contacts of several meshes that share gear bodies, solved together: one complementarity problem over all of them.
+//! The contacts of several meshes that share gear bodies, solved together as one complementarity problem.
 //!
 //! ```text
 //! g_A = C_AA F_A + δ(F_A) + e_A + Σ_B C_AB F_B          C_AB = Σ_(bodies of A and B) Φ_Aᵀ C_hub Φ_B
@@ -13,6 +13,7 @@ use crate::contact_error::ContactError;
 use crate::cross_compliance::CrossCompliance;
 use crate::nlcp::{Info, LocalLaw, Params, Problem, Workspace, solve_position};
 use crate::slice_contact::SliceContact;
+use crate::station_blocks::Coupling;
 
 /// Two sides on one body.
 #[derive(Debug, Clone)]
@@ -33,6 +34,10 @@ pub struct JointContact {
     /// First contact of each side, and the end of the last one.
     starts: Vec<usize>,
     c: Vec<f64>,
+    /// What [`Self::couple`] found, for [`Self::walk`]: contact by contact of one side and the other, link after link.
+    couplings: Vec<Coupling>,
+    /// Where those of each link begin.
+    coupling_starts: Vec<usize>,
     local: Vec<LocalLaw>,
     separation_m: Vec<f64>,
     closing: Vec<f64>,
@@ -56,9 +61,11 @@ impl JointContact {
     pub fn new(links: Vec<MeshLink>, capacity: usize) -> Self {
         let empty = || Vec::with_capacity(capacity);
         Self {
+            coupling_starts: vec![0; links.len()],
             links,
             starts: Vec::new(),
             c: Vec::with_capacity(capacity * capacity),
+            couplings: Vec::with_capacity(capacity * capacity),
             local: Vec::with_capacity(capacity),
             separation_m: empty(),
             closing: empty(),
@@ -91,6 +98,8 @@ impl JointContact {
         }
         self.c.clear();
         self.c.resize(end * end, 0.0);
+        self.couplings.clear();
+        self.coupling_starts.fill(0);
         self.local.clear();
         for values in [
             &mut self.separation_m,
@@ -141,11 +150,13 @@ impl JointContact {
         let compliance = Arc::clone(&self.links[link].compliance);
         let starts = sides.map(|side| self.starts[side]);
         let n = self.size();
+        self.coupling_starts[link] = self.couplings.len();
         for i in 0..contacts[0].prepared().separation_m.len() {
             for j in 0..contacts[1].prepared().separation_m.len() {
                 let a = contacts[0].stands(i, gears[0]);
                 let b = contacts[1].stands(j, gears[1]);
                 let found = compliance.between([a.place, b.place], [a.slice, b.slice]);
+                self.couplings.push(found);
                 let value = a.along_normal * b.along_normal * found.value;
                 let (here, across) = (starts[0] + i, starts[1] + j);
                 self.c[here * n + across] += value;
@@ -189,9 +200,9 @@ impl JointContact {
     /// After [`Self::solve`]: how the energy between the sides of a link changes as contacts walk.
     pub fn walk(&mut self, link: usize, contacts: [&SliceContact; 2]) {
         let MeshLink { sides, gears, .. } = self.links[link];
-        let compliance = Arc::clone(&self.links[link].compliance);
         let starts = sides.map(|side| self.starts[side]);
         let [on_a, on_b] = sides.map(|side| self.contacts_of(side));
+        let couplings = &self.couplings[self.coupling_starts[link]..];
         for (i, at_a) in on_a.enumerate() {
             for (j, at_b) in on_b.clone().enumerate() {
                 let forces = self.work.forces();
@@ -201,7 +212,7 @@ impl JointContact {
                 }
                 let a = contacts[0].stands(i, gears[0]);
                 let b = contacts[1].stands(j, gears[1]);
-                let found = compliance.between([a.place, b.place], [a.slice, b.slice]);
+                let found = couplings[i * on_b.len() + j];
                 let both = both * a.along_normal * b.along_normal;
                 self.energy_by_u[starts[0] + i][gears[0]] += both * found.by_a;
                 self.energy_by_u[starts[1] + j][gears[1]] += both * found.by_b;

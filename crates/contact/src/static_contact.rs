@@ -162,8 +162,8 @@ impl<F: FlanksAtRest> StaticContact<F> {
         &self.patches
     }
 
-    /// Pairs of teeth of the lines of the last position, in the order of the forces, and the gear whose tip edge touches
-    /// along each, if one does.
+    /// Pairs of teeth of the lines of the last position, in the order of the forces, and the gear whose tip edge
+    /// touches along each, if one does.
     pub fn pairs_and_tips(&self) -> impl Iterator<Item = (i64, Option<TipGear>)> {
         (0..self.flanks.lines()).map(|line| self.flanks.pair_and_tip(line))
     }

@@ -190,6 +190,7 @@ fn compare_with_lemke(
         let difference = force_difference(force, &other);
         figures.worst_lemke_force = figures.worst_lemke_force.max(difference);
         assert!(
+            // The rounding takes a matrix to be inverted, and is hardly ever needed.
             difference <= FORCE_TOLERANCE
                 || difference <= FORCE_TOLERANCE + rounding_of_gaps(data, force, approach, first),
             "seed {index}, {:?}: force differs by {difference:e}",
@@ -198,9 +199,9 @@ fn compare_with_lemke(
     }
 }
 
-/// What the forces may differ by for the rounding of the right-hand side that Lemke's method was given, over the largest
-/// force: |C_AA⁻¹| δq over the slices A that carry, with δq = ε (|e| + (|a₀| + |a|) w) of its differences. Just behind
-/// the first contact, where a − a₀ keeps few digits of a, that is far above ε.
+/// What the forces may differ by for the rounding of the right-hand side that Lemke's method was given, over the
+/// largest force: |C_AA⁻¹| δq over the slices A that carry, with δq = ε (|e| + (|a₀| + |a|) w) of its differences.
+/// Just behind the first contact, where a − a₀ keeps few digits of a, that is far above ε.
 fn rounding_of_gaps(data: &Data, force: &[f64], approach: f64, first: f64) -> f64 {
     let carries: Vec<usize> = (0..force.len()).filter(|&i| force[i] > 0.0).collect();
     let (n, count) = (force.len(), carries.len());

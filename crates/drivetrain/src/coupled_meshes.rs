@@ -6,8 +6,8 @@
 //! tangent ∂(load A) = Σ_i d_i ∂F_i,   ∂F_i = −Σ_j K_ij g_j ∂(pose of j's mesh)        K = (C + diag δ′)⁻¹ of all
 //! ```
 //!
-//! [`CoupledMeshes`] pushes on all bodies; a [`CoupledMesh`] stands for each mesh by its name and reports what that mesh
-//! does. Gears without vibration modes: those deflect all meshes of their body already.
+//! [`CoupledMeshes`] pushes on all bodies; a [`CoupledMesh`] stands for each mesh by its name and reports what that
+//! mesh does. Gears without vibration modes: those deflect all meshes of their body already.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -37,6 +37,8 @@ pub struct CoupledMeshes {
     bodies: Vec<BodyId>,
     /// Where their degrees of freedom begin.
     places: Vec<usize>,
+    /// State of a mesh, for its length.
+    saved: Vec<f64>,
     group: Arc<Mutex<Group>>,
 }
 
@@ -108,6 +110,7 @@ impl CoupledMeshes {
         let coupled = Self {
             name,
             places: Vec::with_capacity(bodies.len()),
+            saved: Vec::new(),
             bodies,
             group,
         };
@@ -177,8 +180,9 @@ impl ForceElement for CoupledMeshes {
     fn restore(&mut self, numbers: &[f64]) {
         let mut rest = numbers;
         for mesh in &mut lock(&self.group).meshes {
-            let mut own = Vec::new();
-            mesh.save(&mut own);
+            let own = &mut self.saved;
+            own.clear();
+            mesh.save(own);
             let (own, after) = rest.split_at(own.len().min(rest.len()));
             mesh.restore(own);
             rest = after;

@@ -109,8 +109,8 @@ pub trait FlankKinematics: Send {
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError>;
 
-    /// Whether [`Self::contacts`] finds all patches that close where the gears approach each other by this from the pose
-    /// \[m\]; where it does not, its next call looks farther. In motion the pose is that under load.
+    /// Whether [`Self::contacts`] finds all patches that close where the gears approach each other by this from the
+    /// pose \[m\]; where it does not, its next call looks farther. In motion the pose is that under load.
     ///
     /// # Errors
     /// [`DrivetrainError::Value`] for an approach that no search reaches.

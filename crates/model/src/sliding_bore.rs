@@ -1,11 +1,12 @@
-//! A gear whose bore slides on a rigid pin: the compliance of its flanks with the motions of the bore that no force holds.
+//! A gear whose bore slides on a rigid pin: the compliance of its flanks with the motions of the bore that no force
+//! holds.
 //!
 //! ```text
 //! S_oo q_o = s_oᵀ f,      C = C_hub + s_o S_oo⁻¹ s_oᵀ        o: tangential and axial motions but the rigid ones
 //! ```
 //!
-//! Radial motions are held, as by a pin that presses and pulls. The uniform tangential and the uniform axial motion belong
-//! to the motion of the body. Theory: docs/theory/bore_patterns.md.
+//! Radial motions are held, as by a pin that presses and pulls. The uniform tangential and the uniform axial motion
+//! belong to the motion of the body. Theory: docs/theory/bore_patterns.md.
 
 use crate::bore_patterns::BoreMotion;
 use crate::reduced_gear::ReducedGear;

@@ -1,5 +1,5 @@
-//! A spur set of four planets with eight meshes: time of a step by kind of mesh, and of a static turn of one mesh period
-//! at 60 positions; on rigid bodies, and `hybrid` on made-up elastic ones with and without coupling.
+//! A spur set of four planets with eight meshes: time of a step by kind of mesh, and of a static turn of one mesh
+//! period at 60 positions; on rigid bodies, and `hybrid` on made-up elastic ones with and without coupling.
 //!
 //! `cargo bench --workspace --bench planetary --profile dev`; on a busy machine the figures are too high.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
@@ -81,31 +81,28 @@ fn result(text: &str, folder: &Path) -> (SystemResult, Duration) {
     (SystemResult::open(&output).unwrap(), start.elapsed())
 }
 
+fn print_steps(name: &str, scene: &str, folder: &Path) {
+    let record = result(scene, folder).0.record.unwrap();
+    println!(
+        "{name:<18} {:8.1} us a step, {:.2} evaluations and {:.3} factorisations a step",
+        1e6 * record.wall_s / record.steps,
+        record.evaluations / record.steps,
+        record.factorisations / record.steps
+    );
+}
+
 fn main() {
     let folder = tempfile::tempdir().unwrap();
     write_gears(folder.path());
     for (name, model) in [("iso6336", ISO), ("impact", IMPACT)] {
-        let (found, _) = result(&scene(model, IN_TIME), folder.path());
-        let record = found.record.unwrap();
-        println!(
-            "{name:<10} {:8.1} us a step, {:.2} evaluations and {:.3} factorisations a step",
-            1e6 * record.wall_s / record.steps,
-            record.evaluations / record.steps,
-            record.factorisations / record.steps
-        );
+        print_steps(name, &scene(model, IN_TIME), folder.path());
     }
     // One mesh period is 360/28 degrees of the sun against the carrier, which turns by 28/104 of the sun.
     let period = 360.0 / 28.0 / (1.0 - 28.0 / 104.0);
     made_up_gears::write_set(folder.path());
     for coupling in ["all-meshes", "own-mesh"] {
-        let (found, _) = result(&hybrid(coupling, IN_TIME), folder.path());
-        let record = found.record.unwrap();
-        println!(
-            "hybrid, {coupling:<10} {:8.1} us a step, {:.2} evaluations and {:.3} factorisations a step",
-            1e6 * record.wall_s / record.steps,
-            record.evaluations / record.steps,
-            record.factorisations / record.steps
-        );
+        let name = format!("hybrid, {coupling}");
+        print_steps(&name, &hybrid(coupling, IN_TIME), folder.path());
     }
     let angles: Vec<String> = (0..60)
         .map(|i| format!("{:?}", period * f64::from(i) / 60.0))

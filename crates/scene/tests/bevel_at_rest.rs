@@ -43,7 +43,8 @@ fn spread(values: &[f64]) -> f64 {
     most - values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
-/// Without load the pair stands where the tooth contact analysis says; the pattern grows with the torque and stays off toe and heel.
+/// Without load the pair stands where the tooth contact analysis says; the pattern grows with the torque and stays off
+/// toe and heel.
 #[test]
 fn bevel_slices_under_load() {
     for name in NAMES {
@@ -61,8 +62,8 @@ fn bevel_slices_under_load() {
         let most = lead.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let bevel = found.bevel.unwrap();
         let sense = -bevel.side.mirror();
-        // A slice's middle stands beside the contact by up to half its length, which can only open the gap, along the more curved contact of an
-        // edge by a tenth of a micrometre: less with half the length.
+        // A slice's middle stands beside the contact by up to half its length, which can only open the gap, along the
+        // more curved contact of an edge by a tenth of a micrometre: less with half the length.
         let pitch = TAU / bevel.teeth[0] as f64;
         let farthest = |found: &SceneResult| {
             let all = found.angle_rad.iter().zip(&found.unloaded_m);
@@ -101,7 +102,8 @@ fn bevel_slices_under_load() {
 
 /// Few even positions and those between them find the extremes of many: corners of the transmission error lie where
 /// pairs of teeth take load or give it up. Both may leave a thousandth of the peak-to-peak value open, the many ones a
-/// step's change beside a corner: less than a hundredth of it at 240 positions, for it changes by its whole within a pitch.
+/// step's change beside a corner: less than a hundredth of it at 240 positions, for it changes by its whole within a
+/// pitch.
 #[test]
 fn events_between_positions_show_the_extremes() {
     for name in NAMES {
@@ -120,8 +122,9 @@ fn events_between_positions_show_the_extremes() {
     }
 }
 
-/// Slices have converged: from 41 to 82 the mean transmission error changes by less than 0.6 %, its change over the pitch by
-/// less than 1 % of the mean, the mean pressure by less than 2 %, the largest one off the tips by less than 8 %.
+/// Slices have converged: from 41 to 82 the mean transmission error changes by less than 0.6 %, its change over the
+/// pitch by less than 1 % of the mean, the mean pressure by less than 2 %, the largest one off the tips by less than 8
+/// %.
 #[test]
 fn bevel_slices_converge() {
     for name in NAMES {

@@ -1,7 +1,7 @@
 //! A bevel pair at rest where it is assembled: its flanks at each driver angle, and what a contact meets there.
 //!
-//! Driver angles count in the sense in which the pinion is driven; at 0 the mean points of both flanks stand in the plane
-//! of the axes. Without load the transmission error is the largest of −(gap without approach) over all slices.
+//! Driver angles count in the sense in which the pinion is driven; at 0 the mean points of both flanks stand in the
+//! plane of the axes. Without load the transmission error is the largest of −(gap without approach) over all slices.
 
 use std::f64::consts::TAU;
 

@@ -33,7 +33,8 @@ use crate::slice_plane::Matrix6;
 const MARGIN_M: f64 = 3e-6;
 /// Sections that stand open by more than this many times the deepest overlap do not touch, see `OUT_OF_REACH` of the hybrid model.
 const REACH: f64 = 3.0;
-/// Sections of pairs at rest that stand open by more are not looked at, however far the gears approach each other \[m\].
+/// Sections of pairs at rest that stand open by more are not looked at, however far the gears approach each other
+/// \[m\].
 const MOST_REACH_M: f64 = 2e-3;
 /// Part of a slice over which the end of gear 2's face is rounded.
 const ROUNDING: f64 = 0.1;

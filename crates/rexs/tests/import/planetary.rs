@@ -209,8 +209,8 @@ fn three_turning_members_pass_nothing() {
     assert!(words.contains("sun, ring, carrier"), "{words}");
 }
 
-/// Planets stay where the file has them, but for its rounding. Teeth of 20 and 64 fit every 360/84 deg; a planet between
-/// two such places is moved to the nearer one, and the import says so.
+/// Planets stay where the file has them, but for its rounding. Teeth of 20 and 64 fit every 360/84 deg; a planet
+/// between two such places is moved to the nearer one, and the import says so.
 #[test]
 fn planets_that_are_moved_are_named() {
     let loads = [("motor", 10, "50"), ("machine", 14, "")];

@@ -51,8 +51,8 @@ impl TorquePositions {
 }
 
 impl Positions<'_> {
-    /// Solves them; torques run in parallel, each warm from angle to angle. `contact`: one for each torque, which counts
-    /// the transmission error at `radius_2_m`.
+    /// Solves them; torques run in parallel, each warm from angle to angle. `contact`: one for each torque, which
+    /// counts the transmission error at `radius_2_m`.
     ///
     /// # Errors
     /// [`RunError`] when a position has no solution; [`RunError::Stopped`].

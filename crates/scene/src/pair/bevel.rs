@@ -1,7 +1,7 @@
 //! A bevel pair under the torques of its `[load]`: the same positions, curves and file as other pairs.
 //!
-//! One pitch is solved. Where the members have gauges, the run goes on over the pitches around it, through which a tooth
-//! passes the mesh: a pitch later the next teeth stand where these stood and carry what these carried.
+//! One pitch is solved. Where the members have gauges, the run goes on over the pitches around it, through which a
+//! tooth passes the mesh: a pitch later the next teeth stand where these stood and carry what these carried.
 
 use super::all_positions::{Positions, TorquePositions, Watched, curves};
 use super::bevel_result::BevelRest;

@@ -249,8 +249,8 @@ pub struct BevelFigures {
     pub pressures_pa: [f64; 2],
     /// Part of the normal forces' sum that tips carry.
     pub tip_share: f64,
-    /// Where the pattern begins and ends on the gear's flank, along the face and up the flank, as shares: of what presses
-    /// with at least a hundredth of the largest pressure, whole slices counted.
+    /// Where the pattern begins and ends on the gear's flank, along the face and up the flank, as shares: of what
+    /// presses with at least a hundredth of the largest pressure, whole slices counted.
     pub pattern: [[f64; 2]; 2],
     /// Share of the power that reaches the gear's shaft; none without a coefficient of friction.
     pub efficiency: Option<f64>,

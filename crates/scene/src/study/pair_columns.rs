@@ -85,7 +85,7 @@ impl PairColumns {
     }
 
     fn harmonics(&self) -> usize {
-        // Of a pitch sampled n times the first (n − 1)/2 are told apart.
+        // A pitch that is sampled n times has (n − 1)/2 harmonics.
         HARMONICS.min((self.points_per_pitch - 1) / 2)
     }
 

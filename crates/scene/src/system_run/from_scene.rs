@@ -111,7 +111,8 @@ pub(super) fn varied(motion: &str, function: Motion, load_factor: f64) -> Variat
     }
 }
 
-/// Longest step between two equilibria \[pitches\]: what only teeth carry along stays in the same space, half a pitch wide.
+/// Longest step between two equilibria \[pitches\]: a tooth that only teeth carry along stays in its space, half a
+/// pitch wide.
 const LONGEST_STEP_PITCHES: f64 = 0.25;
 
 /// The points of a static series: every angle at every load factor. The angle is a function of a time that counts the

@@ -26,8 +26,9 @@ fn carried(keys: [&str; 3], folder: &Path) -> (f64, f64) {
 }
 
 /// The forces of a set with soft rims change when each mesh feels its own alone (the rims of these made-up gears bend
-/// by a tenth of what teeth do), and equilibria take no more corrections with the coupling than without, but for one each:
-/// tangents hold it. Nothing else changes: gears that are all left to their own meshes carry as two that share none.
+/// by a tenth of what teeth do), and equilibria take no more corrections with the coupling than without, but for one
+/// each: tangents hold it. Nothing else changes: gears that are all left to their own meshes carry as two that share
+/// none.
 #[test]
 fn meshes_of_a_set_feel_each_other() {
     let folder = tempfile::tempdir().unwrap();

@@ -23,9 +23,8 @@ enum Displaced {
 
 /// Runout of sun, ring and planet, a pin beside its place and an eccentric carrier, with the sun driven or held, the
 /// carrier driven or loaded, the ring held, driven or loaded: the force of every planet and the transmission error in
-/// five positions, 3.7 mesh periods apart, a fifth of that where the sun is held. What springs leave out is the change of
-/// the lines of action by displaced axes, e/(a sin α) of the forces: three times that is allowed, for lines of both meshes and of the force's
-/// arm.
+/// five positions, 3.7 mesh periods apart. What springs leave out is the change of the lines of action by displaced
+/// axes, e/(a sin α) of the forces: three times that is allowed, for lines of both meshes and of the force's arm.
 #[test]
 fn displaced_gears_and_pins_do_what_springs_with_gaps_do() {
     let folder = tempfile::tempdir().unwrap();

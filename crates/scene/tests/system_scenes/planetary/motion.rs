@@ -179,8 +179,8 @@ fn ten_planets_share_a_newton_metre() {
 
 /// Effort, counted: four planets on springs, eight meshes by `impact`. A step takes a prediction and two corrections,
 /// one more where flanks come or go, with factors that serve more than one step. The bound on equilibria is what was
-/// counted, 15.2, so that it does not grow: three corrections would do for springs. Why it takes more is not known: a force
-/// K δ^1.5 and steps of the series that are given up are possible.
+/// counted, 15.2, so that it does not grow: three corrections would do for springs. Why it takes more is not known: a
+/// force K δ^1.5 and steps of the series that are given up are possible.
 #[test]
 fn a_set_takes_few_iterations() {
     let folder = tempfile::tempdir().unwrap();
