@@ -371,6 +371,7 @@ fn solve(
         looked_at: pitches * scene.points_per_pitch,
         repeats: coverage.is_whole(),
         measures: Measures {
+            pitch_rad: pair.pitch_1_rad(),
             base_pitch_m: pair.pitch_1_rad() * pair.gear_1.base_radius_m,
             least_distance_m: distances.copied().fold(f64::INFINITY, f64::min),
             young_pa: loaded.models[0].young_pa.min(loaded.models[1].young_pa),

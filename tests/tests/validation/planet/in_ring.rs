@@ -6,7 +6,7 @@ use gearmesh_model::write_reduced_gear;
 use gearmesh_scene::{Scene, SceneResult, load, run};
 use std::path::Path;
 
-use crate::plane_gears::{FACE_M, planet, ring};
+use super::gears::{FACE_M, planet, ring};
 
 const MODULE_M: f64 = 2e-3;
 /// Loads along the line of action \[N/m\].

@@ -8,7 +8,7 @@ use gearmesh_model::{BoreMotion, ReducedGear};
 use nalgebra::{DMatrix, DVector};
 use std::path::Path;
 
-use crate::plane_gears::{FACE_M, HARMONICS, planet};
+use super::gears::{FACE_M, HARMONICS, planet};
 
 /// Both loads \[N/m\].
 const LINE_LOAD: f64 = 1e3;

@@ -1,5 +1,5 @@
 //! The gears of a planetary set in plane strain, sun 27, planet 24, ring 75, module 2 mm, each reduced once for all
-//! tests of this program.
+//! tests of this module.
 
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;

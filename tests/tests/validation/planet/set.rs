@@ -11,7 +11,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use crate::plane_gears::{FACE_M, planet, ring, sun};
+use super::gears::{FACE_M, planet, ring, sun};
 
 /// Loads along the line of action \[N/m\].
 const LOADS: [f64; 2] = [20e3, 300e3];
