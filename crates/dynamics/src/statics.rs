@@ -10,14 +10,13 @@
 //! iterations, because resistance may come with the position; if none comes it is an error. It moves a little at first and further each
 //! time: surfaces that just touch have to be met within their deflection, a pendulum released level has a long way to go.
 
-use nalgebra::Vector3;
-
 use crate::elements::Iterate;
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
-use crate::rotation::skew;
+use crate::relaxation::relax;
 use crate::state::State;
 use crate::static_correction::{Correction, correct};
+use crate::static_steps::{SHORT, Walk, in_masses, measure, moments_in_world};
 use crate::system::System;
 use crate::unbalanced::{most_unbalanced, pushing};
 
@@ -36,8 +35,12 @@ const FIRST_PUSH: f64 = 1e-6;
 const PUSH_GROWTH: f64 = 2.0;
 
 /// Where the unbalanced force becomes this many times larger along a correction, something stiff is in the way (teeth, stops): the
-/// correction ends before it. Looked for from the first push on at ever doubled distances.
+/// correction ends before it. Looked for at ever doubled distances, from [`SHORT`] on, and where it is nearer from the first push on.
 const RUN_INTO: f64 = 4.0;
+
+/// Share of all that pushes that an unbalanced force has at least, for this comparison: next to an equilibrium any move makes the little that is
+/// unbalanced many times larger.
+const FELT: f64 = 0.1;
 
 /// Shortest step along the path to an equilibrium, over the longest.
 const LEAST_STRIDE: f64 = 1.0 / 256.0;
@@ -161,7 +164,21 @@ fn follow(
                 1.0
             }
         };
-        match settle(system, &mut trial, load_factor, params, &mut equations) {
+        let start = trial.clone();
+        let mut settled = settle(system, &mut trial, load_factor, params, &mut equations);
+        if let Err(DynamicsError::NoEquilibrium { .. }) = settled {
+            // Newton's method goes to and fro where contacts come and go: down the forces first, then once more.
+            let iterations = trial.iterations;
+            trial = Equilibrium {
+                iterations,
+                ..start
+            };
+            let Equilibrium { state, lambda, .. } = &mut trial;
+            let relaxed = relax(system, (state, lambda), load_factor, &mut equations)?;
+            trial.iterations += relaxed;
+            settled = settle(system, &mut trial, load_factor, params, &mut equations);
+        }
+        match settled {
             Ok(()) => {
                 system.commit(&trial.state)?;
                 found = trial;
@@ -303,14 +320,11 @@ fn settle(
             from: state.clone(),
             lambda_from: lambda.clone(),
             correction: &correction.values,
-            force_before: unbalanced_force(system, equations),
+            most_force: RUN_INTO
+                * in_masses(system, &equations.residual).max(FELT * in_masses(system, &pushing)),
         };
         let whole = (LONGEST / ratio).min(1.0);
-        let mut share = whole.min(FIRST_PUSH / ratio);
-        walk.to(share, system, state, lambda);
-        while share < whole {
-            let last = share;
-            share = whole.min(2.0 * share);
+        let mut is_clear = |share: f64| {
             walk.to(share, system, state, lambda);
             let at = At {
                 state,
@@ -319,26 +333,22 @@ fn settle(
                 load_factor,
                 iterate: Iterate::Single,
             };
-            if !walk.is_clear(at, system, equations) {
-                walk.to(last, system, state, lambda);
-                break;
-            }
+            walk.is_clear(at, system, equations)
+        };
+        let first = |length: f64| whole.min(length / ratio);
+        let mut share = first(FIRST_PUSH);
+        if share < whole && is_clear(first(SHORT)) {
+            share = first(SHORT);
         }
+        while share < whole && is_clear(whole.min(2.0 * share)) {
+            share = whole.min(2.0 * share);
+        }
+        walk.to(share, system, state, lambda);
         if settled {
             return Ok(());
         }
     }
     Ok(())
-}
-
-/// Lets the stiffness be that of moments along fixed axes: δ(R r) = R (δr + δψ × r). Off the equilibrium a rotation that nothing
-/// resists would otherwise seem to change the moments, as the axes turn along.
-fn moments_in_world(system: &System, equations: &mut Equations) {
-    for start in system.layout.starts() {
-        let turn = start + 3;
-        let moment = Vector3::from_column_slice(&equations.residual[turn..turn + 3]);
-        equations.stiffness.add3(turn, turn, &-skew(&moment));
-    }
 }
 
 /// Whether forces balance to rounding everywhere and joints hold.
@@ -347,59 +357,6 @@ fn balances(system: &System, equations: &Equations, pushing: &[f64], holds: f64)
     let mut kept = system.kept.iter();
     forces.all(|(left, all)| left.abs() <= AT_REST * all)
         && kept.all(|&equation| equations.violation[equation].abs() <= holds)
-}
-
-/// A correction that is made step by step.
-struct Walk<'a> {
-    from: State,
-    lambda_from: Vec<f64>,
-    /// δ and δλ.
-    correction: &'a [f64],
-    force_before: f64,
-}
-
-impl Walk<'_> {
-    /// The motion after a share of the correction.
-    fn to(&self, share: f64, system: &System, state: &mut State, lambda: &mut [f64]) {
-        let (moves, pushes) = self.correction.split_at(system.degrees_of_freedom());
-        let increment: Vec<f64> = moves.iter().map(|d| share * d).collect();
-        state.set_moved(&self.from, &increment, &system.layout);
-        for (&equation, push) in system.kept.iter().zip(pushes) {
-            lambda[equation] = self.lambda_from[equation] + share * push;
-        }
-    }
-
-    /// Whether nothing stiff has been run into; a motion that an element refuses is too far away, too.
-    fn is_clear(&self, at: At<'_>, system: &mut System, equations: &mut Equations) -> bool {
-        let found = system.evaluate(at, Detail::Forces, equations);
-        found.is_ok() && unbalanced_force(system, equations) <= RUN_INTO * self.force_before
-    }
-}
-
-/// Size of the unbalanced force, in the measure of the masses: √(Σ rᵢ²/mᵢ).
-fn unbalanced_force(system: &System, equations: &Equations) -> f64 {
-    let mass = system.mass_diagonal();
-    let terms = equations.residual.iter().zip(mass);
-    terms.map(|(r, m)| r * r / m).sum::<f64>().sqrt()
-}
-
-/// Largest correction (radians, shares of the size) and where.
-fn measure(system: &System, increment: &[f64], size: f64) -> (f64, usize) {
-    increment
-        .iter()
-        .enumerate()
-        .fold((0.0, 0), |(most, place), (dof, d)| {
-            let here = match system.layout.unknown(dof) {
-                Some(unknown) => d.abs() / unknown.scale,
-                None if (3..6).contains(&system.layout.locate(dof).1) => d.abs(),
-                None => d.abs() / size,
-            };
-            if here > most {
-                (here, dof)
-            } else {
-                (most, place)
-            }
-        })
 }
 
 fn in_words(system: &System, motion: &[f64]) -> String {
