@@ -9,9 +9,9 @@ error estimate.
 """
 
 import sys
-from pathlib import Path
 
 import numpy as np
+from plane_mesh import write_table
 from plane_planet import body
 from tooth import Tooth
 
@@ -38,13 +38,9 @@ def main(folder):
             worst, dofs = np.maximum(worst, change), max(dofs, n)
             print(bore, radius, fine * 1e3, effect(fine) / fine[0], change, n, flush=True)
             rows.append((2 * bore, radius, *fine))
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    with open(folder / "data.csv", "w") as f:
-        f.write("bore_mm,radius_mm,glued_nm_per_N_per_mm,sliding_nm_per_N_per_mm\n")
-        for bore, radius, *found in rows:
-            f.write(f"{bore:.1f},{radius:.1f}," + ",".join(f"{v * 1e6:.6f}" for v in found) + "\n")
-    (folder / "record.toml").write_text(RECORD.format(dofs=dofs, glued=worst[0], effect=worst[1]))
+    columns = "bore_mm,radius_mm,glued_nm_per_N_per_mm,sliding_nm_per_N_per_mm"
+    table = [[f"{bore:.1f}", f"{radius:.1f}", *(f"{v * 1e6:.6f}" for v in found)] for bore, radius, *found in rows]
+    write_table(folder, columns, table, RECORD.format(dofs=dofs, glued=worst[0], effect=worst[1]))
 
 
 RECORD = '''title = "Deflection of a planet pressed from opposite sides, bore glued and sliding, plane strain, two bores, two radii"

@@ -8,10 +8,9 @@ half width; a second mesh with all sizes doubled gives the error estimate. Five 
 """
 
 import sys
-from pathlib import Path
 
 import numpy as np
-from plane_mesh import FLIP, PlaneBody, arc, triangles, turned
+from plane_mesh import FLIP, PlaneBody, arc, triangles, turned, write_table
 from tooth import Tooth
 
 LOAD = 100.0  # N/mm
@@ -63,13 +62,9 @@ def main(folder):
         worst, dofs = max(worst, change), max(dofs, n)
         print(f"{radius:7.3f} mm  {fine * 1e3} um  change {change:.1e}  {n} degrees of freedom", flush=True)
         rows.append((radius, *fine))
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    with open(folder / "data.csv", "w") as f:
-        f.write("radius_mm," + ",".join(f"deflection_um_at_half_width_{a:.2f}_mm" for a in HALF_WIDTHS) + "\n")
-        for row in rows:
-            f.write(f"{row[0]:.3f}," + ",".join(f"{v * 1e3:.6f}" for v in row[1:]) + "\n")
-    (folder / "record.toml").write_text(RECORD.format(dofs=dofs, worst=worst))
+    columns = "radius_mm," + ",".join(f"deflection_um_at_half_width_{a:.2f}_mm" for a in HALF_WIDTHS)
+    table = [[f"{row[0]:.3f}", *(f"{v * 1e3:.6f}" for v in row[1:])] for row in rows]
+    write_table(folder, columns, table, RECORD.format(dofs=dofs, worst=worst))
 
 
 RECORD = '''title = "Flank deflection of a gear in plane strain, seven radii"

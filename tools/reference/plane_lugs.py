@@ -8,11 +8,10 @@ fillets and to the edges of the lugs; a second mesh with all sizes doubled gives
 """
 
 import sys
-from pathlib import Path
 
 import numpy as np
 from plane_gear import LOAD
-from plane_mesh import FLIP, PlaneBody, triangles, turned
+from plane_mesh import FLIP, PlaneBody, triangles, turned, write_table
 from plane_ring import HALF_WIDTH, OUTSIDE, Ring, pieces_of
 
 RADIUS, LUGS, WIDTH = 90.0, 6, np.deg2rad(10.0)
@@ -48,13 +47,9 @@ def main(folder):
         worst, dofs = max(worst, change), max(dofs, n)
         print(tooth, fine * 1e3, change, n, flush=True)
         rows.append((tooth, *fine))
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    with open(folder / "data.csv", "w") as f:
-        f.write("tooth,own_um,tooth_after_um,tooth_before_um\n")
-        for tooth, *found in rows:
-            f.write(f"{tooth}," + ",".join(f"{v * 1e3:.6f}" for v in found) + "\n")
-    (folder / "record.toml").write_text(RECORD.format(dofs=dofs, worst=worst))
+    columns = "tooth,own_um,tooth_after_um,tooth_before_um"
+    table = [[str(tooth), *(f"{v * 1e3:.6f}" for v in found)] for tooth, *found in rows]
+    write_table(folder, columns, table, RECORD.format(dofs=dofs, worst=worst))
 
 
 RECORD = '''title = "Flank deflection of a ring gear held by six lugs, plane strain"

@@ -1,5 +1,7 @@
 """A whole gear in plane strain on quadratic triangles (gmsh, scikit-fem): mesh between its outline and a circle, Hertz pressures, readings. N, mm."""
 
+from pathlib import Path
+
 import gmsh
 import numpy as np
 from scipy.sparse import coo_array
@@ -136,3 +138,12 @@ class PlaneBody:
         i = np.argmin(np.hypot(*(self.mesh.p - point[:, None])))
         assert np.hypot(*(self.mesh.p[:, i] - point)) < 1e-9
         return self.basis.nodal_dofs[:, i]
+
+
+def write_table(folder, columns, rows, record):
+    """data.csv, its rows as lists of texts, and record.toml of a reference."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    lines = [columns, *(",".join(row) for row in rows)]
+    (folder / "data.csv").write_text("\n".join(lines) + "\n")
+    (folder / "record.toml").write_text(record)

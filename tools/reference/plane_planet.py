@@ -9,11 +9,10 @@ F >= 0. Quadratic triangles (scikit-fem); a second mesh with all sizes doubled g
 """
 
 import sys
-from pathlib import Path
 
 import numpy as np
 from plane_gear import tooth_pieces
-from plane_mesh import E_MPA, FLIP, NU, PlaneBody, triangles, turned
+from plane_mesh import E_MPA, FLIP, NU, PlaneBody, triangles, turned, write_table
 from plane_ring import Ring, pieces_of
 from tooth import Tooth
 
@@ -110,13 +109,9 @@ def main(folder):
         worst, dofs = max(worst, np.abs(coarse / fine - 1).max()), max(dofs, n)
         print(share, pairs, fine * 1e3, coarse / fine - 1, n, flush=True)
         rows.append((share, pairs, *fine))
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    with open(folder / "data.csv", "w") as f:
-        f.write("position_pitches,pairs," + ",".join(f"approach_um_at_{load:.0f}_N_per_mm" for load in LOADS) + "\n")
-        for share, pairs, *approach in rows:
-            f.write(f"{share},{pairs}," + ",".join(f"{a * 1e3:.6f}" for a in approach) + "\n")
-    (folder / "record.toml").write_text(RECORD.format(dofs=dofs, worst=worst))
+    columns = "position_pitches,pairs," + ",".join(f"approach_um_at_{load:.0f}_N_per_mm" for load in LOADS)
+    table = [[str(share), str(pairs), *(f"{a * 1e3:.6f}" for a in approach)] for share, pairs, *approach in rows]
+    write_table(folder, columns, table, RECORD.format(dofs=dofs, worst=worst))
 
 
 RECORD = '''title = "Transmission error of a planet in a ring at rest, plane strain, six positions, three loads"

@@ -10,11 +10,10 @@ Quadratic triangles (scikit-fem); a second mesh with all sizes doubled gives the
 """
 
 import sys
-from pathlib import Path
 
 import numpy as np
 from plane_gear import LOAD
-from plane_mesh import FLIP, PlaneBody, arc, triangles, turned
+from plane_mesh import FLIP, PlaneBody, arc, triangles, turned, write_table
 from scipy.optimize import brentq
 from skfem import FacetBasis, LinearForm
 from skfem.helpers import sym_grad
@@ -174,13 +173,9 @@ def main(folder):
         worst, dofs = np.maximum(worst, change), max(dofs, n)
         print(name, fine, "change", change, n, flush=True)
         rows += [(2 * outside, r, *values) for r, values in zip(RADII, fine)]
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    with open(folder / "data.csv", "w") as f:
-        f.write("outer_diameter_mm,radius_mm,own_um,tooth_after_um,tooth_before_um,root_strain_um_per_m\n")
-        for outer, radius, own, after, before, strain in rows:
-            f.write(f"{outer:.2f},{radius:.1f},{own * 1e3:.6f},{after * 1e3:.6f},{before * 1e3:.6f},{strain * 1e6:.4f}\n")
-    (folder / "record.toml").write_text(RECORD.format(dofs=dofs, own=worst[0], other=worst[1:3].max(), strain=worst[3]))
+    columns = "outer_diameter_mm,radius_mm,own_um,tooth_after_um,tooth_before_um,root_strain_um_per_m"
+    table = [[f"{outer:.2f}", f"{radius:.1f}", *(f"{v * 1e3:.6f}" for v in teeth), f"{strain * 1e6:.4f}"] for outer, radius, *teeth, strain in rows]
+    write_table(folder, columns, table, RECORD.format(dofs=dofs, own=worst[0], other=worst[1:3].max(), strain=worst[3]))
 
 
 RECORD = '''title = "Flank deflection and root strain of a ring gear in plane strain, two rims, three radii"

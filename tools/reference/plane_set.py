@@ -14,10 +14,9 @@ all sizes doubled gives the error estimate.
 """
 
 import sys
-from pathlib import Path
 
 import numpy as np
-from plane_mesh import E_MPA, NU, PlaneBody, triangles, turned
+from plane_mesh import E_MPA, NU, PlaneBody, triangles, turned, write_table
 from plane_planet import HALF_WIDTH, OUTSIDE, STRIP, body, outline
 from plane_ring import Ring
 from tooth import Tooth
@@ -179,13 +178,9 @@ def main(folder):
                 effects = max(effects, np.abs(adds[0] / adds[1] - 1).max())
             lines.append((share, pairs, of_ring, name, kind, *found))
             print(*lines[-1], np.array(coarse[name, kind][:3]) / found[:3] - 1, n, flush=True)
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    with open(folder / "data.csv", "w") as f:
-        f.write("position_pitches,sun_pairs,ring_pairs,planet,bore," + ",".join(f"approach_um_at_{load:.0f}_N_per_mm" for load in LOADS) + ",rollers\n")
-        for *head, a, b, c, rollers in lines:
-            f.write(",".join(str(v) for v in head) + "," + ",".join(f"{v * 1e3:.6f}" for v in (a, b, c)) + f",{rollers}\n")
-    (folder / "record.toml").write_text(RECORD.format(dofs=dofs, worst=worst, effects=effects))
+    columns = "position_pitches,sun_pairs,ring_pairs,planet,bore," + ",".join(f"approach_um_at_{load:.0f}_N_per_mm" for load in LOADS) + ",rollers"
+    table = [[*(str(v) for v in head), *(f"{v * 1e3:.6f}" for v in (a, b, c)), str(rollers)] for *head, a, b, c, rollers in lines]
+    write_table(folder, columns, table, RECORD.format(dofs=dofs, worst=worst, effects=effects))
 
 
 RECORD = '''title = "Transmission error from sun to carrier at rest, one planet, plane strain; bore glued, sliding, on rollers; thin and thick planet"

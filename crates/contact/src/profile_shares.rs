@@ -17,9 +17,6 @@
 //!
 //! Hats are taken over the flank's area, as the loads are: dA = a(u) du per width, on an involute flank, whose u is the roll angle ξ, r_b ξ dξ.
 
-use crate::contact_patch::FlankPlace;
-use crate::flank_surface::FlankSurface;
-
 /// Stations that share a force at most.
 pub const SHARES: usize = 4;
 
@@ -88,11 +85,6 @@ impl ProfileHats {
     /// The hats of at least two stations of an involute flank, given by their roll angles.
     pub fn of_involute(stations_rad: &[f64]) -> Self {
         Self::new(stations_rad, |roll_rad| roll_rad)
-    }
-
-    /// The hats of at least two stations of any flank; `v`: place along the tooth at which its area is taken.
-    pub fn of_surface(stations: &[f64], surface: &dyn FlankSurface, v: f64) -> Self {
-        Self::new(stations, |u| surface.area(FlankPlace { u, v }))
     }
 
     /// The hats of at least two stations; `area`: the flank's area per width and u, up to a factor.

@@ -104,14 +104,6 @@ impl OutputGrid {
         ((number / self.parts) as f64 + part) * self.interval_s
     }
 
-    /// Begins with the first grid time not before `time_s`.
-    #[must_use]
-    pub fn from_time(mut self, time_s: f64) -> Self {
-        let parts = self.parts as f64;
-        self.next = (time_s / self.interval_s * parts - 1e-9).ceil().max(0.0) as u64;
-        self
-    }
-
     /// Begins with the grid time of this number.
     #[must_use]
     pub fn from_index(mut self, index: u64) -> Self {

@@ -57,15 +57,6 @@ impl DataTree {
         self.take_f64(path, name, &[]).map(|values| values[0])
     }
 
-    /// Takes out a single count.
-    ///
-    /// # Errors
-    /// As [`DataTree::take_f64`].
-    pub fn take_count(&mut self, path: &Path, name: &str) -> Result<usize, FileError> {
-        self.take_u32(path, name, &[])
-            .map(|values| values[0] as usize)
-    }
-
     /// Takes out a text.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! Stress in the bodies of a bevel pair under its loads: pictures for the page, whole fields for other programs.
 
+use crate::cross_section::{FieldCase, largest_torque, nearest_angle};
 use crate::failure::Failure;
 use crate::mesh_file::{LengthUnit, export_bevel_mesh};
 use crate::result_stress::{StressSection, add_worst};
@@ -17,95 +18,73 @@ use gearmesh_reduction::skin::{SkinFace, von_mises_on_faces};
 use gearmesh_report::page::{FieldPicture, FieldValues, Section, Text};
 use gearmesh_scene::SceneResult;
 use gearmesh_scene::pair::bevel_result::Pressing;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const MEMBERS: [&str; 2] = ["pinion", "gear"];
 
-/// What is made of the bodies under load.
-#[derive(Debug, Clone, Default)]
-pub struct BevelStressRequest {
-    /// Pictures of both members for the page.
-    pub stress: bool,
-    /// Driver angle of the pictures; that of the largest root stress where not given.
-    pub angle_deg: Option<f64>,
-    /// Member, 1 or 2, of which the whole field is written.
-    pub field_gear: Option<u8>,
-    /// Driver angle of the field; where a pair of teeth carries most if not given.
-    pub field_angle_deg: Option<f64>,
-    /// Torque of the field; the largest where not given.
-    pub field_torque_nm: Option<f64>,
-    /// Mesh file of the field.
-    pub field_output: Option<PathBuf>,
-}
-
-/// A position under a torque, by their numbers in the result.
-#[derive(Clone, Copy)]
-struct Case<'a> {
-    result: &'a SceneResult,
-    torque: usize,
-    angle: usize,
-}
-
-impl Case<'_> {
-    fn words(&self) -> String {
-        format!(
-            "{} N m, driver angle {:.2} deg",
-            self.result.torque_nm[self.torque],
-            self.result.angle_rad[self.angle].to_degrees()
-        )
-    }
-}
-
-/// Makes what is asked for: the field's file, and the page's section with its figures, where it shall have one.
+/// The page's section of the stress in both members, with its figures: each at the position of its largest root stress
+/// under the largest torque, or at the one nearest to an angle of the driver.
 ///
 /// # Errors
-/// [`Failure`] where the pair has no reduced models or is not loaded by the torque, and for files that cannot be written.
-pub fn asked(
-    a: &BevelStressRequest,
-    result: Option<&SceneResult>,
+/// [`Failure`] where the pair has no reduced models, or a field cannot be made.
+pub fn section(
+    result: &SceneResult,
+    angle_deg: Option<f64>,
     watch: &Watch<'_>,
-) -> Result<Option<StressSection>, Failure> {
-    let option = match (a.stress, a.field_gear) {
-        (true, _) => "--stress",
-        (false, Some(_)) => "--field-gear",
-        (false, None) => return Ok(None),
-    };
-    let with_models = result.filter(|result| !result.model_files[0].is_empty());
-    let Some(result) = with_models else {
-        return Err(Failure::input(format!(
-            "{option} needs the bodies of both members under load: name their reduced models, `models` of [load] in the pair file"
-        )));
-    };
+) -> Result<StressSection, Failure> {
+    demand_bodies(result, "--stress")?;
     let models = models_of(result)?;
-    let mut bodies: [Option<StressedGear>; 2] = [None, None];
-    let mut section = a.stress.then(|| {
-        let section = Section::new("Stress in the bodies");
-        let words = format!(
-            "{} Each member at the position of its largest root stress under the largest torque. Last, the body along its axis, the largest value along the teeth, and the \
-             tooth's side unrolled, from the middle of the space over root and fillet to the tip.",
-            tooth_stress::WORDS
-        );
-        (section.push(Text::paragraph(words)), Vec::new())
-    });
-    for (member, body) in bodies.iter_mut().enumerate() {
-        let has_field = a.field_gear == Some(member as u8 + 1);
-        if !has_field && section.is_none() {
-            continue;
-        }
-        let model = &models[member];
-        let body = body.insert(StressedGear::of_bevel(
-            model,
-            &result.model_files[member],
-            watch,
-        )?);
-        if let Some(page) = section.take() {
-            section = Some(pictures(page, (a, result), (member, body), watch)?);
-        }
-        if let (true, Some(output)) = (has_field, &a.field_output) {
-            write_field(a, result, (member, body), (output, watch))?;
-        }
+    let words = format!(
+        "{} Each member at the position of its largest root stress under the largest torque. Last, the body along its axis, the largest value along the teeth, and the \
+         tooth's side unrolled, from the middle of the space over root and fillet to the tip.",
+        tooth_stress::WORDS
+    );
+    let section = Section::new("Stress in the bodies").push(Text::paragraph(words));
+    let mut made = (section, Vec::new());
+    for (member, model) in models.iter().enumerate() {
+        let body = StressedGear::of_bevel(model, &result.model_files[member], watch)?;
+        made = pictures(made, (angle_deg, result), (member, &body), watch)?;
     }
-    Ok(section)
+    Ok(made)
+}
+
+/// Writes the displacement and stress of a member.
+///
+/// # Errors
+/// As [`section()`]; [`Failure`] for a file that cannot be written.
+pub fn write_field(
+    result: &SceneResult,
+    case: FieldCase,
+    output: &Path,
+    watch: &Watch<'_>,
+) -> Result<(), Failure> {
+    demand_bodies(result, "--field-gear")?;
+    let (models, member) = (models_of(result)?, case.gear - 1);
+    let stressed = StressedGear::of_bevel(&models[member], &result.model_files[member], watch)?;
+    let field = stressed.field(&forces(result, case))?;
+    let (gear, body) = bevel(&stressed)?;
+    let file = (output, LengthUnit::M);
+    export_bevel_mesh(gear, &body.mesh, (&field).into(), file, watch)?;
+    watch.note(format!(
+        "{}: field of the {}, {}",
+        output.display(),
+        MEMBERS[member],
+        case.words(result)
+    ));
+    Ok(())
+}
+
+/// Refuses what an option or command wants of gears without bodies.
+///
+/// # Errors
+/// [`Failure`] for rigid gears.
+pub fn demand_bodies(result: &SceneResult, option: &str) -> Result<(), Failure> {
+    match result.model_files[0].is_empty() {
+        false => Ok(()),
+        true => Err(Failure::input(format!(
+            "{option} needs the bodies of both members, these are rigid: name their reduced models, `models` of [load] in the pair file"
+        ))),
+    }
 }
 
 /// The reduced members of a result.
@@ -126,49 +105,10 @@ pub fn models_of(result: &SceneResult) -> Result<[ReducedGear; 2], Failure> {
     Ok([read(0)?, read(1)?])
 }
 
-/// The largest torque, or the one that is named.
-fn torque_of(result: &SceneResult, named: Option<f64>) -> Result<usize, Failure> {
-    let torques = &result.torque_nm;
-    let found = match named {
-        None => (0..torques.len()).max_by(|a, b| torques[*a].total_cmp(&torques[*b])),
-        Some(wanted) => {
-            let near = |torque: &f64| (torque - wanted).abs() <= 1e-9 * wanted.abs();
-            torques.iter().position(near)
-        }
-    };
-    found.ok_or_else(|| {
-        let named = named.unwrap_or_default();
-        Failure::input(format!(
-            "--field-torque-Nm: found {named}, the pair is loaded by {torques:?}"
-        ))
-    })
-}
-
-/// The position nearest to a driver angle, or the one at which one pair of teeth carries most.
-fn angle_of(result: &SceneResult, torque: usize, angle_deg: Option<f64>) -> usize {
-    let most = |angle: usize| {
-        let forces = result
-            .even_position(torque, angle)
-            .map(|p| p.pair_forces_n());
-        forces
-            .and_then(|forces| forces.first().copied())
-            .map_or(0.0, |(_, force)| force)
-    };
-    let apart = |angle: usize, wanted: f64| (result.angle_rad[angle].to_degrees() - wanted).abs();
-    let found = match angle_deg {
-        None => (0..result.points_per_pitch()).max_by(|a, b| most(*a).total_cmp(&most(*b))),
-        Some(wanted) => {
-            (0..result.angles()).min_by(|a, b| apart(*a, wanted).total_cmp(&apart(*b, wanted)))
-        }
-    };
-    found.unwrap_or_default()
-}
-
 /// What presses on a member.
-fn forces(case: Case<'_>, member: usize) -> Vec<PlacedForce> {
-    let Some((bevel, position)) =
-        (case.result.bevel).zip(case.result.even_position(case.torque, case.angle))
-    else {
+fn forces(result: &SceneResult, case: FieldCase) -> Vec<PlacedForce> {
+    let position = result.even_position(case.torque, case.angle);
+    let (Some((bevel, position)), member) = (result.bevel.zip(position), case.gear - 1) else {
         return Vec::new();
     };
     let force = |at: Pressing<'_>| PlacedForce {
@@ -176,7 +116,7 @@ fn forces(case: Case<'_>, member: usize) -> Vec<PlacedForce> {
         side: bevel.side,
         u: at.up(member),
         v_m: at.along_m(member),
-        width_m: bevel.face_widths_m[0] / case.result.slices as f64,
+        width_m: bevel.face_widths_m[0] / result.slices as f64,
         normal_n: at.force_n,
         tangential_n: 0.0,
     };
@@ -191,53 +131,26 @@ fn bevel(gear: &StressedGear) -> Result<(&BevelGear, &GearBody<BevelMesh>), Fail
     }
 }
 
-fn write_field(
-    a: &BevelStressRequest,
-    result: &SceneResult,
-    (member, stressed): (usize, &StressedGear),
-    (output, watch): (&Path, &Watch<'_>),
-) -> Result<(), Failure> {
-    let torque = torque_of(result, a.field_torque_nm)?;
-    let case = Case {
-        result,
-        torque,
-        angle: angle_of(result, torque, a.field_angle_deg),
-    };
-    let field = stressed.field(&forces(case, member))?;
-    let (gear, body) = bevel(stressed)?;
-    let file = (output, LengthUnit::M);
-    export_bevel_mesh(gear, &body.mesh, (&field).into(), file, watch)?;
-    watch.note(format!(
-        "{}: field of the {}, {}",
-        output.display(),
-        MEMBERS[member],
-        case.words()
-    ));
-    Ok(())
-}
-
 fn pictures(
     made: StressSection,
-    (a, result): (&BevelStressRequest, &SceneResult),
+    (angle_deg, result): (Option<f64>, &SceneResult),
     (member, stressed): (usize, &StressedGear),
     watch: &Watch<'_>,
 ) -> Result<StressSection, Failure> {
-    let torque = torque_of(result, None)?;
-    let angles = match a.angle_deg {
+    let angles = match angle_deg {
         // A pitch: the others are alike.
         None => (0..result.points_per_pitch()).collect(),
-        Some(_) => vec![angle_of(result, torque, a.angle_deg)],
+        Some(wanted) => vec![nearest_angle(result, wanted)],
     };
-    let case = |angle| Case {
-        result,
-        torque,
+    let case = |angle| FieldCase {
+        gear: member + 1,
+        torque: largest_torque(result),
         angle,
     };
-    let cases: Vec<Case<'_>> = angles.into_iter().map(case).collect();
-    let of_cases = cases.iter().map(|case| forces(*case, member));
-    let of_cases: Vec<Vec<PlacedForce>> = of_cases.collect();
+    let cases: Vec<FieldCase> = angles.into_iter().map(case).collect();
+    let of_cases: Vec<Vec<PlacedForce>> = cases.iter().map(|case| forces(result, *case)).collect();
     let name = MEMBERS[member];
-    let words = |k: usize| cases[k].words();
+    let words = |k: usize| cases[k].words(result);
     let ((section, figures), worst) = add_worst(made, (name, stressed), &of_cases, words, watch)?;
     let Some(worst) = worst else {
         return Ok((section, figures));

@@ -23,6 +23,77 @@ pub struct FieldCase {
     pub angle: usize,
 }
 
+impl FieldCase {
+    /// The case that is asked for: the computed position nearest to a driver angle, where a pair of teeth carries most
+    /// if none is named; the largest torque if none is named.
+    ///
+    /// # Errors
+    /// [`Failure`] for a torque that was not computed.
+    pub fn asked(
+        result: &SceneResult,
+        gear: usize,
+        (angle_deg, torque_nm): (Option<f64>, Option<f64>),
+    ) -> Result<Self, Failure> {
+        let torques = &result.torque_nm;
+        let torque = match torque_nm {
+            None => largest_torque(result),
+            Some(wanted) => {
+                let near = |torque: &f64| (torque - wanted).abs() <= 1e-9 * wanted.abs();
+                torques.iter().position(near).ok_or_else(|| {
+                    Failure::input(format!(
+                        "--field-torque-Nm: found {wanted}, the result has {torques:?}"
+                    ))
+                })?
+            }
+        };
+        let most_n = |angle: usize| {
+            let pairs = 0..result.slots;
+            let forces = pairs.map(|slot| result.forces(torque, angle, slot).iter().sum::<f64>());
+            forces.fold(0.0, f64::max)
+        };
+        let angle = match angle_deg {
+            Some(wanted) => nearest_angle(result, wanted),
+            // The first of the largest: pitches may repeat.
+            None => (0..result.angles())
+                .rev()
+                .max_by(|a, b| most_n(*a).total_cmp(&most_n(*b)))
+                .unwrap_or_default(),
+        };
+        Ok(Self {
+            gear,
+            torque,
+            angle,
+        })
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn words(&self, result: &SceneResult) -> String {
+        format!(
+            "{} N m, driver angle {:.2} deg",
+            result.torque_nm[self.torque],
+            result.angle_rad[self.angle].to_degrees()
+        )
+    }
+}
+
+/// Index of the torque that is largest by its amount.
+#[must_use]
+pub fn largest_torque(result: &SceneResult) -> usize {
+    let torques = result.torque_nm.iter().enumerate();
+    let largest = torques.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    largest.map_or(0, |(k, _)| k)
+}
+
+/// Index of the computed angle of the driver that is nearest.
+#[must_use]
+pub fn nearest_angle(result: &SceneResult, wanted_deg: f64) -> usize {
+    let apart = |k: &usize| (result.angle_rad[*k].to_degrees() - wanted_deg).abs();
+    let all = 0..result.angles();
+    all.min_by(|a, b| apart(a).total_cmp(&apart(b)))
+        .unwrap_or_default()
+}
+
 /// Displacement and stress of a gear at one position of a result.
 pub fn field_of(
     loaded: &LoadedScene,
@@ -69,10 +140,9 @@ pub fn picture(
         .collect();
     Ok(GearPicture {
         title: format!(
-            "{}, {} N m, driver angle {:.2} deg: largest von Mises stress over the width",
+            "{}, {}: largest von Mises stress over the width",
             definition.name,
-            result.torque_nm[case.torque],
-            result.angle_rad[case.angle].to_degrees()
+            case.words(result)
         ),
         nodes_mm: section
             .nodes

@@ -11,7 +11,6 @@ use gearmesh_scene::SceneFile;
 use gearmesh_scene::system_run::{StageRow, SystemResult};
 use serde_json::{Value, json};
 use std::path::Path;
-use std::time::Duration;
 
 /// A scene of more bodies takes its time at rest: it is left to `gearmesh run`.
 const MOST_BODIES: usize = 300;
@@ -186,8 +185,7 @@ fn at_rest(scene: &Path, output: &Path, watch: &Watch<'_>) -> Result<SystemResul
     let how = RunHow {
         output: Some(output),
         restart: true,
-        most_result_gb: f64::INFINITY,
-        checkpoint_interval: Duration::MAX,
+        ..RunHow::default()
     };
     let unheard = Watch {
         listener: &Silent,

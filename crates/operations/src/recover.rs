@@ -1,12 +1,13 @@
 //! Strain of all gauges of a pair's result, and a whole field on request.
 
-use crate::bevel_stress::{self, BevelStressRequest};
+use crate::bevel_stress;
 use crate::cross_section::{FieldCase, field_of};
 use crate::failure::Failure;
 use crate::mesh_file::{LengthUnit, export_mesh};
 use crate::result_scene::scene_of;
 use crate::watch::Watch;
 use crate::{output_name, overwriting};
+use gearmesh_model::ReducedGear;
 use gearmesh_reduction::GearBody;
 use gearmesh_report::run_figures::coverage;
 use gearmesh_scene::pair::bevel_result::strain;
@@ -26,16 +27,20 @@ pub struct RecoverRequest {
     #[arg(short, long)]
     pub output: PathBuf,
     /// Write the displacement and von Mises field of this gear (1 or 2), too
-    #[arg(long, requires = "field_angle_deg", requires = "field_output")]
+    #[arg(long, requires = "field_output")]
     pub field_gear: Option<u8>,
-    /// Driver angle of the field: the nearest computed position is taken
-    #[arg(long)]
+    /// Driver angle of the field, the nearest computed position is taken; where a pair of teeth carries most where not given
+    #[arg(long, allow_negative_numbers = true, requires = "field_gear")]
     pub field_angle_deg: Option<f64>,
     /// Torque of the field; the largest computed one where not given
-    #[arg(long = "field-torque-Nm")]
+    #[arg(
+        long = "field-torque-Nm",
+        allow_negative_numbers = true,
+        requires = "field_gear"
+    )]
     pub field_torque_Nm: Option<f64>,
     /// Mesh file of the field (vtu, ...)
-    #[arg(long)]
+    #[arg(long, requires = "field_gear")]
     pub field_output: Option<PathBuf>,
 }
 
@@ -102,135 +107,95 @@ pub fn recover(a: &RecoverRequest, watch: &Watch<'_>) -> Result<SceneResult, Fai
     for output in std::iter::once(&a.output).chain(&a.field_output) {
         overwriting::apart(output, &models)?;
     }
-    if result.bevel.is_some() {
-        return recover_bevel(a, result, watch);
-    }
-    let loaded = scene_of(&result, &a.result)?;
-    let all: Vec<(usize, usize)> = (1..=2)
-        .flat_map(|gear| (0..loaded.models[gear - 1].gauges.len()).map(move |k| (gear, k)))
-        .collect();
-    if all.is_empty() && a.field_gear.is_none() {
-        return Err(Failure::input(NO_GAUGE));
-    }
     let request = field_request(a, &result)?;
-    let clock = std::time::Instant::now();
-    result.strain = gearmesh_scene::pair::run::strain(&loaded, &result, &all)?;
-    result.proposal = loaded.proposal(&all);
-    result.seconds[1] = clock.elapsed().as_secs_f64();
-    watch.go_on()?;
-    result.write(&a.output)?;
-    if let Some(request) = request {
-        field(&request, &loaded, &result, watch)?;
-    }
-    Ok(result)
-}
-
-/// The same of a bevel pair, whose result says where on both flanks its teeth press.
-fn recover_bevel(
-    a: &RecoverRequest,
-    mut result: SceneResult,
-    watch: &Watch<'_>,
-) -> Result<SceneResult, Failure> {
-    if result.model_files[0].is_empty() {
-        return Err(Failure::input(
-            "the gears are rigid: their bodies have no strain; name reduced models, `models` of [load] in the pair file",
-        ));
-    }
-    let models = bevel_stress::models_of(&result)?;
-    let of = |gear: usize| (0..models[gear - 1].gauges.len()).map(move |k| (gear, k));
-    let gauges: Vec<(usize, usize)> = (1..=2).flat_map(of).collect();
-    if gauges.is_empty() && a.field_gear.is_none() {
-        return Err(Failure::input(NO_GAUGE));
-    }
-    let clock = std::time::Instant::now();
-    result.strain = strain(models.each_ref(), &result, &gauges).map_err(Failure::work)?;
-    result.seconds[1] = clock.elapsed().as_secs_f64();
-    let request = BevelStressRequest {
-        field_gear: a.field_gear,
-        field_angle_deg: a.field_angle_deg,
-        field_torque_nm: a.field_torque_Nm,
-        field_output: a.field_output.clone(),
-        ..BevelStressRequest::default()
+    let scene = match result.bevel {
+        Some(_) => None,
+        None => Some(scene_of(&result, &a.result)?),
     };
-    bevel_stress::asked(&request, Some(&result), watch)?;
+    let clock = std::time::Instant::now();
+    match &scene {
+        Some(loaded) => {
+            let all = gauges(loaded.models.each_ref().map(|model| &**model), &request)?;
+            result.strain = gearmesh_scene::pair::run::strain(loaded, &result, &all)?;
+            result.proposal = loaded.proposal(&all);
+        }
+        None => {
+            bevel_stress::demand_bodies(&result, "recover")?;
+            let models = bevel_stress::models_of(&result)?;
+            let all = gauges(models.each_ref(), &request)?;
+            result.strain = strain(models.each_ref(), &result, &all).map_err(Failure::work)?;
+        }
+    }
+    result.seconds[1] = clock.elapsed().as_secs_f64();
     watch.go_on()?;
     result.write(&a.output)?;
+    match (request, &scene) {
+        (Some((case, output)), Some(loaded)) => field((case, output), loaded, &result, watch)?,
+        (Some((case, output)), None) => bevel_stress::write_field(&result, case, output, watch)?,
+        (None, _) => {}
+    }
     Ok(result)
 }
 
-/// The field that was asked for.
-struct FieldRequest<'a> {
-    case: FieldCase,
-    output: &'a Path,
+/// All gauges of both models: gear and index in its model.
+fn gauges(
+    models: [&ReducedGear; 2],
+    request: &Option<FieldRequest<'_>>,
+) -> Result<Vec<(usize, usize)>, Failure> {
+    let of = |gear: usize| (0..models[gear - 1].gauges.len()).map(move |k| (gear, k));
+    let all: Vec<(usize, usize)> = [1, 2].into_iter().flat_map(of).collect();
+    match all.is_empty() && request.is_none() {
+        true => Err(Failure::input(NO_GAUGE)),
+        false => Ok(all),
+    }
 }
+
+/// A field that is asked for, and its file.
+type FieldRequest<'a> = (FieldCase, &'a Path);
 
 /// Checks the request for a field, where there is one.
 fn field_request<'a>(
     a: &'a RecoverRequest,
     result: &SceneResult,
 ) -> Result<Option<FieldRequest<'a>>, Failure> {
-    let Some(gear) = a.field_gear.map(usize::from) else {
-        return Ok(None);
-    };
-    if !(1..=2).contains(&gear) {
-        return Err(Failure::input(format!(
+    let place = (a.field_angle_deg, a.field_torque_Nm);
+    match (a.field_gear, &a.field_output) {
+        (Some(gear @ 1..=2), Some(output)) => {
+            let case = FieldCase::asked(result, gear.into(), place)?;
+            Ok(Some((case, output)))
+        }
+        (Some(gear @ 1..=2), None) => Err(Failure::input(format!(
+            "--field-gear {gear} needs --field-output"
+        ))),
+        (Some(gear), _) => Err(Failure::input(format!(
             "--field-gear: found {gear}, allowed is 1 or 2"
-        )));
+        ))),
+        (None, None) if place == (None, None) => Ok(None),
+        (None, _) => Err(Failure::input(
+            "--field-angle-deg, --field-torque-Nm and --field-output need --field-gear",
+        )),
     }
-    let (Some(angle_deg), Some(output)) = (a.field_angle_deg, &a.field_output) else {
-        return Err(Failure::input(
-            "--field-gear needs --field-angle-deg and --field-output",
-        ));
-    };
-    let wanted = angle_deg.to_radians();
-    let distance = |k: usize| (result.angle_rad[k] - wanted).abs();
-    let angle = (0..result.angles())
-        .min_by(|i, j| distance(*i).total_cmp(&distance(*j)))
-        .unwrap_or(0);
-    let torques = &result.torque_nm;
-    let torque = match a.field_torque_Nm {
-        None => (0..torques.len()).max_by(|i, j| torques[*i].total_cmp(&torques[*j])),
-        Some(wanted) => torques
-            .iter()
-            .position(|t| (t - wanted).abs() < 1e-9 * wanted.abs()),
-    };
-    let torque = torque.ok_or_else(|| {
-        Failure::input(format!(
-            "--field-torque-Nm: found {}, the result has {torques:?}",
-            a.field_torque_Nm.unwrap_or_default()
-        ))
-    })?;
-    Ok(Some(FieldRequest {
-        case: FieldCase {
-            gear,
-            torque,
-            angle,
-        },
-        output,
-    }))
 }
 
 fn field(
-    request: &FieldRequest<'_>,
+    (case, output): FieldRequest<'_>,
     loaded: &LoadedScene,
     result: &SceneResult,
     watch: &Watch<'_>,
 ) -> Result<(), Failure> {
-    let FieldRequest { case, output } = request;
     let definition = result.gears[case.gear - 1].definition_in("the result")?;
     let python = watch.python()?;
     let body = watch.offline(&definition.name, |told| {
         GearBody::new(definition, &python, told)
     })?;
-    let field = field_of(loaded, result, definition, &body, *case)?;
-    let file = (*output, LengthUnit::M);
+    let field = field_of(loaded, result, definition, &body, case)?;
+    let file = (output, LengthUnit::M);
     export_mesh(definition, &body.mesh, (&field).into(), file, watch)?;
     watch.note(format!(
-        "{}: field of gear {} at {:.4} deg and {} N m",
+        "{}: field of gear {}, {}",
         output.display(),
         case.gear,
-        result.angle_rad[case.angle].to_degrees(),
-        result.torque_nm[case.torque]
+        case.words(result)
     ));
     Ok(())
 }

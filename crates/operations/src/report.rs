@@ -1,7 +1,7 @@
 //! One HTML page for one or more results.
 
 use crate::answer::Answer;
-use crate::bevel_stress::{self, BevelStressRequest};
+use crate::bevel_stress;
 use crate::failure::Failure;
 use crate::result_stress::{self, StressRequest, StressSection};
 use crate::watch::Watch;
@@ -16,7 +16,7 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// What is reported.
-#[derive(Debug, Clone, clap::Args, Deserialize)]
+#[derive(Debug, Clone, Default, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReportRequest {
     /// Result files, one section each
@@ -117,7 +117,7 @@ pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
         };
         names[0].push(files[k].clone());
         let stress = match a.stress {
-            true => stress_at_rest(&how, &result, path, watch)?,
+            true => Some(stress_at_rest(&how, &result, path, watch)?),
             false => None,
         };
         let stress = stress.map(|(section, own)| {
@@ -155,7 +155,7 @@ fn stress_at_rest(
     result: &SceneResult,
     path: &Path,
     watch: &Watch<'_>,
-) -> Result<Option<StressSection>, Failure> {
+) -> Result<StressSection, Failure> {
     if how.at_s.is_some() {
         return Err(Failure::input(format!(
             "--stress-at-s is for runs in time; {} is a pair at rest, use --stress-angle-deg",
@@ -163,14 +163,9 @@ fn stress_at_rest(
         )));
     }
     if result.bevel.is_none() {
-        return Ok(Some(result_stress::of_pair(how, result, path, watch)?));
+        return result_stress::of_pair(how, result, path, watch);
     }
-    let request = BevelStressRequest {
-        stress: true,
-        angle_deg: how.angle_deg,
-        ..BevelStressRequest::default()
-    };
-    bevel_stress::asked(&request, Some(result), watch)
+    bevel_stress::section(result, how.angle_deg, watch)
 }
 
 /// Names of files as a chart tells them apart: bare, or as given where two are alike.

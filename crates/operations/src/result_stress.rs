@@ -1,6 +1,6 @@
 //! The stress of a result's gears for its page: of each gear at the moment at which its roots are stressed most, or at one that is named.
 
-use crate::cross_section::{CROSS_SECTION, FieldCase, picture};
+use crate::cross_section::{CROSS_SECTION, FieldCase, largest_torque, nearest_angle, picture};
 use crate::failure::Failure;
 use crate::result_scene::scene_of;
 use crate::stressed_gear::{RootSearch, StressedBody, StressedGear, forces_on};
@@ -96,9 +96,7 @@ pub fn of_pair(
     watch: &Watch<'_>,
 ) -> Result<StressSection, Failure> {
     let loaded = scene_of(result, path)?;
-    let torques = result.torque_nm.iter().enumerate();
-    let torque = torques.max_by(|x, y| x.1.abs().total_cmp(&y.1.abs()));
-    let torque = torque.map_or(0, |(k, _)| k);
+    let torque = largest_torque(result);
     let [gear_1, gear_2] = &result.gears;
     let gears = [
         gear_1.definition_in("the result")?,
@@ -106,13 +104,7 @@ pub fn of_pair(
     ];
     let angles: Vec<usize> = match a.angle_deg {
         None => (0..result.angles()).collect(),
-        Some(wanted) => {
-            let apart = |k: &usize| (result.angle_rad[*k].to_degrees() - wanted).abs();
-            let all = 0..result.angles();
-            all.min_by(|x, y| apart(x).total_cmp(&apart(y)))
-                .into_iter()
-                .collect()
-        }
+        Some(wanted) => vec![nearest_angle(result, wanted)],
     };
     let mut forces = [Vec::new(), Vec::new()];
     for angle in &angles {
@@ -129,13 +121,12 @@ pub fn of_pair(
             continue;
         }
         let gear = StressedGear::of_gear(definition, watch)?;
-        let when = |k: usize| {
-            format!(
-                "{} N m, driver angle {:.2} deg",
-                result.torque_nm[torque],
-                result.angle_rad[angles[k]].to_degrees()
-            )
+        let case = |k: usize| FieldCase {
+            gear: number + 1,
+            torque,
+            angle: angles[k],
         };
+        let when = |k: usize| case(k).words(result);
         let worst;
         (made, worst) = add_worst(made, (name, &gear), &forces[number], when, watch)?;
         let StressedBody::Cylindrical(_, body) = &gear.body else {
@@ -147,12 +138,7 @@ pub fn of_pair(
                 number + 1
             ));
         } else if let Some(worst) = worst {
-            let case = FieldCase {
-                gear: number + 1,
-                torque,
-                angle: angles[worst],
-            };
-            let whole = picture(&loaded, result, case, (definition, body))?;
+            let whole = picture(&loaded, result, case(worst), (definition, body))?;
             made.0 = made.0.push(FieldPicture::from(&whole));
         }
     }

@@ -35,6 +35,18 @@ pub struct RunHow<'a> {
     pub checkpoint_interval: Duration,
 }
 
+impl Default for RunHow<'_> {
+    /// In memory, of any size, without checkpoints.
+    fn default() -> Self {
+        Self {
+            output: None,
+            restart: false,
+            most_result_gb: f64::INFINITY,
+            checkpoint_interval: Duration::MAX,
+        }
+    }
+}
+
 /// The result of a scene of either kind.
 pub enum Ran {
     /// A gear pair at rest.

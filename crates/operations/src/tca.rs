@@ -1,85 +1,47 @@
-//! Tooth contact analysis of a bevel pair: without load, under its loads, its page, the stress in its bodies.
+//! Tooth contact analysis of a bevel pair without load, and its page.
 
 use crate::answer::Answer;
 use crate::bevel_pair::{say, thickness_figures, thickness_words};
-use crate::bevel_stress::{self, BevelStressRequest};
 use crate::failure::Failure;
-use crate::run::{RunHow, run_bevel};
 use crate::tca_sides::{
     NO_MEAN, Side, backlash_words, edge_words, figures, headline, moves, side, vh_rows,
     worth_of_points,
 };
 use crate::watch::Watch;
-use crate::{output_name, overwriting, pair_table, recover, tca_page};
+use crate::{output_name, overwriting, tca_page};
 use gearmesh_bevel::{AssembledPair, BevelError, FlankSide, PairFile, ToothContact};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_report::run_figures::pair_figures;
-use gearmesh_report::scene_page::SceneChapter;
-use gearmesh_scene::SceneResult;
-use gearmesh_scene::pair::BevelScene;
 use serde::Deserialize;
 use serde_json::json;
 use std::path::PathBuf;
-use std::time::Duration;
 
 /// What is analysed and written.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(non_snake_case)]
 pub struct TcaRequest {
     /// Bevel pair file
     pub pair: PathBuf,
     /// Page with pictures: contact pattern, transmission error, ease-off
     #[arg(long, value_name = "PAGE.html")]
     pub report: Option<PathBuf>,
-    /// Add the stress in the bodies of both members to the page, at the largest torque where their root stress is largest; needs load.models
-    #[arg(long, requires = "report")]
-    #[serde(default)]
-    pub stress: bool,
-    /// Write the displacement and von Mises field of this member, too: 1 the pinion, 2 the gear
-    #[arg(long, requires = "field_output", value_parser = clap::value_parser!(u8).range(1..=2))]
-    pub field_gear: Option<u8>,
-    /// Turn of the pinion of the field, the nearest computed position is taken; where one pair of teeth carries most where not given
-    #[arg(long, allow_negative_numbers = true, requires = "field_gear")]
-    pub field_angle_deg: Option<f64>,
-    /// Torque of the field; the largest computed one where not given
-    #[arg(
-        long = "field-torque-Nm",
-        allow_negative_numbers = true,
-        requires = "field_gear"
-    )]
-    pub field_torque_Nm: Option<f64>,
-    /// Mesh file of the field (vtu, ...)
-    #[arg(long, requires = "field_gear")]
-    pub field_output: Option<PathBuf>,
 }
 
-/// Analyses the contact of a pair file, under its loads where it names any; and makes the page and the field.
+/// Analyses the contact of a pair file without load, and makes the page. What it does under the torques of its `[load]`
+/// is a scene's run.
 ///
 /// # Errors
 /// [`Failure`] for a pair that cannot be made or does not touch, and for files that cannot be read or written.
 pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
-    let outputs: Vec<PathBuf> = a.report.iter().chain(&a.field_output).cloned().collect();
-    overwriting::refuse(vec![a.pair.clone()], &outputs)?;
-    if a.stress && a.report.is_none() {
-        return Err(Failure::input(
-            "--stress needs --report: its pictures are for the page",
-        ));
-    }
     if let Some(path) = &a.report {
+        overwriting::refuse(vec![a.pair.clone()], std::slice::from_ref(path))?;
         output_name::demand_report(path)?;
-    }
-    if let Some(path) = &a.field_output {
-        output_name::demand_mesh(path)?;
     }
     let document = InputDocument::read(&a.pair)?;
     let file = PairFile::from_document(&document)?;
     let (design, _) = file.checked_design(&document)?;
     let fault = |error: BevelError| Failure::work(error.in_file(&document));
     let pair = AssembledPair::new(&file, &design).map_err(fault)?;
-    if file.load.is_none() {
-        pair.jam.iter().for_each(|words| watch.warning(words));
-    }
+    pair.jam.iter().for_each(|words| watch.warning(words));
     let backlash_m = pair.backlash_m;
     let shown = |pinion: FlankSide, contact| side(&file, &design, (pinion, contact));
     let mut sides = vec![shown(file.pinion_flank, pair.driving).map_err(fault)?];
@@ -93,29 +55,12 @@ pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
         let words = edge_words(side.flanks[0].side, side.contact.as_ref());
         words.iter().for_each(|words| watch.warning(words));
     }
-    let scene = BevelScene {
-        file: file.clone(),
-        document: document.clone(),
-    };
-    let in_memory = RunHow {
-        output: None,
-        restart: false,
-        most_result_gb: f64::INFINITY,
-        checkpoint_interval: Duration::MAX,
-    };
-    let loaded = match &file.load {
-        Some(_) => Some(run_bevel(&scene, &in_memory, watch)?),
-        None => None,
-    };
-    let request = BevelStressRequest {
-        stress: a.stress,
-        angle_deg: None,
-        field_gear: a.field_gear,
-        field_angle_deg: a.field_angle_deg,
-        field_torque_nm: a.field_torque_Nm,
-        field_output: a.field_output.clone(),
-    };
-    let (stress, stress_figures) = bevel_stress::asked(&request, loaded.as_ref(), watch)?.unzip();
+    if file.load.is_some() {
+        watch.note(format!(
+            "`gearmesh run {} -o RESULT.h5` finds what the pair does under the torques of its [load]; `report` and `recover` make pages, stress and fields of the result",
+            a.pair.display()
+        ));
+    }
     let thicknesses = thickness_words(&design, &file);
     if let Some(path) = &a.report {
         let analysed = tca_page::Analysed {
@@ -123,11 +68,6 @@ pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
             sides: &sides,
             backlash_m,
             thicknesses: &thicknesses,
-            loaded: loaded.clone().map(|result| SceneChapter {
-                result,
-                record: None,
-                stress,
-            }),
         };
         watch.go_on()?;
         tca_page::write(&analysed, &a.pair, path, watch)?;
@@ -140,27 +80,10 @@ pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
         .to_vec()
         .into();
     all["other_side"] = json!(sides.get(1).map(|side| figures(&file, side)));
-    let mut lines = Vec::new();
-    if let Some(loaded) = &loaded {
-        all["load"] = under_load(loaded);
-        if let Some(figures) = stress_figures {
-            all["stress"] = figures.into();
-        }
-        lines = pair_table::table(loaded);
-    }
-    lines.extend(table(&file, &sides, &thicknesses, backlash_m));
     Ok(Answer {
         figures: all,
-        lines,
+        lines: table(&file, &sides, &thicknesses, backlash_m),
     })
-}
-
-/// Figures under load and of the gauges; without times, so that the same pair gives the same.
-fn under_load(result: &SceneResult) -> serde_json::Value {
-    let mut figures = pair_figures(result);
-    figures["strain"] = recover::figures(result)["rows"].clone();
-    figures.as_object_mut().map(|all| all.remove("seconds"));
-    figures
 }
 
 fn table(

@@ -12,7 +12,6 @@ use gearmesh_report::page::{
     Align, Axis, FieldPicture, FieldValues, FlankChart, KeyFigures, LineChart, LineSeries, Page,
     Section, Table, Text,
 };
-use gearmesh_report::scene_page::{SceneChapter, pair_sections};
 use gearmesh_report::short;
 use std::path::Path;
 
@@ -32,8 +31,6 @@ pub struct Analysed<'a> {
     pub backlash_m: Option<f64>,
     /// How thick the teeth are.
     pub thicknesses: &'a [String],
-    /// Under load, where the file asks for it, with pictures of both members' stress where they are asked for.
-    pub loaded: Option<SceneChapter>,
 }
 
 /// Writes the page.
@@ -51,27 +48,16 @@ pub fn write(
 }
 
 fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, Failure> {
-    let load = (of.loaded.as_ref()).map_or("without load", |_| "without and with load");
-    // Sections under load have the same subjects.
-    let (titles, glance) = match of.loaded {
-        Some(_) => (" without load", "Without load"),
-        None => ("", "At a glance"),
-    };
-    let mut page = Page::new(of.file.title.clone()).subtitle(format!(
-        "Tooth contact analysis: {}, {load}",
+    let page = Page::new(of.file.title.clone()).subtitle(format!(
+        "Tooth contact analysis: {}, without load",
         of.sides[0].name()
     ));
-    if let Some(loaded) = &of.loaded {
-        let sections = pair_sections(loaded).map_err(Failure::work)?;
-        page = sections.into_iter().fold(page, Page::section);
-    }
-    page = page.section(at_a_glance(of, glance));
-    let mut pattern = Section::new(format!("Contact pattern{titles}")).push(Text::paragraph(format!(
+    let mut pattern = Section::new("Contact pattern").push(Text::paragraph(format!(
         "What touches at the positions at which this pair of teeth leads: ellipses on which the flanks are nearer than {} µm, and the path. \
          Across is the distance from the apex along the pitch cone, up the height above it. The flanks that drive first, then the others.",
         short(1e6 * of.file.tca.marking_m)
     )));
-    let mut errors = Section::new(format!("Transmission error{titles}"));
+    let mut errors = Section::new("Transmission error");
     let mut ease_offs = Section::new("Ease-off");
     let mut moves = Section::new("Assembly errors");
     for side in of.sides {
@@ -89,6 +75,7 @@ fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, Failure> {
         ease_offs = ease_offs.push(ease_off(of, side).map_err(Failure::work)?);
     }
     Ok(page
+        .section(at_a_glance(of))
         .section(pattern)
         .section(errors)
         .section(ease_offs)
@@ -100,7 +87,7 @@ fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, Failure> {
         )))
 }
 
-fn at_a_glance(of: &Analysed<'_>, title: &str) -> Section {
+fn at_a_glance(of: &Analysed<'_>) -> Section {
     let error = &of.file.tca.error;
     let figures = KeyFigures::new();
     let figures = of
@@ -112,10 +99,9 @@ fn at_a_glance(of: &Analysed<'_>, title: &str) -> Section {
                 return figures;
             };
             let whose = if i == 0 { "" } else { "other flanks: " };
-            let load = of.loaded.as_ref().map_or("", |_| " without load");
             figures
                 .figure(
-                    format!("{whose}transmission error{load}, peak to peak"),
+                    format!("{whose}transmission error, peak to peak"),
                     short(1e6 * contact.peak_to_peak_rad),
                     "µrad of the gear",
                 )
@@ -146,7 +132,7 @@ fn at_a_glance(of: &Analysed<'_>, title: &str) -> Section {
             short(1e3 * error.shaft_angle_rad),
             "mrad",
         );
-    let section = Section::new(title).push(figures);
+    let section = Section::new("At a glance").push(figures);
     let worth = of.sides.iter().flat_map(|s| worth_of_points(s.flanks));
     worth
         .chain(of.thicknesses.iter().cloned())

@@ -18,13 +18,12 @@ class BevelPair:
         """Blank, machine settings and checks of every flank."""
         return operate("bevel", pair=self.file)
 
-    def tca(self, report: str | Path | None = None, **given: Any) -> dict[str, Any]:
-        """Tooth contact: path, transmission error, ellipses, ease-off, edges, sensitivity to the assembly.
+    def tca(self, report: str | Path | None = None) -> dict[str, Any]:
+        """Tooth contact without load: path, transmission error, ellipses, ease-off, edges, sensitivity to the assembly.
 
-        report: also write the page with the pictures. Further options of `gearmesh tca` with underscores: stress=True draws the bodies of
-        reduced members under load, field_gear=2, field_output="gear.vtu" writes a whole field.
+        report: also write the page with the pictures. Under the torques of its [load] a pair is run as a scene: `gm.run(file)`.
         """
-        return operate("tca", pair=self.file, report=report, **given)
+        return operate("tca", pair=self.file, report=report)
 
     def __repr__(self) -> str:
         return f"<BevelPair {self.file}>"

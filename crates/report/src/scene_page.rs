@@ -113,7 +113,7 @@ pub fn scene_page(
 ///
 /// # Errors
 /// [`ScenePageError`] when its comparison cannot be made.
-pub fn pair_sections(chapter: &SceneChapter) -> Result<Vec<Section>, ScenePageError> {
+fn pair_sections(chapter: &SceneChapter) -> Result<Vec<Section>, ScenePageError> {
     let r = &chapter.result;
     let mut all = vec![overview(r), transmission_error(chapter), contact(r)];
     all.extend(contact_pattern::section(r));

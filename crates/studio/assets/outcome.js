@@ -22,21 +22,20 @@ export function showColumnsTable(place, { torques_Nm, columns }) {
   place.replaceChildren(table(heads, rows));
 }
 
-/** A bevel pair: its transmission error without load and under each torque, and its columns. */
-export function showBevel(place, { tca, columns, lines }) {
+/** A bevel pair: its transmission error without load, that and its pressures under each torque, and its columns. */
+export function showBevel(place, { tca, columns, load, lines }) {
   showColumnsTable(place, columns);
   const curves = element("div");
   place.prepend(curves);
-  const chart = new Chart(curves, { title: "Transmission error", x: "pinion angle °", y: "µrad, under torques on the gear" });
-  const torques = tca.load?.torques ?? [];
-  const x = torques.length > 0 ? torques[0].positions.map((one) => one.pinion_deg) : tca.path.map((one) => one.pinion_deg);
-  const series = torques.map(({ torque_Nm, positions }, k) => ({ label: `${short(torque_Nm)} N·m`, values: positions.map((one) => one.error_urad), dash: [[], [6, 3], [2, 2]][k % 3] }));
-  const unloaded = torques.length > 0 ? torques[0].positions.map((one) => one.unloaded_urad) : tca.path.map((one) => one.error_urad);
-  chart.show(x, [...series, { label: "no load", values: unloaded, dash: [1, 3] }]);
-  if (torques.length > 0) {
-    const pressure = new Chart(curves, { title: "Largest pressure", x: "pinion angle °", y: "MPa" });
-    const largest = ({ patches }) => Math.max(0, ...patches.map((patch) => patch.pressure_MPa));
-    pressure.show(x, torques.map(({ torque_Nm, positions }, k) => ({ label: `${short(torque_Nm)} N·m`, values: positions.map(largest), dash: [[], [6, 3], [2, 2]][k % 3] })));
+  const free = new Chart(curves, { title: "Transmission error without load", x: "pinion angle °", y: "µrad of the gear" });
+  free.show(tca.path.map((one) => one.pinion_deg), [{ label: "this pair of teeth", values: tca.path.map((one) => one.error_urad), dash: [] }]);
+  if (load) {
+    const angles = load.angle_deg.length;
+    const curve = (values, k) => values.slice(k * angles, (k + 1) * angles);
+    const series = (values) => load.torques_Nm.map((torque, k) => ({ label: `${short(torque)} N·m`, values: curve(values, k), dash: [[], [6, 3], [2, 2]][k % 3] }));
+    const error = new Chart(curves, { title: "Transmission error", x: "pinion angle °", y: "µm, under torques on the gear" });
+    error.show(load.angle_deg, [...series(load.te_um), { label: "no load", values: load.unloaded_um, dash: [1, 3] }]);
+    new Chart(curves, { title: "Largest pressure", x: "pinion angle °", y: "MPa" }).show(load.angle_deg, series(load.pressure_largest_MPa));
   }
   place.append(element("details", {}, element("summary", {}, "As gearmesh tca prints it"), element("pre", {}, lines.join("\n"))));
 }

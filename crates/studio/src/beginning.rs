@@ -3,11 +3,15 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{write_bytes, write_text};
 use gearmesh_operations::import::{ImportRequest, import};
 use gearmesh_operations::new_files::{self, KINDS, NewKind, Texts};
+use gearmesh_operations::report::{ReportRequest, report};
+use gearmesh_operations::run::{RunHow, run_bevel};
 use gearmesh_operations::tca::{TcaRequest, tca};
 use gearmesh_operations::{Scratch, Watch};
+use gearmesh_scene::pair::BevelScene;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -114,22 +118,54 @@ pub fn begun(new: &NewFiles, watch: &Watch<'_>) -> Result<(Value, PathBuf), Prob
             json!({"opens": true})
         }
         "bevel-pair" => {
-            let page = folder.join("bevel_pair.html");
             let request = TcaRequest {
                 pair: last.clone(),
-                report: Some(page),
-                stress: false,
-                field_gear: None,
-                field_angle_deg: None,
-                field_torque_Nm: None,
-                field_output: None,
+                report: Some(folder.join("bevel_pair.html")),
             };
             let found = tca(&request, watch)?;
-            json!({"tca": found.figures, "lines": found.lines, "columns": new_files::rest_figures(kind, &folder)?})
+            json!({"tca": found.figures, "lines": found.lines, "load": under_load(&last, watch)?, "columns": new_files::rest_figures(kind, &folder)?})
         }
         _ => json!({"columns": new_files::rest_figures(kind, &folder)?}),
     };
     Ok((with_folder(result, &folder), last))
+}
+
+/// Runs a bevel pair under the torques of its `[load]`, writes result and page into its folder: curves as the page draws
+/// them, null where the file has no `[load]`.
+fn under_load(file: &Path, watch: &Watch<'_>) -> Result<Value, Problem> {
+    let scene = BevelScene::from_document(InputDocument::read(file)?)?;
+    if scene.file.load.is_none() {
+        return Ok(Value::Null);
+    }
+    let output = file.with_extension("h5");
+    let how = RunHow {
+        output: Some(&output),
+        ..RunHow::default()
+    };
+    let result = run_bevel(&scene, &how, watch)?;
+    let request = ReportRequest {
+        results: vec![output],
+        output: file.with_file_name("bevel_pair_loaded.html"),
+        ..ReportRequest::default()
+    };
+    report(&request, watch)?;
+    let largest_mpa = result.even_positions().map(|position| {
+        let pressures = position.pressing().map(|at| 1e-6 * at.pressure_pa);
+        pressures.fold(0.0, f64::max)
+    });
+    let pitch = 0..result.points_per_pitch();
+    let of_pitch = |values: &[f64], scale: f64| -> Vec<f64> {
+        let curves = values.chunks_exact(result.angles());
+        let pitches = curves.flat_map(|curve| &curve[pitch.clone()]);
+        pitches.map(|value| scale * value).collect()
+    };
+    Ok(json!({
+        "torques_Nm": result.torque_nm,
+        "angle_deg": of_pitch(&result.angle_rad, 1f64.to_degrees()),
+        "te_um": of_pitch(&result.te_m, 1e6),
+        "unloaded_um": of_pitch(&result.unloaded_m, 1e6),
+        "pressure_largest_MPa": largest_mpa.collect::<Vec<_>>(),
+    }))
 }
 
 /// Imports a gearbox from the bytes of a REXS file, whose name says its kind.

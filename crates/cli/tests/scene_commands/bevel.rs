@@ -71,14 +71,18 @@ fn a_pair_file_with_loads_is_analysed_under_them() {
         .replace("positions_per_pitch = 16", "positions_per_pitch = 6");
     assert!(quick != text);
     let file = desk.file("pair.toml", &quick);
-    let page = desk.path("page.html");
-    let run = succeeds(&["tca", argument(&file), "--report", argument(&page)]).stdout;
+    let (result, page) = (desk.path("pair.h5"), desk.path("page.html"));
+    let run = succeeds(&["run", argument(&file), "-o", argument(&result)]).stdout;
     assert!(run.contains("TE pk-pk urad"), "{run}");
+    succeeds(&["report", argument(&result), "-o", argument(&page)]);
     let html = std::fs::read_to_string(&page).unwrap();
     for title in ["Mesh stiffness", "Largest Hertz pressure at 200 N·m"] {
         assert!(html.contains(title), "{title}");
     }
-    let result = desk.path("pair.h5");
+    // The contact without load names what goes on from it.
+    let free = succeeds(&["tca", argument(&file)]);
+    assert!(!free.stdout.contains("TE pk-pk urad"), "{}", free.stdout);
+    assert!(free.stderr.contains("gearmesh run"), "{}", free.stderr);
     let json = succeeds(&["run", argument(&file), "-o", argument(&result), "--json"]).json();
     let rows = json["rows"].as_array().unwrap();
     let number = |row: usize, name: &str| rows[row][name].as_f64().unwrap();
@@ -116,7 +120,8 @@ fn a_pair_file_with_loads_is_analysed_under_them() {
         ),
     ] {
         let wrong = desk.file("wrong.toml", quick.replace(from, to));
-        refused(&gearmesh(&["tca", argument(&wrong)]), 2, &parts);
+        let run = ["run", argument(&wrong), "-o", argument(&result)];
+        refused(&gearmesh(&run), 2, &parts);
     }
 }
 
@@ -230,8 +235,9 @@ fn zerol_and_straight_pairs() {
     let asked = "settings = \"local-synthesis\"\nedge_radius_mm = 0.3\npath_angle_deg = [90.0, 90.0]\nellipse_half_length_mm = [5.0, 5.0]\n\
         transmission_curvature = [-0.003, -0.003]\n[load]\ntorques_Nm = [20.0]\nslices = 15\npositions_per_pitch = 8\n";
     let file = desk.file("zerol.toml", zerol + asked);
-    let found = succeeds(&["tca", argument(&file), "--json"]).json();
-    let share = &found["load"]["rows"][0]["load_on_tips_share"];
+    let result = desk.path("zerol.h5");
+    let found = succeeds(&["run", argument(&file), "-o", argument(&result), "--json"]).json();
+    let share = &found["rows"][0]["load_on_tips_share"];
     assert_eq!(share.to_string(), "0.0", "{found}");
     let straight = pair("form = \"straight\"", "settings = \"crown\"");
     desk.file("straight.toml", straight + "settings = \"crown\"\n");
@@ -466,7 +472,8 @@ fn contact_analysis_says_what_is_wrong() {
     let heavy = changed(&loaded, "[50.0, 100.0, 200.0]", "[5000.0]")
         .replace("positions_per_pitch = 16", "positions_per_pitch = 4");
     let heavy = desk.file("heavy.toml", heavy);
-    let run = succeeds(&["tca", argument(&heavy)]);
+    let result = desk.path("heavy.h5");
+    let run = succeeds(&["run", argument(&heavy), "-o", argument(&result)]);
     assert!(
         run.stderr
             .contains("at 5000 N m: elastic material: the Hertz pressure reaches"),

@@ -159,9 +159,9 @@ fn a_bevel_pair_to_start_with_is_analysed_and_runs() {
         "{}",
         told.stderr
     );
-    let found = succeeds(&["tca", argument(&folder.join("bevel_pair.toml")), "--json"]).json();
-    let torques = found["load"]["rows"].as_array().unwrap();
-    assert_eq!(torques.len(), 3, "{found}");
+    let pair = folder.join("bevel_pair.toml");
+    let free = succeeds(&["tca", argument(&pair), "--json"]).json();
+    assert!(free["path"].as_array().unwrap().len() > 10, "{free}");
     let (scene, result) = (folder.join("bevel_drive.toml"), desk.path("drive.h5"));
     let run = succeeds(&["run", argument(&scene), "-o", argument(&result)]);
     // 17 teeth at 10 turns a second.

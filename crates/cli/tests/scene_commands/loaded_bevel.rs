@@ -139,16 +139,17 @@ fn urad(result: &SceneResult, values_m: &[f64]) -> Vec<f64> {
 #[test]
 fn loads_at_rest_balance() {
     let text = loaded("[50.0, 200.0]", "");
-    assert_eq!(tca(&text), tca(&text));
-    let desk = Desk::new();
-    let (file, page) = (desk.file("pair.toml", &text), desk.path("page.html"));
-    succeeds(&["tca", argument(&file), "--report", argument(&page)]);
+    let (found, again) = (at_rest(&text), at_rest(&text));
+    assert_eq!((&found.te_m, &found.force_n), (&again.te_m, &again.force_n));
+    let (desk, flanks) = (Desk::new(), flanks());
+    let (file, page) = (desk.path("pair.h5"), desk.path("page.html"));
+    found.write(&file).unwrap();
+    succeeds(&["report", argument(&file), "-o", argument(&page)]);
     assert!(
         std::fs::read_to_string(page)
             .unwrap()
             .contains("Gear 1, gauge root")
     );
-    let (flanks, found) = (flanks(), at_rest(&text));
     for (torque, stated) in found.torque_nm.iter().enumerate() {
         for position in found.even_positions_of(torque) {
             let moment = |member: usize| -> f64 {
@@ -390,5 +391,7 @@ fn more_slices_than_the_members_have_are_refused() {
     );
     let file = desk.file("pair.toml", &text);
     let parts = ["load.slices", "found 8", "at most 7"];
-    refused(&gearmesh(&["tca", argument(&file)]), 2, &parts);
+    let result = desk.path("result.h5");
+    let run = ["run", argument(&file), "-o", argument(&result)];
+    refused(&gearmesh(&run), 2, &parts);
 }

@@ -179,15 +179,6 @@ impl BevelMesh {
         self.points.load(Ordering::Relaxed)
     }
 
-    /// Cone distance and height above the pitch cone \[m\] of a place on a flank of gear 0 or 1, at shares along the face and up the flank.
-    ///
-    /// # Panics
-    /// If there is no such gear.
-    #[must_use]
-    pub fn flank_place_m(&self, side: Flank, gear: usize, at: [f64; 2]) -> [f64; 2] {
-        self.sides[side as usize].patches[gear].place_m(at)
-    }
-
     /// Azimuths of the mean points of tooth 0 of both gears on a side \[rad\].
     #[must_use]
     pub fn azimuths_rad(&self, side: Flank) -> [f64; 2] {

@@ -127,12 +127,6 @@ impl NodeSurfaces {
         self.reference_area_m2
     }
 
-    /// Patches of a flank of gear 1 and of gear 2.
-    #[must_use]
-    pub fn patch_counts(&self) -> [usize; 2] {
-        [0, 1].map(|gear: usize| self.sides[0][gear].patch_count())
-    }
-
     /// Global search: pairs of teeth whose boxes overlap.
     fn pairings(&self, pose: &Pose, side: Flank) -> Vec<Pairing> {
         let [_, mate] = &self.sides[side as usize];

@@ -73,12 +73,6 @@ impl InputDocument {
             ..self
         })
     }
-
-    /// The items that follow from other tables, as a text that could stand in the file; empty without any.
-    #[must_use]
-    pub fn derived_text(&self) -> &str {
-        self.derived.as_ref().map_or("", |derived| &derived.text)
-    }
 }
 
 impl DerivedTables {

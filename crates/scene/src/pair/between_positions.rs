@@ -3,8 +3,8 @@
 //!
 //! Even positions see what happens between them by chance only: the transmission error has corners, and on the line of
 //! action jumps, at those events, and a slice of a helical pair is pressed most where it leaves the path. The pairs
-//! that carry at neighbouring positions say that something has happened between them; halving finds it. Then the
-//! largest values are followed by halving the steps beside them, until less than [`PEAK_SHARE`] may be open.
+//! and slices that carry at neighbouring positions say that something has happened between them; halving finds it. Then
+//! the steps in which a curve may come highest are halved, until less than [`PEAK_SHARE`] may be open.
 //!
 //! Only the first period of the run is looked at: the others are alike. Means, spectra and everything else that goes
 //! over a period are those of the even grid.
@@ -18,18 +18,16 @@ use std::ops::Range;
 /// Halvings of an even step for an event: it is known to 1/32 of a step, on both sides.
 const EVENT_HALVINGS: usize = 5;
 
+/// Steps in which slices take load or give it up are halved while they are longer than this share of a pitch: a wave of
+/// the curves may lie between two slices.
+const SLICE_STEP: f64 = 1.0 / 128.0;
+
 /// A peak is followed until less than this share may still be open: of the peak-to-peak value of the transmission
 /// error, of the largest pressure, of K_Hβ.
 pub const PEAK_SHARE: f64 = 1e-3;
 
-/// Halvings for a peak at most. Each leaves half of what is open at a corner, a quarter at a smooth peak.
-const MOST_HALVINGS: usize = 10;
-
-/// Peaks of a curve that are followed.
-const PEAKS: usize = 3;
-
-/// Peaks that are lower than the highest one by more than this share of the range do not come above it.
-const PEAK_BAND: f64 = 0.3;
+/// Halvings for the peak of a figure at most. Each leaves half of what is open at a corner, a quarter at a smooth peak.
+const MOST_HALVINGS: usize = 100;
 
 /// Positions of a result beside its even grid, torque after torque, by rising angle. E positions, L lines, S slices.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -167,7 +165,7 @@ pub(super) fn find<F: FlanksAtRest>(
         nodes.push(Node::Even(here));
         if let Some(next) = even.get(number + 1).or(after) {
             let mut found = Vec::new();
-            halve(solver, [here, next], EVENT_HALVINGS, &mut found)?;
+            halve(solver, [here, next], 0, &mut found)?;
             found.sort_by(|a, b| a.angle_rad.total_cmp(&b.angle_rad));
             nodes.extend(
                 found
@@ -216,75 +214,65 @@ fn spread(nodes: &[Node<'_>], value: fn(&Position) -> f64) -> f64 {
     highest(nodes, value) - values.fold(f64::INFINITY, f64::min)
 }
 
-/// Halves the step between two positions at which other pairs carry, and each half in which that is so, and keeps the
-/// positions in between.
+/// Halves the step between two positions at which other pairs or other slices carry, and each half in which that is so,
+/// and keeps the positions in between. `halvings`: how often it was halved.
 fn halve<F: FlanksAtRest>(
     solver: &mut PositionSolver<'_, F>,
     [a, b]: [&Position; 2],
     halvings: usize,
     found: &mut Vec<Position>,
 ) -> Result<(), RunError> {
-    if a.carriers == b.carriers || halvings == 0 {
+    let an_event = a.carriers != b.carriers && halvings < EVENT_HALVINGS;
+    let is_long = b.angle_rad - a.angle_rad > SLICE_STEP * solver.measures.pitch_rad;
+    if !an_event && !(is_long && a.carrying != b.carrying) {
         return Ok(());
     }
     let middle = solver.at(0.5 * (a.angle_rad + b.angle_rad))?;
-    halve(solver, [a, &middle], halvings - 1, found)?;
-    halve(solver, [&middle, b], halvings - 1, found)?;
+    halve(solver, [a, &middle], halvings + 1, found)?;
+    halve(solver, [&middle, b], halvings + 1, found)?;
     found.push(middle);
     Ok(())
 }
 
-/// Follows the highest peaks of a figure; returns how far the highest may still be off.
+/// Halves the step in which a figure may come highest, until it can come above what was found by [`PEAK_SHARE`] of
+/// `scale` at most; returns by how much it still may.
 fn follow<F: FlanksAtRest>(
     solver: &mut PositionSolver<'_, F>,
     nodes: &mut Vec<Node<'_>>,
     value: fn(&Position) -> f64,
     scale: f64,
 ) -> Result<f64, RunError> {
-    let at = |nodes: &[Node<'_>], k: usize| value(nodes[k].get());
-    let least = highest(nodes, value) - PEAK_BAND * spread(nodes, value);
-    let mut peaks: Vec<usize> = (1..nodes.len().saturating_sub(1))
-        .filter(|&k| {
-            let here = at(nodes, k);
-            here >= least && here >= at(nodes, k - 1) && here > at(nodes, k + 1)
-        })
-        .collect();
-    peaks.sort_by(|a, b| at(nodes, *b).total_cmp(&at(nodes, *a)));
-    peaks.truncate(PEAKS);
-    // From behind, so that those before keep their places.
-    peaks.sort_unstable_by(|a, b| b.cmp(a));
-    let mut best = (f64::NEG_INFINITY, 0.0);
-    for mut peak in peaks {
-        let mut open = f64::INFINITY;
-        // What the last two halvings have changed.
-        let mut changes = [f64::INFINITY; 2];
-        for _ in 0..MOST_HALVINGS {
-            let before = at(nodes, peak);
-            let [a, b, c] = [peak - 1, peak, peak + 1].map(|k| nodes[k].get().angle_rad);
-            nodes.insert(peak + 1, Node::Added(Box::new(solver.at(0.5 * (b + c))?)));
-            nodes.insert(peak, Node::Added(Box::new(solver.at(0.5 * (a + b))?)));
-            // The old peak is the one in the middle now.
-            peak = [peak, peak + 2].into_iter().fold(peak + 1, |top, k| {
-                if at(nodes, k) > at(nodes, top) {
-                    k
-                } else {
-                    top
-                }
-            });
-            changes = [changes[1], at(nodes, peak) - before];
-            // Beside a jump the curve goes on rising as it did, up to the neighbour behind the jump at most.
-            let angle = |k: usize| nodes[k].get().angle_rad;
-            let step = [angle(peak) - angle(peak - 1), angle(peak + 1) - angle(peak)];
-            let fall = [peak - 1, peak + 1].map(|k| at(nodes, peak) - at(nodes, k));
-            let beyond = (fall[0] * step[1] / step[0]).min(fall[1] * step[0] / step[1]);
-            open = beyond.max(changes[0] + changes[1]);
-            if open <= PEAK_SHARE * scale {
-                break;
-            }
+    for halvings in 0.. {
+        let steps = 0..nodes.len().saturating_sub(1);
+        let reached = steps.map(|step| (reach(nodes, step, value), step));
+        let Some((reach, step)) = reached.max_by(|a, b| a.0.total_cmp(&b.0)) else {
+            break;
+        };
+        let open = (reach - highest(nodes, value)).max(0.0);
+        if open <= PEAK_SHARE * scale || halvings == MOST_HALVINGS {
+            return Ok(open);
         }
-        if at(nodes, peak) > best.0 {
-            best = (at(nodes, peak), open);
-        }
+        let [a, b] = [step, step + 1].map(|k| nodes[k].get().angle_rad);
+        nodes.insert(step + 1, Node::Added(Box::new(solver.at(0.5 * (a + b))?)));
     }
-    Ok(best.1)
+    Ok(0.0)
+}
+
+/// How high a figure may come between a position and the next.
+///
+/// It goes on as steeply as it comes to either end, over the whole step at most: it has corners where slices take load,
+/// and jumps where pairs of teeth do, across which nothing is said about how steep it is.
+fn reach(nodes: &[Node<'_>], step: usize, value: fn(&Position) -> f64) -> f64 {
+    let at = |k: usize| nodes.get(k).map(Node::get);
+    let [a, b] = [nodes[step].get(), nodes[step + 1].get()];
+    // By how much it rises over the step as it does from a position to the one beside it.
+    let rise = |from: Option<&Position>, to: &Position| {
+        let from = from.filter(|from| from.carriers == to.carriers);
+        from.map_or(0.0, |from| {
+            let slope = (value(to) - value(from)) / (to.angle_rad - from.angle_rad).abs();
+            slope.max(0.0) * (b.angle_rad - a.angle_rad)
+        })
+    };
+    let before = step.checked_sub(1).and_then(at);
+    (value(a) + rise(before, a)).max(value(b) + rise(at(step + 2), b))
 }

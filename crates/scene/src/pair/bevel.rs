@@ -313,6 +313,7 @@ impl LoadedBevel {
             looked_at: positions,
             repeats: true,
             measures: Measures {
+                pitch_rad,
                 base_pitch_m: pitch_rad * pair.flanks().pair().levers_m()[0],
                 least_distance_m: depths.copied().fold(f64::INFINITY, f64::min),
                 young_pa,

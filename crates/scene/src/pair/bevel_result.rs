@@ -335,8 +335,9 @@ pub fn strain(
         let rows = &model.gauges[index];
         let spread = spread_from_heel(model, bevel.face_widths_m[0], result.slices);
         let reader = GaugeReader::new(model, rows, bevel.side, &spread)?;
-        let read = |position: PressedPosition<'_>| -> Strain {
-            reader.read(position.pressing().map(|at| LoadedSlice {
+        let read = |position: Option<PressedPosition<'_>>| -> Strain {
+            let pressing = position.into_iter().flat_map(PressedPosition::pressing);
+            reader.read(pressing.map(|at| LoadedSlice {
                 tooth: (bevel.teeth_of(at.pair)[member] + rows.tooth) % model.teeth,
                 slice: at.slice,
                 roll_rad: at.up(member),
@@ -344,32 +345,16 @@ pub fn strain(
                 force_n: at.force_n,
             }))
         };
-        let torques = 0..result.torque_nm.len();
-        let all = torques.flat_map(|torque| (0..result.angles()).map(move |angle| (torque, angle)));
-        let even: Vec<Strain> = all
-            .filter_map(|(torque, angle)| Some(read(result.even_position(torque, angle)?)))
-            .collect();
-        let between = 0..result.between.angle_rad.len();
-        let between: Vec<Strain> = between
-            .filter_map(|k| Some(read(result.position_between(k)?)))
-            .collect();
-        let method =
-            |of: &[Strain], value: fn(&Strain) -> f64| of.iter().map(value).collect::<Vec<f64>>();
-        Ok(StrainSeries {
-            gear,
-            name: rows.name.clone(),
-            error_estimate_relative: rows.error_estimate_relative,
-            coverage: Coverage {
-                extent: Extent::Passage,
-                ..Coverage::of_contact(model.teeth, result.pitches)
-            },
-            method_1: method(&even, |s| s.method_1),
-            method_2: method(&even, |s| s.method_2),
-            between: [
-                method(&between, |s| s.method_1),
-                method(&between, |s| s.method_2),
-            ],
-        })
+        let coverage = Coverage {
+            extent: Extent::Passage,
+            ..Coverage::of_contact(model.teeth, result.pitches)
+        };
+        Ok(StrainSeries::read(
+            result,
+            (gear, rows, coverage),
+            |torque, angle| read(result.even_position(torque, angle)),
+            |position| read(result.position_between(position)),
+        ))
     };
     gauges.iter().map(one).collect()
 }

@@ -11,6 +11,8 @@ pub(super) type PlaceOf<'a> = dyn Fn(f64, &ContactPatch) -> PatchPlace + Sync + 
 
 /// What positions of a pair are measured by.
 pub(super) struct Measures<'a> {
+    /// Angle of the driver from one tooth to the next \[rad\].
+    pub pitch_rad: f64,
     /// Distance of one tooth from the next along the line of action \[m\].
     pub base_pitch_m: f64,
     /// Least depth of the teeth behind the flanks \[m\]; infinite for rigid gears.
@@ -55,6 +57,8 @@ pub(super) struct Position {
     pub strained: [f64; 4],
     /// Pairs of teeth that carry, the tip edge on which they do, and whether it is the one that carries most.
     pub carriers: Vec<(i64, Option<TipGear>, bool)>,
+    /// Which of their slices carry.
+    pub carrying: Vec<bool>,
 }
 
 impl Position {
@@ -107,10 +111,12 @@ impl<F: FlanksAtRest> PositionSolver<'_, F> {
         strained[3] = state.info.cap_hits as f64;
         let (heaviest, k_h_beta) = heaviest(contact, measures.whole_line);
         let lines = contact.pairs_and_tips().zip(force_n.chunks(slices));
-        let carriers = (lines.enumerate())
-            .filter(|(_, (_, forces))| forces.iter().any(|force| *force > 0.0))
-            .map(|(number, ((pair, tip), _))| (pair, tip, number == heaviest))
-            .collect();
+        let carry =
+            |(_, (_, forces)): &(usize, (_, &[f64]))| forces.iter().any(|force| *force > 0.0);
+        let (carriers, carrying): (Vec<_>, Vec<_>) = (lines.enumerate().filter(carry))
+            .map(|(number, ((pair, tip), forces))| ((pair, tip, number == heaviest), forces))
+            .unzip();
+        let carrying = carrying.concat().iter().map(|force| *force > 0.0).collect();
         Ok(Position {
             angle_rad,
             te_m: state.transmission_error_m,
@@ -129,6 +135,7 @@ impl<F: FlanksAtRest> PositionSolver<'_, F> {
             places,
             strained,
             carriers,
+            carrying,
         })
     }
 }

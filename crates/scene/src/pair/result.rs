@@ -6,7 +6,8 @@ use super::contact_places::ContactPlaces;
 use super::coverage::named;
 use crate::periods::Coverage;
 use crate::rating::RatingResult;
-use gearmesh_model::StoredGear;
+use gearmesh_model::{GaugeRows, StoredGear};
+use gearmesh_recovery::Strain;
 
 /// Strain of one gauge, `[torque][angle]`, dimensionless.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -28,6 +29,32 @@ pub struct StrainSeries {
 }
 
 impl StrainSeries {
+    /// Reads a gauge of a gear at all positions of a result: `even` by torque and angle, `between` by number.
+    pub(super) fn read(
+        result: &SceneResult,
+        (gear, rows, coverage): (usize, &GaugeRows, Coverage),
+        even: impl Fn(usize, usize) -> Strain,
+        between: impl Fn(usize) -> Strain,
+    ) -> Self {
+        let angles = result.angles();
+        let cases = 0..result.torque_nm.len() * angles;
+        let at_even: Vec<Strain> = cases.map(|k| even(k / angles, k % angles)).collect();
+        let at_between: Vec<Strain> = (0..result.between.angle_rad.len()).map(between).collect();
+        let method =
+            |of: &[Strain], value: fn(&Strain) -> f64| of.iter().map(value).collect::<Vec<f64>>();
+        let methods = |of: &[Strain]| [method(of, |s| s.method_1), method(of, |s| s.method_2)];
+        let [method_1, method_2] = methods(&at_even);
+        Self {
+            gear,
+            name: rows.name.clone(),
+            error_estimate_relative: rows.error_estimate_relative,
+            coverage,
+            method_1,
+            method_2,
+            between: methods(&at_between),
+        }
+    }
+
     /// The estimated relative error of the mesh; none where it was not estimated.
     pub fn error_estimate(&self) -> Option<f64> {
         (self.error_estimate_relative > 0.0).then_some(self.error_estimate_relative)

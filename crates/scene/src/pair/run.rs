@@ -371,6 +371,7 @@ fn solve(
         looked_at: pitches * scene.points_per_pitch,
         repeats: coverage.is_whole(),
         measures: Measures {
+            pitch_rad: pair.pitch_1_rad(),
             base_pitch_m: pair.pitch_1_rad() * pair.gear_1.base_radius_m,
             least_distance_m: distances.copied().fold(f64::INFINITY, f64::min),
             young_pa: loaded.models[0].young_pa.min(loaded.models[1].young_pa),
@@ -445,27 +446,12 @@ pub fn strain(
             let read = |patches: &[ContactPatch], forces: &[f64]| {
                 reader.read(loaded.loaded_slices(gear, patches, forces))
             };
-            let readings: Vec<_> = (0..result.torque_nm.len() * result.angles())
-                .map(|k| {
-                    let (torque, angle) = (k / result.angles(), k % result.angles());
-                    read(&even[angle], result.position_forces(torque, angle))
-                })
-                .collect();
-            let readings_between: Vec<_> = (between.iter().enumerate())
-                .map(|(k, patches)| read(patches, result.between.position_forces(k)))
-                .collect();
-            Ok(StrainSeries {
-                gear,
-                name: rows.name.clone(),
-                error_estimate_relative: rows.error_estimate_relative,
-                coverage: loaded.gauge_coverage(gear, index),
-                method_1: readings.iter().map(|s| s.method_1).collect(),
-                method_2: readings.iter().map(|s| s.method_2).collect(),
-                between: [
-                    readings_between.iter().map(|s| s.method_1).collect(),
-                    readings_between.iter().map(|s| s.method_2).collect(),
-                ],
-            })
+            Ok(StrainSeries::read(
+                result,
+                (gear, rows, loaded.gauge_coverage(gear, index)),
+                |torque, angle| read(&even[angle], result.position_forces(torque, angle)),
+                |k| read(&between[k], result.between.position_forces(k)),
+            ))
         })
         .collect()
 }

@@ -1,5 +1,6 @@
 //! Something new without a file: pairs, bearings, bevel pairs, gearboxes.
 
+use gearmesh_scene::SceneResult;
 use serde_json::{Value, json};
 
 use super::{Studio, printed, timeless};
@@ -161,8 +162,24 @@ fn a_bevel_pair_and_a_gearbox_are_computed() {
     assert_eq!(ended["problem"], Value::Null, "{ended}");
     let file = desk.path("bevel-pair/bevel_pair.toml");
     let by_hand = succeeds(&["tca", argument(&file), "--json"]).json();
-    assert_eq!(ended["result"]["tca"]["load"], by_hand["load"]);
-    assert!(desk.path("bevel-pair/bevel_pair.html").exists());
+    assert_eq!(ended["result"]["tca"], by_hand);
+    // Curves under load are those of the result beside the pages.
+    let run = SceneResult::read(&desk.path("bevel-pair/bevel_pair.h5")).unwrap();
+    let load = &ended["result"]["load"];
+    assert_eq!(load["torques_Nm"], json!(run.torque_nm));
+    assert_eq!(load["angle_deg"].as_array().unwrap().len(), 6);
+    for (name, values) in [("te_um", &run.te_m), ("unloaded_um", &run.unloaded_m)] {
+        let drawn: Vec<f64> = values.iter().map(|value| 1e6 * value).collect();
+        assert_eq!(load[name], json!(drawn), "{name}");
+    }
+    let rows = load["pressure_largest_MPa"].as_array().unwrap();
+    let largest = |all: &[f64]| all.iter().copied().fold(0.0, f64::max);
+    let drawn: Vec<f64> = rows.iter().map(|value| value.as_f64().unwrap()).collect();
+    assert_eq!(drawn.len(), 6 * run.torque_nm.len());
+    assert!((largest(&drawn) / (1e-6 * largest(&run.pressure_pa)) - 1.0).abs() < 1e-12);
+    for page in ["bevel_pair.html", "bevel_pair_loaded.html"] {
+        assert!(desk.path("bevel-pair").join(page).exists(), "{page}");
+    }
 
     let bytes = std::fs::read_to_string(root().join("fe_models/gearbox_three_stage.rexs")).unwrap();
     let reply = studio.send(&studio.lines("POST /api/new/import/box.rexs"), &bytes);
