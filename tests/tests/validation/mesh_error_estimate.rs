@@ -69,9 +69,9 @@ fn figures(gear: &ReducedGear) -> Vec<f64> {
 
 /// Root of the sum of squares of what is off, over that of the figures, as the estimates have it.
 fn relative_error(found: &[f64], expected: &[f64]) -> f64 {
-    let norm = |squares: f64| squares.sqrt();
     let off = found.iter().zip(expected).map(|(f, e)| (f - e).powi(2));
-    norm(off.sum()) / norm(expected.iter().map(|e| e * e).sum())
+    let all = expected.iter().map(|e| e * e);
+    (off.sum::<f64>() / all.sum::<f64>()).sqrt()
 }
 
 /// 1.4 to 2 times the default lengths: quadratic elements are still the better ones, in a third of the memory.

@@ -60,8 +60,8 @@ fn sliced(model: &ReducedGear, local: LocalContact) -> Vec<f64> {
     c
 }
 
-/// C_g + W of a newton on each tenth of the width, and the share of the tooth-only deflection that is extrapolated: two graded
-/// meshes of 10⁵ degrees of freedom and a finer gear, a minute and a half, so that they are recorded.
+/// C_g + W of a newton on each tenth of the width, and the share of the tooth-only deflection that is extrapolated. Two
+/// graded meshes and a finer gear take a minute or two, so that what they come to is recorded.
 fn reference() -> (GradedTooth, f64) {
     let fine = gear(PARTS, 17, 0.5, 0.8);
     let factors = [1.7, 2.4];
