@@ -18,7 +18,7 @@ use gearmesh_geometry::gear_file::PoissonRatio;
 use gearmesh_geometry::input::{
     Bounded, Count, End, InputDocument, NotNegative, Positive, TableKeys, Within,
 };
-use gearmesh_geometry::number_range;
+use gearmesh_geometry::{kinds, number_range};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -185,27 +185,24 @@ enum ArrangementWord {
 
 /// `[profile]`: material taken off a roller towards its ends.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct ProfileTable {
-    /// Shape.
-    kind: ProfileKind,
-    /// "logarithmic": s in s ln(1/(1 − (2x/L)²)); 0.35 ‰ (tapered: 0.45 ‰) of the diameter where not given.
-    scale_um: Option<Bounded<Within<0, 1000>>>,
-    /// "crowned": radius of the crown.
-    radius_mm: Option<Bounded<Positive>>,
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "ProfileTable")]
+enum ProfileTable {
+    /// Nothing is taken off.
+    Straight {},
+    /// At x from the middle of the length L: s ln(1/(1 − (2x/L)²)).
+    Logarithmic {
+        /// s; 0.35 ‰ (tapered: 0.45 ‰) of the diameter where not given.
+        scale_um: Option<Bounded<Within<0, 1000>>>,
+    },
+    /// A circle.
+    Crowned {
+        /// Radius of the crown.
+        radius_mm: Bounded<Positive>,
+    },
 }
 
-/// `profile.kind`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-enum ProfileKind {
-    /// None.
-    Straight,
-    /// Logarithmic.
-    Logarithmic,
-    /// A circle.
-    Crowned,
-}
+kinds!(ProfileTable, "kind");
 
 /// `[element_material]`, `[ring_material]`: linear elastic, isotropic.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -288,7 +285,7 @@ impl BearingFromFile {
                 (BearingGeometry::Ball(geometry), None, None, None)
             }
             Kind::CylindricalRoller | Kind::TaperedRoller => {
-                let geometry = roller_keys::geometry(&file, document, &keys)?;
+                let geometry = roller_keys::geometry(&file, &keys)?;
                 (BearingGeometry::Roller(geometry), None, None, None)
             }
             Kind::SphericalRoller => {

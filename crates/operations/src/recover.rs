@@ -29,7 +29,7 @@ pub struct RecoverRequest {
     /// Write the displacement and von Mises field of this gear (1 or 2), too
     #[arg(long, requires = "field_output")]
     pub field_gear: Option<u8>,
-    /// Driver angle of the field, the nearest computed position is taken; where a pair of teeth carries most where not given
+    /// Driver angle of the field, the nearest computed position is taken [default: where a pair of teeth carries most]
     #[arg(long, allow_negative_numbers = true, requires = "field_gear")]
     pub field_angle_deg: Option<f64>,
     /// Torque of the field; the largest computed one where not given

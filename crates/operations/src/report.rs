@@ -53,28 +53,7 @@ pub struct ReportRequest {
 /// # Errors
 /// [`Failure`] for files that cannot be read, options that do not belong to a result, and a page that cannot be written.
 pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
-    let of_record = |folder: &PathBuf| ["record.toml", "data.csv"].map(|name| folder.join(name));
-    let records = a.reference.iter().flat_map(of_record);
-    let inputs = a.results.iter().cloned().chain(records).collect();
-    overwriting::refuse(inputs, std::slice::from_ref(&a.output))?;
-    output_name::demand_page(&a.output)?;
-    if !a.reference.is_empty() && a.reference.len() != a.results.len() {
-        return Err(Failure::input(format!(
-            "--reference: found {} folders for {} results; give one for each result, or none",
-            a.reference.len(),
-            a.results.len()
-        )));
-    }
-    for (name, given) in [
-        ("--stress-at-s", a.stress_at_s.is_some()),
-        ("--stress-angle-deg", a.stress_angle_deg.is_some()),
-        ("--scene-folder", a.scene_folder.is_some()),
-    ] {
-        if given && !a.stress {
-            let problem = format!("{name} is for pictures of the stress; add --stress");
-            return Err(Failure::input(problem));
-        }
-    }
+    demand_sound(a)?;
     let how = StressRequest {
         at_s: a.stress_at_s,
         angle_deg: a.stress_angle_deg,
@@ -147,6 +126,33 @@ pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
         figures: told,
         lines: Vec::new(),
     })
+}
+
+/// Refuses options that do not go together, before anything is read.
+fn demand_sound(a: &ReportRequest) -> Result<(), Failure> {
+    let of_record = |folder: &PathBuf| ["record.toml", "data.csv"].map(|name| folder.join(name));
+    let records = a.reference.iter().flat_map(of_record);
+    let inputs = a.results.iter().cloned().chain(records).collect();
+    overwriting::refuse(inputs, std::slice::from_ref(&a.output))?;
+    output_name::demand_page(&a.output)?;
+    if !a.reference.is_empty() && a.reference.len() != a.results.len() {
+        return Err(Failure::input(format!(
+            "--reference: found {} folders for {} results; give one for each result, or none",
+            a.reference.len(),
+            a.results.len()
+        )));
+    }
+    let of_stress = [
+        ("--stress-at-s", a.stress_at_s.is_some()),
+        ("--stress-angle-deg", a.stress_angle_deg.is_some()),
+        ("--scene-folder", a.scene_folder.is_some()),
+    ];
+    match of_stress.iter().find(|(_, given)| *given && !a.stress) {
+        Some((name, _)) => Err(Failure::input(format!(
+            "{name} is for pictures of the stress; add --stress"
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// The stress of a pair at rest.

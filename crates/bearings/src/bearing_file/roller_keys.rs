@@ -1,17 +1,16 @@
 //! Keys of roller bearings.
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::TableKeys;
 
 use super::element_keys::{Clearances, Elements, contact_angle_rad, laminae, roller_length_mm};
-use super::{BearingFile, Kind, MM, ProfileKind, UM};
+use super::{BearingFile, Kind, MM, ProfileTable, UM};
 use crate::build_rows::half_taper_of;
 use crate::definition::{RollerGeometry, RollerProfile, Taper};
 
 /// Rollers and races.
 pub(super) fn geometry(
     file: &BearingFile,
-    document: &InputDocument,
     keys: &TableKeys<'_>,
 ) -> Result<RollerGeometry, InputError> {
     let rollers = Elements::rollers(file, keys)?;
@@ -28,7 +27,7 @@ pub(super) fn geometry(
         radial_clearance_m: Clearances::of_rollers(MM * diameter).stated_m(file, keys)?,
         taper,
         barrel: None,
-        profile: profile(file, document, diameter)?,
+        profile: profile(file, diameter),
         laminae: laminae(file),
     })
 }
@@ -83,48 +82,24 @@ fn taper(
     })
 }
 
-fn profile(
-    file: &BearingFile,
-    document: &InputDocument,
-    diameter_mm: f64,
-) -> Result<RollerProfile, InputError> {
+fn profile(file: &BearingFile, diameter_mm: f64) -> RollerProfile {
     let share = if file.kind == Kind::TaperedRoller {
         0.45e-3
     } else {
         0.35e-3
     };
-    let usual = RollerProfile::Logarithmic {
-        scale_m: share * MM * diameter_mm,
-    };
-    let Some(table) = &file.profile else {
-        return Ok(usual);
-    };
-    let keys = TableKeys::new(document, "profile");
-    let word = match table.kind {
-        ProfileKind::Straight => "straight",
-        ProfileKind::Logarithmic => "logarithmic",
-        ProfileKind::Crowned => "crowned",
-    };
-    keys.refuse_unused(
-        ("kind", word),
-        &[
-            ("scale_um", table.scale_um.is_some(), &["logarithmic"]),
-            ("radius_mm", table.radius_mm.is_some(), &["crowned"]),
-        ],
-    )?;
-    match table.kind {
-        ProfileKind::Straight => Ok(RollerProfile::Straight),
-        ProfileKind::Logarithmic => match table.scale_um {
-            None => Ok(usual),
-            Some(scale) => Ok(RollerProfile::Logarithmic {
-                scale_m: UM * scale,
-            }),
+    match file.profile {
+        Some(ProfileTable::Straight {}) => RollerProfile::Straight,
+        Some(ProfileTable::Crowned { radius_mm }) => RollerProfile::Crowned {
+            radius_m: MM * radius_mm,
         },
-        ProfileKind::Crowned => {
-            let radius = keys.needed("radius_mm", table.radius_mm, "a crowned profile")?;
-            Ok(RollerProfile::Crowned {
-                radius_m: MM * radius,
-            })
-        }
+        Some(ProfileTable::Logarithmic {
+            scale_um: Some(scale),
+        }) => RollerProfile::Logarithmic {
+            scale_m: UM * scale,
+        },
+        None | Some(ProfileTable::Logarithmic { scale_um: None }) => RollerProfile::Logarithmic {
+            scale_m: share * MM * diameter_mm,
+        },
     }
 }

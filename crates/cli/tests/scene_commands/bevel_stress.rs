@@ -1,4 +1,5 @@
-//! Stress of bevel bodies: pictures and fields of a pair at rest, series of a run in time, read back by meshio and PyVista.
+//! Stress of bevel bodies: pictures and fields of a pair at rest, series of a run in time, read back by meshio and
+//! PyVista.
 
 use crate::common::{Desk, argument, gearmesh, refused, succeeds};
 use gearmesh_mesh::python::PythonEnvironment;

@@ -224,7 +224,7 @@ fn halve<F: FlanksAtRest>(
 ) -> Result<(), RunError> {
     let an_event = a.carriers != b.carriers && halvings < EVENT_HALVINGS;
     let is_long = b.angle_rad - a.angle_rad > SLICE_STEP * solver.measures.pitch_rad;
-    if !an_event && !(is_long && a.carrying != b.carrying) {
+    if !(an_event || is_long && a.carrying != b.carrying) {
         return Ok(());
     }
     let middle = solver.at(0.5 * (a.angle_rad + b.angle_rad))?;

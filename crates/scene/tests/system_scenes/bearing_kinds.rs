@@ -9,6 +9,7 @@ use nalgebra::{Matrix5, Vector5};
 
 use crate::assert_labelled;
 use crate::common::{Outputs, build_in, changed, load};
+use crate::rolling_bearings::PAIR;
 
 /// A shaft of 1 kg whose turn is held by a soft spring, with bearings to be stated, under 300 N across and 400 N along.
 const SHAFT: &str = r#"title = "a shaft"
@@ -122,19 +123,6 @@ fn a_stated_matrix_is_the_bearings_stiffness() {
         assert!((seen / expected - 1.0).abs() < 1e-7, "{seen} {expected}");
     }
 }
-
-const PAIR: &str = r#"name = "pair"
-kind = "angular-contact"
-balls = 19
-ball_diameter_mm = 8.731
-pitch_diameter_mm = 65.0
-inner_conformity = 0.52
-outer_conformity = 0.53
-contact_angle_deg = 15.0
-arrangement = "O"
-row_distance_mm = 16.0
-preload_um = 5.0
-"#;
 
 /// The tangent of a bearing file: the shaft rests where it does on the balls themselves, vibrates as it does there, and the notes say how often the
 /// tangent was taken.

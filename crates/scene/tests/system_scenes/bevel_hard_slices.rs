@@ -105,19 +105,7 @@ fn slices_lift_off_and_come_back() {
 /// The turn goes back under one torque, and the torque changes its sign under one speed: the other flanks then carry.
 #[test]
 fn slices_when_turn_and_torque_reverse() {
-    let back = "{ step = { start_s = 0.003, from = 1500.0, end_s = 0.011, to = -1500.0 } }";
-    let shown = run(&pair(), &in_slices(&scene(back, "20.0", 0.014)), 5e-3);
-    assert!(shown.turn("pinion").abs() < 1e-6 && shown.turn("gear").abs() < 2e-3);
-    let right = shown.mesh("normal_force_right_N");
-    assert!(right.iter().all(|force| *force == 0.0));
-    let changing = "{ step = { start_s = 0.003, from = 50.0, end_s = 0.011, to = -50.0 } }";
-    let shown = run(&pair(), &in_slices(&scene("3000.0", changing, 0.014)), 5e-3);
-    let last = shown.force().len() - 1;
-    for (side, first, end) in [("left", true, false), ("right", false, true)] {
-        let force = shown.mesh(&format!("normal_force_{side}_N"));
-        let carried = force[20..100].iter().any(|force| *force > 0.0);
-        assert_eq!((carried, force[last] > 0.0), (first, end), "{side}");
-    }
+    reversals_carry_on_the_other_flanks(in_slices, [5e-3; 2]);
 }
 
 /// Axes at 60 degrees and eight teeth on 48: the mean normal force by statics, the ratio of the teeth.

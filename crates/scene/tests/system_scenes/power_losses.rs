@@ -107,7 +107,8 @@ fn teeth_lose_what_the_mesh_loss_factor_says() {
     );
 }
 
-const BALLS: &str = "name = \"6205\"\nkind = \"deep-groove\"\nballs = 9\nball_diameter_mm = 7.938\npitch_diameter_mm = 39.04\ninner_conformity = 0.52\n\
+/// A deep-groove ball bearing.
+pub const BALLS: &str = "name = \"6205\"\nkind = \"deep-groove\"\nballs = 9\nball_diameter_mm = 7.938\npitch_diameter_mm = 39.04\ninner_conformity = 0.52\n\
                      outer_conformity = 0.53\n";
 
 const SHAFT: &str = r#"title = "a shaft that is driven"

@@ -11,7 +11,8 @@ use gearmesh_scene::system_run::RunJob;
 use crate::common::{Outputs, build_in, changed, line_of, load};
 use crate::system_runs::Desk;
 
-const PAIR: &str = r#"name = "7010 C pair"
+/// Two angular-contact bearings back to back.
+pub const PAIR: &str = r#"name = "7010 C pair"
 kind = "angular-contact"
 balls = 19
 ball_diameter_mm = 8.731

@@ -5,10 +5,8 @@ use std::fs;
 use gearmesh_scene::system_run::{RunJob, SystemResult};
 
 use crate::common::{changed, load};
+use crate::power_losses::BALLS;
 use crate::system_runs::Desk;
-
-const BALLS: &str = "name = \"6205\"\nkind = \"deep-groove\"\nballs = 9\nball_diameter_mm = 7.938\npitch_diameter_mm = 39.04\ninner_conformity = 0.52\n\
-                     outer_conformity = 0.53\n";
 
 const SHAFT: &str = r#"title = "a shaft that is tilted"
 [[body]]

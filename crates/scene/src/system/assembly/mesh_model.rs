@@ -153,14 +153,7 @@ impl SceneMesh<'_> {
                 _ => self.keys.error("", error),
             });
         }
-        let count = stated.unwrap_or(1);
-        self.model_keys.require(
-            "slices",
-            count as f64,
-            (1..=200).contains(&count),
-            "1 to 200",
-        )?;
-        Ok(self.layout(count))
+        Ok(self.layout(stated.unwrap_or(1)))
     }
 
     pub(super) fn mesh(&self, sides: &[Flank]) -> Result<GearMesh, InputError> {

@@ -85,9 +85,9 @@ impl MeshModel {
     pub fn slices(&self) -> Option<usize> {
         match self {
             Self::Kinematic {} | Self::NodeToSurface(_) => None,
-            Self::Impact(table) => table.slices,
-            Self::Iso6336(table) => table.slices,
-            Self::Analytic(table) => table.slices,
+            Self::Impact(table) => table.slices.map(Count::get),
+            Self::Iso6336(table) => table.slices.map(Count::get),
+            Self::Analytic(table) => table.slices.map(Count::get),
             Self::Hybrid(table) => table.slices,
         }
     }
@@ -137,7 +137,7 @@ pub struct ImpactTable {
     /// With damping: depth from which it acts in full.
     pub full_damping_depth_um: Option<Bounded<Positive>>,
     /// Slices across the face width, 1 where not given.
-    pub slices: Option<usize>,
+    pub slices: Option<Count<1, 200>>,
 }
 
 /// Keys of `kind = "node-to-surface"`.
@@ -218,7 +218,7 @@ pub struct Iso6336Table {
     /// Damping; none where not given.
     pub damping: Option<DampingTable>,
     /// Slices across the face width, 1 where not given.
-    pub slices: Option<usize>,
+    pub slices: Option<Count<1, 200>>,
 }
 
 /// Keys of `kind = "analytic"`.
@@ -228,7 +228,7 @@ pub struct AnalyticTable {
     /// Damping; none where not given.
     pub damping: Option<DampingTable>,
     /// Slices across the face width, 1 where not given.
-    pub slices: Option<usize>,
+    pub slices: Option<Count<1, 200>>,
     /// Root cracks of gear 1.
     pub cracks_1: Vec<CrackTable>,
     /// Root cracks of gear 2.

@@ -96,17 +96,12 @@ fn body(
     (bodies, ends): (&Bodies, [Option<usize>; 2]),
     keys: &TableKeys<'_>,
 ) -> Result<PlacedBody, InputError> {
-    keys.require(
-        "model.cage.mass_kg",
-        table.mass_kg,
-        table.mass_kg > 0.0,
-        "more than 0",
-    )?;
-    let along = table.mass_kg * seat.pitch_radius_m.powi(2);
+    let mass_kg = *table.mass_kg;
+    let along = mass_kg * seat.pitch_radius_m.powi(2);
     let inertia = table
         .inertia_kg_m2
         .unwrap_or([0.5 * along, 0.5 * along, along]);
-    let mut body = Body::rigid(&seat.name, table.mass_kg, inertia);
+    let mut body = Body::rigid(&seat.name, mass_kg, inertia);
     body.position_m = seat.frame.origin_m;
     body.orientation = seat.frame.axes;
     let axis = seat.frame.axes * Vector3::z();

@@ -1,7 +1,8 @@
 //! Bearings of constant stiffness and damping.
 
 use gearmesh_bearings::{QuasiStaticBearing, QuasiStaticElement, RingDamping};
-use gearmesh_dynamics::elements::{AxialSupport, LinearBearing, MatrixBearing};
+use gearmesh_dynamics::elements::{AxialSupport, ForceElement, LinearBearing, MatrixBearing};
+use gearmesh_dynamics::{DynamicsError, MarkerPair};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 use nalgebra::{Matrix5, Vector5};
@@ -31,60 +32,69 @@ pub(super) fn add(
         }
     }
     match source {
-        StiffnessSource::Diagonal => by_diagonal(number, table, model, connections),
-        StiffnessSource::Matrix => by_matrix(number, table, model, connections),
+        StiffnessSource::Diagonal => between(number, table, connections, |keys, at| {
+            Ok(diagonal(model, keys)?.between(&table.name, at))
+        }),
+        StiffnessSource::Matrix => between(number, table, connections, |keys, at| {
+            let [stiffness, damping] = [
+                (&model.stiffness_matrix_SI, "model.stiffness_matrix_SI"),
+                (&model.damping_matrix_SI, "model.damping_matrix_SI"),
+            ]
+            .map(|(rows, key)| matrix(rows.as_deref(), key, keys));
+            Ok(MatrixBearing::unloaded(stiffness?, damping?).between(&table.name, at))
+        }),
         StiffnessSource::Tangent => by_tangent(number, table, model, connections),
     }
 }
 
-fn by_diagonal(
+/// Adds an element in the bearing's frame, between both bodies.
+fn between<E: ForceElement + 'static>(
     number: usize,
     table: &BearingTable,
-    model: &LinearBearingTable,
     connections: &mut Connections<'_>,
+    make: impl FnOnce(&TableKeys<'_>, MarkerPair) -> Result<Result<E, DynamicsError>, InputError>,
 ) -> Result<(), InputError> {
     let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
-    let bodies = connections.bodies;
-    connections.add(
-        ("bearing", number),
-        "linear bearing",
-        named,
-        |keys, ends| {
-            let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
-            let radial = keys.needed(
-                "model.radial_stiffness_N_per_mm",
-                model.radial_stiffness_N_per_mm,
-                "a bearing of kind \"linear\" without stiffness_matrix_SI and tangent_of",
-            )?;
-            let axial = model.axial_stiffness_N_per_mm.unwrap_or_default();
-            let tilt = model.tilt_stiffness_Nm_per_rad.unwrap_or_default();
-            let stated = [
-                ("model.radial_stiffness_N_per_mm", radial, PER_MM),
-                ("model.axial_stiffness_N_per_mm", axial, PER_MM),
-                ("model.tilt_stiffness_Nm_per_rad", tilt, 1.0),
-            ];
-            refuse_rigid(keys, &stated)?;
-            if model.axial_support.is_some() && axial == 0.0 {
-                let problem = "says which way axial_stiffness_N_per_mm carries, which is missing";
-                return Err(keys.error("model.axial_support", problem));
-            }
-            let [radial_damping, axial_damping, tilt_damping] = dampings(model);
-            let bearing = LinearBearing {
-                radial_stiffness_n_per_m: PER_MM * radial,
-                axial_stiffness_n_per_m: PER_MM * axial,
-                tilt_stiffness_nm_per_rad: tilt,
-                radial_damping_n_s_per_m: PER_MM * radial_damping,
-                axial_damping_n_s_per_m: PER_MM * axial_damping,
-                tilt_damping_nm_s_per_rad: tilt_damping,
-                axial_support: match model.axial_support.unwrap_or_default() {
-                    AxialSupportWord::Both => AxialSupport::Both,
-                    AxialSupportWord::Positive => AxialSupport::Positive,
-                    AxialSupportWord::Negative => AxialSupport::Negative,
-                },
-            };
-            Ok(bearing.between(&table.name, pair(bodies, ends, &frame)))
+    let (bodies, at) = (connections.bodies, ("bearing", number));
+    connections.add(at, "linear bearing", named, |keys, ends| {
+        let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
+        make(keys, pair(bodies, ends, &frame))
+    })
+}
+
+/// The bearing whose stiffness is stated by its diagonal.
+fn diagonal(model: &LinearBearingTable, keys: &TableKeys<'_>) -> Result<LinearBearing, InputError> {
+    let radial = keys.needed(
+        "model.radial_stiffness_N_per_mm",
+        model.radial_stiffness_N_per_mm,
+        "a bearing of kind \"linear\" without stiffness_matrix_SI and tangent_of",
+    )?;
+    let axial = model.axial_stiffness_N_per_mm.unwrap_or_default();
+    let tilt = model.tilt_stiffness_Nm_per_rad.unwrap_or_default();
+    let stated = [
+        ("model.radial_stiffness_N_per_mm", radial, PER_MM),
+        ("model.axial_stiffness_N_per_mm", axial, PER_MM),
+        ("model.tilt_stiffness_Nm_per_rad", tilt, 1.0),
+    ];
+    refuse_rigid(keys, &stated)?;
+    if model.axial_support.is_some() && axial == 0.0 {
+        let problem = "says which way axial_stiffness_N_per_mm carries, which is missing";
+        return Err(keys.error("model.axial_support", problem));
+    }
+    let [radial_damping, axial_damping, tilt_damping] = dampings(model);
+    Ok(LinearBearing {
+        radial_stiffness_n_per_m: PER_MM * radial,
+        axial_stiffness_n_per_m: PER_MM * axial,
+        tilt_stiffness_nm_per_rad: tilt,
+        radial_damping_n_s_per_m: PER_MM * radial_damping,
+        axial_damping_n_s_per_m: PER_MM * axial_damping,
+        tilt_damping_nm_s_per_rad: tilt_damping,
+        axial_support: match model.axial_support.unwrap_or_default() {
+            AxialSupportWord::Both => AxialSupport::Both,
+            AxialSupportWord::Positive => AxialSupport::Positive,
+            AxialSupportWord::Negative => AxialSupport::Negative,
         },
-    )
+    })
 }
 
 /// Across, along and of tilting, in the units of the keys.
@@ -95,36 +105,6 @@ fn dampings(model: &LinearBearingTable) -> [f64; 3] {
         model.tilt_damping_Nm_s_per_rad,
     ]
     .map(Option::unwrap_or_default)
-}
-
-fn by_matrix(
-    number: usize,
-    table: &BearingTable,
-    model: &LinearBearingTable,
-    connections: &mut Connections<'_>,
-) -> Result<(), InputError> {
-    let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
-    let bodies = connections.bodies;
-    connections.add(
-        ("bearing", number),
-        "linear bearing",
-        named,
-        |keys, ends| {
-            let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
-            let stiffness = matrix(
-                model.stiffness_matrix_SI.as_deref(),
-                "model.stiffness_matrix_SI",
-                keys,
-            )?;
-            let damping = matrix(
-                model.damping_matrix_SI.as_deref(),
-                "model.damping_matrix_SI",
-                keys,
-            )?;
-            let bearing = MatrixBearing::unloaded(stiffness, damping);
-            Ok(bearing.between(&table.name, pair(bodies, ends, &frame)))
-        },
-    )
 }
 
 /// A symmetric 5×5 matrix without negative eigenvalues, stated with five or six rows; zeros where there is none.

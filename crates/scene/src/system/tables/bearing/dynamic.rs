@@ -1,5 +1,6 @@
 //! `kind = "dynamic"`: every ball a body of its own. What a scene does not name is not computed.
 
+use gearmesh_geometry::input::{Bounded, Positive};
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -115,7 +116,7 @@ kinds!(SurfaceTable, "kind");
 #[allow(non_snake_case)]
 pub struct CageTable {
     /// Mass.
-    pub mass_kg: f64,
+    pub mass_kg: Bounded<Positive>,
     /// Moments of inertia across, across and along the axis; those of a thin ring on the pitch circle where not given.
     pub inertia_kg_m2: Option<[f64; 3]>,
     /// The pockets.
