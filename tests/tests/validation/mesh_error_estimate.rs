@@ -1,35 +1,34 @@
 //! Validation of the mesh errors that `reduce` states: on the default mesh they cover the difference from quadratic
 //! elements.
 
+use crate::computed;
 use crate::line_load::line_load_strain;
 use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::{Flank, ReducedGear, ReductionChecks};
+use gearmesh_model::{Flank, GaugeRows, ReducedGear, ReductionChecks};
 use gearmesh_reduction::{ReductionOptions, Silent, reduce};
+use std::ops::Range;
 
 const GAUGES: &str = "[[gauge]]\nname = \"tension\"\ntooth = 0\nside = \"right\"\ntangent_deg = 30.0\nlength_mm = 0.5\nwidth_mm = 2.0\n\
      [[gauge]]\nname = \"compression\"\ntooth = 0\nside = \"left\"\ntangent_deg = 30.0\nlength_mm = 0.5\nwidth_mm = 2.0\n";
 
-/// Default element lengths: of the default element with its error estimate, and of quadratic elements without.
-fn reduced(gear: &str, mesh: &str, quadratic: bool) -> ReducedGear {
-    let element = if quadratic {
-        "element = \"hex20\"\n"
-    } else {
-        ""
-    };
-    let text = format!(
+/// The gear's file.
+fn text(gear: &str, mesh: &str, element: &str) -> String {
+    format!(
         "name = \"estimated\"\n{gear}[material]\nyoung_GPa = 206.0\npoisson = 0.3\n[reduction]\nflanks = [\"right\"]\nslices = 1\n{GAUGES}\
          [mesh]\n{mesh}{element}"
-    );
+    )
+}
+
+fn reduced(text: &str, estimate_error: bool) -> ReducedGear {
     let gear = GearDefinition::from_document(&InputDocument::new("gear.toml", text)).unwrap();
-    let options = ReductionOptions {
-        estimate_error: !quadratic,
-    };
     let python = PythonEnvironment::find().unwrap();
-    reduce(&gear, &python, options, &Silent).unwrap().0
+    reduce(&gear, &python, ReductionOptions { estimate_error }, &Silent)
+        .unwrap()
+        .0
 }
 
 fn stated(gear: &ReducedGear, name: &str) -> f64 {
@@ -53,28 +52,26 @@ fn deflection(gear: &ReducedGear, at_tooth: usize) -> f64 {
     global + local
 }
 
-/// (stated, true) relative error of each gauge, all roll stations of its own tooth.
-fn strain_errors(default: &ReducedGear, quadratic: &ReducedGear) -> Vec<[f64; 2]> {
-    let of = |(found, expected)| {
-        let read = |gear: &ReducedGear, gauge| -> Vec<f64> {
-            let stations = 0..gear.grid.roll_angles_rad.len();
-            stations
-                .map(|s| line_load_strain(gear, gauge, s)[0])
-                .collect()
-        };
-        let (found_all, expected_all) = (read(default, found), read(quadratic, expected));
-        let off: f64 = (found_all.iter().zip(&expected_all))
-            .map(|(f, e)| (f - e).powi(2))
-            .sum();
-        let norm: f64 = expected_all.iter().map(|e| e * e).sum();
-        [found.error_estimate_relative, (off / norm).sqrt()]
-    };
-    default
-        .gauges
-        .iter()
-        .zip(&quadratic.gauges)
-        .map(of)
-        .collect()
+/// Teeth whose deflections are compared.
+const TEETH: usize = 6;
+
+/// Deflections of [`TEETH`] teeth, the loaded one first; strains of each gauge, all roll stations of its own tooth.
+fn figures(gear: &ReducedGear) -> Vec<f64> {
+    let n = gear.teeth;
+    let teeth: [usize; TEETH] = [0, 1, n - 1, 2, n - 2, n / 2];
+    let mut figures: Vec<f64> = teeth.map(|tooth| deflection(gear, tooth)).to_vec();
+    for gauge in &gear.gauges {
+        let stations = 0..gear.grid.roll_angles_rad.len();
+        figures.extend(stations.map(|s| line_load_strain(gear, gauge, s)[0]));
+    }
+    figures
+}
+
+/// Root of the sum of squares of what is off, over that of the figures, as the estimates have it.
+fn relative_error(found: &[f64], expected: &[f64]) -> f64 {
+    let off = found.iter().zip(expected).map(|(f, e)| (f - e).powi(2));
+    let all = expected.iter().map(|e| e * e);
+    (off.sum::<f64>() / all.sum::<f64>()).sqrt()
 }
 
 /// 1.4 to 2 times the default lengths: quadratic elements are still the better ones, in a third of the memory.
@@ -84,31 +81,30 @@ fn check(name: &str, gear: &str, mesh: &str) {
     check_against(name, gear, mesh, mesh);
 }
 
-/// As [`check`], with element lengths of their own for the quadratic elements.
+/// As [`check`], with element lengths of their own for the quadratic elements. What these come to is recorded.
 fn check_against(name: &str, gear: &str, mesh: &str, of_quadratic: &str) {
-    let (default, quadratic) = (
-        reduced(gear, mesh, false),
-        reduced(gear, of_quadratic, true),
-    );
-    let teeth = default.teeth;
-    // Over several teeth: root of the sum of squares, over that of the deflections, as the estimate has it.
-    let error = |looked_at: &[usize]| {
-        let norm = |value: &dyn Fn(usize) -> f64| {
-            let squares = looked_at.iter().map(|&tooth| value(tooth).powi(2));
-            squares.sum::<f64>().sqrt()
-        };
-        let off = |tooth| deflection(&default, tooth) - deflection(&quadratic, tooth);
-        norm(&off) / norm(&|tooth| deflection(&quadratic, tooth))
+    let default = reduced(&text(gear, mesh, ""), true);
+    let found = figures(&default);
+    let quadratic = text(gear, of_quadratic, "element = \"hex20\"\n");
+    let record = format!("mesh_error_estimate_{}", name.replace(' ', "_"));
+    let expected = computed::numbers(&record, &quadratic, || figures(&reduced(&quadratic, false)));
+    assert_eq!(found.len(), expected.len());
+    let error = |of: Range<usize>| relative_error(&found[of.clone()], &expected[of]);
+    let stations = default.grid.roll_angles_rad.len();
+    let of_gauge = |(k, gauge): (usize, &GaugeRows)| {
+        let first = TEETH + k * stations;
+        [
+            gauge.error_estimate_relative,
+            error(first..first + stations),
+        ]
     };
-    let mut rows = strain_errors(&default, &quadratic);
-    rows.push([
-        stated(&default, ReductionChecks::LOADED_TOOTH_ERROR),
-        error(&[0]),
-    ]);
-    rows.push([
-        stated(&default, ReductionChecks::OTHER_TEETH_ERROR),
-        error(&[1, teeth - 1, 2, teeth - 2, teeth / 2]),
-    ]);
+    let mut rows: Vec<[f64; 2]> = default.gauges.iter().enumerate().map(of_gauge).collect();
+    for (stated_as, teeth) in [
+        (ReductionChecks::LOADED_TOOTH_ERROR, 0..1),
+        (ReductionChecks::OTHER_TEETH_ERROR, 1..TEETH),
+    ] {
+        rows.push([stated(&default, stated_as), error(teeth)]);
+    }
     for [stated, found] in &rows {
         println!(
             "{name}: stated {:.2} %, found {:.2} %",

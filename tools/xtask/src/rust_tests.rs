@@ -10,12 +10,13 @@ mod part;
 
 use std::process::Command;
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::console::{readable, say};
 use crate::error::XtaskError;
 use crate::steps::Extent;
 use crate::venv::Venv;
+pub use binaries::{Binary, built};
 use part::{Length, Part, PartResult};
 
 /// Programs that take minutes. They start first, so that none is left alone at the end; the others in cargo's order.
@@ -31,20 +32,16 @@ const LONG: [(&str, Length); 5] = [
 /// Tests listed at the end.
 const SLOWEST: usize = 25;
 
-/// Builds with `build`, a call of `cargo test` without arguments of its harness, and runs the tests of the programs
-/// named in `only`, of all where it is empty. All parts run, whatever fails.
+/// Runs the tests of the programs named in `only`, of all where it is empty. All parts run, whatever fails.
 ///
 /// # Errors
-/// [`XtaskError::Failed`] where something does not build, [`XtaskError::TestsFailed`] with the names of what failed or
-/// of programs that are not there.
-pub fn run(build: Command, venv: &Venv, extent: Extent, only: &[String]) -> Result<(), XtaskError> {
-    let start = Instant::now();
-    let binaries = binaries::built(build)?;
-    say(&format!(
-        "{} test programs built in {}",
-        binaries.len(),
-        readable(start.elapsed())
-    ));
+/// [`XtaskError::TestsFailed`] with the names of what failed or of programs that are not there.
+pub fn run(
+    binaries: Vec<Binary>,
+    venv: &Venv,
+    extent: Extent,
+    only: &[String],
+) -> Result<(), XtaskError> {
     let there = |name: &&String| binaries.iter().any(|binary| binary.name == **name);
     if let Some(name) = only.iter().find(|name| !there(name)) {
         let names = vec![format!("{name}: no test program has this name")];
@@ -92,7 +89,7 @@ pub fn run_named(
     variable: (&'static str, &'static str),
 ) -> Result<Vec<Finished>, XtaskError> {
     let mut parts = Vec::new();
-    for binary in binaries::built(build)? {
+    for binary in built(build)? {
         for mut part in part::parts_of(binary, Extent::Full, Length::Short)? {
             let label = part.binary.label();
             part.tests.retain(|test| {

@@ -23,26 +23,52 @@ pub enum Extent {
     Fast,
 }
 
-/// What a step does.
-type Step<'a> = Box<dyn FnOnce() -> Result<(), XtaskError> + 'a>;
-
-/// A step of one command.
-fn command<'a>(mut command: Command) -> Step<'a> {
-    Box::new(move || run_checked(&mut command))
-}
-
-/// Everything that CI runs, in order, up to the first failure. Each step names the whole workspace: another choice of
-/// packages would unite other features, and what several steps need would be compiled for each. The time that is
-/// printed at the end counts from `start`, before the preparation.
+/// Everything that CI runs. Each step names the whole workspace: another choice of packages would unite other features, and
+/// what several steps need would be compiled for each. Formatting and the build of the tests come first and end it where
+/// they fail. Then the Rust tests run, and beside them, one after another, what waits for a single core most of its time;
+/// all of these run, whatever fails. The time that is printed at the end counts from `start`, before the preparation.
 ///
 /// # Errors
-/// [`XtaskError::Failed`] names the command that failed.
+/// [`XtaskError::Failed`] names the command that failed, [`XtaskError::TestsFailed`] the tests.
 pub fn test(
     workspace: &Workspace,
     venv: &Venv,
     extent: Extent,
     start: Instant,
 ) -> Result<ExitCode, XtaskError> {
+    system_libs::offer_programs();
+    say(&format!("prepared in {}", readable(start.elapsed())));
+    let mut formatting = cargo(workspace, venv);
+    formatting.args(["fmt", "--all", "--check"]);
+    timed("formatting", || run_checked(&mut formatting))?;
+    let built = timed("build of the tests", || {
+        rust_tests::built(tests_build(workspace, venv))
+    })?;
+    let beside = beside_the_tests(workspace, venv)?;
+    let (tests, others) = std::thread::scope(|scope| {
+        let run = |(name, mut command): (&str, Command)| timed(name, || run_silent(&mut command));
+        let others = scope.spawn(move || beside.map(run));
+        let tests = timed("Rust tests", || rust_tests::run(built, venv, extent, &[]));
+        let others = others.join();
+        (
+            tests,
+            others.unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+        )
+    });
+    tests?;
+    others.into_iter().collect::<Result<(), XtaskError>>()?;
+    say(&format!(
+        "\nall passed in {}, the preparation included",
+        readable(start.elapsed())
+    ));
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What runs beside the Rust tests, in order.
+fn beside_the_tests(
+    workspace: &Workspace,
+    venv: &Venv,
+) -> Result<[(&'static str, Command); 5], XtaskError> {
     let cargo = |arguments: &[&str]| {
         let mut command = cargo(workspace, venv);
         command.args(arguments);
@@ -64,63 +90,59 @@ pub fn test(
         "tests/python",
     ]);
     set_environment(&mut python_tests, venv);
-    // The step of the Rust tests builds it.
+    // Built with the tests.
     python_tests.env("GEARMESH_PROGRAM", program()?);
-
-    let rust_tests = || rust_tests(workspace, venv, extent, &[]);
-    let lints = cargo(&[
+    let lints = [
         "clippy",
         "--workspace",
         "--all-targets",
         "--",
         "-D",
         "warnings",
-    ]);
-    let steps: [(&str, Step); 7] = [
-        ("formatting", command(cargo(&["fmt", "--all", "--check"]))),
-        ("lints", command(lints)),
-        ("documentation of the libraries", command(pages("--lib"))),
-        ("documentation of the programs", command(pages("--bins"))),
-        ("Rust tests", Box::new(rust_tests)),
+    ];
+    Ok([
+        ("lints", cargo(&lints)),
+        ("documentation of the libraries", pages("--lib")),
+        ("documentation of the programs", pages("--bins")),
         (
             "documentation tests",
-            command(cargo(&["test", "--workspace", "--doc"])),
+            cargo(&["test", "--workspace", "--doc"]),
         ),
-        ("Python tests", command(python_tests)),
-    ];
-    system_libs::offer_programs();
-    say(&format!("prepared in {}", readable(start.elapsed())));
-    for (name, step) in steps {
-        say(&format!("\n== {name}"));
-        let step_start = Instant::now();
-        let outcome = step();
-        let verdict = if outcome.is_ok() { "passed" } else { "FAILED" };
-        say(&format!(
-            "== {name} {verdict} in {}",
-            readable(step_start.elapsed())
-        ));
-        outcome?;
-    }
+        ("Python tests", python_tests),
+    ])
+}
+
+/// Runs a step and says how it ended, after how long.
+fn timed<T>(name: &str, step: impl FnOnce() -> Result<T, XtaskError>) -> Result<T, XtaskError> {
+    let start = Instant::now();
+    let outcome = step();
+    let verdict = if outcome.is_ok() { "passed" } else { "FAILED" };
     say(&format!(
-        "\nall passed in {}, the preparation included",
+        "== {name} {verdict} in {}\n",
         readable(start.elapsed())
     ));
-    Ok(ExitCode::SUCCESS)
+    outcome
+}
+
+/// The build of all test programs.
+fn tests_build(workspace: &Workspace, venv: &Venv) -> Command {
+    let mut build = cargo(workspace, venv);
+    build.args(["test", "--workspace", "--tests"]);
+    build
 }
 
 /// The Rust tests of the programs named, of all where none is.
 ///
 /// # Errors
-/// As [`rust_tests::run`].
+/// As [`rust_tests::built`] and [`rust_tests::run`].
 pub fn rust_tests(
     workspace: &Workspace,
     venv: &Venv,
     extent: Extent,
     only: &[String],
 ) -> Result<(), XtaskError> {
-    let mut build = cargo(workspace, venv);
-    build.args(["test", "--workspace", "--tests"]);
-    rust_tests::run(build, venv, extent, only)
+    let built = rust_tests::built(tests_build(workspace, venv))?;
+    rust_tests::run(built, venv, extent, only)
 }
 
 /// Gear pair A from definition to report: `gearmesh demo -o out/demo` and the user's further arguments. The exit
@@ -221,6 +243,27 @@ pub fn run_checked(command: &mut Command) -> Result<(), XtaskError> {
     })
 }
 
+/// As [`run_checked`]; what the command prints is shown where it fails.
+///
+/// # Errors
+/// As [`run_checked`].
+fn run_silent(command: &mut Command) -> Result<(), XtaskError> {
+    let output = command
+        .stdin(Stdio::null())
+        .output()
+        .map_err(XtaskError::io(|| format!("starting {}", shown(command))))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    for printed in [&output.stdout, &output.stderr] {
+        say(&String::from_utf8_lossy(printed));
+    }
+    Err(XtaskError::Failed {
+        command: shown(command),
+        status: output.status.to_string(),
+    })
+}
+
 /// The command as one could type it in the project's root.
 pub fn shown(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
@@ -254,19 +297,23 @@ mod tests {
 
     #[test]
     fn a_failing_command_is_named_with_its_status() {
-        let error = run_checked(Command::new("sh").args(["-c", "exit 3"])).err();
-        assert!(
-            matches!(&error, Some(XtaskError::Failed { command, status })
-                if command == "sh -c exit 3" && status.contains('3')),
-            "{error:?}"
-        );
+        for run in [run_checked, run_silent] {
+            let error = run(Command::new("sh").args(["-c", "exit 3"])).err();
+            assert!(
+                matches!(&error, Some(XtaskError::Failed { command, status })
+                    if command == "sh -c exit 3" && status.contains('3')),
+                "{error:?}"
+            );
+        }
     }
 
     #[test]
     fn a_command_that_does_not_exist_is_an_io_error() {
-        assert!(matches!(
-            run_checked(&mut Command::new("no-such-program")),
-            Err(XtaskError::Io { .. })
-        ));
+        for run in [run_checked, run_silent] {
+            assert!(matches!(
+                run(&mut Command::new("no-such-program")),
+                Err(XtaskError::Io { .. })
+            ));
+        }
     }
 }
