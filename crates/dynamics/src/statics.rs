@@ -149,6 +149,7 @@ fn follow(
     };
     let whole = 1.0 / params.load_steps.max(1) as f64;
     let (mut done, mut stride) = (0.0, whole);
+    let mut relaxes = true;
     while done < 1.0 {
         // Sums of strides are 1 but for rounding.
         let target = if done + stride > 1.0 - 1e-9 {
@@ -166,7 +167,7 @@ fn follow(
         };
         let start = trial.clone();
         let mut settled = settle(system, &mut trial, load_factor, params, &mut equations);
-        if let Err(DynamicsError::NoEquilibrium { .. }) = settled {
+        if relaxes && matches!(settled, Err(DynamicsError::NoEquilibrium { .. })) {
             // Newton's method goes to and fro where contacts come and go: down the forces first, then once more.
             let iterations = trial.iterations;
             trial = Equilibrium {
@@ -177,6 +178,8 @@ fn follow(
             let relaxed = relax(system, (state, lambda), load_factor, &mut equations)?;
             trial.iterations += relaxed;
             settled = settle(system, &mut trial, load_factor, params, &mut equations);
+            // Where it does not help, shorter steps may: not both, each time.
+            relaxes = settled.is_ok();
         }
         match settled {
             Ok(()) => {
