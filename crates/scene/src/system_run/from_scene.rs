@@ -16,6 +16,7 @@ use super::recorder::Selection;
 use super::speed_plan::SpeedPlan;
 use crate::named_files_and_theirs;
 use crate::system::tables::function::FunctionTable;
+use crate::system::tables::gear_mesh::GearMeshTable;
 use crate::system::tables::joint::MotionTable;
 use crate::system::tables::load::LoadTable;
 use crate::system::{BuiltSystem, LoadedSystem, MotionValues, Run, Start, SystemScene, Variation};
@@ -63,6 +64,7 @@ impl RunJob {
             } => {
                 if let Some(angles) = angles_rad {
                     refuse_functions(&loaded, &angles.motion)?;
+                    refuse_friction(&loaded)?;
                 }
                 let built = nominal.insert(loaded.build_varied(&variation)?);
                 let angles = angles_rad.clone();
@@ -250,6 +252,17 @@ fn refuse_functions(loaded: &LoadedSystem, motion: &str) -> Result<(), InputErro
         }
     }
     Ok(())
+}
+
+/// Positions of a series follow each other at rest, where no flank slides over another.
+fn refuse_friction(loaded: &LoadedSystem) -> Result<(), InputError> {
+    let meshes = &loaded.scene.tables.gear_mesh;
+    let rubs = |mesh: &GearMeshTable| mesh.teeth.as_ref().is_some_and(|t| t.friction.is_some());
+    meshes.iter().position(rubs).map_or(Ok(()), |i| {
+        let problem = "found a table; nothing slides at the positions of run.angles_deg: leave it out, run the scene in time, or one pair at rest as a [pair]";
+        let document = &loaded.scene.document;
+        Err(document.error(&format!("gear_mesh.{i}.teeth.friction"), problem))
+    })
 }
 
 fn head(loaded: &LoadedSystem, built: &BuiltSystem) -> RunHead {

@@ -131,6 +131,25 @@ along = [0.6, 0.0, 0.8]
 kind = "static"
 "#;
 
+/// Nothing slides from one position of a series to the next: friction is refused, not left out.
+#[test]
+fn a_series_of_positions_refuses_friction() {
+    let time = "kind = \"transient\"\nend_s = 0.0074074\n[solver]\nstep_s = 1e-5\nstart = \"equilibrium\"\n[output]\ninterval_s = 1e-5\n";
+    let angles = "kind = \"static\"\nmotion = \"drive\"\nangles_deg = [0.0, 2.0]\n";
+    let series = changed(PAIR, time, angles);
+    let series = changed(
+        &series,
+        "damping = { kind = \"stiffness-proportional\", time_s = 2e-6, full_depth_um = 1.0 }",
+        "",
+    );
+    let job = |text: &str| RunJob::from_scene(load(text, &fe_models()).unwrap()).map(|_| ());
+    let error = job(&series).unwrap_err().to_string();
+    let expected = "gear_mesh.0.teeth.friction: found a table; nothing slides at the positions of run.angles_deg";
+    assert!(error.contains(expected), "{error}");
+    let friction = "teeth = { friction = { model = \"coulomb\", dynamic_coefficient = 0.05 } }\n";
+    job(&changed(&series, friction, "")).unwrap();
+}
+
 /// The shaft for a twentieth of a second instead of at rest.
 fn coasting() -> String {
     changed(
