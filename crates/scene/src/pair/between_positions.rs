@@ -24,7 +24,7 @@ const SLICE_STEP: f64 = 1.0 / 128.0;
 
 /// A peak is followed until less than this share may still be open: of the peak-to-peak value of the transmission
 /// error, of the largest pressure, of K_Hβ.
-pub const PEAK_SHARE: f64 = 1e-3;
+pub const PEAK_SHARE: f64 = 3e-4;
 
 /// Halvings for the peak of a figure at most. Each leaves half of what is open at a corner, a quarter at a smooth peak.
 const MOST_HALVINGS: usize = 100;
