@@ -9,12 +9,11 @@
 //! With a large σ a step goes a little way along the forces over the masses, with none it is Newton's. σ becomes smaller while what is
 //! unbalanced does, and larger where a step makes it much larger, which is then not made.
 
-use crate::elements::Iterate;
-use crate::equations::{At, Detail, Equations};
+use crate::equations::{Detail, Equations};
 use crate::error::DynamicsError;
 use crate::state::State;
 use crate::static_correction::correct;
-use crate::static_steps::{SHORT, Walk, in_masses, measure, moments_in_world};
+use crate::static_steps::{SHORT, Walk, in_masses, measure, moments_in_world, standing};
 use crate::system::System;
 use crate::unbalanced::pushing;
 
@@ -47,13 +46,7 @@ pub(crate) fn relax(
     let mut sigma = None;
     let mut steps = 0;
     while steps < MOST_STEPS {
-        let at = At {
-            state,
-            acceleration: &rest,
-            lambda,
-            load_factor,
-            iterate: Iterate::Single,
-        };
+        let at = standing(state, &rest, lambda, load_factor);
         system.evaluate(at, Detail::Tangents, equations)?;
         let pushing = pushing(system, equations, lambda);
         let unbalanced = in_masses(system, &equations.residual);
@@ -89,13 +82,7 @@ pub(crate) fn relax(
             let ratio = measure(system, &correction.values[..n], size).0;
             walk.to((10.0 * SHORT / ratio).min(1.0), system, state, lambda);
             let mut found = Equations::new(system);
-            let at = At {
-                state,
-                acceleration: &rest,
-                lambda,
-                load_factor,
-                iterate: Iterate::Single,
-            };
+            let at = standing(state, &rest, lambda, load_factor);
             if walk.is_clear(at, system, &mut found) {
                 weight *= EASED;
                 break;

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::elements::Iterate;
 use crate::equations::{At, Detail, Equations};
 use crate::rotation::skew;
 use crate::state::State;
@@ -9,6 +10,22 @@ use crate::system::System;
 
 /// Move within which nothing that is in the way can be passed through, in the measure of [`measure`]: a small part of a tooth.
 pub(crate) const SHORT: f64 = 1e-3;
+
+/// A motion under a share of the loads, without accelerations (`rest`: zeros).
+pub(crate) fn standing<'a>(
+    state: &'a State,
+    rest: &'a [f64],
+    lambda: &'a [f64],
+    load_factor: f64,
+) -> At<'a> {
+    At {
+        state,
+        acceleration: rest,
+        lambda,
+        load_factor,
+        iterate: Iterate::Single,
+    }
+}
 
 /// Size of forces, in the measure of the masses: √(Σ rᵢ²/mᵢ).
 pub(crate) fn in_masses(system: &System, forces: &[f64]) -> f64 {

@@ -10,13 +10,12 @@
 //! iterations, because resistance may come with the position; if none comes it is an error. It moves a little at first and further each
 //! time: surfaces that just touch have to be met within their deflection, a pendulum released level has a long way to go.
 
-use crate::elements::Iterate;
-use crate::equations::{At, Detail, Equations};
+use crate::equations::{Detail, Equations};
 use crate::error::DynamicsError;
 use crate::relaxation::relax;
 use crate::state::State;
 use crate::static_correction::{Correction, correct};
-use crate::static_steps::{SHORT, Walk, in_masses, measure, moments_in_world};
+use crate::static_steps::{SHORT, Walk, in_masses, measure, moments_in_world, standing};
 use crate::system::System;
 use crate::unbalanced::{most_unbalanced, pushing};
 
@@ -258,13 +257,7 @@ fn settle(
     let mut moved = None;
     for iteration in 1..=params.most_iterations.max(1) {
         *iterations += 1;
-        let at = At {
-            state,
-            acceleration: &rest,
-            lambda,
-            load_factor,
-            iterate: Iterate::Single,
-        };
+        let at = standing(state, &rest, lambda, load_factor);
         let evaluated = system.evaluate(at, Detail::Tangents, equations);
         evaluated.map_err(|error| on_the_way(error, system, load_factor, moved))?;
         if pushed {
@@ -329,13 +322,7 @@ fn settle(
         let whole = (LONGEST / ratio).min(1.0);
         let mut is_clear = |share: f64| {
             walk.to(share, system, state, lambda);
-            let at = At {
-                state,
-                acceleration: &rest,
-                lambda,
-                load_factor,
-                iterate: Iterate::Single,
-            };
+            let at = standing(state, &rest, lambda, load_factor);
             walk.is_clear(at, system, equations)
         };
         let first = |length: f64| whole.min(length / ratio);
