@@ -15,8 +15,8 @@ use super::subject::Subject;
 use crate::rating::figure_names;
 use crate::system::{SystemScene, unknown};
 use crate::system_run::{
-    Figures, Outcome, ResultKind, ResultSize, RunHead, RunJob, RunKind, RunOptions, SetFigures,
-    SystemResult, SystemRunError, Window, inputs, recorded_columns, run,
+    Figures, Outcome, PartFolder, ResultKind, ResultSize, RunHead, RunJob, RunKind, RunOptions,
+    SetFigures, SystemResult, SystemRunError, Window, inputs, recorded_columns, run,
 };
 
 /// Wall time between checkpoints of a case.
@@ -102,6 +102,7 @@ fn run_unless_there(
     let identity = job.head.identity();
     let file = folder.join(file_name(&identity));
     if is_there(&file, &identity) {
+        PartFolder::remove_left(&file)?;
         return Ok(Some(file));
     }
     Ok(run_into(job, &file, stop)?.then_some(file))

@@ -153,6 +153,22 @@ impl PartFolder {
         }
     }
 
+    /// Removes the folder of a result that is written, where a process was killed between the two; another one that is
+    /// about to do so is left alone.
+    ///
+    /// # Errors
+    /// As [`Self::open`] and [`Self::finish`].
+    pub fn remove_left(output: &Path) -> Result<(), SystemRunError> {
+        if !Self::beside(output).exists() {
+            return Ok(());
+        }
+        match Self::open(output, "", 1, true) {
+            Ok((part, _)) => part.finish(),
+            Err(SystemRunError::File(FileError::InUse { .. })) => Ok(()),
+            Err(error) => Err(error),
+        }
+    }
+
     /// Removes what a killed write has left in the folder; nobody else writes there.
     fn clear(&self) -> Result<(), SystemRunError> {
         let entries = std::fs::read_dir(&self.folder);
@@ -263,6 +279,19 @@ mod tests {
             matches!(error, SystemRunError::Checkpoint { .. }),
             "{error}"
         );
+    }
+
+    #[test]
+    fn what_a_process_left_that_was_killed_after_its_result_goes() {
+        let desk = tempfile::tempdir().unwrap();
+        let output = desk.path().join("result.h5");
+        let (mut part, _) = PartFolder::open(&output, "same", 3, false).unwrap();
+        part.log().append(&[1.0, 2.0, 3.0]).unwrap();
+        PartFolder::remove_left(&output).unwrap();
+        assert!(PartFolder::beside(&output).exists(), "it is in use");
+        drop(part);
+        PartFolder::remove_left(&output).unwrap();
+        assert_eq!(std::fs::read_dir(desk.path()).unwrap().count(), 0);
     }
 
     #[test]
