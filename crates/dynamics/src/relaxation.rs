@@ -1,13 +1,14 @@
-//! The way down to an equilibrium from far away, where Newton's method goes to and fro between states of contact: pseudo-transient
-//! continuation (C. T. Kelley, D. E. Keyes: *Convergence analysis of pseudo-transient continuation*, SIAM J. Numer. Anal. 35, 1998).
+//! The way down to an equilibrium from far away, where Newton's method goes to and fro between states of contact:
+//! pseudo-transient continuation (C. T. Kelley, D. E. Keyes: *Convergence analysis of pseudo-transient continuation*,
+//! SIAM J. Numer. Anal. 35, 1998).
 //!
 //! ```text
 //! [σ M + ∂residual/∂q   Bᵀ] [δ ]      [residual ]
 //! [B                    0 ] [δλ] = −  [violation]
 //! ```
 //!
-//! With a large σ a step goes a little way along the forces over the masses, with none it is Newton's. σ becomes smaller while what is
-//! unbalanced does, and larger where a step makes it much larger, which is then not made.
+//! With a large σ a step goes a little way along the forces over the masses, with none it is Newton's. σ becomes
+//! smaller while what is unbalanced does, and larger where a step makes it much larger, which is then not made.
 
 use crate::equations::{Detail, Equations};
 use crate::error::DynamicsError;
@@ -30,8 +31,8 @@ const GROWTH: f64 = 2.0;
 const EASED: f64 = 0.3;
 const TIGHTENED: f64 = 10.0;
 
-/// Takes a motion and its reactions near to an equilibrium, if there is one down the forces; returns the steps. Where there is none it
-/// ends after [`MOST_STEPS`], wherever it is.
+/// Takes a motion and its reactions near to an equilibrium, if there is one down the forces; returns the steps. Where
+/// there is none it ends after [`MOST_STEPS`], wherever it is.
 ///
 /// # Errors
 /// Of an element at the start, or where the matrix is no number.
@@ -43,6 +44,7 @@ pub(crate) fn relax(
 ) -> Result<usize, DynamicsError> {
     let n = system.degrees_of_freedom();
     let (rest, size) = (vec![0.0; n], system.size_m());
+    let mut found = Equations::new(system);
     let mut sigma = None;
     let mut steps = 0;
     while steps < MOST_STEPS {
@@ -81,13 +83,12 @@ pub(crate) fn relax(
             };
             let ratio = measure(system, &correction.values[..n], size).0;
             walk.to((10.0 * SHORT / ratio).min(1.0), system, state, lambda);
-            let mut found = Equations::new(system);
             let at = standing(state, &rest, lambda, load_factor);
             if walk.is_clear(at, system, &mut found) {
                 weight *= EASED;
                 break;
             }
-            *state = walk.from.clone();
+            state.clone_from(&walk.from);
             lambda.clone_from(&walk.lambda_from);
             if steps >= MOST_STEPS {
                 return Ok(steps);

@@ -1,4 +1,5 @@
-//! Steps towards a static equilibrium: how large a correction and what is unbalanced are, and the way along a correction.
+//! Steps towards a static equilibrium: how large a correction and what is unbalanced are, and the way along a
+//! correction.
 
 use nalgebra::Vector3;
 
@@ -8,7 +9,8 @@ use crate::rotation::skew;
 use crate::state::State;
 use crate::system::System;
 
-/// Move within which nothing that is in the way can be passed through, in the measure of [`measure`]: a small part of a tooth.
+/// Move within which nothing that is in the way can be passed through, in the measure of [`measure`]: a small part of a
+/// tooth.
 pub(crate) const SHORT: f64 = 1e-3;
 
 /// A motion under a share of the loads, without accelerations (`rest`: zeros).
@@ -52,8 +54,8 @@ pub(crate) fn measure(system: &System, increment: &[f64], size: f64) -> (f64, us
         })
 }
 
-/// Lets the stiffness be that of moments along fixed axes: δ(R r) = R (δr + δψ × r). Off the equilibrium a rotation that nothing
-/// resists would otherwise seem to change the moments, as the axes turn along.
+/// Lets the stiffness be that of moments along fixed axes: δ(R r) = R (δr + δψ × r). Off the equilibrium a rotation
+/// that nothing resists would otherwise seem to change the moments, as the axes turn along.
 pub(crate) fn moments_in_world(system: &System, equations: &mut Equations) {
     for start in system.layout.starts() {
         let turn = start + 3;

@@ -33,13 +33,14 @@ const LONGEST: f64 = 0.2;
 const FIRST_PUSH: f64 = 1e-6;
 const PUSH_GROWTH: f64 = 2.0;
 
-/// Where the unbalanced force becomes this many times larger along a correction, something stiff is in the way (teeth, stops): the
-/// correction ends before it. Looked for at ever doubled distances, from [`SHORT`] on, and where it is nearer from the first push on.
+/// Where the unbalanced force becomes this many times larger along a correction, something stiff is in the way (teeth,
+/// stops): the correction ends before it. Looked for at ever doubled distances, from [`SHORT`] on, and where it is
+/// nearer from the first push on.
 const RUN_INTO: f64 = 4.0;
 
-/// Share of all that pushes that an unbalanced force has at least, for this comparison: next to an equilibrium any move makes the little that is
-/// unbalanced many times larger.
-const FELT: f64 = 0.1;
+/// Share of all that pushes with which this comparison is made at least: next to an equilibrium any move makes the
+/// little that is unbalanced many times larger.
+const COMPARED: f64 = 0.1;
 
 /// Shortest step along the path to an equilibrium, over the longest.
 const LEAST_STRIDE: f64 = 1.0 / 256.0;
@@ -174,9 +175,10 @@ fn follow(
                 ..start
             };
             let Equilibrium { state, lambda, .. } = &mut trial;
-            let relaxed = relax(system, (state, lambda), load_factor, &mut equations)?;
-            trial.iterations += relaxed;
-            settled = settle(system, &mut trial, load_factor, params, &mut equations);
+            if let Ok(steps) = relax(system, (state, lambda), load_factor, &mut equations) {
+                trial.iterations += steps;
+                settled = settle(system, &mut trial, load_factor, params, &mut equations);
+            }
             // Where it does not help, shorter steps may: not both, each time.
             relaxes = settled.is_ok();
         }
@@ -317,7 +319,8 @@ fn settle(
             lambda_from: lambda.clone(),
             correction: &correction.values,
             most_force: RUN_INTO
-                * in_masses(system, &equations.residual).max(FELT * in_masses(system, &pushing)),
+                * in_masses(system, &equations.residual)
+                    .max(COMPARED * in_masses(system, &pushing)),
         };
         let whole = (LONGEST / ratio).min(1.0);
         let mut is_clear = |share: f64| {

@@ -130,8 +130,8 @@ pub fn begun(new: &NewFiles, watch: &Watch<'_>) -> Result<(Value, PathBuf), Prob
     Ok((with_folder(result, &folder), last))
 }
 
-/// Runs a bevel pair under the torques of its `[load]`, writes result and page into its folder: curves as the page draws
-/// them, null where the file has no `[load]`.
+/// Runs a bevel pair under the torques of its `[load]`, writes result and page into its folder: curves as the page
+/// draws them, null where the file has no `[load]`.
 fn under_load(file: &Path, watch: &Watch<'_>) -> Result<Value, Problem> {
     let scene = BevelScene::from_document(InputDocument::read(file)?)?;
     if scene.file.load.is_none() {

@@ -23,10 +23,11 @@ pub enum Extent {
     Fast,
 }
 
-/// Everything that CI runs. Each step names the whole workspace: another choice of packages would unite other features, and
-/// what several steps need would be compiled for each. Formatting and the build of the tests come first and end it where
-/// they fail. Then the Rust tests run, and beside them, one after another, what waits for a single core most of its time;
-/// all of these run, whatever fails. The time that is printed at the end counts from `start`, before the preparation.
+/// Everything that CI runs. Each step names the whole workspace: another choice of packages would unite other features,
+/// and what several steps need would be compiled for each. Formatting and the build of the tests come first and end it
+/// where they fail. Then the Rust tests run, and beside them, one after another, what waits for a single core most of
+/// its time; all of these run, whatever fails. The time that is printed at the end counts from `start`, before the
+/// preparation.
 ///
 /// # Errors
 /// [`XtaskError::Failed`] names the command that failed, [`XtaskError::TestsFailed`] the tests.
