@@ -54,7 +54,7 @@ const ALLOWED: [(&str, &[&str]); 22] = [
     (
         "drivetrain",
         &[
-            "bevel", "geometry", "model", "contact", "dynamics", "recovery",
+            "bearings", "bevel", "geometry", "model", "contact", "dynamics", "recovery",
         ],
     ),
     ("signal", &[]),

@@ -49,6 +49,17 @@ impl LineContact {
         (slope * approach_m, 10.0 / 9.0 * slope)
     }
 
+    /// Approach \[m\] at a load per length \[N/m\].
+    #[must_use]
+    pub fn approach_m(&self, line_load_n_per_m: f64) -> f64 {
+        (line_load_n_per_m / self.stiffness).powf(0.9)
+    }
+
+    /// Energy per length \[J/m\] at a load per length and its approach: ∫ q dδ = (9/19) q δ.
+    pub(crate) fn energy(line_load_n_per_m: f64, approach_m: f64) -> f64 {
+        9.0 / 19.0 * line_load_n_per_m * approach_m.max(0.0)
+    }
+
     /// Peak pressure of Hertz's line contact \[Pa\]: p₀ = √(q E*/(π ρ)).
     #[must_use]
     pub fn peak_pressure_pa(&self, line_load_n_per_m: f64) -> f64 {

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use crate::ball_row::BallRow;
 use crate::barrel_row::BarrelRow;
+use crate::bent_race::BentRace;
 use crate::build_rows;
 use crate::definition::{BearingDefinition, Preload};
 use crate::element_load::ElementLoad;
@@ -17,7 +18,7 @@ use crate::operation::Operation;
 use crate::point_contact::ContactEllipse;
 use crate::ring_load::RingLoad;
 use crate::ring_pose::RingPose;
-use crate::roller_row::RollerRow;
+use crate::roller_row::{BentRow, RollerRow};
 
 /// A row.
 #[derive(Debug, Clone, PartialEq)]
@@ -108,14 +109,14 @@ impl Row {
         pose: &RingPose,
         operation: &Operation,
         places: &mut [ElementPlace],
-        ring: &mut RingLoad,
+        (ring, bent): (&mut RingLoad, BentRow<'_>),
         each: impl FnMut(ElementLoad),
         each_lamina: impl FnMut(f64, f64),
     ) -> Result<(), BearingError> {
         match self {
             Self::Ball(row) => row.add(pose, operation, places, ring, each),
             Self::FourPoint(row) => row.add(pose, operation, places, ring, each),
-            Self::Roller(row) => row.add(pose, operation, places, ring, each, each_lamina),
+            Self::Roller(row) => row.add(pose, operation, places, (ring, bent), each, each_lamina),
             Self::Barrel(row) => row.add(pose, operation, places, ring, each, each_lamina),
         }
     }
@@ -231,6 +232,55 @@ impl QuasiStaticBearing {
         }
     }
 
+    /// Its outer races as they bend with a bore; `functions`: the motions along it by the place in the bearing's frame.
+    ///
+    /// # Errors
+    /// [`BearingError::NotCarried`] for what is no cylindrical roller bearing, or has a misaligned outer ring.
+    pub(crate) fn bent_race(
+        &self,
+        functions: impl Fn(f64) -> Vec<f64>,
+    ) -> Result<BentRace, BearingError> {
+        let cylindrical = |row: &Row| match row {
+            Row::Roller(row) => row.rib.is_none(),
+            Row::Ball(_) | Row::FourPoint(_) | Row::Barrel(_) => false,
+        };
+        if !self.rows.iter().all(cylindrical) {
+            return Err(BearingError::NotCarried(
+                "an elastic bore takes the rollers of a cylindrical roller bearing only; name the file of one, or take bore = \"sliding\" or \"bonded\"",
+            ));
+        }
+        if self.misaligned[0].is_some() {
+            return Err(BearingError::NotCarried(
+                "a misaligned outer ring is a round one, which an elastic bore is not; remove that fault, or take bore = \"sliding\" or \"bonded\"",
+            ));
+        }
+        let of_rollers = |row: &'_ Row| match row {
+            Row::Roller(row) => Some(row.clone()),
+            Row::Ball(_) | Row::FourPoint(_) | Row::Barrel(_) => None,
+        };
+        let rows: Vec<RollerRow> = self.rows.iter().filter_map(of_rollers).collect();
+        Ok(BentRace::new(&rows, functions))
+    }
+
+    /// How deep a roller at the worst angle overlaps both races that stand so, at most \[m\]; 0 of other elements.
+    pub(crate) fn deepest_m(&self, pose: &RingPose) -> f64 {
+        let of_row = |row: &Row| {
+            let Row::Roller(row) = row else {
+                return 0.0;
+            };
+            let reach_m = row
+                .laminae
+                .iter()
+                .fold(0.0, |most, l| f64::max(most, l.reach_m));
+            let end_m = row.laminae.iter().map(|l| l.place_m.abs() + l.length_m);
+            let farthest_m = row.middle_z_m.abs() + end_m.fold(0.0, f64::max);
+            let room_m = row.outer.offset_m - row.inner.offset_m - 2.0 * reach_m;
+            let (across, tilt) = (pose.centre_m.xy().norm(), pose.axis.xy().norm());
+            (across + farthest_m * tilt - room_m).max(0.0)
+        };
+        self.rows.iter().map(of_row).fold(0.0, f64::max)
+    }
+
     /// Complains about faults that only moving balls can have.
     ///
     /// # Errors
@@ -282,11 +332,35 @@ impl QuasiStaticBearing {
         pose: &RingPose,
         operation: &Operation,
         places: &mut ElementPlaces,
+        each: impl FnMut(ElementLoad),
+    ) -> Result<RingLoad, BearingError> {
+        self.evaluate_bent((pose, operation), places, None, each)
+    }
+
+    /// As [`Self::evaluate_each`], with outer races that bend.
+    pub(crate) fn evaluate_bent(
+        &self,
+        (pose, operation): (&RingPose, &Operation),
+        places: &mut ElementPlaces,
+        mut bent: Option<&mut BentRace>,
         mut each: impl FnMut(ElementLoad),
     ) -> Result<RingLoad, BearingError> {
         let mut ring = RingLoad::default();
-        for (row, places) in self.rows.iter().zip(places.rows()) {
-            row.add(pose, operation, places, &mut ring, &mut each, |_, _| {})?;
+        if let Some(bent) = &mut bent {
+            bent.begin();
+        }
+        let mut first = 0;
+        for (number, (row, places)) in self.rows.iter().zip(places.rows()).enumerate() {
+            let race = bent.as_deref_mut().map(|race| (race, (number, first)));
+            row.add(
+                pose,
+                operation,
+                places,
+                (&mut ring, race),
+                &mut each,
+                |_, _| {},
+            )?;
+            first += row.elements();
         }
         ring.turn_freely(&pose.axis);
         Ok(ring)
@@ -320,7 +394,14 @@ impl QuasiStaticBearing {
             let (mut elements, mut laminae) = (Vec::new(), Vec::new());
             let each = |element| elements.push(element);
             let each_lamina = |inner, outer| laminae.push((inner, outer));
-            row.add(pose, operation, places, &mut ring, each, each_lamina)?;
+            row.add(
+                pose,
+                operation,
+                places,
+                (&mut ring, None),
+                each,
+                each_lamina,
+            )?;
             all.elements.push(elements);
             all.laminae.push(laminae);
         }
@@ -373,7 +454,15 @@ fn shift_under_force(
         };
         let mut ring = RingLoad::default();
         let mut places = vec![None; row.elements()];
-        row.add(&pose, &operation, &mut places, &mut ring, |_| {}, |_, _| {})?;
+        let ring_alone = (&mut ring, None);
+        row.add(
+            &pose,
+            &operation,
+            &mut places,
+            ring_alone,
+            |_| {},
+            |_, _| {},
+        )?;
         Ok::<_, BearingError>(-sense * ring.load[2])
     };
     let (mut low, mut high) = (0.0, 1e-6);

@@ -7,18 +7,19 @@
 //! definition that has one is that of the loads and speeds of the last accepted step, too, and nothing in the first: M
 //! ω/√(ω² + ω₀²) against the turning of the rings.
 
-use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, Power, View};
+use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
 use gearmesh_dynamics::{BodyId, ElementFailure, MarkerPair, RelativeMotion};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+use crate::bent_race::BentRace;
 use crate::definition::BearingDefinition;
+use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlaces;
 use crate::error::BearingError;
 use crate::frequencies::RollingSizes;
 use crate::friction::FrictionTorque;
 use crate::operation::{Control, Operation};
-use crate::quasi_static::QuasiStaticBearing;
-use crate::quasi_static::RowLoads;
+use crate::quasi_static::{QuasiStaticBearing, Row, RowLoads};
 use crate::ring_channels::{RING_CHANNELS, race_loads, ring_channels, sample_ring};
 use crate::ring_load::RingLoad;
 use crate::ring_pose::RingPose;
@@ -62,6 +63,8 @@ pub struct QuasiStaticElement {
     kept_places: ElementPlaces,
     /// Where those of the last evaluation stand.
     places: ElementPlaces,
+    /// The outer races, where they are a bore that bends.
+    bent: Option<BentRace>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -109,6 +112,7 @@ impl QuasiStaticElement {
             bodies: [pair.a.body, pair.b.body],
             kept_places: ElementPlaces::unknown(&bearing.rows),
             places: ElementPlaces::unknown(&bearing.rows),
+            bent: None,
             bearing,
             sizes: definition.rolling_sizes(),
             damping,
@@ -126,6 +130,122 @@ impl QuasiStaticElement {
     pub fn with_element_loads(mut self) -> Self {
         self.element_loads = true;
         self
+    }
+
+    /// Takes the outer races as a bore that bends; `functions`: its motions along the axis by the place in the frame of
+    /// marker A. Whoever solves for the bore sets its motions ([`Self::bent_mut`]) before each evaluation.
+    ///
+    /// # Errors
+    /// [`BearingError::NotCarried`] for what is no cylindrical roller bearing, or has a misaligned outer ring.
+    pub fn in_elastic_bore(
+        mut self,
+        functions: impl Fn(f64) -> Vec<f64>,
+    ) -> Result<Self, BearingError> {
+        self.bent = Some(self.bearing.bent_race(functions)?);
+        Ok(self)
+    }
+
+    /// The outer races that bend.
+    #[must_use]
+    pub fn bent(&self) -> Option<&BentRace> {
+        self.bent.as_ref()
+    }
+
+    /// The same to be moved.
+    pub fn bent_mut(&mut self) -> Option<&mut BentRace> {
+        self.bent.as_mut()
+    }
+
+    /// Markers of the rings: outer, inner.
+    #[must_use]
+    pub fn rings(&self) -> &MarkerPair {
+        &self.pair
+    }
+
+    /// Diameter of its balls or rollers \[m\].
+    #[must_use]
+    pub fn element_diameter_m(&self) -> f64 {
+        self.sizes.element_diameter_m
+    }
+
+    /// Angles of all rollers in the frame of the outer ring at a time, row after row \[rad\].
+    pub fn roller_angles_rad(&self, time_s: f64) -> impl Iterator<Item = f64> + '_ {
+        let operation = self.operation(time_s);
+        self.bearing.rows.iter().flat_map(move |row| {
+            let rollers = match row {
+                Row::Roller(row) => Some(row),
+                Row::Ball(_) | Row::FourPoint(_) | Row::Barrel(_) => None,
+            };
+            rollers.into_iter().flat_map(move |row| {
+                (0..row.rollers).map(move |roller| row.angle_rad(roller, &operation))
+            })
+        })
+    }
+
+    /// How deep a roller at the worst angle overlaps both races at a motion, were they round, at most \[m\].
+    #[must_use]
+    pub fn deepest_m(&self, view: &View<'_>) -> f64 {
+        self.bearing.deepest_m(&pose(&self.motion(view)))
+    }
+
+    /// Speed of the cage against the outer ring \[rad/s\].
+    #[must_use]
+    pub fn cage_rad_per_s(&self) -> f64 {
+        // Linear in the speeds, whatever their unit.
+        let relative = self.kept.inner_rad_per_s - self.kept.outer_rad_per_s;
+        self.sizes.frequencies(relative, 0.0).cage_hz
+    }
+
+    /// Load of the elements on the inner ring at a motion; the search of each begins where it stood at the last
+    /// accepted step, or, where it `goes_on`, at the last call.
+    ///
+    /// # Errors
+    /// [`BearingError`] where an element finds no equilibrium.
+    pub fn find(&mut self, view: &View<'_>, goes_on: bool) -> Result<RingLoad, BearingError> {
+        if !goes_on {
+            self.places.take_from(&self.kept_places);
+        }
+        let (pose, operation) = (pose(&self.motion(view)), self.operation(view.time_s));
+        let at = (&pose, &operation);
+        (self.bearing).evaluate_bent(at, &mut self.places, self.bent.as_mut(), |_| {})
+    }
+
+    /// Adds a load that was found, with damping and friction, to the bodies of the rings; `places`: where their degrees
+    /// of freedom begin.
+    pub fn push(&self, view: &View<'_>, ring: &RingLoad, places: [usize; 2], loads: &mut Loads) {
+        let motion = self.motion(view);
+        let (mut damping, rates) = (self.damping_matrix(&motion), rates(&motion));
+        let mut viscous = damping * rates;
+        if self.kept.friction_nm > 0.0 {
+            let (moment, slope) = self.rubs(rates[5]);
+            viscous[5] += moment;
+            damping[(5, 5)] += slope;
+        }
+        let load = ring.load - viscous;
+        loads.power.dissipated_w += rates.dot(&viscous);
+        match &self.bent {
+            // The balls' energy is not known: what the bearing does is work from outside.
+            None => loads.power.supplied_w += rates.dot(&ring.load),
+            Some(race) => {
+                loads.power.stored_j += race.stored_j;
+                // By the cage, which leads the rollers round a ring that stands still.
+                let centre_m = motion.displacement_m;
+                let about_z = centre_m[0] * ring.load[1] - centre_m[1] * ring.load[0];
+                loads.power.supplied_w += self.cage_rad_per_s() * (about_z + ring.load[5]);
+            }
+        }
+        loads.add_pair_force(places, &motion.generalised_force(&load));
+        if loads.wants_tangents() {
+            let jacobian = motion.jacobian();
+            let mut by_pose = ring.tangent;
+            let turned = self.damping.tilt_nm_s_per_rad * motion.tilt_rate_by_rotation();
+            let mut corner = by_pose.fixed_view_mut::<3, 3>(3, 3);
+            corner -= turned;
+            let along = by_pose * jacobian - damping * motion.rate_jacobian(&jacobian);
+            let by_position = jacobian.tr_mul(&along) + motion.geometric_tangent(&jacobian, &load);
+            let by_velocity = -jacobian.tr_mul(&(damping * jacobian));
+            loads.add_pair_tangents(places, &by_position, &by_velocity);
+        }
     }
 
     /// Shows friction torque and power loss, if it has them, but lets the rings turn freely: for equilibria, in which a
@@ -154,7 +274,8 @@ impl QuasiStaticElement {
         let mut loads = RowLoads::default();
         let mut all = Vec::new();
         let each = |element| all.push(element);
-        let found = (self.bearing).evaluate_each(pose, operation, &mut self.places, each);
+        let (at, bent) = ((pose, operation), self.bent.as_mut());
+        let found = (self.bearing).evaluate_bent(at, &mut self.places, bent, each);
         found.ok()?;
         let mut rest = all.as_slice();
         for row in &self.bearing.rows {
@@ -193,14 +314,13 @@ impl QuasiStaticElement {
     /// The operation at a time, from what was kept.
     fn operation(&self, time_s: f64) -> Operation {
         let kept = &self.kept;
-        // Seen from the outer ring; linear in the speeds, whatever their unit.
+        // Seen from the outer ring.
         let relative = kept.inner_rad_per_s - kept.outer_rad_per_s;
-        let rolling = self.sizes.frequencies(relative, 0.0);
         let since = time_s - kept.time_s;
         Operation {
             inner_rad_per_s: kept.inner_rad_per_s,
             outer_rad_per_s: kept.outer_rad_per_s,
-            cage_angle_rad: kept.cage_angle_rad + rolling.cage_hz * since,
+            cage_angle_rad: kept.cage_angle_rad + self.cage_rad_per_s() * since,
             inner_angle_rad: kept.inner_angle_rad + relative * since,
             control: self.control,
         }
@@ -254,41 +374,12 @@ impl ForceElement for QuasiStaticElement {
     }
 
     fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
-        let motion = self.motion(view);
-        let operation = self.operation(view.time_s);
-        self.places.take_from(&self.kept_places);
-        let ring = if self.friction_alone {
-            RingLoad::default()
-        } else {
-            (self.bearing).evaluate_from(&pose(&motion), &operation, &mut self.places)?
-        };
-        let (mut damping, rates) = (self.damping_matrix(&motion), rates(&motion));
-        let mut viscous = damping * rates;
-        if self.kept.friction_nm > 0.0 {
-            let (moment, slope) = self.rubs(rates[5]);
-            viscous[5] += moment;
-            damping[(5, 5)] += slope;
-        }
-        let load = ring.load - viscous;
-        // The balls' energy is not told: what the bearing does is work from outside.
-        loads.power = Power {
-            stored_j: 0.0,
-            dissipated_w: rates.dot(&viscous),
-            supplied_w: rates.dot(&ring.load),
+        let ring = match self.friction_alone {
+            true => RingLoad::default(),
+            false => self.find(view, false)?,
         };
         let places = [loads.starts()[0], loads.starts()[1]];
-        loads.add_pair_force(places, &motion.generalised_force(&load));
-        if loads.wants_tangents() {
-            let jacobian = motion.jacobian();
-            let mut by_pose = ring.tangent;
-            let turned = self.damping.tilt_nm_s_per_rad * motion.tilt_rate_by_rotation();
-            let mut corner = by_pose.fixed_view_mut::<3, 3>(3, 3);
-            corner -= turned;
-            let along = by_pose * jacobian - damping * motion.rate_jacobian(&jacobian);
-            let by_position = jacobian.tr_mul(&along) + motion.geometric_tangent(&jacobian, &load);
-            let by_velocity = -jacobian.tr_mul(&(damping * jacobian));
-            loads.add_pair_tangents(places, &by_position, &by_velocity);
-        }
+        self.push(view, &ring, places, loads);
         Ok(())
     }
 
@@ -377,16 +468,17 @@ impl ForceElement for QuasiStaticElement {
         let operation = self.operation(view.time_s);
         self.places.take_from(&self.kept_places);
         let (elements, mut number) = (self.element_loads, 0);
-        let found =
-            self.bearing
-                .evaluate_each(&pose(&motion), &operation, &mut self.places, |element| {
-                    if elements {
-                        let at = RING_CHANNELS + 2 * number;
-                        out[at] = element.inner_load_n;
-                        out[at + 1] = element.outer_load_n;
-                        number += 1;
-                    }
-                });
+        let (pose, bent) = (pose(&motion), self.bent.as_mut());
+        let each = |element: ElementLoad| {
+            if elements {
+                let at = RING_CHANNELS + 2 * number;
+                out[at] = element.inner_load_n;
+                out[at + 1] = element.outer_load_n;
+                number += 1;
+            }
+        };
+        let at = (&pose, &operation);
+        let found = (self.bearing).evaluate_bent(at, &mut self.places, bent, each);
         let Ok(ring) = found else {
             out.fill(f64::NAN);
             return;
@@ -398,7 +490,7 @@ impl ForceElement for QuasiStaticElement {
                 outer_rad_per_s,
                 ..operation
             };
-            let friction = self.friction(&pose(&motion), &operation);
+            let friction = self.friction(&pose, &operation);
             let friction = friction.unwrap_or_default();
             let at = out.len() - 2;
             out[at..].copy_from_slice(&[friction.total_nm(), friction.power_w()]);

@@ -6,13 +6,15 @@
 //! out. Cylindrical rollers are led by the ribs of one ring: they do not move along z. Tapered ones lean on the inner
 //! ring's rib with a spherical end. Formula (8) and what follows it in docs/theory/rolling_bearings.md.
 
-use nalgebra::{Matrix3, Matrix3x6, Vector2, Vector3};
+use nalgebra::{Matrix3, Matrix3x6, Matrix6x3, Vector2, Vector3};
 
 use crate::axial_plane::AxialPlane;
+use crate::bent_race::{BentAtRoller, LaminaOnRace};
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
 use crate::element_search::{ElementSearch, NO_FORCE_N, Unbalanced};
 use crate::error::BearingError;
+use crate::line_contact::LineContact;
 use crate::ring_load::{RingLoad, by_ring};
 use crate::ring_pose::{RingPose, cross};
 use crate::roller_row::{Lamina, RollerRow};
@@ -37,6 +39,8 @@ pub(crate) struct Roller<'a> {
     pub orbit: f64,
     /// Speed about its own axis \[rad/s\].
     pub spin: f64,
+    /// How far the outer race has moved away from the axis at each lamina \[m\]; empty where it is round.
+    pub race_moved_m: &'a [f64],
 }
 
 /// A point of the roller that the inner ring presses: its place, the force on the ring and how that changes.
@@ -78,14 +82,14 @@ impl Roller<'_> {
     pub fn add(
         &self,
         found: &mut ElementPlace,
-        ring: &mut RingLoad,
+        (ring, bent): (&mut RingLoad, Option<BentAtRoller<'_>>),
         each_lamina: &mut impl FnMut(f64, f64),
     ) -> Result<ElementLoad, BearingError> {
         let (place, state) = self.equilibrium(found.take())?;
         if state.scale > NO_FORCE_N {
             *found = Some(place);
         }
-        self.add_to_ring(&place, &state, ring);
+        self.add_to_rings(&place, &state, ring, bent);
         Ok(self.report(&place, &state, each_lamina))
     }
 
@@ -150,14 +154,18 @@ impl Roller<'_> {
         }
     }
 
-    /// Load of a lamina at the outer race.
-    fn outer_load(&self, place: &Vector3<f64>, lamina: &Lamina) -> (f64, f64) {
+    /// Load of a lamina at the outer race, its slope and the energy of its contact.
+    fn outer_load(&self, place: &Vector3<f64>, (number, lamina): (usize, &Lamina)) -> [f64; 3] {
         let race = &self.row.outer;
         let (along, _) = self.axes(place[2]);
         let p = Vector2::new(place[0], place[1]) + along * lamina.place_m;
-        let distance = race.offset_m - (race.normal.0 * p[0] + race.normal.1 * p[1]);
-        let (load, slope) = race.contact.line_load(lamina.reach_m - distance);
-        (load * lamina.length_m, slope * lamina.length_m)
+        let moved_m = self.race_moved_m.get(number).copied().unwrap_or_default();
+        let offset_m = race.offset_m + race.normal.0 * moved_m;
+        let distance = offset_m - (race.normal.0 * p[0] + race.normal.1 * p[1]);
+        let approach_m = lamina.reach_m - distance;
+        let (load, slope) = race.contact.line_load(approach_m);
+        let energy = LineContact::energy(load, approach_m);
+        [load, slope, energy].map(|value| value * lamina.length_m)
     }
 
     fn state(&self, place: &Vector3<f64>) -> State {
@@ -186,8 +194,8 @@ impl Roller<'_> {
         });
         let (c, s) = row.outer.normal;
         let n = Vector2::new(c, s);
-        for lamina in &row.laminae {
-            let (load, slope) = self.outer_load(place, lamina);
+        for (number, lamina) in row.laminae.iter().enumerate() {
+            let [load, slope, _] = self.outer_load(place, (number, lamina));
             if load > 0.0 {
                 let stiffness = n * (n * slope).transpose();
                 add_point(
@@ -343,10 +351,73 @@ impl Roller<'_> {
         }
     }
 
-    fn add_to_ring(&self, place: &Vector3<f64>, state: &State, ring: &mut RingLoad) {
-        if state.inner_load + state.rib_load == 0.0 || state.scale <= NO_FORCE_N {
+    fn add_to_rings(
+        &self,
+        place: &Vector3<f64>,
+        state: &State,
+        ring: &mut RingLoad,
+        bent: Option<BentAtRoller<'_>>,
+    ) {
+        if state.scale <= NO_FORCE_N {
             return;
         }
+        let mut tangent = state.tangent;
+        let stiffest = tangent[(0, 0)];
+        for place in 0..3 {
+            if tangent[(place, place)] == 0.0 {
+                tangent[(place, place)] = stiffest;
+            }
+        }
+        let mut ring_by_place = Matrix6x3::zeros();
+        if state.inner_load + state.rib_load > 0.0 {
+            ring_by_place = self.add_to_ring(place, &tangent, ring);
+        }
+        if let Some(mut bent) = bent {
+            self.add_to_race(place, state, &mut bent);
+            bent.follow(&tangent, &ring_by_place);
+        }
+    }
+
+    /// What the roller does to an outer race that bends, at its place.
+    fn add_to_race(&self, place: &Vector3<f64>, state: &State, bent: &mut BentAtRoller<'_>) {
+        let row = self.row;
+        let (_, across) = self.axes(place[2]);
+        let (c, s) = row.outer.normal;
+        let mut inner_j = 0.0;
+        self.inner_points(place, |_, load, lamina| {
+            if let Some(number) = lamina.filter(|_| load > 0.0) {
+                let length_m = row.laminae[number].length_m;
+                let approach_m = row.inner.contact.approach_m(load / length_m);
+                inner_j += length_m * LineContact::energy(load / length_m, approach_m);
+            }
+        });
+        let mut outer_j = 0.0;
+        for (number, lamina) in row.laminae.iter().enumerate() {
+            let [load_n, slope, energy_j] = self.outer_load(place, (number, lamina));
+            if load_n > 0.0 {
+                outer_j += energy_j;
+                let by_tilt = (across * lamina.place_m).dot(&Vector2::new(c, s));
+                bent.add_lamina(&LaminaOnRace {
+                    number,
+                    load_n,
+                    slope,
+                    by_place: Vector3::new(c, 0.0, by_tilt),
+                });
+            }
+        }
+        let centrifugal_n = row.mass_kg * row.pitch_radius_m * self.orbit * self.orbit;
+        let thrown_j = centrifugal_n * (place[0] - row.pitch_radius_m);
+        *bent.stored_j += inner_j + outer_j - thrown_j + self.gyroscopic_nm() * place[2];
+        debug_assert!(state.rib_load == 0.0);
+    }
+
+    /// Returns how force and moment on the ring change with the roller's place.
+    fn add_to_ring(
+        &self,
+        place: &Vector3<f64>,
+        tangent: &Matrix3<f64>,
+        ring: &mut RingLoad,
+    ) -> Matrix6x3<f64> {
         // ∂(force on the roller)/∂ring, and ∂(load on the ring)/∂place.
         let mut roller_by_ring = Matrix3x6::zeros();
         let mut force_by_place = Matrix3::zeros();
@@ -369,20 +440,17 @@ impl Roller<'_> {
         if self.row.rib.is_none() {
             roller_by_ring.set_row(1, &nalgebra::RowVector6::zeros());
         }
-        let mut tangent = state.tangent;
-        let stiffest = tangent[(0, 0)];
-        for place in 0..3 {
-            if tangent[(place, place)] == 0.0 {
-                tangent[(place, place)] = stiffest;
-            }
-        }
+        let mut by_place = Matrix6x3::zeros();
+        by_place.fixed_rows_mut::<3>(0).copy_from(&force_by_place);
+        by_place.fixed_rows_mut::<3>(3).copy_from(&moment_by_place);
         let Some(follows) = tangent.lu().solve(&roller_by_ring) else {
-            return;
+            return by_place;
         };
         let mut block = ring.tangent.fixed_view_mut::<3, 6>(0, 0);
         block += force_by_place * follows;
         let mut block = ring.tangent.fixed_view_mut::<3, 6>(3, 0);
         block += moment_by_place * follows;
+        by_place
     }
 
     fn report(
@@ -393,19 +461,17 @@ impl Roller<'_> {
     ) -> ElementLoad {
         let row = self.row;
         let mut largest = [0.0_f64; 2];
-        let mut inner_loads = vec![0.0; row.laminae.len()];
-        self.inner_points(place, |_, load, lamina| {
-            if let Some(number) = lamina {
-                inner_loads[number] = load;
-            }
-        });
-        for (lamina, inner) in row.laminae.iter().zip(inner_loads) {
-            let (outer, _) = self.outer_load(place, lamina);
+        self.inner_points(place, |_, inner, lamina| {
+            let Some(number) = lamina else {
+                return;
+            };
+            let lamina = &row.laminae[number];
+            let [outer, ..] = self.outer_load(place, (number, lamina));
             each_lamina(inner, outer);
             for (most, load) in largest.iter_mut().zip([inner, outer]) {
                 *most = most.max(load / lamina.length_m);
             }
-        }
+        });
         ElementLoad {
             inner_load_n: state.inner_load,
             outer_load_n: state.outer_load,

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::axial_plane::AxialPlane;
+use crate::bent_race::BentRace;
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
 use crate::error::BearingError;
@@ -11,6 +12,9 @@ use crate::operation::Operation;
 use crate::ring_load::RingLoad;
 use crate::ring_pose::RingPose;
 use crate::roller_equilibrium::Roller;
+
+/// Outer races that bend, the number of the row and that of its first roller; none where they are round.
+pub(crate) type BentRow<'a> = Option<(&'a mut BentRace, (usize, usize))>;
 
 /// A lamina.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,7 +109,7 @@ impl RollerRow {
         pose: &RingPose,
         operation: &Operation,
         places: &mut [ElementPlace],
-        ring: &mut RingLoad,
+        (ring, mut bent): (&mut RingLoad, BentRow<'_>),
         mut each: impl FnMut(ElementLoad),
         mut each_lamina: impl FnMut(f64, f64),
     ) -> Result<(), BearingError> {
@@ -127,8 +131,19 @@ impl RollerRow {
                 number,
                 orbit,
                 spin,
+                race_moved_m: &[],
             };
-            let mut load = roller.add(start, ring, &mut each_lamina)?;
+            let mut load = match &mut bent {
+                None => roller.add(start, (ring, None), &mut each_lamina)?,
+                Some((race, (row, first))) => {
+                    let (race_moved_m, part) = race.of_roller(*row, *first + number);
+                    let roller = Roller {
+                        race_moved_m,
+                        ..roller
+                    };
+                    roller.add(start, (ring, Some(part)), &mut each_lamina)?
+                }
+            };
             load.angle_rad = angle;
             each(load);
         }

@@ -9,6 +9,7 @@
 
 use std::sync::Arc;
 
+use crate::bore_bending::BoreBending;
 use crate::contact_error::ContactError;
 use crate::cross_compliance::CrossCompliance;
 use crate::nlcp::{Info, LocalLaw, Params, Problem, Workspace, solve_position};
@@ -53,6 +54,10 @@ pub struct JointContact {
     felt_m: Vec<f64>,
     /// How the energy between sides changes as a contact walks over the flank of gear 0 or 1 \[J per u\].
     energy_by_u: Vec<[f64; 2]>,
+    /// Bodies that bend over their bores.
+    bores: Vec<BoreBending>,
+    /// Compliance and separations with what bores make of them.
+    softened: (Vec<f64>, Vec<f64>),
 }
 
 impl JointContact {
@@ -78,7 +83,32 @@ impl JointContact {
             change: empty(),
             felt_m: empty(),
             energy_by_u: Vec::with_capacity(capacity),
+            bores: Vec::new(),
+            softened: (Vec::new(), Vec::new()),
         }
+    }
+
+    /// Adds bodies that bend over their bores.
+    #[must_use]
+    pub fn with_bores(mut self, bores: Vec<BoreBending>) -> Self {
+        if !bores.is_empty() {
+            let capacity = self.work.capacity();
+            let empty = Vec::with_capacity;
+            self.softened = (empty(capacity * capacity), empty(capacity));
+        }
+        self.bores = bores;
+        self
+    }
+
+    /// Bodies that bend over their bores.
+    #[must_use]
+    pub fn bores(&self) -> &[BoreBending] {
+        &self.bores
+    }
+
+    /// The same to be supported.
+    pub fn bores_mut(&mut self) -> &mut [BoreBending] {
+        &mut self.bores
     }
 
     /// The links.
@@ -113,6 +143,7 @@ impl JointContact {
         self.felt_m.resize(end, 0.0);
         self.energy_by_u.clear();
         self.energy_by_u.resize(end, [0.0; 2]);
+        self.bores.iter_mut().for_each(|bore| bore.lay(end));
     }
 
     /// Number of contacts.
@@ -142,6 +173,9 @@ impl JointContact {
         self.closing.extend_from_slice(problem.closing);
         self.lever_m.extend_from_slice(problem.lever_m);
         self.begin_n.extend_from_slice(begin_n);
+        for bore in &mut self.bores {
+            bore.take(side, own.start, contact);
+        }
     }
 
     /// Takes what the body of a link deflects between its sides.
@@ -171,13 +205,17 @@ impl JointContact {
     /// # Errors
     /// [`ContactError::Nlcp`].
     pub fn solve(&mut self, goes_on: bool) -> Result<Info, ContactError> {
-        let problem = Problem::new(
-            &self.c,
-            &self.local,
-            &self.separation_m,
-            &self.closing,
-            &self.lever_m,
-        )?;
+        let (mut c, mut separation_m) = (&self.c, &self.separation_m);
+        if !self.bores.is_empty() {
+            let (softened, shifted) = &mut self.softened;
+            softened.clone_from(c);
+            shifted.clone_from(separation_m);
+            for bore in &self.bores {
+                bore.soften(softened, shifted);
+            }
+            (c, separation_m) = (softened, shifted);
+        }
+        let problem = Problem::new(c, &self.local, separation_m, &self.closing, &self.lever_m)?;
         let known = self.begin_n.iter().any(|force| *force > 0.0);
         match goes_on && self.work.forces().len() == self.begin_n.len() {
             true => {}
@@ -186,6 +224,7 @@ impl JointContact {
         }
         let info = solve_position(&problem, 0.0, &self.params, &mut self.work)?;
         let (n, forces) = (self.size(), self.work.forces());
+        self.bores.iter_mut().for_each(|bore| bore.follow(forces));
         for side in 0..self.starts.len() - 1 {
             let own = self.starts[side]..self.starts[side + 1];
             for i in own.clone() {
@@ -217,6 +256,13 @@ impl JointContact {
                 self.energy_by_u[starts[0] + i][gears[0]] += both * found.by_a;
                 self.energy_by_u[starts[1] + j][gears[1]] += both * found.by_b;
             }
+        }
+    }
+
+    /// After [`Self::solve`]: the same of the energy between flanks and bores.
+    pub fn walk_bores(&mut self) {
+        for bore in &self.bores {
+            bore.walk(&self.starts, self.work.forces(), &mut self.energy_by_u);
         }
     }
 

@@ -11,6 +11,7 @@
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs`, `coupled_places.rs`, `station_blocks.rs` |
 //! | the same of a bevel gear | [`SliceCompliance::of_bevel`] | `bevel_slices.rs` |
 //! | how does the force of one mesh of a gear deflect it at another | [`CrossCompliance`] | `cross_compliance.rs` |
+//! | how does a body bend over its bore, which rollers hold | [`BoreBending`] | `bore_bending.rs` |
 //! | the forces of several meshes and what they deflect together | [`JointContact`] | `joint_contact.rs` |
 //! | what a root crack adds to that | [`crack_rows`] | `crack_rows.rs` |
 //! | where does a slice stand that has walked along the tooth | [`SliceWalk`] | `walked_slice.rs` |
@@ -43,6 +44,7 @@
 
 pub mod axial_spread;
 pub mod bevel_slices;
+pub mod bore_bending;
 mod calibrated_field;
 mod contact_error;
 pub mod contact_lines;
@@ -77,6 +79,7 @@ pub mod tip_contact;
 mod walked_slice;
 
 pub use axial_spread::AxialSpread;
+pub use bore_bending::{BoreBending, BoreFlank};
 pub use contact_error::ContactError;
 pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};

@@ -59,7 +59,7 @@ mod descent;
 mod edge_contact;
 mod effort;
 mod error;
-mod ldl;
+pub(crate) mod ldl;
 mod line_contact;
 mod local_law;
 mod local_law_error;

@@ -11,16 +11,20 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use gearmesh_contact::JointContact;
+use gearmesh_contact::{BoreBending, JointContact};
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
 use gearmesh_dynamics::{BodyId, ElementFailure};
 use gearmesh_model::ReducedGear;
 
-use self::group::{Group, SideOfMesh, links};
+use self::group::{Group, SideOfMesh, links, sides_of_bore};
+use self::roller_bore::RollerBore;
 use crate::error::DrivetrainError;
 use crate::mesh_element::MeshElement;
 
 mod group;
+mod roller_bore;
+
+pub use roller_bore::GearOnRollers;
 
 /// A mesh that is to be solved with others, and the models of its gears: none of a gear whose deflection stays with
 /// the mesh's own forces.
@@ -50,16 +54,27 @@ pub struct CoupledMesh {
     group: Arc<Mutex<Group>>,
 }
 
+/// The bearing of a gear on rollers, for what it reports.
+pub struct CoupledBearing {
+    name: String,
+    bodies: [BodyId; 2],
+    number: usize,
+    group: Arc<Mutex<Group>>,
+}
+
 impl CoupledMeshes {
-    /// Couples meshes by the bodies that two or more of them have a model for. The first is the element that pushes.
+    /// Couples meshes by the bodies that two or more of them have a model for, and by rollers in the bores of gears. The
+    /// first is the element that pushes.
     ///
     /// # Errors
     /// [`DrivetrainError::NotCoupled`] for a mesh whose model is not `hybrid` or whose gears have vibration modes,
-    /// [`DrivetrainError::Model`] for a model that does not carry the flanks' loads.
+    /// [`DrivetrainError::Model`] for a model that does not carry the flanks' loads, others for a bearing that does not
+    /// sit in the bore.
     pub fn new(
         name: &str,
         meshes: Vec<MeshToCouple<'_>>,
-    ) -> Result<(Self, Vec<CoupledMesh>), DrivetrainError> {
+        gears: Vec<GearOnRollers<'_>>,
+    ) -> Result<(Self, Vec<CoupledMesh>, Vec<CoupledBearing>), DrivetrainError> {
         let (mut elements, mut models) = (Vec::new(), Vec::new());
         for mesh in meshes {
             elements.push(mesh.element);
@@ -82,8 +97,16 @@ impl CoupledMeshes {
             }
         }
         let links = links(&elements, &models, &sides)?;
+        let (mut bores, mut bendings) = (Vec::new(), Vec::new());
+        for gear in gears {
+            let body = gear.bearing.rings().a.body;
+            let flanks = sides_of_bore(&elements, (gear.gear, gear.motions, body), &sides)?;
+            bendings.push(BoreBending::new(gear.motions, flanks, capacity));
+            bores.push(RollerBore::new(gear, capacity)?);
+        }
         let mut bodies: Vec<BodyId> = Vec::new();
-        for body in elements.iter().flat_map(MeshElement::gear_bodies) {
+        let on_meshes = elements.iter().flat_map(MeshElement::gear_bodies);
+        for body in on_meshes.chain(bores.iter().flat_map(RollerBore::bodies)) {
             if !bodies.contains(&body) {
                 bodies.push(body);
             }
@@ -92,7 +115,8 @@ impl CoupledMeshes {
             motions: Vec::with_capacity(elements.len()),
             jacobians: Vec::with_capacity(elements.len()),
             sides,
-            joint: JointContact::new(links, capacity),
+            joint: JointContact::new(links, capacity).with_bores(bendings),
+            bores,
             bodies: bodies.clone(),
             known: Vec::with_capacity(bodies.len()),
             ahead_m: Vec::with_capacity(capacity),
@@ -106,6 +130,18 @@ impl CoupledMeshes {
             group: Arc::clone(&group),
         };
         let parts = lock(&group).meshes.iter().enumerate().map(each).collect();
+        let of_bearing = |(number, bore): (usize, &RollerBore)| CoupledBearing {
+            name: bore.bearing.name().to_owned(),
+            bodies: bore.bodies(),
+            number,
+            group: Arc::clone(&group),
+        };
+        let bearings = lock(&group)
+            .bores
+            .iter()
+            .enumerate()
+            .map(of_bearing)
+            .collect();
         let name = name.to_owned();
         let coupled = Self {
             name,
@@ -114,7 +150,7 @@ impl CoupledMeshes {
             bodies,
             group,
         };
-        Ok((coupled, parts))
+        Ok((coupled, parts, bearings))
     }
 
     /// Pairs of sides that feel each other through a body.
@@ -156,7 +192,15 @@ impl ForceElement for CoupledMeshes {
         if tangents {
             group.add_cross_tangents(place, loads);
         }
+        group.push_bores(view, place, loads);
         Ok(())
+    }
+
+    fn begin(&mut self, view: &View<'_>) {
+        for bore in &mut lock(&self.group).bores {
+            bore.bearing.begin(view);
+            bore.kept_m.fill(0.0);
+        }
     }
 
     fn admits(&self, view: &View<'_>) -> Result<(), ElementFailure> {
@@ -165,26 +209,42 @@ impl ForceElement for CoupledMeshes {
     }
 
     fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
-        let mut group = lock(&self.group);
+        let group = &mut *lock(&self.group);
         let mut meshes = group.meshes.iter_mut();
-        meshes.try_for_each(|mesh| mesh.commit(view))
+        meshes.try_for_each(|mesh| mesh.commit(view))?;
+        for (bore, bending) in group.bores.iter_mut().zip(group.joint.bores()) {
+            bore.kept_m.copy_from_slice(bending.motions_m());
+            bore.bearing.commit(view)?;
+        }
+        Ok(())
     }
 
     fn save(&self, out: &mut Vec<f64>) {
-        lock(&self.group)
-            .meshes
-            .iter()
-            .for_each(|mesh| mesh.save(out));
+        let group = lock(&self.group);
+        group.meshes.iter().for_each(|mesh| mesh.save(out));
+        for bore in &group.bores {
+            out.extend(&bore.kept_m);
+            bore.bearing.save(out);
+        }
     }
 
     fn restore(&mut self, numbers: &[f64]) {
-        let mut rest = numbers;
-        for mesh in &mut lock(&self.group).meshes {
-            let own = &mut self.saved;
+        let group = &mut *lock(&self.group);
+        let (mut rest, own) = (numbers, &mut self.saved);
+        for mesh in &mut group.meshes {
             own.clear();
             mesh.save(own);
             let (own, after) = rest.split_at(own.len().min(rest.len()));
             mesh.restore(own);
+            rest = after;
+        }
+        for bore in &mut group.bores {
+            let (kept, after) = rest.split_at(bore.kept_m.len().min(rest.len()));
+            bore.kept_m.copy_from_slice(kept);
+            own.clear();
+            bore.bearing.save(own);
+            let (of_bearing, after) = after.split_at(own.len().min(after.len()));
+            bore.bearing.restore(of_bearing);
             rest = after;
         }
     }
@@ -222,5 +282,39 @@ impl ForceElement for CoupledMesh {
         }
         let motion = group.motions[self.number];
         group.meshes[self.number].sample_updated(view, &motion, out);
+    }
+}
+
+impl ForceElement for CoupledBearing {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    /// Its forces are among those of the [`CoupledMeshes`].
+    fn evaluate(&mut self, _view: &View<'_>, _loads: &mut Loads) -> Result<(), ElementFailure> {
+        Ok(())
+    }
+
+    /// Nothing depends on anything.
+    fn couplings(&self, starts: &[usize]) -> Vec<Vec<usize>> {
+        vec![vec![starts[0]]]
+    }
+
+    fn channels(&self) -> Vec<Channel> {
+        lock(&self.group).bores[self.number].bearing.channels()
+    }
+
+    fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
+        let mut group = lock(&self.group);
+        if !group.is_at(view) && group.update(view, false).is_err() {
+            group.known.clear();
+            out.fill(f64::NAN);
+            return;
+        }
+        group.bores[self.number].bearing.sample(view, out);
     }
 }

@@ -8,6 +8,37 @@ use crate::tooth_overlap::turning;
 /// Error of this crate.
 #[derive(Debug, thiserror::Error)]
 pub enum DrivetrainError {
+    /// Rollers beside the axis of the bore that they press on.
+    #[error(
+        "its axis is not that of the gear, from which it is {:.6} mm away: rollers on an elastic bore run around the gear's own axis, z of both alike; remove at_mm and axis, or move it along the axis only", 1e3 * beside_m
+    )]
+    RollersBeside {
+        /// Distance of the bearing's middle from the gear's axis \[m\].
+        beside_m: f64,
+    },
+    /// Rollers that stick out of the bore.
+    #[error("its rollers stick out of the bore by {:.4} mm; place it inside the bore, or take shorter rollers", 1e3 * out_m)]
+    RollersOutside {
+        /// By how much \[m\].
+        out_m: f64,
+    },
+    /// Rollers and bore that do not settle.
+    #[error(
+        "bearing `{bearing}`: rollers and elastic bore do not settle, {missed_n:.3e} N are left of {most_n:.3e} N after {iterations} iterations"
+    )]
+    RollersUnsettled {
+        /// The bearing.
+        bearing: String,
+        /// What is left \[N\].
+        missed_n: f64,
+        /// The largest force of a roller \[N\].
+        most_n: f64,
+        /// Iterations.
+        iterations: usize,
+    },
+    /// A bearing.
+    #[error(transparent)]
+    Bearing(#[from] gearmesh_bearings::BearingError),
     /// A number is out of its range.
     #[error("{owner}: {what} is {found}; it must be {allowed}")]
     Value {

@@ -15,7 +15,7 @@
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs`, a side of it `side_assembly.rs` |
 //! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
-//! | meshes that share gear bodies, solved together | [`CoupledMeshes`] | `coupled_meshes.rs` |
+//! | meshes that share gear bodies, solved together, with the rollers in their bores | [`CoupledMeshes`] | `coupled_meshes.rs` |
 //! | root strain at gauges while a run goes on | [`StrainGauges`] | `strain_gauges.rs` |
 //! | errors and faults of teeth | [`FlankError`] | `flank_error.rs`, `errors/` |
 //! | a gear cut into its shaft, its frame on one face, the other moving by modes | [`GearOnFaces`] | `gear_on_faces.rs` |
@@ -68,7 +68,7 @@ pub mod tooth_overlap;
 mod tooth_zero;
 
 pub use bevel::{BevelAtRest, BevelMesh, BevelSlices, FacetKind, FacetSize, PlaceAtRest};
-pub use coupled_meshes::{CoupledMesh, CoupledMeshes, MeshToCouple};
+pub use coupled_meshes::{CoupledBearing, CoupledMesh, CoupledMeshes, GearOnRollers, MeshToCouple};
 pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
 pub use flank_contacts::FlankContacts;

@@ -65,7 +65,7 @@ fn steps_do_not_allocate(pair: &gearmesh_geometry::GearPair) {
     count_in_steps(run.unwrap(), STEP_S);
 }
 
-/// Meshes that are solved together, damped.
+/// Meshes that are solved together, damped; on fixed axes, and with rollers in the bore that they share.
 #[test]
 fn steps_of_an_idler_do_not_allocate() {
     use mesh_common::idler::*;
@@ -73,17 +73,27 @@ fn steps_of_an_idler_do_not_allocate() {
         time_s: 1e-6,
         full_depth_m: 1e-6,
     };
-    let how = Meshes {
-        damping: Some(damping),
-        ends: PathEnds::Extended,
-        ..PLAIN
+    let rollers = Rollers {
+        bore: Some(1.0),
+        number: 12,
+        young_pa: 206e9,
+        clearance_m: 4e-6,
+        beside_m: [0.0; 2],
     };
-    // A pitch takes 60 steps.
-    let system = idler(0.0, [5e-6, 5e-6], how, (45.0, 150.0));
-    let step_s = std::f64::consts::TAU / 41.0 / 45.0 / 60.0;
-    let params = gearmesh_dynamics::Params::fixed(step_s);
-    let run = gearmesh_dynamics::Simulation::new(system, params);
-    count_in_steps(run.unwrap(), step_s);
+    for rollers in [None, Some(rollers)] {
+        let how = Meshes {
+            damping: Some(damping),
+            ends: PathEnds::Extended,
+            rollers,
+            ..PLAIN
+        };
+        // A pitch takes 60 steps.
+        let system = idler(0.0, [5e-6, 5e-6], how, (45.0, 150.0));
+        let step_s = std::f64::consts::TAU / 41.0 / 45.0 / 60.0;
+        let params = gearmesh_dynamics::Params::fixed(step_s);
+        let run = gearmesh_dynamics::Simulation::new(system, params);
+        count_in_steps(run.unwrap(), step_s);
+    }
 }
 
 fn count_in_steps(mut run: gearmesh_dynamics::Simulation, step_s: f64) {

@@ -78,25 +78,11 @@ impl BorePatterns {
     /// \[m\].
     #[must_use]
     pub fn at(&self, polar_rad: f64, z_m: f64) -> Vec<f64> {
-        let along = legendre(self.place_along(z_m), self.along);
-        let wave = |wave: usize| {
-            let (sin, cos) = (wave.div_ceil(2) as f64 * polar_rad).sin_cos();
-            if wave.is_multiple_of(2) && wave > 0 {
-                sin
-            } else {
-                cos
-            }
-        };
-        let waves = (0..self.waves()).map(wave);
+        let along = legendre(place_along(self.ends_m, z_m), self.along);
+        let waves = (0..self.waves()).map(|wave| bore_wave(wave, polar_rad));
         waves
             .flat_map(|wave| along.iter().map(move |p| wave * p))
             .collect()
-    }
-
-    /// −1 at the back, 1 at the front.
-    fn place_along(&self, z_m: f64) -> f64 {
-        let [back, front] = self.ends_m;
-        (2.0 * z_m - back - front) / (front - back)
     }
 
     /// Rigid motions of the body as motions of its bore: translations along x and y, rotation about z; in space
@@ -193,8 +179,24 @@ impl BorePatterns {
     }
 }
 
+/// A wave around the bore at a polar angle: 1, cos φ, sin φ, cos 2φ …
+#[must_use]
+pub fn bore_wave(wave: usize, polar_rad: f64) -> f64 {
+    let (sin, cos) = (wave.div_ceil(2) as f64 * polar_rad).sin_cos();
+    if wave.is_multiple_of(2) && wave > 0 {
+        sin
+    } else {
+        cos
+    }
+}
+
+/// −1 at the back, 1 at the front.
+pub(crate) fn place_along([back, front]: [f64; 2], z_m: f64) -> f64 {
+    (2.0 * z_m - back - front) / (front - back)
+}
+
 /// Legendre polynomials P_0 to P_(count − 1), by the recurrence of Bonnet.
-fn legendre(x: f64, count: usize) -> Vec<f64> {
+pub(crate) fn legendre(x: f64, count: usize) -> Vec<f64> {
     let mut all = vec![1.0, x];
     for n in 1..count.max(2) - 1 {
         let k = n as f64;

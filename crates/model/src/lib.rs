@@ -66,7 +66,7 @@ pub use atomic_file::{
     demand_output, wait_for_writes, write_by, write_bytes, write_streamed, write_text,
 };
 pub use bevel_body::{BevelBody, BevelMember, BevelNearField, SpiralHand};
-pub use bore_patterns::{BoreMotion, BorePatterns};
+pub use bore_patterns::{BoreMotion, BorePatterns, bore_wave};
 pub use column_file::{Column, ColumnFile, write_columns};
 pub use csv_cell::{csv_cell, no_formula, without_apostrophe};
 pub use data_tree::{DataArray, DataTree, FileFormat, Values};
@@ -90,6 +90,7 @@ pub use root_crack::RootCrack;
 pub use row_log::{LockedLog, RowLog};
 pub use seal::{bytes_digest, file_digest};
 pub use shaft_faces::{FaceMass, ShaftFaces};
+pub use sliding_bore::{RadialMotions, SlidingBore};
 pub use staged_folder::write_folder;
 pub use stored_gear::StoredGear;
 pub use timestamp::utc_now;

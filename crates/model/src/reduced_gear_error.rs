@@ -79,7 +79,7 @@ pub enum ReducedGearError {
     },
     /// The model carries no motions of its bore.
     #[error(
-        "gear \"{gear}\" carries no motions of its bore, which bore = \"sliding\" needs; add a table [reduction.bore] to the gear's file and reduce it again"
+        "gear \"{gear}\" carries no motions of its bore, which bore = \"sliding\" and \"rollers\" need; add a table [reduction.bore] to the gear's file and reduce it again"
     )]
     NoBoreMotions {
         /// The gear.

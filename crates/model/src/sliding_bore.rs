@@ -5,47 +5,144 @@
 //! S_oo q_o = s_oᵀ f,      C = C_hub + s_o S_oo⁻¹ s_oᵀ        o: tangential and axial motions but the rigid ones
 //! ```
 //!
-//! Radial motions are held, as by a pin that presses and pulls. The uniform tangential and the uniform axial motion
-//! belong to the motion of the body. Theory: docs/theory/bore_patterns.md.
+//! Radial motions are held, as by a pin that presses and pulls; for rollers, which let them go,
+//!
+//! ```text
+//! Ŝ = S_rr − S_ro S_oo⁻¹ S_or,      ŝ = s_r − s_o S_oo⁻¹ S_or
+//! ```
+//!
+//! is what they have to do with forces on the bore and with the flanks. The uniform tangential and the uniform axial
+//! motion belong to the motion of the body. Theory: docs/theory/bore_patterns.md.
 
-use crate::bore_patterns::BoreMotion;
+use crate::bore_patterns::{BoreMotion, legendre, place_along};
 use crate::reduced_gear::ReducedGear;
 use crate::reduced_gear_error::ReducedGearError;
 
+/// A gear whose bore slides, and the radial motions of the bore that its support holds or lets go.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlidingBore {
+    /// The gear as its flanks feel it where all radial motions are held. Gauges, modes and the bore's motions, which are
+    /// those of a held bore, are left out.
+    pub gear: ReducedGear,
+    /// The radial motions.
+    pub radial: RadialMotions,
+}
+
+/// Radial motions of a bore that slides: those that bend the body. Its rigid ones, shifts across the axis and tilts,
+/// are left out: they belong to the motion of the body, whose bore has none of cos φ and sin φ in its mean along the
+/// axis and, in space, in the slope along it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RadialMotions {
+    /// Polynomials along the bore.
+    pub along: usize,
+    /// Radius of the bore (m).
+    pub radius_m: f64,
+    /// Its back and front (m).
+    pub ends_m: [f64; 2],
+    /// Wave and degree of each, as in [`BorePatterns`].
+    pub motions: Vec<[usize; 2]>,
+    /// Force along a motion per another one (N/m), `[motion][motion]`; positive definite.
+    pub stiffness: Vec<f64>,
+    /// Displacement along the inward normal per motion, `[tooth][flank][load][motion]`.
+    pub flank: Vec<f64>,
+}
+
+impl RadialMotions {
+    /// Number of motions.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.motions.len()
+    }
+
+    /// Values of the polynomials at a place along the bore.
+    #[must_use]
+    pub fn polynomials(&self, z_m: f64) -> Vec<f64> {
+        legendre(place_along(self.ends_m, z_m), self.along)
+    }
+}
+
 impl ReducedGear {
-    /// The gear with a bore that slides, as flanks feel it. Gauges, modes and the bore's motions, which are those of a
-    /// held bore, are left out.
+    /// The gear with a bore that slides.
     ///
     /// # Errors
     /// [`ReducedGearError::NoBoreMotions`] for a model without motions of its bore, [`ReducedGearError::BoreStiffness`]
     /// if their stiffness is not positive.
-    pub fn with_sliding_bore(&self) -> Result<Self, ReducedGearError> {
+    pub fn with_sliding_bore(&self) -> Result<SlidingBore, ReducedGearError> {
         let Some(bore) = &self.bore else {
             let gear = self.name.clone();
             return Err(ReducedGearError::NoBoreMotions { gear });
         };
-        let (m, loads, own) = (bore.count(), self.grid.len(), self.teeth_per_sector());
+        let (m, loads) = (bore.count(), self.grid.len());
+        let in_space = bore.components > 2;
         let mut free: Vec<usize> = bore.motions_of(BoreMotion::Tangential).skip(1).collect();
-        if bore.components > 2 {
+        if in_space {
             free.extend(bore.motions_of(BoreMotion::Axial).skip(1));
         }
-        let n = free.len();
-        let entry = |i: usize, j: usize| bore.stiffness[free[i] * m + free[j]];
-        let factor = cholesky(n, entry).ok_or_else(|| ReducedGearError::BoreStiffness {
+        // cos φ and sin φ, constant and, in space, linear along the bore: rigid.
+        let is_rigid = |place: &usize| {
+            let (wave, degree) = (place / bore.along, place % bore.along);
+            (1..=2).contains(&wave) && degree < if in_space { 2 } else { 1 }
+        };
+        let first = bore.motions_of(BoreMotion::Radial).start;
+        let each = bore.motions_of(BoreMotion::Radial).len();
+        let bends: Vec<usize> = (0..each).filter(|k| !is_rigid(k)).collect();
+        let (n, count) = (free.len(), bends.len());
+        let entry = |i: usize, j: usize| bore.stiffness[i * m + j];
+        let not_positive = || ReducedGearError::BoreStiffness {
             gear: self.name.clone(),
-        })?;
+        };
+        let factor = cholesky(n, |i, j| entry(free[i], free[j])).ok_or_else(not_positive)?;
+        // L⁻¹ S_or of each radial motion, `[motion][free]`.
+        let mut moved = Vec::with_capacity(count * n);
+        for k in &bends {
+            let begin = moved.len();
+            moved.extend(free.iter().map(|&motion| entry(motion, first + k)));
+            forward(&factor, &mut moved[begin..]);
+        }
+        let moved_by = |k: usize| &moved[k * n..(k + 1) * n];
+        let stiffness: Vec<f64> = (0..count)
+            .flat_map(|i| (0..count).map(move |j| (i, j)))
+            .map(|(i, j)| entry(first + bends[i], first + bends[j]) - dot(moved_by(i), moved_by(j)))
+            .collect();
+        cholesky(count, |i, j| stiffness[i * count + j]).ok_or_else(not_positive)?;
         // L⁻¹ s_oᵀ of each flank, `[tooth][flank][load][motion]`: a product of two is what the bore's motions add.
-        let mut halves = Vec::with_capacity(self.teeth * self.flanks.len() * loads * n);
+        let rows = self.teeth * self.flanks.len() * loads;
+        let mut halves = Vec::with_capacity(rows * n);
+        let mut flank = Vec::with_capacity(rows * count);
         for tooth in 0..self.teeth {
-            for flank in &self.flanks {
-                let rows = self.bore_rows(tooth, *flank).unwrap_or_default();
+            for hand in &self.flanks {
+                let rows = self.bore_rows(tooth, *hand).unwrap_or_default();
                 for row in rows.chunks_exact(m) {
-                    let first = halves.len();
+                    let begin = halves.len();
                     halves.extend(free.iter().map(|&motion| row[motion]));
-                    forward(&factor, &mut halves[first..]);
+                    forward(&factor, &mut halves[begin..]);
+                    let half = &halves[begin..];
+                    let radial = bends.iter().enumerate();
+                    flank
+                        .extend(radial.map(|(k, bend)| row[first + bend] - dot(half, moved_by(k))));
                 }
             }
         }
+        Ok(SlidingBore {
+            gear: self.softened(&halves, n),
+            radial: RadialMotions {
+                along: bore.along,
+                radius_m: bore.radius_m,
+                ends_m: bore.ends_m,
+                motions: bends
+                    .iter()
+                    .map(|k| [k / bore.along, k % bore.along])
+                    .collect(),
+                stiffness,
+                flank,
+            },
+        })
+    }
+
+    /// The gear without motions of its bore, its compliance larger by the products of `halves`, n of each
+    /// `[tooth][flank][load]`.
+    fn softened(&self, halves: &[f64], n: usize) -> Self {
+        let (loads, own) = (self.grid.len(), self.teeth_per_sector());
         let of_flank = loads * n;
         let half = |flank: usize| &halves[flank * of_flank..(flank + 1) * of_flank];
         let mut c_hub = self.c_hub_in_full().into_owned();
@@ -60,19 +157,23 @@ impl ReducedGear {
             let pressed = half(load).chunks_exact(n);
             for (row, a) in block.chunks_exact_mut(loads).zip(pressed) {
                 for (value, b) in row.iter_mut().zip(half(response).chunks_exact(n)) {
-                    *value += a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+                    *value += dot(a, b);
                 }
             }
         }
-        Ok(Self {
+        Self {
             c_hub,
             hub_patterns: None,
             gauges: Vec::new(),
             modes: None,
             bore: None,
             ..self.clone()
-        })
+        }
     }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// L of a symmetric matrix = L Lᵀ, row by row; none if it is not positive.
@@ -134,7 +235,7 @@ mod tests {
     #[test]
     fn a_sliding_bore_adds_what_its_free_motions_do() {
         let gear = small_bored_gear();
-        let released = gear.with_sliding_bore().unwrap();
+        let released = gear.with_sliding_bore().unwrap().gear;
         let bore = gear.bore.as_ref().unwrap();
         let m = bore.count();
         // Tangential, then axial ones, the uniform one of each left out.

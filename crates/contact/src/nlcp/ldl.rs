@@ -15,7 +15,7 @@ const SHIFT: f64 = 1e-12;
 
 /// Factor of a symmetric positive definite matrix.
 #[derive(Debug, Clone)]
-pub(super) struct Ldl {
+pub(crate) struct Ldl {
     order: usize,
     /// Order × order in rows; right of the diagonal row k is `d_k (Lᵀ)_k`, the rest is not used.
     upper: Vec<f64>,
@@ -25,21 +25,21 @@ pub(super) struct Ldl {
 
 /// A pivot that is not positive even with the shift.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct BadPivot {
-    pub(super) index: usize,
-    pub(super) pivot: f64,
-    pub(super) diagonal: f64,
+pub(crate) struct BadPivot {
+    pub(crate) index: usize,
+    pub(crate) pivot: f64,
+    pub(crate) diagonal: f64,
 }
 
 /// Whether the diagonal was shifted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shifted {
+pub(crate) enum Shifted {
     No,
     Yes,
 }
 
 impl Ldl {
-    pub(super) fn new(capacity: usize) -> Self {
+    pub(crate) fn new(capacity: usize) -> Self {
         Ldl {
             order: 0,
             upper: vec![0.0; capacity * capacity],
@@ -50,7 +50,7 @@ impl Ldl {
     /// Factors the matrix of the given order; shifts the diagonal if it must.
     ///
     /// `fill_row(i, row)` writes the entries (i, i), (i, i + 1), … into `row`.
-    pub(super) fn factor(
+    pub(crate) fn factor(
         &mut self,
         order: usize,
         fill_row: impl Fn(usize, &mut [f64]),
@@ -107,7 +107,7 @@ impl Ldl {
     }
 
     /// Overwrites the first `order` of `values` by the solution.
-    pub(super) fn solve(&self, values: &mut [f64]) {
+    pub(crate) fn solve(&self, values: &mut [f64]) {
         let n = self.order;
         let values = &mut values[..n];
         let rows = self.upper[..n * n]

@@ -2,18 +2,24 @@
 
 use std::sync::Arc;
 
-use gearmesh_contact::{AxialSpread, CrossCompliance, JointContact, MeshLink};
-use gearmesh_dynamics::elements::{Loads, View};
-use gearmesh_dynamics::relative_motion::Jacobian;
+use gearmesh_contact::{AxialSpread, BoreFlank, CrossCompliance, JointContact, MeshLink};
+use gearmesh_dynamics::elements::{ForceElement, Loads, View};
+use gearmesh_dynamics::relative_motion::{Jacobian, PairTangent};
 use gearmesh_dynamics::{BodyId, BodyMotion, GROUND, Iterate, RelativeMotion};
 use gearmesh_geometry::Flank;
-use gearmesh_model::ReducedGear;
+use gearmesh_model::{RadialMotions, ReducedGear};
 
+use super::roller_bore::RollerBore;
 use crate::error::DrivetrainError;
 use crate::flank_modes::ModalMotion;
 use crate::mesh_element::MeshElement;
-use crate::pose::Pose;
+use crate::pose::{Pose, Vector6};
 use crate::slice_plane::Matrix6;
+
+/// What the force of a roller may miss, of the largest one.
+const SETTLED: f64 = 1e-10;
+/// Most iterations of rollers and flanks.
+const MOST_SETTLINGS: usize = 50;
 
 /// One side of a mesh in the group.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +36,8 @@ pub(super) struct Group {
     pub motions: Vec<RelativeMotion>,
     /// Of the motions, where tangents were asked for.
     pub jacobians: Vec<Jacobian>,
+    /// Gears on rollers, in the order of the joint problem's bores.
+    pub bores: Vec<RollerBore>,
     /// Motions of all bodies at the last evaluation.
     pub bodies: Vec<BodyId>,
     pub known: Vec<BodyMotion>,
@@ -104,6 +112,28 @@ pub(super) fn links(
     Ok(links)
 }
 
+/// The sides of meshes on the body of a bore, with their flanks.
+pub(super) fn sides_of_bore(
+    meshes: &[MeshElement],
+    (gear, motions, body): (&ReducedGear, &RadialMotions, BodyId),
+    sides: &[SideOfMesh],
+) -> Result<Vec<(usize, usize, BoreFlank)>, DrivetrainError> {
+    let mut found = Vec::new();
+    for (number, at) in sides.iter().enumerate() {
+        let mesh = &meshes[at.mesh];
+        for own in (0..2).filter(|own| mesh.gear_bodies()[*own] == body) {
+            let spread = mesh.mesh().kinematics().layout().spread(own + 1, gear);
+            let flank = mesh.mesh().flank_of(own, at.side);
+            found.push((
+                number,
+                own,
+                BoreFlank::new(gear, motions, (flank, &spread))?,
+            ));
+        }
+    }
+    Ok(found)
+}
+
 impl Group {
     /// Takes all meshes to a motion.
     pub fn update(&mut self, view: &View<'_>, tangents: bool) -> Result<(), DrivetrainError> {
@@ -119,11 +149,13 @@ impl Group {
         }
         let each = self.meshes.iter();
         let each = each.map(|element| element.mesh().deepest_overlap_m());
-        let deepest_m = each.fold(0.0, f64::max);
+        // Rollers push flanks together that stand open.
+        let of_rollers = self.bores.iter().map(|bore| bore.bearing.deepest_m(view));
+        let deepest_m = each.chain(of_rollers).fold(0.0, f64::max);
         for (element, motion) in self.meshes.iter_mut().zip(&self.motions) {
             (element.mesh_mut()).prepare(&Pose::from(motion), deepest_m)?;
         }
-        self.solve(view.iterate, tangents)?;
+        self.solve(view, tangents)?;
         self.jacobians.clear();
         if tangents {
             self.jacobians
@@ -144,7 +176,7 @@ impl Group {
     }
 
     /// Finds all forces together and gives each side its own.
-    fn solve(&mut self, iterate: Iterate, tangents: bool) -> Result<(), DrivetrainError> {
+    fn solve(&mut self, view: &View<'_>, tangents: bool) -> Result<(), DrivetrainError> {
         let (joint, meshes, sides) = (&mut self.joint, &mut self.meshes, &self.sides);
         for at in sides {
             if let Some(model) = meshes[at.mesh].mesh_mut().coupled_model(at.side) {
@@ -168,15 +200,20 @@ impl Group {
                 joint.couple(link, ends);
             }
         }
-        joint.solve(iterate == Iterate::Correction)?;
+        settle(joint, &mut self.bores, view)?;
         for link in 0..joint.links().len() {
             if let Some(ends) = ends(&joint.links()[link]) {
                 joint.walk(link, ends);
             }
         }
+        self.joint.walk_bores();
         self.feel_ahead();
         if tangents {
             self.joint.fill_stiffness();
+            for (bore, bending) in self.bores.iter_mut().zip(self.joint.bores()) {
+                bore.sum_up();
+                bore.follow_ring(bending, self.joint.size());
+            }
         }
         self.hand_out(tangents);
         Ok(())
@@ -252,6 +289,76 @@ impl Group {
         }
     }
 
+    /// Adds the loads of the bearings in bores, and how they and the meshes change with each other's motion.
+    pub fn push_bores(&self, view: &View<'_>, places: impl Fn(BodyId) -> usize, loads: &mut Loads) {
+        let tangents = loads.wants_tangents();
+        for (number, (bore, bending)) in self.bores.iter().zip(self.joint.bores()).enumerate() {
+            loads.power.stored_j += bending.stored_energy_j();
+            loads.power.supplied_w += bore.led_w(bending.motions_m());
+            let mut ring = bore.ring;
+            if tangents {
+                ring.tangent -= self.between_bores([number, number]);
+            }
+            let at = bore.bodies().map(&places);
+            bore.bearing.push(view, &ring, at, loads);
+            if !tangents {
+                continue;
+            }
+            let jacobian = bore.motion(view).jacobian();
+            for (other, second) in self.bores.iter().enumerate().filter(|(k, _)| *k != number) {
+                let to = second.bodies().map(&places);
+                let block = -self.between_bores([number, other]) * second.motion(view).jacobian();
+                add_block(loads, [at, to], &jacobian.tr_mul(&block));
+            }
+            for (side, of_side) in self.sides.iter().enumerate() {
+                let Some([on_ring, on_mesh]) = self.with_mesh(bore, (side, of_side)) else {
+                    continue;
+                };
+                let mesh = &self.jacobians[of_side.mesh];
+                let to = self.meshes[of_side.mesh].gear_bodies().map(&places);
+                add_block(loads, [at, to], &jacobian.tr_mul(&(on_ring * mesh)));
+                add_block(loads, [to, at], &mesh.tr_mul(&(on_mesh * jacobian)));
+            }
+        }
+    }
+
+    /// Σ_ij P_i K_ij P_jᵀ of two bores.
+    fn between_bores(&self, [a, b]: [usize; 2]) -> Matrix6 {
+        let [of_a, of_b] = [&self.bores[a].gap_by_ring, &self.bores[b].gap_by_ring];
+        let mut sum = Matrix6::zeros();
+        for (i, row) in of_a.iter().enumerate() {
+            let stiffness = self.joint.stiffness_of(i).iter().zip(of_b);
+            let felt: Vector6 = stiffness.map(|(k, gap)| gap * *k).sum();
+            sum += row * felt.transpose();
+        }
+        sum
+    }
+
+    /// How the load of a ring changes with the pose of a mesh, by one of its sides, and that of the mesh with the place
+    /// of the ring.
+    fn with_mesh(
+        &self,
+        bore: &RollerBore,
+        (number, at): (usize, &SideOfMesh),
+    ) -> Option<[Matrix6; 2]> {
+        let side = self.meshes[at.mesh].mesh().coupled_side(at.side)?;
+        let start = self.joint.contacts_of(number).start;
+        let (mut on_ring, mut on_mesh) = (Matrix6::zeros(), Matrix6::zeros());
+        for (i, contact) in side.contacts.iter().enumerate() {
+            let Some(patch) = side.model.patch_of(i) else {
+                continue;
+            };
+            let stiffness = self.joint.stiffness_of(start + patch).iter();
+            let felt: Vector6 = stiffness
+                .zip(&bore.gap_by_ring)
+                .map(|(k, gap)| gap * *k)
+                .sum();
+            on_ring -= felt * contact.gradient.transpose();
+            on_mesh -= side.directions[i] * felt.transpose();
+        }
+        Some([on_ring, on_mesh])
+    }
+
     /// How the load of one side changes with pose and rates of another mesh; none where nothing carries.
     fn cross_block(&self, [a, b]: [(usize, &SideOfMesh); 2]) -> Option<[Matrix6; 2]> {
         let side = |at: &SideOfMesh| self.meshes[at.mesh].mesh().coupled_side(at.side);
@@ -279,6 +386,66 @@ impl Group {
             }
         }
         carries.then_some([by_pose, by_rates])
+    }
+}
+
+/// Adds the tangent of two pairs of bodies.
+fn add_block(loads: &mut Loads, at: [[usize; 2]; 2], block: &PairTangent) {
+    for (i, j) in (0..12).flat_map(|i| (0..12).map(move |j| (i, j))) {
+        let [row, column] =
+            [(at[0], i), (at[1], j)].map(|(at, k): ([usize; 2], usize)| at[k / 6] + k % 6);
+        loads.add_by_position(row, column, block[(i, j)]);
+    }
+}
+
+/// Solves contacts of flanks and of rollers together: with the rollers' forces linear about where the bores are, the
+/// flanks' forces are exact; bores move on until the rollers' forces are what they were taken for.
+fn settle(
+    joint: &mut JointContact,
+    bores: &mut [RollerBore],
+    view: &View<'_>,
+) -> Result<(), DrivetrainError> {
+    let goes_on = view.iterate == Iterate::Correction;
+    if bores.is_empty() {
+        joint.solve(goes_on)?;
+        return Ok(());
+    }
+    for (bore, bending) in bores.iter_mut().zip(joint.bores_mut()) {
+        if !goes_on {
+            bending.motions_mut().copy_from_slice(&bore.kept_m);
+        }
+        bore.turn(view.time_s);
+        bore.find(view, bending.motions_m(), false)?;
+    }
+    for iteration in 0..MOST_SETTLINGS {
+        for (bore, bending) in bores.iter_mut().zip(joint.bores_mut()) {
+            bore.sum_up();
+            bending
+                .support(&bore.force_n, &bore.stiffness)
+                .map_err(|_| unsettled(bore, iteration))?;
+        }
+        joint.solve(goes_on || iteration > 0)?;
+        let mut settled = true;
+        for (bore, bending) in bores.iter_mut().zip(joint.bores_mut()) {
+            bore.expect(bending.motions_m());
+            bore.find(view, bending.motions_m(), true)?;
+            let [missed_n, most_n, rounding_n] = bore.missed_n();
+            settled &= missed_n <= SETTLED * most_n + rounding_n;
+        }
+        if settled {
+            return Ok(());
+        }
+    }
+    Err(unsettled(&bores[0], MOST_SETTLINGS))
+}
+
+fn unsettled(bore: &RollerBore, iterations: usize) -> DrivetrainError {
+    let [missed_n, most_n, _] = bore.missed_n();
+    DrivetrainError::RollersUnsettled {
+        bearing: bore.bearing.name().to_owned(),
+        missed_n,
+        most_n,
+        iterations,
     }
 }
 

@@ -4,4 +4,5 @@
 mod bore;
 mod gears;
 mod in_ring;
+mod on_rollers;
 mod set;

@@ -7,7 +7,7 @@ use gearmesh_dynamics::state::BodyMotion;
 use gearmesh_dynamics::{Body, BodyId, GROUND, Marker, Modes};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_model::ReducedGear;
+use gearmesh_model::{RadialMotions, ReducedGear};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::gears::{BodyGear, Gear};
@@ -132,6 +132,11 @@ impl PlacedBody {
     /// Its reduced gear.
     pub(super) fn model(&self) -> Option<&Arc<ReducedGear>> {
         self.gear.as_ref()?.model()
+    }
+
+    /// Radial motions of its bore, where rollers press on it.
+    pub(super) fn bore_motions(&self) -> Option<&RadialMotions> {
+        self.cylindrical()?.bore_motions.as_deref()
     }
 
     /// Its reduced gear if that is a bevel gear.

@@ -1,11 +1,14 @@
-//! Which meshes are solved together: hybrid ones that share a gear body whose deflection all of them feel.
+//! Which meshes are solved together: hybrid ones that share a gear body whose deflection all of them feel, and those of
+//! gears on rollers that press on the bore, with their bearings.
 
-use gearmesh_drivetrain::{CoupledMeshes, MeshElement, MeshToCouple};
+use gearmesh_drivetrain::{CoupledMeshes, GearOnRollers, MeshElement, MeshToCouple};
 use gearmesh_dynamics::SystemBuilder;
+use gearmesh_dynamics::elements::ForceElement;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
 use super::bodies::Bodies;
+use super::elements::SeatedBearing;
 use super::gear_mesh::PreparedMesh;
 use crate::system::tables::body::{BodyTable, Coupling};
 use crate::system::tables::mesh_model::MeshKind;
@@ -26,6 +29,8 @@ pub(super) struct Groups {
     pub of_mesh: Vec<Option<usize>>,
     /// Numbers of the meshes of each group.
     pub meshes: Vec<Vec<usize>>,
+    /// Bearings that are still to be added.
+    seated: Vec<SeatedBearing>,
 }
 
 /// Whether a mesh can be solved with others.
@@ -37,12 +42,13 @@ fn is_eligible(mesh: &PreparedMesh, bodies: &Bodies) -> bool {
 
 impl Groups {
     /// # Errors
-    /// [`InputError`] for a `coupling` that no mesh follows.
+    /// [`InputError`] for a `coupling` that no mesh follows, and for a bore on rollers whose bearing is missing or that
+    /// no mesh follows.
     pub(super) fn new(
         tables: &[BodyTable],
         document: &InputDocument,
         bodies: &Bodies,
-        meshes: &[PreparedMesh],
+        (meshes, seated): (&[PreparedMesh], Vec<SeatedBearing>),
     ) -> Result<Self, InputError> {
         let eligible: Vec<bool> = meshes
             .iter()
@@ -66,11 +72,18 @@ impl Groups {
                 return Err(TableKeys::new(document, &key).error("coupling", problem));
             }
             *place = own > 1 && stated.unwrap_or_default() == Coupling::AllMeshes;
+            if bodies.list[body].bore_motions().is_some() {
+                let on_it = seated.iter().filter(|bearing| bearing.body == body).count();
+                let key = format!("body.{body}");
+                refuse_bore(&TableKeys::new(document, &key), stated, [on_it, own])?;
+                *place = true;
+            }
         }
         let mut groups = Self {
             coupled,
             of_mesh: vec![None; meshes.len()],
             meshes: Vec::new(),
+            seated,
         };
         for first in 0..meshes.len() {
             if groups.of_mesh[first].is_none() && eligible[first] {
@@ -96,7 +109,11 @@ impl Groups {
                 }
             }
         }
-        if found.len() < 2 {
+        let on_rollers = |mesh: &usize| {
+            let mut both = meshes[*mesh].bodies.iter();
+            both.any(|body| self.seated.iter().any(|bearing| bearing.body == *body))
+        };
+        if found.len() < 2 && !found.iter().any(on_rollers) {
             return;
         }
         found.sort_unstable();
@@ -106,12 +123,12 @@ impl Groups {
         self.meshes.push(found);
     }
 
-    /// Adds the meshes of a group to the system.
+    /// Adds the meshes of a group to the system, and the bearings in their gears' bores.
     ///
     /// # Errors
     /// [`InputError`] where the models do not fit.
     pub(super) fn add(
-        &self,
+        &mut self,
         meshes: Vec<MeshOfGroup>,
         (document, bodies): (&InputDocument, &Bodies),
         builder: &mut SystemBuilder,
@@ -119,6 +136,14 @@ impl Groups {
         let Some(key) = meshes.first().map(|mesh| mesh.key.clone()) else {
             return Ok(String::new());
         };
+        let is_on = |bearing: &SeatedBearing| {
+            let mut all = meshes.iter().flat_map(|mesh| mesh.bodies);
+            all.any(|body| body == bearing.body)
+        };
+        let (own, others) = std::mem::take(&mut self.seated)
+            .into_iter()
+            .partition(is_on);
+        self.seated = others;
         let model = |body: usize| bodies.list[body].model().filter(|_| self.coupled[body]);
         let mut names = Vec::new();
         let each = meshes.into_iter().map(|mesh| {
@@ -129,16 +154,60 @@ impl Groups {
             }
         });
         let each: Vec<MeshToCouple<'_>> = each.collect();
+        let (mut gears, mut rollers, mut key) = (Vec::new(), Vec::new(), key);
+        for bearing in own {
+            let gear = &bodies.list[bearing.body];
+            if let (Some(model), Some(motions)) = (gear.model(), gear.bore_motions()) {
+                rollers.push(format!("`{}`", bearing.element.name()));
+                key = format!("bearing.{}", bearing.number);
+                gears.push(GearOnRollers {
+                    bearing: bearing.element,
+                    gear: model,
+                    motions,
+                });
+            }
+        }
         let name = format!("{} and meshes on its gears", names[0].trim_matches('`'));
-        let (together, parts) = CoupledMeshes::new(&name, each)
+        let (together, parts, bearings) = CoupledMeshes::new(&name, each, gears)
             .map_err(|error| TableKeys::new(document, &key).error("", error))?;
         builder.element(together);
         for part in parts {
             builder.element(part);
         }
-        Ok(format!(
-            "meshes {} are solved together: they share gears, which deflect at each under the forces of the others",
-            names.join(", ")
-        ))
+        for bearing in bearings {
+            builder.element(bearing);
+        }
+        let names = names.join(", ");
+        let shared = match rollers.is_empty() {
+            true => "they share gears, which deflect at each under the forces of the others".into(),
+            false => format!(
+                "with the rollers of {}, which press on bores that bend",
+                rollers.join(", ")
+            ),
+        };
+        Ok(format!("meshes {names} are solved together: {shared}"))
     }
+}
+
+/// Refuses a bore on rollers without its one bearing, without a mesh that feels it, or with a `coupling`.
+fn refuse_bore(
+    keys: &TableKeys<'_>,
+    coupling: Option<Coupling>,
+    [bearings, meshes]: [usize; 2],
+) -> Result<(), InputError> {
+    if bearings != 1 {
+        let problem = format!(
+            "is \"rollers\", which takes one bearing of kind \"quasi-static\" without `housing` whose body_1, the outer ring, is this body; found {bearings}"
+        );
+        return Err(keys.error("bore", problem));
+    }
+    if meshes == 0 {
+        let problem = "is \"rollers\", which hybrid meshes follow whose gears have no vibration modes; the body is in none";
+        return Err(keys.error("bore", problem));
+    }
+    if coupling == Some(Coupling::OwnMesh) {
+        let problem = "is not used with bore = \"rollers\", which all meshes of the body feel; remove one of the two";
+        return Err(keys.error("coupling", problem));
+    }
+    Ok(())
 }

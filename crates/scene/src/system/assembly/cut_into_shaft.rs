@@ -85,6 +85,7 @@ pub(super) fn on_its_shaft(
         definition: own.definition.clone(),
         model: Some(Arc::clone(&gear.model)),
         microgeometry_of_scene: own.microgeometry_of_scene,
+        bore_motions: None,
         on_faces: Some(OnFaces {
             gear,
             damping_s: damping_s.map_or(0.0, f64::from),

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use gearmesh_bearings::QuasiStaticElement;
 use gearmesh_dynamics::elements::{
     AppliedLoad, Axes, Bushing, ForceElement, HostElement, LoadKind, SpringDamper, TorsionSpring,
 };
@@ -45,7 +46,7 @@ pub(super) fn add(
     bodies: &Bodies,
     builder: &mut SystemBuilder,
     parts: &mut Parts,
-) -> Result<(), InputError> {
+) -> Result<Vec<SeatedBearing>, InputError> {
     for (i, table) in tables.load.iter().enumerate() {
         let key = format!("load.{i}");
         let keys = TableKeys::new(document, &key);
@@ -68,6 +69,7 @@ pub(super) fn add(
         gravity_m_per_s2: tables.gravity_m_per_s2,
         builder,
         parts,
+        seated: Vec::new(),
     };
     let mut notes = Vec::new();
     for (i, table) in tables.spring.iter().enumerate() {
@@ -119,7 +121,17 @@ pub(super) fn add(
             Ok(Ok(HostElement::new(&table.name, between, law)))
         })?;
     }
-    bearings::add(&tables.bearing, &mut connections)
+    bearings::add(&tables.bearing, &mut connections)?;
+    Ok(connections.seated)
+}
+
+/// A bearing whose rollers press on the bore of a gear, left for the meshes of that gear.
+pub(super) struct SeatedBearing {
+    /// Number of the bearing.
+    pub number: usize,
+    /// Number of the gear's body.
+    pub body: usize,
+    pub element: QuasiStaticElement,
 }
 
 /// Where elements between two bodies are added.
@@ -133,6 +145,8 @@ pub(super) struct Connections<'a> {
     pub gravity_m_per_s2: Option<[f64; 3]>,
     builder: &'a mut SystemBuilder,
     pub parts: &'a mut Parts,
+    /// What is left for meshes.
+    pub seated: Vec<SeatedBearing>,
 }
 
 impl Connections<'_> {

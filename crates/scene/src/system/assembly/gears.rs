@@ -10,7 +10,7 @@ use gearmesh_dynamics::Body;
 use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{GearDefinition, InputError, Material};
-use gearmesh_model::{ReducedGear, read_reduced_gear};
+use gearmesh_model::{RadialMotions, ReducedGear, read_reduced_gear};
 use nalgebra::{Matrix3, Vector3};
 
 use super::cut_into_shaft::OnFaces;
@@ -31,6 +31,8 @@ pub(super) struct Gear {
     /// The faces of a gear that is cut into a beam shaft, where they are joined one by one; the model is then that of
     /// [`OnFaces::gear`].
     pub on_faces: Option<OnFaces>,
+    /// Radial motions of a bore that rollers press on; the model is then that of one that slides.
+    pub bore_motions: Option<Arc<RadialMotions>>,
 }
 
 /// A reduced bevel gear.
@@ -119,8 +121,8 @@ fn instead(keys: &TableKeys<'_>, error: &DrivetrainError) -> InputError {
 #[derive(Debug, Default)]
 pub(super) struct GearFiles {
     read: BTreeMap<PathBuf, BodyGear>,
-    /// Models with bores that slide.
-    sliding: BTreeMap<PathBuf, Arc<ReducedGear>>,
+    /// Models with bores that slide, and the bores' radial motions.
+    sliding: BTreeMap<PathBuf, (Arc<ReducedGear>, Arc<RadialMotions>)>,
 }
 
 impl GearFiles {
@@ -170,13 +172,14 @@ impl GearFiles {
             }
             Some(_) if bore == BoreHold::Bonded => return Ok(gear),
             Some((gear, model)) => {
-                let model = match self.sliding.get(&gear.file) {
-                    Some(model) => Arc::clone(model),
+                let (model, motions) = match self.sliding.get(&gear.file) {
+                    Some(known) => known.clone(),
                     None => {
                         let made = model.with_sliding_bore();
-                        let made = Arc::new(made.map_err(|e| keys.error("bore", e))?);
-                        self.sliding.insert(gear.file.clone(), Arc::clone(&made));
-                        made
+                        let made = made.map_err(|e| keys.error("bore", e))?;
+                        let both = (Arc::new(made.gear), Arc::new(made.radial));
+                        self.sliding.insert(gear.file.clone(), both.clone());
+                        both
                     }
                 };
                 return Ok(Some(BodyGear::Cylindrical(Arc::new(Gear {
@@ -185,6 +188,7 @@ impl GearFiles {
                     model: Some(model),
                     microgeometry_of_scene: gear.microgeometry_of_scene,
                     on_faces: None,
+                    bore_motions: (bore == BoreHold::Rollers).then_some(motions),
                 }))));
             }
         };
@@ -213,6 +217,7 @@ impl BodyGear {
                     model: None,
                     microgeometry_of_scene: false,
                     on_faces: None,
+                    bore_motions: None,
                 }
             }
             Some("h5") => {
@@ -233,6 +238,7 @@ impl BodyGear {
                     model: Some(model),
                     microgeometry_of_scene: false,
                     on_faces: None,
+                    bore_motions: None,
                 }
             }
             _ => {
@@ -292,6 +298,7 @@ impl Gear {
             model: self.model.clone(),
             microgeometry_of_scene: true,
             on_faces: None,
+            bore_motions: None,
         })
     }
 

@@ -295,7 +295,7 @@ impl LoadedSystem {
             &mut builder,
             &mut parts,
         )?;
-        elements::add(
+        let seated = elements::add(
             tables,
             (document, sources),
             Manner {
@@ -311,7 +311,7 @@ impl LoadedSystem {
         let gauges = self.gauges(&bodies, &meshes)?;
         let ratings = ratings::build(&self.scene, &bodies, &meshes, &gauges)?;
         let built_meshes = meshes.iter().map(|mesh| describe(mesh, &bodies)).collect();
-        let groups = Groups::new(&tables.body, document, &bodies, &meshes)?;
+        let mut groups = Groups::new(&tables.body, document, &bodies, (&meshes, seated))?;
         let mut left: Vec<Vec<MeshOfGroup>> = groups.meshes.iter().map(|_| Vec::new()).collect();
         for (mesh, group) in meshes.into_iter().zip(&groups.of_mesh) {
             let key = mesh.key.clone();
@@ -384,12 +384,12 @@ impl LoadedSystem {
             let key = format!("gauge.{i}");
             let keys = TableKeys::new(&self.scene.document, &key);
             let body = bodies.find_body(&keys, "body", &table.body)?;
-            if self.scene.tables.body.get(body).and_then(|body| body.bore)
-                == Some(BoreHold::Sliding)
-            {
+            let bore = self.scene.tables.body.get(body).and_then(|body| body.bore);
+            if let Some(bore @ (BoreHold::Sliding | BoreHold::Rollers)) = bore {
                 let problem = format!(
-                    "`{}` has bore = \"sliding\", under which no gauge is read: its rows are those of a held bore; remove the gauge, or take \"bonded\"",
-                    table.body
+                    "`{}` has bore = \"{}\", under which no gauge is read: its rows are those of a held bore; remove the gauge, or take \"bonded\"",
+                    table.body,
+                    bore.name()
                 );
                 return Err(keys.error("body", problem));
             }

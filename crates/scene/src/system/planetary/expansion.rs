@@ -370,7 +370,7 @@ impl Expansion<'_> {
             .iter()
             .map(|b| self.axis_mm(b.z_mm))
             .collect();
-        self.add_bearings((None, &name), places, &raw);
+        self.add_bearings(&name, (None, &name), places, &raw);
         if let Some(speed) = raw.get("speed_rpm") {
             let motion = self.called(&format!("{key} speed"));
             self.push(
@@ -396,9 +396,10 @@ impl Expansion<'_> {
         Ok(())
     }
 
-    /// The bearings of a body at places in the world \[mm\]; `raw`: its table.
+    /// The bearings of a body, `owner`, between two at places in the world \[mm\]; `raw`: its table.
     pub(super) fn add_bearings(
         &mut self,
+        owner: &str,
         (on, body): (Option<&str>, &str),
         places: Vec<[f64; 3]>,
         raw: &Table,
@@ -409,7 +410,7 @@ impl Expansion<'_> {
             let mut bearing = copied(own, &["model", "housing"]);
             bearing.insert(
                 "name".to_owned(),
-                format!("{body} bearing {}", i + 1).into(),
+                format!("{owner} bearing {}", i + 1).into(),
             );
             bearing.insert("body_2".to_owned(), body.into());
             bearing.insert("at_mm".to_owned(), numbers(&at_mm));

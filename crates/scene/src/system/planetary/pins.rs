@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use toml::Value;
 
 use super::expansion::{BODY_KEYS, Expansion, copied, made, numbers};
+use crate::system::tables::body::BoreHold;
 use crate::system::tables::planetary::{PlanetDeviationTable, SetBearingTable, SupportWord};
 
 /// Where a pin is, in the set's axes.
@@ -93,7 +94,12 @@ impl Expansion<'_> {
         }
         let place = |b: &SetBearingTable| self.in_world_mm(pin.above_mm(b.z_mm));
         let places = planets.bearings.iter().map(place);
-        self.add_bearings((Some(carrier), name), places.collect(), &raw);
+        // Rollers that press on the planet's bore run in it as in their outer ring.
+        let ends = match planets.bore {
+            Some(BoreHold::Rollers) => (Some(name), carrier),
+            Some(BoreHold::Bonded | BoreHold::Sliding) | None => (Some(carrier), name),
+        };
+        self.add_bearings(name, ends, places.collect(), &raw);
         Ok(())
     }
 

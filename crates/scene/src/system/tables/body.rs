@@ -39,8 +39,9 @@ pub struct BodyTable {
     /// "own-mesh", each feels its own forces alone. "all-meshes" where not given. Not of meshes with modal gears, whose
     /// modes all meshes feel.
     pub coupling: Option<Coupling>,
-    /// Reduced gear with [reduction.bore]: "bonded", the bore is glued to a rigid pin; "sliding", it slides on it.
-    /// "bonded" where not given.
+    /// Reduced gear with [reduction.bore]: "bonded", the bore is glued to a rigid pin; "sliding", it slides on it;
+    /// "rollers", those of the quasi-static cylindrical roller bearing whose outer ring (`body_1`) is this body press on
+    /// it, each where it touches. "bonded" where not given.
     pub bore: Option<BoreHold>,
     /// `modal`: modes up to this frequency; all of the model where not given.
     #[serde(rename = "modes_up_to_Hz")]
@@ -80,6 +81,20 @@ pub enum BoreHold {
     Bonded,
     /// It slides along a rigid pin, which holds it radially all round.
     Sliding,
+    /// Rollers press on it where they touch.
+    Rollers,
+}
+
+impl BoreHold {
+    /// Name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bonded => "bonded",
+            Self::Sliding => "sliding",
+            Self::Rollers => "rollers",
+        }
+    }
 }
 
 /// How a gear body deflects.

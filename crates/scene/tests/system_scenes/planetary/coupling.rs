@@ -103,3 +103,97 @@ fn couplings_and_bores_that_nothing_follows_are_refused() {
         }
     }
 }
+
+/// A planet whose bore has motions, stiff enough to stay nearly round; their sizes alone matter here.
+fn give_the_planet_a_bore(folder: &Path) {
+    let path = folder.join("planet.h5");
+    let mut gear = gearmesh_model::read_reduced_gear(&path).unwrap();
+    let mut bore = gearmesh_model::BorePatterns {
+        harmonics: 2,
+        along: 2,
+        components: 3,
+        radius_m: 15e-3,
+        ends_m: [-0.5 * gear.face_width_m, 0.5 * gear.face_width_m],
+        ..Default::default()
+    };
+    let motions = bore.count();
+    let loads = gear.teeth_per_sector() * gear.flanks.len() * gear.grid.len();
+    let diagonal = |k: usize| {
+        if k / motions == k % motions {
+            1e10
+        } else {
+            0.0
+        }
+    };
+    bore.stiffness = (0..motions * motions).map(diagonal).collect();
+    bore.flank = vec![0.0; loads * motions];
+    bore.gauges = vec![0.0; gear.gauges.len() * motions];
+    gear.bore = Some(bore);
+    gearmesh_model::write_reduced_gear(&path, &gear).unwrap();
+    let rollers = "name = \"rollers\"\nkind = \"cylindrical-roller\"\nrollers = 13\nroller_diameter_mm = 5.0\n\
+                   roller_length_mm = 12.0\npitch_diameter_mm = 25.0\nradial_clearance_um = 5.0\n";
+    std::fs::write(folder.join("rollers.toml"), rollers).unwrap();
+}
+
+const ON_ROLLERS: &str = "bore = \"rollers\"\nsupport = \"floating\"\n\
+    bearings = [{ model = { kind = \"quasi-static\", file = \"rollers.toml\", element_loads = true } }]";
+
+/// Planets on rollers: the pin carries what both meshes push the planet with, by rollers that add up to it.
+#[test]
+fn rollers_in_the_bores_of_planets_carry_what_the_teeth_push() {
+    let folder = tempfile::tempdir().unwrap();
+    made_up_gears::write_set(folder.path());
+    give_the_planet_a_bore(folder.path());
+    let result = run(&set(["", "", ON_ROLLERS]), folder.path());
+    let read = |column: &str| result.rows.read(column).unwrap();
+    let pin = read("elements/set planet 1 bearing 1/force_radial_N");
+    let of_mesh = |axis: &str| {
+        ["sun-planet 1", "planet 1-ring"]
+            .map(|mesh| read(&format!("elements/set {mesh}/{axis}_force_1_N")))
+    };
+    let (along, apart) = (of_mesh("tangential"), of_mesh("radial"));
+    let mut rollers = vec![0.0; pin.len()];
+    for element in 1..=13 {
+        let column = format!("elements/set planet 1 bearing 1/element_{element}_outer_N");
+        let pairs = rollers.iter_mut().zip(read(&column));
+        pairs.for_each(|(sum, force)| *sum += force);
+    }
+    for (row, pin) in pin.iter().enumerate() {
+        // Both push it on round, the one outwards, the other inwards; the planet moves by some 1e-4 of its radius.
+        let sizes = |of: &[Vec<f64>; 2]| [of[0][row].abs(), of[1][row].abs()];
+        let (t, r) = (sizes(&along), sizes(&apart));
+        let teeth = (t[0] + t[1]).hypot(r[0] - r[1]);
+        assert!(
+            *pin > 1000.0 && (pin / teeth - 1.0).abs() < 1e-3,
+            "{pin} {teeth}"
+        );
+        assert!(
+            rollers[row] > *pin && rollers[row] < 2.0 * pin,
+            "{rollers:?} {pin}"
+        );
+    }
+}
+
+#[test]
+fn bores_on_rollers_that_nothing_holds_or_follows_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    made_up_gears::write_set(folder.path());
+    give_the_planet_a_bore(folder.path());
+    let balls = "name = \"balls\"\nkind = \"deep-groove\"\nballs = 8\nball_diameter_mm = 5.0\npitch_diameter_mm = 25.0\n\
+                 inner_conformity = 0.52\nouter_conformity = 0.53\n";
+    std::fs::write(folder.path().join("balls.toml"), balls).unwrap();
+    let alone = ON_ROLLERS.split("bearings").next().unwrap().to_owned();
+    let own = format!("{ON_ROLLERS}\ncoupling = \"own-mesh\"");
+    let in_balls = ON_ROLLERS.replace("rollers.toml", "balls.toml");
+    let out = ON_ROLLERS.replace("{ model", "{ z_mm = 20.0, model");
+    for (planets, expected) in [
+        (&alone[..], "one bearing of kind \"quasi-static\""),
+        (&own, "is not used with bore = \"rollers\""),
+        (&in_balls, "cylindrical roller bearing only"),
+        (&out, "stick out of the bore by"),
+    ] {
+        let refused = build_in(&set(["", "", planets]), folder.path());
+        let message = refused.map(|_| ()).unwrap_err().to_string();
+        assert!(message.contains(expected), "{expected}: {message}");
+    }
+}
