@@ -165,7 +165,7 @@ fn system(gears: [&str; 2]) -> SystemTables {
             ..SolverTable::default()
         },
         output: OutputTable {
-            interval_s: Some(1e-6.into()),
+            interval_s: Some(1e-6),
             ..OutputTable::default()
         },
         body: vec![
