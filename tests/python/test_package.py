@@ -257,6 +257,40 @@ def test_a_study_goes_on_where_it_was(tmp_path):
         gm.study({**tables, "parameter": [dict(name="end", keys=["run.end"], values=[1.0])]}, tmp_path / "wrong")
 
 
+def test_a_scene_without_a_file_gives_what_its_file_gives(models, pair, result, tmp_path):
+    """A pair of gear objects, and a system of a dict with gear objects in it, against the files that the program runs."""
+    pair.write(tmp_path / "pair.toml")
+    gm.program("run", tmp_path / "pair.toml", "-o", tmp_path / "pair.h5")
+    bodies = [{"name": name, "gear": model, "position_mm": [x, 0.0, 0.0]} for name, model, x in zip(("a", "b"), models, (0.0, 94.6))]
+    scene = gm.Scene(
+        {
+            "title": "two gears",
+            "run": {"kind": "transient", "end_s": np.float64(2e-5)},
+            "solver": {"step_s": 1e-6},
+            "output": {"interval_s": 1e-6},
+            "body": bodies,
+            "joint": [{"name": body["name"], "kind": "revolute", "body_2": body["name"]} for body in bodies],
+            "motion": [{"joint": "a", "speed_rpm": -1500.0}],
+            "load": [{"body": "b", "torque_Nm": -100.0}],
+            "gear_mesh": [{"name": "mesh", "gear_1": "a", "gear_2": "b", "model": {"kind": "hybrid"}}],
+        }
+    )
+    scene.write(tmp_path / "system.toml")
+    gm.program("run", tmp_path / "system.toml", "-o", tmp_path / "system.h5")
+    for name, found in (("pair", result), ("system", scene.run())):
+        stored = gm.Result.open(tmp_path / f"{name}.h5")
+        assert stored.keys() == found.keys()
+        for key in set(found.keys()) - {"seconds"}:
+            assert np.array_equal(stored[key], found[key], equal_nan=True), (name, key)
+
+
+def test_complaints_about_tables_name_the_path_of_the_key(pair):
+    with pytest.raises(gm.InputError) as caught:
+        pair.but({"pair.centre_distance_mm": -1})
+    assert str(caught.value) == "pair.centre_distance_mm: found -1, allowed is more than 0"
+    assert (caught.value.key, caught.value.file, caught.value.line) == ("pair.centre_distance_mm", "", None)
+
+
 def test_two_gears_of_one_hand_are_refused_before_they_are_reduced(pinion):
     helical = pinion.but(helix_angle_deg=15.0, hand="right", mesh=None)
     other = helical.but(name="wheel", teeth=40)

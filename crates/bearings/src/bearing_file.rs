@@ -20,7 +20,7 @@ use gearmesh_geometry::input::{
 };
 use gearmesh_geometry::{kinds, number_range};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::catalogue::CatalogueType;
 use crate::definition::{
@@ -41,7 +41,7 @@ pub fn schema() -> schemars::Schema {
 }
 
 /// A bearing file.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[schemars(title = "gearmesh bearing")]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
@@ -135,7 +135,7 @@ number_range!(
 );
 
 /// `kind`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum Kind {
     /// Ball bearing that carries axial loads both ways.
@@ -172,7 +172,7 @@ impl Kind {
 }
 
 /// `arrangement`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 enum ArrangementWord {
     /// Back to back.
     O,
@@ -184,7 +184,7 @@ enum ArrangementWord {
 }
 
 /// `[profile]`: material taken off a roller towards its ends.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "ProfileTable")]
 enum ProfileTable {
@@ -205,7 +205,7 @@ enum ProfileTable {
 kinds!(ProfileTable, "kind");
 
 /// `[element_material]`, `[ring_material]`: linear elastic, isotropic.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 struct MaterialTable {
@@ -218,7 +218,7 @@ struct MaterialTable {
 }
 
 /// `[ratings]`: load ratings of the whole bearing.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 struct RatingsTable {

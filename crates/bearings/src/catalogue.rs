@@ -1,7 +1,9 @@
 //! Catalogue lines: boundary dimensions of a bearing, and what is known of its inside.
 
 /// Type of a bearing in a catalogue.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, serde::Serialize, schemars::JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum CatalogueType {
     /// Deep-groove ball bearing.

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::blank::MemberBlank;
 use crate::error::BevelError;
@@ -14,7 +14,7 @@ use crate::settings::{MachineSettings, Tool};
 use crate::tooth::spiral_angle_rad;
 
 /// Which thickness the teeth have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ThicknessFrom {
     /// What the settings of both flanks leave between two slots that are cut in one operation.

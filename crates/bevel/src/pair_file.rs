@@ -7,6 +7,17 @@ mod load_table;
 mod member_table;
 mod settings_table;
 
+/// The tables of a pair file.
+pub mod tables {
+    pub use super::assembly_table::{AssemblyTable, MarkingThickness};
+    pub use super::blank_table::{BlankTable, ThicknessShift};
+    pub use super::load_table::{DrivingTorque, LoadTable};
+    pub use super::member_table::{
+        BladeTable, EaseOffTable, GivenTable, MemberTable, PointsTable, SynthesisTable,
+    };
+    pub use super::settings_table::{RootAngle, SettingsTable};
+}
+
 pub use load_table::LoadRequest;
 pub use member_table::MemberRequest;
 pub use settings_table::settings_toml;
@@ -16,7 +27,7 @@ use std::path::Path;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::blank::PairBlank;
 use crate::error::BevelError;
@@ -35,22 +46,22 @@ pub fn schema() -> schemars::Schema {
 }
 
 /// A bevel pair file.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[schemars(title = "gearmesh bevel pair")]
 #[serde(deny_unknown_fields)]
-struct BevelFile {
+pub struct BevelFile {
     /// Title in prints.
-    title: String,
+    pub title: String,
     /// Teeth and blank.
-    bevel: BlankTable,
+    pub bevel: BlankTable,
     /// How the pinion is cut.
-    pinion: MemberTable,
+    pub pinion: MemberTable,
     /// How the gear is cut.
-    gear: MemberTable,
+    pub gear: MemberTable,
     /// Contact analysis and assembly.
-    tca: Option<AssemblyTable>,
+    pub tca: Option<AssemblyTable>,
     /// Contact under load.
-    load: Option<LoadTable>,
+    pub load: Option<LoadTable>,
 }
 
 /// What a pair file holds.

@@ -245,7 +245,17 @@ impl MeshedBody {
 }
 
 /// Unit of the coordinates in a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema, Default)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    serde::Deserialize,
+    serde::Serialize,
+    schemars::JsonSchema,
+    Default,
+)]
 pub enum LengthUnit {
     /// Metres.
     #[serde(rename = "m")]

@@ -171,7 +171,17 @@ impl Default for ModeRange {
 }
 
 /// How the bore is held.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    serde::Deserialize,
+    serde::Serialize,
+    schemars::JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum HubSupport {
     /// Fixed.
@@ -221,7 +231,17 @@ impl MeshSettings {
 }
 
 /// Whether the repetition of the gear is used to solve it. The numbers are the same to rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    serde::Deserialize,
+    serde::Serialize,
+    schemars::JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Symmetry {
     /// One tooth and one sector are factorised, and the ring of sectors by its harmonics.

@@ -21,9 +21,10 @@ mod topography_table;
 pub use hub_table::HubTable;
 pub use material_table::{MaterialTable, PoissonRatio};
 pub use mesh_table::{DEFAULT_LEAST_QUALITY, LeastQuality};
-pub use microgeometry_table::MicrogeometryTable;
+pub use microgeometry_table::{MicrogeometryTable, ReliefWord};
 pub use modes_table::ModesTable;
 pub use reduction_table::loaded_flanks;
+pub use topography_table::TopographyTable;
 
 use crate::blank::Blank;
 use crate::definition::{GearDefinition, HubSupport};

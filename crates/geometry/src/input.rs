@@ -14,6 +14,7 @@ mod readable_file;
 mod table_keys;
 mod threads;
 mod unit_slips;
+mod values;
 mod wording;
 
 pub use bounded::{Bounded, Count, End, NotNegative, Positive, Range, UpTo, Within};
@@ -23,7 +24,7 @@ use derived_tables::{Derived, DerivedTables};
 pub use file_schema::file_schema;
 use former_keys::Renewed;
 pub use former_keys::{FormerTable, Move};
-pub use kinds::{Kinds, read_kind};
+pub use kinds::{Kinds, read_kind, write_kind};
 pub use near_names::nearest;
 pub use number_ranges::NumberRange;
 pub use number_table::NumberTable;
@@ -32,18 +33,19 @@ pub use readable_file::{
 };
 pub use table_keys::TableKeys;
 pub use threads::demand_threads;
+use values::Held;
 
 use serde::de::DeserializeOwned;
 use std::fmt::Display;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// A complaint about an input file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{file}{}: {}{problem}", line.map(|l| format!(":{l}")).unwrap_or_default(), if key.is_empty() { String::new() } else { format!("{key}: ") })]
+#[error("{}{problem}", [self.place(), key.clone()].iter().filter(|part| !part.is_empty()).map(|part| format!("{part}: ")).collect::<String>())]
 pub struct InputError {
-    /// The file as the user named it.
+    /// The file as the user named it; empty for what was never a file.
     pub file: String,
     /// Line of the offending key, counted from one, where it is known.
     pub line: Option<usize>,
@@ -54,10 +56,18 @@ pub struct InputError {
     pub problem: String,
 }
 
-/// The text of an input file together with its name, so that complaints can point into it.
+impl InputError {
+    /// File and line, as far as there are any.
+    fn place(&self) -> String {
+        let line = self.line.map(|line| format!(":{line}"));
+        self.file.clone() + &line.unwrap_or_default()
+    }
+}
+
+/// The text of an input file together with its name, so that complaints can point into it; or values that never were a text.
 #[derive(Debug, Clone)]
 pub struct InputDocument {
-    /// The file as the user named it.
+    /// The file as the user named it; empty where there is none.
     pub file: String,
     /// Its content, kept verbatim for provenance.
     pub text: String,
@@ -65,6 +75,10 @@ pub struct InputDocument {
     former: &'static [FormerTable],
     /// Items of lists that follow from other tables.
     derived: Option<DerivedTables>,
+    /// What is read instead of the text.
+    values: Option<Vec<(String, Held)>>,
+    /// Folder that its file names are relative to, where it is not that of the file.
+    folder: Option<PathBuf>,
 }
 
 impl InputDocument {
@@ -101,7 +115,25 @@ impl InputDocument {
             text: text.into(),
             former: &[],
             derived: None,
+            values: None,
+            folder: None,
         }
+    }
+
+    /// The document, whose file names are relative to `folder`.
+    #[must_use]
+    pub fn in_folder(self, folder: &Path) -> Self {
+        Self {
+            folder: Some(folder.to_owned()),
+            ..self
+        }
+    }
+
+    /// Folder that its file names are relative to: that of the file where nothing else was said.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        let of_file = || Path::new(&self.file).parent().unwrap_or(Path::new(""));
+        self.folder.as_deref().unwrap_or_else(of_file)
     }
 
     /// The document, whose tables may have a former form. All keys of complaints are those of the present form, lines
@@ -116,20 +148,26 @@ impl InputDocument {
     /// # Errors
     /// [`InputError`] for a text that is no TOML.
     pub fn former_notes(&self) -> Result<Vec<InputError>, InputError> {
-        let mut tree = DeTable::parse(&self.text).map_err(|e| self.complaint(Vec::new(), &e))?;
+        let mut tree = self
+            .own_tree()
+            .map_err(|e| self.complaint(Vec::new(), &e))?;
+        let text = self.values.as_ref().map_or(&*self.text, |_| "");
         let renewed = self.former.iter();
-        let renewed = renewed.flat_map(|former| former.renew(tree.get_mut(), &self.text));
+        let renewed = renewed.flat_map(|former| former.renew(tree.get_mut(), text));
         let note = |renewed: Renewed| {
             let ends = renewed
                 .places
                 .iter()
-                .map(|place| (self.line_of(place.start), self.line_of(place.end)));
+                .filter_map(|place| Some((self.line_of(place.start)?, self.line_of(place.end)?)));
             let mut lines: Vec<usize> = ends.flat_map(|(first, last)| first..=last).collect();
             lines.sort_unstable();
             lines.dedup();
+            let found = match lines.is_empty() {
+                true => "is".to_owned(),
+                false => wording::lines(&lines),
+            };
             let problem = format!(
-                "{} in a form of earlier versions, which is still read; now it is written\n    {}",
-                wording::lines(&lines),
+                "{found} in a form of earlier versions, which is still read; now it is written\n    {}",
                 renewed.present
             );
             InputError {
@@ -152,9 +190,17 @@ impl InputDocument {
         present.unwrap_or_else(|| path.to_owned())
     }
 
-    /// The values of the text in the present form, with their places in the text.
+    /// The values as they stand, with their places in the text.
+    fn own_tree(&self) -> Result<Spanned<DeTable<'_>>, toml::de::Error> {
+        match &self.values {
+            None => DeTable::parse(&self.text),
+            Some(values) => Ok(Spanned::new(0..0, values::table(values)?)),
+        }
+    }
+
+    /// The values in the present form, with their places in the text.
     fn tree(&self) -> Result<Spanned<DeTable<'_>>, toml::de::Error> {
-        let mut tree = DeTable::parse(&self.text)?;
+        let mut tree = self.own_tree()?;
         for former in self.former {
             former.renew(tree.get_mut(), &self.text);
         }
@@ -200,7 +246,7 @@ impl InputDocument {
         // A span is that of the place that serde knows.
         let span = error.span().filter(|_| deeper.is_empty());
         let line = match span {
-            Some(span) => Some(self.line_of(span.start)),
+            Some(span) => self.line_of(span.start),
             None => self.locate(&path.join(".")),
         };
         let (key, problem) = wording::in_plain_words(path, message);
@@ -243,11 +289,11 @@ impl InputDocument {
 
     /// Line of a dotted key, or of the deepest parent of it that is in the file.
     fn locate(&self, key: &str) -> Option<usize> {
-        self.walk(key).map(|(line, _)| line)
+        self.walk(key)?.0
     }
 
     /// Line of the deepest part of a dotted key that is in the file, and how many parts that are.
-    fn walk(&self, key: &str) -> Option<(usize, usize)> {
+    fn walk(&self, key: &str) -> Option<(Option<usize>, usize)> {
         let table = self.tree().ok()?;
         let mut found = None;
         let mut value: Option<&Spanned<DeValue<'_>>> = None;
@@ -272,12 +318,11 @@ impl InputDocument {
         found
     }
 
-    fn line_of(&self, offset: usize) -> usize {
-        self.text.as_bytes()[..offset.min(self.text.len())]
-            .iter()
-            .filter(|b| **b == b'\n')
-            .count()
-            + 1
+    /// Line of a place in the text; none of values without one.
+    fn line_of(&self, offset: usize) -> Option<usize> {
+        let before = &self.text.as_bytes()[..offset.min(self.text.len())];
+        let line = 1 + before.iter().filter(|b| **b == b'\n').count();
+        self.values.is_none().then_some(line)
     }
 }
 

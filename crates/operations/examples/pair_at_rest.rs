@@ -1,4 +1,4 @@
-//! A gear pair at rest: two gears are reduced, one after the other, and a scene in memory runs them under three torques.
+//! A gear pair at rest: two gears are reduced, one after the other, and a scene without a file runs them under three torques.
 //!
 //! `cargo run --example pair_at_rest -- fe_models/first_pair target/first_pair`: folder of the gear files, folder for the models.
 
@@ -6,30 +6,12 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Duration;
 
-use gearmesh_geometry::input::InputDocument;
 use gearmesh_operations::Watch;
 use gearmesh_operations::gear_file::GearFile;
 use gearmesh_operations::reduce::{Reduction, reduce_to};
 use gearmesh_operations::run::{RunHow, run_pair};
+use gearmesh_scene::pair::scene_file::{PairTable, PairTables, RunTable};
 use gearmesh_scene::{Scene, load};
-
-/// Files that it names lie in the folder of the models.
-const SCENE: &str = r#"
-title = "A pair in memory"
-
-[pair]
-gear_1 = "pinion.h5"
-gear_2 = "wheel.h5"
-centre_distance_mm = 94.6
-
-[mesh]
-model = { kind = "hybrid" }
-
-[run]
-torques_Nm = [50.0, 100.0, 200.0]
-pitches = 1
-points_per_pitch = 24
-"#;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().collect();
@@ -49,8 +31,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         reduce_to(&gear, how, &models.join(format!("{name}.h5")), &watch)?;
     }
 
-    let document = InputDocument::new("scene in memory", SCENE);
-    let loaded = load(Scene::from_document(document, models)?)?;
+    let tables = PairTables {
+        title: "A pair without a file".to_owned(),
+        pair: PairTable {
+            gear_1: "pinion.h5".into(),
+            gear_2: "wheel.h5".into(),
+            centre_distance_mm: 94.6.into(),
+            ..PairTable::default()
+        },
+        run: RunTable {
+            torques_Nm: [50.0, 100.0, 200.0].map(Into::into).into(),
+            pitches: 1.into(),
+            points_per_pitch: 24.into(),
+            ..RunTable::default()
+        },
+        ..PairTables::default()
+    };
+    let loaded = load(Scene::new(&tables, models)?)?;
     let how = RunHow {
         output: None,
         restart: false,

@@ -40,9 +40,10 @@ impl GearFile {
     /// As [`GearFile::read`].
     pub fn of(document: &InputDocument, watch: &Watch<'_>) -> Result<Self, Failure> {
         let gear = if BevelGear::recognises(document)? {
-            let folder = Path::new(&document.file).parent();
-            let folder = folder.unwrap_or(Path::new(""));
-            AnyGear::Bevel(Box::new(BevelGear::from_document(document, folder)?))
+            AnyGear::Bevel(Box::new(BevelGear::from_document(
+                document,
+                document.folder(),
+            )?))
         } else {
             let gear = GearDefinition::from_document(document)?;
             demand_body_file(&gear, document)?;

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::ModelShelf;
 use gearmesh_scene::SceneFile;
 use gearmesh_scene::pair::demand_gears_that_fit;
 use gearmesh_scene::study::{RestCases, Subject};
@@ -129,7 +130,7 @@ pub fn look(kind: NewKind, folder: &Path) -> Result<Vec<String>, Failure> {
         match template.kind {
             Some(TextKind::Gear) => drop(GearFile::read(&path, &watch)?),
             Some(TextKind::Scene) => match SceneFile::read(&path)? {
-                SceneFile::Pair(scene) => demand_gears_that_fit(&scene)?,
+                SceneFile::Pair(scene) => demand_gears_that_fit(&scene, &ModelShelf::default())?,
                 SceneFile::Bevel(_) | SceneFile::System(_) => {
                     let problem = "allowed is a pair of cylindrical gears here";
                     return Err(Failure::input(problem).about(&path));

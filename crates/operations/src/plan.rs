@@ -3,7 +3,7 @@
 use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::watch::Watch;
-use gearmesh_scene::pair::ModelShelf;
+use gearmesh_scene::ModelShelf;
 use gearmesh_scene::system::SystemPlan;
 use gearmesh_scene::system_run::{ResultSize, RunCost, RunJob};
 use gearmesh_scene::{SceneFile, load};

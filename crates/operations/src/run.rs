@@ -6,8 +6,9 @@ use crate::{pair_table, system_figures, system_table};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::Named;
 use gearmesh_report::run_figures::pair_figures;
+use gearmesh_scene::ModelShelf;
+use gearmesh_scene::pair::BevelScene;
 use gearmesh_scene::pair::run::run_until;
-use gearmesh_scene::pair::{BevelScene, ModelShelf};
 use gearmesh_scene::rating::RatingResult;
 use gearmesh_scene::system::LoadedSystem;
 use gearmesh_scene::system_run::{

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import tempfile
 import time
@@ -17,7 +18,7 @@ from .pictures import circles, table, titled
 from .progress import Bar, Progress
 from .reduced import ReducedGear
 from .result import Result
-from .toml_text import Tables, from_toml, to_toml, with_keys
+from .toml_text import Tables, from_toml, plain, to_toml, with_keys
 
 GearModel = Union[ReducedGear, str, "os.PathLike[str]"]
 Functions = Mapping[str, Callable[..., Any]]
@@ -37,7 +38,10 @@ class Scene:
     Scene that the tables are from, or the working directory. functions: the Python functions that the scene names, see "Python functions in a scene" in
     docs/python.md. Raises FileNotFoundError, InputError with file, line and key.
 
-    Attributes: kind ("pair" or "system"), title, toml (text of the file), tables (the same as dicts).
+    Tables are read as they are; complaints about them name the path of the key, those about a file its line, too. In place of a path a
+    table may have a ReducedGear.
+
+    Attributes: kind ("pair" or "system"), title, toml (text of the file, or what a file of the tables would be), tables (the same as dicts).
     """
 
     def __init__(
@@ -48,7 +52,7 @@ class Scene:
     ) -> None:
         if isinstance(source, dict):
             beside = folder or getattr(source, "folder", ".")
-            self._take(to_toml(source), "Scene", Path(beside).absolute(), functions)
+            self._take(json.dumps(plain(source)), "", Path(beside).absolute(), functions)
         else:
             file, beside = Path(source), Path(folder or Path(source).parent)
             self._take(file.read_text(encoding="utf-8"), str(source), beside.absolute(), functions)
@@ -63,12 +67,14 @@ class Scene:
     ) -> Scene:
         """The scene of a text; file is its name in complaints."""
         scene = Scene.__new__(Scene)
-        scene._take(text, file, Path(folder).absolute(), functions)
+        scene._take(text, file or "scene.toml", Path(folder).absolute(), functions)
         return scene
 
-    def _take(self, text: str, file: str, folder: Path, functions: Functions | None = None) -> None:
-        self.kind, self.title = _native.check_scene(text, file, folder)
-        self.toml, self.file, self.folder = text, file, folder
+    def _take(self, source: str, file: str, folder: Path, functions: Functions | None = None) -> None:
+        """source: the text of a file; the tables as JSON where file is empty."""
+        self.kind, self.title = _native.check_scene(source, file, folder)
+        self.toml = source if file else _native.toml_from_json(source)
+        self._source, self.file, self.folder = source, file, folder
         self.functions = dict(functions or {})
         unused = sorted(set(self.functions) - set(_functions_named(self.tables)))
         if unused:
@@ -89,11 +95,11 @@ class Scene:
 
         Raises KeyError for a path through no table, InputError for what the scene refuses.
         """
-        return Scene.from_toml(to_toml(with_keys(self.tables, dict(changes))), self.folder, self.file, self.functions)
+        return Scene(with_keys(self.tables, dict(changes)), self.folder, self.functions)
 
     def plan(self) -> list[str]:
         """What the scene will compute, in lines for people. Raises InputError for what a run would refuse."""
-        return _native.plan(self.toml, self.file, self.folder, self.functions)
+        return _native.plan(self._source, self.file, self.folder, self.functions)
 
     def run(
         self,
@@ -120,7 +126,7 @@ class Scene:
         begun = time.perf_counter()
         with Bar(progress, self.title) as bar:
             native, notes, cost = _native.run(
-                self.toml, self.file, self.folder, path, restart, bar.call, self.functions, self._identity, most_result_GB
+                self._source, self.file, self.folder, path, restart, bar.call, self.functions, self._identity, most_result_GB
             )
         took_s = time.perf_counter() - begun
         for name, (calls, seconds) in cost.items():

@@ -1,7 +1,7 @@
 //! Texts of files: TOML from Python's dicts and back, what may be in them, whether they are sound.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
@@ -10,14 +10,27 @@ use pyo3::prelude::*;
 
 use crate::errors::{InputError, file_error, input_error};
 
+/// The document of a file's text; of a JSON object where there is no file.
+///
+/// Raises InputError for what TOML cannot hold.
+pub(crate) fn document(source: &str, file: &str, folder: &Path) -> PyResult<InputDocument> {
+    if file.is_empty() {
+        InputDocument::of_values(&table(source)?, folder).map_err(input_error)
+    } else {
+        Ok(InputDocument::new(file, source))
+    }
+}
+
+fn table(json: &str) -> PyResult<toml::Table> {
+    serde_json::from_str(json).map_err(|error| InputError::new_err(error.to_string()))
+}
+
 /// TOML text of a JSON object.
 ///
 /// Raises InputError for what TOML cannot hold: null, or numbers beyond 64 bits.
 #[pyfunction]
 pub(crate) fn toml_from_json(json: &str) -> PyResult<String> {
-    let table: toml::Table =
-        serde_json::from_str(json).map_err(|error| InputError::new_err(error.to_string()))?;
-    toml::to_string(&table).map_err(|error| InputError::new_err(error.to_string()))
+    toml::to_string(&table(json)?).map_err(|error| InputError::new_err(error.to_string()))
 }
 
 /// JSON text of a TOML document; file is its name in complaints. Raises InputError for a text that is no TOML.
@@ -74,16 +87,16 @@ pub(crate) fn check_gear(
     Ok((gear.name, profile.teeth, radii_m, notes))
 }
 
-/// Checks a scene's text; other files are relative to folder. Returns (kind, title): kind is "pair" or "system".
+/// Checks a scene's text, or its tables as JSON where file is empty; other files are relative to folder. Returns (kind, title): kind is "pair" or "system".
 ///
 /// Files that the scene names are not opened. Raises InputError with the place of what is wrong.
 #[pyfunction]
 pub(crate) fn check_scene(
-    text: &str,
+    source: &str,
     file: &str,
     folder: PathBuf,
 ) -> PyResult<(&'static str, String)> {
-    let document = InputDocument::new(file, text);
+    let document = document(source, file, &folder)?;
     let scene = SceneFile::from_document(document, &folder).map_err(input_error)?;
     let kind = match &scene {
         SceneFile::Pair(_) | SceneFile::Bevel(_) => "pair",

@@ -1,11 +1,10 @@
 //! Running scenes.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
-use gearmesh_geometry::input::InputDocument;
 use gearmesh_operations::Watch;
 use gearmesh_operations::plan::plan as plan_scene;
 use gearmesh_operations::run::{self as operations, RunHow};
@@ -16,6 +15,7 @@ use gearmesh_scene::system::{HostFunctions, SystemScene};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::documents::document;
 use crate::errors::{InputError, input_error, raised};
 use crate::functions::Functions;
 use crate::results::NativeResult;
@@ -29,10 +29,10 @@ type Cost = BTreeMap<String, (u64, f64)>;
 
 /// What a scene will compute, in lines for people. Raises InputError for what a run would refuse.
 #[pyfunction]
-#[pyo3(signature = (text, file, folder, functions = None))]
+#[pyo3(signature = (source, file, folder, functions = None))]
 pub(crate) fn plan(
     py: Python<'_>,
-    text: String,
+    source: String,
     file: String,
     folder: PathBuf,
     functions: Option<Bound<'_, PyDict>>,
@@ -40,7 +40,7 @@ pub(crate) fn plan(
     let functions = Functions::of(functions.as_ref())?;
     let host = functions.for_scene(String::new());
     let lines = py.detach(move || {
-        let scene = with_functions(read(text, file, folder)?, host)?;
+        let scene = with_functions(read(&source, &file, &folder)?, host)?;
         let planned = plan_scene(scene, &Watch::unattended()).map_err(raised)?;
         Ok(planned.lines)
     });
@@ -56,11 +56,11 @@ pub(crate) fn plan(
 /// Third of what is returned: calls and seconds of each function. Raises InputError, WorkError (of a function that has
 /// raised, with its exception as the cause), OSError; KeyboardInterrupt after a checkpoint was written.
 #[pyfunction]
-#[pyo3(signature = (text, file, folder, output, restart, progress, functions = None, identity = String::new(), most_result_gb = 1.0))]
+#[pyo3(signature = (source, file, folder, output, restart, progress, functions = None, identity = String::new(), most_result_gb = 1.0))]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn run(
     py: Python<'_>,
-    text: String,
+    source: String,
     file: String,
     folder: PathBuf,
     output: Option<PathBuf>,
@@ -72,7 +72,7 @@ pub(crate) fn run(
 ) -> PyResult<(NativeResult, Vec<String>, Cost)> {
     let functions = Functions::of(functions.as_ref())?;
     let host = functions.for_scene(identity);
-    let scene = py.detach(move || with_functions(read(text, file, folder)?, host))?;
+    let scene = py.detach(move || with_functions(read(&source, &file, &folder)?, host))?;
     let asked = (output, restart, most_result_gb);
     let outcome = match scene {
         SceneFile::Pair(scene) => run_pair(py, *scene, asked, progress.as_ref()),
@@ -192,6 +192,7 @@ fn run_system(
     })
 }
 
-fn read(text: String, file: String, folder: PathBuf) -> PyResult<SceneFile> {
-    SceneFile::from_document(InputDocument::new(file, text), &folder).map_err(input_error)
+/// The scene of a file's text, or of tables as JSON where there is no file.
+fn read(source: &str, file: &str, folder: &Path) -> PyResult<SceneFile> {
+    SceneFile::from_document(document(source, file, folder)?, folder).map_err(input_error)
 }

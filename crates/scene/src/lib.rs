@@ -18,6 +18,7 @@
 pub mod accuracy;
 mod former_forms;
 mod microgeometry_words;
+mod model_shelf;
 mod named_files;
 pub mod optimise;
 pub mod pair;
@@ -30,10 +31,11 @@ pub mod study;
 pub mod system;
 pub mod system_run;
 
+pub use model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 pub use named_files::{named_files, named_files_and_theirs, renamed_files};
 pub use pair::{
     ContactPlaces, LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries,
-    load, run,
+    load, load_from, run,
 };
 pub use result_file::ResultFile;
 pub use scene_file::{InputKind, SceneFile};

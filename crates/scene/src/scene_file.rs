@@ -108,7 +108,7 @@ impl SceneFile {
                 "a scene has [pair] (one gear pair, static positions) or [[body]] and [[shaft]] (a multibody system), not both",
             )),
             (None, None) if marks.bevel.is_some() => {
-                Ok(Self::Bevel(Box::new(BevelScene::from_document(document)?)))
+                Ok(Self::Bevel(Box::new(BevelScene::from_document(document.in_folder(folder))?)))
             }
             (None, None) if marks.tooth.is_some() => {
                 Err(document.error("tooth", "this is a gear file; a scene has [pair] or [[body]]"))

@@ -4,7 +4,7 @@ use gearmesh_geometry::input::file_schema;
 use schemars::{JsonSchema, Schema};
 
 use crate::optimise::OptimiseTables;
-use crate::pair::scene_file::SceneTable;
+use crate::pair::scene_file::PairTables;
 use crate::study::StudyTables;
 use crate::system::SystemTables;
 
@@ -14,7 +14,7 @@ use crate::system::SystemTables;
 #[allow(dead_code)]
 enum SceneTables {
     /// One gear pair, static positions over driver angles.
-    Pair(Box<SceneTable>),
+    Pair(Box<PairTables>),
     /// A multibody system.
     System(Box<SystemTables>),
 }

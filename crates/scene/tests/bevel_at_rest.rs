@@ -9,9 +9,10 @@ use std::sync::atomic::AtomicBool;
 use gearmesh_bevel::{Assembly, AssemblyError, FlankSide, PairFile, TcaRequest, tooth_contact};
 use gearmesh_drivetrain::BevelSlices;
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::ModelShelf;
 use gearmesh_scene::SceneResult;
 use gearmesh_scene::pair::bevel_result::PressedPosition;
-use gearmesh_scene::pair::{BevelScene, ModelShelf, PEAK_SHARE};
+use gearmesh_scene::pair::{BevelScene, PEAK_SHARE};
 
 const NAMES: [&str; 2] = ["bevel_20_20.toml", "bevel_13_35.toml"];
 const TORQUES: [f64; 4] = [0.1, 50.0, 100.0, 200.0];

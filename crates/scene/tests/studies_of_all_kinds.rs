@@ -12,8 +12,9 @@ use gearmesh_bearings::{
 };
 use gearmesh_bevel::{PairFile, tooth_contact};
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::ModelShelf;
 use gearmesh_scene::optimise::{Optimisation, optimise};
-use gearmesh_scene::pair::{BevelScene, ModelShelf};
+use gearmesh_scene::pair::BevelScene;
 use gearmesh_scene::study::{SelectedValue, Study, StudyOptions, StudyOutcome, run_study};
 
 fn fe_models() -> PathBuf {

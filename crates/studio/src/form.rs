@@ -121,7 +121,7 @@ impl Form {
         let stated = |key: &str| base.value(key);
         let mut walk = Walk::new(&of_scene, &stated, &NOT_OF_SCENES);
         walk.gears = Some(gears);
-        walk.table("", &of_scene["$defs"]["SceneTable"], &Map::new());
+        walk.table("", &of_scene["$defs"]["PairTables"], &Map::new());
         let mut fields = walk.fields;
         let of_gear = schema(TextKind::Gear);
         for (number, key) in GEARS.iter().enumerate() {
@@ -156,7 +156,7 @@ impl Form {
         };
         let mut walk = Walk::new(&whole, &stated, left_out);
         let top = match kind {
-            TextKind::Scene => &whole["$defs"]["SceneTable"],
+            TextKind::Scene => &whole["$defs"]["PairTables"],
             _ => &whole,
         };
         walk.table("", top, &Map::new());

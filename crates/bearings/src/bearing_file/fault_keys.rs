@@ -6,14 +6,14 @@ use gearmesh_geometry::input::{
 };
 use gearmesh_geometry::{kinds, number_range};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{MM, UM};
 use crate::definition::{Arrangement, BallGeometry, BearingGeometry};
 use crate::faults::{BallSpall, Fault, MisalignedRing, OffSizeBall, RaceSpall, Side, Waviness};
 
 /// `race`, `ring`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SideWord {
     /// The inner ring.
@@ -32,7 +32,7 @@ impl SideWord {
 }
 
 /// A fault of a bearing.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "BearingFaultTable")]
 pub enum FaultTable {

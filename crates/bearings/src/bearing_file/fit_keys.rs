@@ -4,7 +4,7 @@ use gearmesh_geometry::gear_file::PoissonRatio;
 use gearmesh_geometry::input::{Bounded, InputDocument, NotNegative, TableKeys, Within};
 use gearmesh_geometry::{InputError, given};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::element_keys::Clearances;
 use super::{MM, UM};
@@ -27,7 +27,7 @@ type Temperature = Bounded<Within<-200, 500>>;
 type Expansion = Bounded<Within<-5, 100>>;
 
 /// `[fit]`: fits and temperatures, from which the clearance in operation follows.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub(super) struct FitTable {
@@ -62,7 +62,7 @@ pub(super) struct FitTable {
 }
 
 /// `[fit.shaft_material]`, `[fit.housing_material]`: linear elastic, isotropic.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 struct SeatMaterial {

@@ -4,13 +4,13 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{Bounded, End, InputDocument, TableKeys, UpTo, Within};
 use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::definition::BearingGeometry;
 use crate::friction::{Friction, LoadFactor, usual_factors};
 
 /// `[friction]`: friction torque by Palmgren's model.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub(super) struct FrictionTable {

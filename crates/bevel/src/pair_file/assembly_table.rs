@@ -3,35 +3,35 @@
 use gearmesh_geometry::input::{Bounded, Count, End, Within};
 use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::assembly::AssemblyError;
 use crate::hand::FlankSide;
 use crate::tca::TcaRequest;
 
 /// Contact analysis and assembly.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct AssemblyTable {
+pub struct AssemblyTable {
     /// Flank of the pinion that drives; "concave" where not given.
-    pinion_flank: Option<FlankSide>,
+    pub pinion_flank: Option<FlankSide>,
     /// Marking thickness of the ellipses; 6.35 where not given.
-    marking_um: Option<Bounded<MarkingThickness>>,
+    pub marking_um: Option<Bounded<MarkingThickness>>,
     /// Positions a pitch; 48 where not given.
-    positions_per_pitch: Option<Count<8, 1000>>,
+    pub positions_per_pitch: Option<Count<8, 1000>>,
     /// Offset of the pinion along +y of the fixed frame; 0 where not given.
-    offset_um: Option<Bounded<Within<-5000, 5000>>>,
+    pub offset_um: Option<Bounded<Within<-5000, 5000>>>,
     /// Pinion moved away from the apex along its axis; 0 where not given.
-    pinion_axial_um: Option<Bounded<Within<-5000, 5000>>>,
+    pub pinion_axial_um: Option<Bounded<Within<-5000, 5000>>>,
     /// Gear moved away from the apex along its axis; 0 where not given.
-    gear_axial_um: Option<Bounded<Within<-5000, 5000>>>,
+    pub gear_axial_um: Option<Bounded<Within<-5000, 5000>>>,
     /// How much larger the shaft angle is; 0 where not given.
-    shaft_angle_mrad: Option<Bounded<Within<-50, 50>>>,
+    pub shaft_angle_mrad: Option<Bounded<Within<-50, 50>>>,
 }
 
 number_range!(
     /// Thicknesses of marking compound.
-    pub(super) MarkingThickness: End::At(0.1), End::At(100.0)
+    pub MarkingThickness: End::At(0.1), End::At(100.0)
 );
 
 /// The usual thickness of marking compound \[µm\].

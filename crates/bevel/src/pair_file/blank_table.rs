@@ -13,39 +13,39 @@ use crate::error::BevelError;
 use crate::hand::Hand;
 
 /// Teeth and blank. Lists of two: pinion, gear.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct BlankTable {
+pub struct BlankTable {
     /// Form of the teeth; "spiral" where not given.
-    form: Option<ToothForm>,
+    pub form: Option<ToothForm>,
     /// Numbers of teeth.
-    teeth: [Count<5, 1000>; 2],
+    pub teeth: [Count<5, 1000>; 2],
     /// Transverse module at the heel.
-    outer_module_mm: Bounded<Positive>,
+    pub outer_module_mm: Bounded<Positive>,
     /// Face widths, both from the same outer cone distance inwards.
-    face_width_mm: [Bounded<Positive>; 2],
+    pub face_width_mm: [Bounded<Positive>; 2],
     /// "spiral": mean spiral angle.
-    spiral_angle_deg: Option<Bounded<UpTo<50>>>,
+    pub spiral_angle_deg: Option<Bounded<UpTo<50>>>,
     /// Normal pressure angle; 20 where not given.
-    pressure_angle_deg: Option<Bounded<Within<10, 30>>>,
+    pub pressure_angle_deg: Option<Bounded<Within<10, 30>>>,
     /// Angle between the axes, both from apex to heel; 90 where not given.
-    shaft_angle_deg: Option<Bounded<Within<10, 170>>>,
+    pub shaft_angle_deg: Option<Bounded<Within<10, 170>>>,
     /// "spiral", "zerol": hand of the pinion; the gear has the other.
-    pinion_hand: Option<Hand>,
+    pub pinion_hand: Option<Hand>,
     /// Depth along the face; "standard" where not given.
-    taper: Option<Taper>,
+    pub taper: Option<Taper>,
     /// "spiral", "zerol": nominal radius of the face mill.
-    cutter_radius_mm: Option<Bounded<Positive>>,
+    pub cutter_radius_mm: Option<Bounded<Positive>>,
     /// By how much of a module the pinion's outer tooth is thicker, and the gear's thinner, than by the balance of
     /// addenda; 0 where not given.
-    thickness_shift: Option<Bounded<ThicknessShift>>,
+    pub thickness_shift: Option<Bounded<ThicknessShift>>,
     /// Normal backlash at the mean point; 0 where not given.
-    backlash_mm: Option<Bounded<NotNegative>>,
+    pub backlash_mm: Option<Bounded<NotNegative>>,
 }
 
 number_range!(
     /// Shares of a module that a tooth can be thicker by: about a third of the tooth.
-    ThicknessShift: End::At(-0.5), End::At(0.5)
+    pub ThicknessShift: End::At(-0.5), End::At(0.5)
 );
 
 impl BlankTable {

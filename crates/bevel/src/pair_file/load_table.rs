@@ -7,29 +7,29 @@ use gearmesh_geometry::gear_file::PoissonRatio;
 use gearmesh_geometry::input::{Bounded, Count, End, InputDocument, Positive, TableKeys, Within};
 use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Contact under load.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
-pub(super) struct LoadTable {
+pub struct LoadTable {
     /// Torques on the gear, one to 20 of them.
-    torques_Nm: Vec<Bounded<DrivingTorque>>,
+    pub torques_Nm: Vec<Bounded<DrivingTorque>>,
     /// Slices along the face. Where not given those of the coarser model, more are not allowed; without models 31, and
     /// up to 100 where a light load touches few of them.
-    slices: Option<Count<3, 100>>,
+    pub slices: Option<Count<3, 100>>,
     /// Positions over a pitch, 24 where not given.
-    positions_per_pitch: Option<Count<4, 500>>,
+    pub positions_per_pitch: Option<Count<4, 500>>,
     /// Reduced models (.h5) of pinion and gear, relative to this file. Where not given, the gears are rigid, and their surfaces
     /// deflect as half spaces do.
-    models: Option<[PathBuf; 2]>,
+    pub models: Option<[PathBuf; 2]>,
     /// Coefficient of friction of the teeth, for the efficiency; none printed where not given.
-    friction: Option<Bounded<Within<0, 1>>>,
+    pub friction: Option<Bounded<Within<0, 1>>>,
     /// Without models: Young's modulus of both gears, 206 where not given (steel).
-    young_GPa: Option<Bounded<Positive>>,
+    pub young_GPa: Option<Bounded<Positive>>,
     /// Without models: Poisson's ratio of both gears, 0.3 where not given.
-    poisson: Option<Bounded<PoissonRatio>>,
+    pub poisson: Option<Bounded<PoissonRatio>>,
 }
 
 /// What a loaded contact analysis is asked.
@@ -51,7 +51,7 @@ pub struct LoadRequest {
 
 number_range!(
     /// Torques of a stated direction.
-    DrivingTorque: End::Beyond(0.0), End::Open, "`pinion_flank` says which flank drives"
+    pub DrivingTorque: End::Beyond(0.0), End::Open, "`pinion_flank` says which flank drives"
 );
 
 impl LoadTable {

@@ -1,11 +1,9 @@
 //! `[pinion]` and `[gear]`: how a member is cut.
 
-use std::path::Path;
-
 use gearmesh_geometry::input::{Bounded, InputDocument, Positive, TableKeys, Within};
 use gearmesh_geometry::{InputError, kinds};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::assembly_table::{DEFAULT_MARKING_UM, MarkingThickness};
 use super::given_check;
@@ -23,10 +21,10 @@ use crate::settings_search::AskedEaseOff;
 type Amounts = [Bounded<Within<-1000, 1000>>; 2];
 
 /// How a member is cut. Lists of two: concave, convex flank.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "settings", rename = "MemberTable")]
-pub(super) enum MemberTable {
+pub enum MemberTable {
     /// By the pair's crown gear: conjugate where both members are cut so.
     Crown(BladeTable),
     /// Generated, both flanks by one face mill.
@@ -49,92 +47,92 @@ kinds!(MemberTable, "settings");
 type Length = Option<Bounded<Within<0, 1000>>>;
 
 /// The blade where the settings follow from the pair.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct BladeTable {
+pub struct BladeTable {
     /// Radius of the blade's edge.
-    edge_radius_mm: Length,
+    pub edge_radius_mm: Length,
     /// Width of the blade's point, to check that it fits into the slot.
-    point_width_mm: Length,
+    pub point_width_mm: Length,
     /// Least thickness of the top land; 0 where not given.
-    least_top_land_mm: Length,
+    pub least_top_land_mm: Length,
 }
 
 /// `settings = "local-synthesis"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct SynthesisTable {
+pub struct SynthesisTable {
     /// Radius of the blade's edge.
-    edge_radius_mm: Length,
+    pub edge_radius_mm: Length,
     /// Width of the blade's point, to check that it fits into the slot.
-    point_width_mm: Length,
+    pub point_width_mm: Length,
     /// Least thickness of the top land; 0 where not given.
-    least_top_land_mm: Length,
+    pub least_top_land_mm: Length,
     /// Mean contact point on the gear along the tooth, from the middle of the face towards the heel; 0 where not given.
     #[serde(default)]
-    mean_point_along_mm: [f64; 2],
+    pub mean_point_along_mm: [f64; 2],
     /// Its height above the gear's pitch cone; 0 where not given.
     #[serde(default)]
-    mean_point_height_mm: [f64; 2],
+    pub mean_point_height_mm: [f64; 2],
     /// Direction of the path on the gear's flank, from along the tooth towards the heel to up the profile.
-    path_angle_deg: [Bounded<Within<1, 179>>; 2],
+    pub path_angle_deg: [Bounded<Within<1, 179>>; 2],
     /// Half length of the contact ellipse.
-    ellipse_half_length_mm: [Bounded<Positive>; 2],
+    pub ellipse_half_length_mm: [Bounded<Positive>; 2],
     /// Marking thickness of that ellipse; 6.35 where not given.
-    marking_um: Option<Bounded<MarkingThickness>>,
+    pub marking_um: Option<Bounded<MarkingThickness>>,
     /// Second derivative of the gear's lead by the pinion's turn; negative where the gear stays behind.
-    transmission_curvature: [Bounded<Within<-1, 1>>; 2],
+    pub transmission_curvature: [Bounded<Within<-1, 1>>; 2],
 }
 
 /// `settings = "ease-off"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct EaseOffTable {
+pub struct EaseOffTable {
     /// Radius of the blade's edge.
-    edge_radius_mm: Length,
+    pub edge_radius_mm: Length,
     /// Width of the blade's point, to check that it fits into the slot.
-    point_width_mm: Length,
+    pub point_width_mm: Length,
     /// Least thickness of the top land; 0 where not given.
-    least_top_land_mm: Length,
+    pub least_top_land_mm: Length,
     /// Material left away at toe and heel.
-    lengthwise_um: Amounts,
+    pub lengthwise_um: Amounts,
     /// Material left away at the tip and the lower end of the working depth.
-    profile_um: Amounts,
+    pub profile_um: Amounts,
     /// Twist, at the tip of the heel; its negative at the tip of the toe. 0 where not given.
-    bias_um: Option<Amounts>,
+    pub bias_um: Option<Amounts>,
 }
 
 /// `settings = "given"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct GivenTable {
+pub struct GivenTable {
     /// Width of the blade's point, to check that it fits into the slot.
-    point_width_mm: Length,
+    pub point_width_mm: Length,
     /// Least thickness of the top land; 0 where not given.
-    least_top_land_mm: Length,
+    pub least_top_land_mm: Length,
     /// Settings of the concave flank.
-    concave: SettingsTable,
+    pub concave: SettingsTable,
     /// Settings of the convex flank.
-    convex: SettingsTable,
+    pub convex: SettingsTable,
     /// Which tooth thickness counts. Where not given that of the settings where they are the same for both flanks but
     /// for the blades (one operation), else that of the blank.
-    thickness: Option<ThicknessFrom>,
+    pub thickness: Option<ThicknessFrom>,
 }
 
 /// `settings = "points"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct PointsTable {
+pub struct PointsTable {
     /// Least thickness of the top land; 0 where not given.
-    least_top_land_mm: Length,
+    pub least_top_land_mm: Length,
     /// Table of the concave flank's points, beside this file or with its folder: columns sector, height, x_mm, y_mm,
     /// z_mm, nx, ny, nz (all three of these may be missing: the points make the normals); with deviation_um the points
     /// are nominal and the flank is off them by so much added material.
-    concave_points: String,
+    pub concave_points: String,
     /// Table of the convex flank's points.
-    convex_points: String,
+    pub convex_points: String,
     /// Place of the tables' origin on the member's axis, from the pitch apex towards the heel; 0 where not given.
-    points_origin_mm: Option<Bounded<Within<-10_000, 10_000>>>,
+    pub points_origin_mm: Option<Bounded<Within<-10_000, 10_000>>>,
 }
 
 /// A member's part of a pair file.
@@ -248,7 +246,7 @@ impl PointsTable {
         member: &MemberBlank,
     ) -> Result<[GridSurface; 2], InputError> {
         let origin = self.points_origin_mm.map_or(0.0, f64::from);
-        let folder = Path::new(&document.file).parent().unwrap_or(Path::new(""));
+        let folder = document.folder();
         let read = |name: &str, side: FlankSide| {
             GridSurface::read(&folder.join(name), 1e-3 * origin, member, side)
         };

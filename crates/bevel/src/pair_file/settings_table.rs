@@ -8,41 +8,41 @@ use gearmesh_geometry::input::{
 };
 use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::settings::{FaceMill, MachineSettings, Roll, Tool};
 
 /// Settings of a face milling machine for one flank. Signs: docs/theory/bevel_gears.md, "Frames".
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct SettingsTable {
+pub struct SettingsTable {
     /// Radius of the blade's point.
-    point_radius_mm: Bounded<Positive>,
+    pub point_radius_mm: Bounded<Positive>,
     /// Angle of the blade.
-    blade_angle_deg: Bounded<Within<0, 45>>,
+    pub blade_angle_deg: Bounded<Within<0, 45>>,
     /// Radius of the blade's edge.
-    edge_radius_mm: Bounded<NotNegative>,
+    pub edge_radius_mm: Bounded<NotNegative>,
     /// Radial distance of the cutter from the cradle's axis.
-    radial_distance_mm: Bounded<Positive>,
+    pub radial_distance_mm: Bounded<Positive>,
     /// Cradle angle; positive for a right hand.
-    cradle_angle_deg: Bounded<Within<-180, 180>>,
+    pub cradle_angle_deg: Bounded<Within<-180, 180>>,
     /// Machine root angle.
-    machine_root_angle_deg: Bounded<RootAngle>,
+    pub machine_root_angle_deg: Bounded<RootAngle>,
     /// Sliding base; away from the cradle is positive. 0 where not given.
-    sliding_base_mm: Option<f64>,
+    pub sliding_base_mm: Option<f64>,
     /// Offset of the work along +y of the machine; 0 where not given.
-    offset_mm: Option<f64>,
+    pub offset_mm: Option<f64>,
     /// Machine centre to back, towards the heel; 0 where not given.
-    work_offset_mm: Option<f64>,
+    pub work_offset_mm: Option<f64>,
     /// Ratio of roll, work over cradle; not given for a formate member.
-    ratio_of_roll: Option<Bounded<UpTo<100>>>,
+    pub ratio_of_roll: Option<Bounded<UpTo<100>>>,
     /// Modified roll c2, c3, c4; 0 where not given.
-    modified_roll: Option<[f64; 3]>,
+    pub modified_roll: Option<[f64; 3]>,
 }
 
 number_range!(
     /// Machine root angles: from a rack to a crown gear.
-    RootAngle: End::Beyond(0.0), End::Beyond(90.0)
+    pub RootAngle: End::Beyond(0.0), End::Beyond(90.0)
 );
 
 impl SettingsTable {

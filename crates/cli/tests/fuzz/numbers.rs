@@ -12,7 +12,7 @@ use gearmesh_model::synthetic::{
 use gearmesh_model::{
     DataTree, FileFormat, MESH_FORMAT, REDUCED_GEAR_FORMAT, Values, write_mesh, write_reduced_gear,
 };
-use gearmesh_scene::pair::ModelShelf;
+use gearmesh_scene::ModelShelf;
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{SceneFile, load, run as run_pair};
 use std::panic::{AssertUnwindSafe, catch_unwind};

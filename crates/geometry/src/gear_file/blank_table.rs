@@ -9,11 +9,10 @@ use crate::input::{Bounded, Count, InputDocument, InputError, Within};
 use crate::kinds;
 use crate::tooth::ToothGeometry;
 use schemars::JsonSchema;
-use serde::Deserialize;
-use std::path::Path;
+use serde::{Deserialize, Serialize};
 
 /// `[blank]`: one table a kind.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "BlankTable")]
 pub(super) enum BlankTable {
@@ -32,7 +31,7 @@ pub(super) enum BlankTable {
 kinds!(BlankTable, "kind");
 
 /// The keys of `kind = "solid"`.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SolidTable {
     /// Bore; 0 for a gear that is cut into its shaft.
@@ -47,7 +46,7 @@ pub(super) struct SolidTable {
 }
 
 /// The keys of `kind = "thin-rim"`.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ThinRimTable {
     /// Bore.
@@ -68,7 +67,7 @@ pub(super) struct ThinRimTable {
 }
 
 /// The keys of `kind = "contour"`.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ContourTable {
     /// Bore.
@@ -84,7 +83,7 @@ pub(super) struct ContourTable {
 }
 
 /// The keys of `kind = "ring"`, of full width.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RingTable {
     /// Outer diameter.
@@ -97,7 +96,7 @@ pub(super) struct RingTable {
 }
 
 /// Equal parts of the outside that are held, evenly round it.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct LugsTable {
     /// Number of them.
@@ -134,7 +133,7 @@ impl LugsTable {
 }
 
 /// The keys of `kind = "mesh"`. The mesh has its openings.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MeshedTable {
     /// Bore.
@@ -406,7 +405,7 @@ impl MeshedTable {
             }
         }
         // Beside the gear file, unless it is an absolute path.
-        let folder = Path::new(&document.file).parent().unwrap_or(Path::new(""));
+        let folder = document.folder();
         Ok(MeshedBody {
             file: folder.join(&self.file),
             length_unit: self.length_unit.unwrap_or(LengthUnit::Metre),

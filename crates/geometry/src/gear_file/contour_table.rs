@@ -5,13 +5,13 @@ use crate::blank::{Blank, Contour, ContourPoint, Web};
 use crate::body_outline::body_outline;
 use crate::input::{Bounded, InputError, NotNegative};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Lengths that differ by less are equal \[mm\].
 const SAME_MM: f64 = 1e-6;
 
 /// One point of the contour: where the web has this diameter, it reaches from back to front.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WebPointTable {
     /// Diameter.

@@ -5,10 +5,10 @@ use super::material_table::needs_density;
 use crate::definition::{HubSupport, Material};
 use crate::input::{InputDocument, InputError};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// The keys of `[hub]`.
-#[derive(Deserialize, JsonSchema, Default)]
+#[derive(Deserialize, Serialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub struct HubTable {
     /// "fixed", or "reference-point": rigid, with six degrees of freedom, on the axis at mid-face, of bevel gears at the pitch apex; "fixed" where not given.

@@ -10,60 +10,60 @@ use crate::microgeometry::{
 };
 use crate::tooth::ToothGeometry;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// The keys of `[microgeometry]`. Amounts are removed along the flank normal; negative ones are added.
-#[derive(Debug, Clone, Deserialize, JsonSchema, Default)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub struct MicrogeometryTable {
     /// Tip relief at the tip circle.
-    tip_relief_um: Option<f64>,
+    pub tip_relief_um: Option<f64>,
     /// Diameter at which the tip relief begins; needed with it.
-    tip_relief_start_diameter_mm: Option<f64>,
+    pub tip_relief_start_diameter_mm: Option<f64>,
     /// How it grows with the roll length; "linear" where not given.
-    tip_relief_shape: Option<ReliefWord>,
+    pub tip_relief_shape: Option<ReliefWord>,
     /// Root relief at the form circle, where the involute begins.
-    root_relief_um: Option<f64>,
+    pub root_relief_um: Option<f64>,
     /// Diameter at which the root relief begins; needed with it.
-    root_relief_start_diameter_mm: Option<f64>,
+    pub root_relief_start_diameter_mm: Option<f64>,
     /// How it grows with the roll length; "linear" where not given.
-    root_relief_shape: Option<ReliefWord>,
+    pub root_relief_shape: Option<ReliefWord>,
     /// Profile crowning (barrelling) at the tip circle, a parabola in roll length from profile_crowning_diameter_mm on.
-    profile_crowning_um: Option<f64>,
+    pub profile_crowning_um: Option<f64>,
     /// Diameter at which the profile crowning is zero; needed with it.
-    profile_crowning_diameter_mm: Option<f64>,
+    pub profile_crowning_diameter_mm: Option<f64>,
     /// Slope of the profile over the whole involute: half of it removed at the tip circle, half added at the form
     /// circle; 0 where not given.
-    profile_angle_um: Option<f64>,
+    pub profile_angle_um: Option<f64>,
     /// Lead crowning: a parabola over the face, zero at mid-face, this at both ends; 0 where not given.
-    lead_crowning_um: Option<f64>,
+    pub lead_crowning_um: Option<f64>,
     /// Slope of the flank line over the whole face width (helix angle modification): half of it removed at +z, half
     /// added at -z, zero at mid-face; 0 where not given.
-    flank_angle_um: Option<f64>,
+    pub flank_angle_um: Option<f64>,
     /// End relief at the faces.
-    end_relief_um: Option<f64>,
+    pub end_relief_um: Option<f64>,
     /// Length along the axis over which the end relief grows; needed with it.
-    end_relief_length_mm: Option<f64>,
+    pub end_relief_length_mm: Option<f64>,
     /// How it grows along the axis; "linear" where not given.
-    end_relief_shape: Option<ReliefWord>,
+    pub end_relief_shape: Option<ReliefWord>,
     /// The faces that have it; "both" where not given.
-    end_relief_end: Option<FaceEnds>,
+    pub end_relief_end: Option<FaceEnds>,
     /// Twist (bias): slope of the profile over the whole involute at the face towards +z less that at the one towards
     /// -z; 0 where not given.
-    twist_um: Option<f64>,
+    pub twist_um: Option<f64>,
     /// Any other form: a table over the flank, added to the rest.
-    topography: Option<TopographyTable>,
+    pub topography: Option<TopographyTable>,
     /// Keys that are others on right flanks.
-    right: Option<Box<MicrogeometryTable>>,
+    pub right: Option<Box<MicrogeometryTable>>,
     /// Keys that are others on left flanks.
-    left: Option<Box<MicrogeometryTable>>,
+    pub left: Option<Box<MicrogeometryTable>>,
 }
 
 /// How a relief grows from its start to where its amount is stated.
-#[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-enum ReliefWord {
+pub enum ReliefWord {
     /// With the distance.
     #[default]
     Linear,

@@ -6,7 +6,7 @@ use crate::blank::{Holes, Openings, Slots};
 use crate::input::{Bounded, Count, End, InputDocument, InputError, Positive, Within};
 use crate::number_range;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 number_range!(
@@ -15,7 +15,7 @@ number_range!(
 );
 
 /// The keys of `[blank.slots]`.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SlotsTable {
     /// Number round the axis.
@@ -33,7 +33,7 @@ pub(super) struct SlotsTable {
 }
 
 /// The keys of `[blank.holes]`.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct HolesTable {
     /// Number round the axis.

@@ -6,24 +6,24 @@ use crate::involute;
 use crate::microgeometry::Topography;
 use crate::tooth::ToothGeometry;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// A grid of points over the profile and the axis; bilinear between them, held beyond the borders.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct TopographyTable {
+pub struct TopographyTable {
     /// File with the columns roll_deg or diameter_mm, z_mm and removed_um, a row for each point of the grid, in any
     /// order; instead of the keys below. Not in gear files, which models keep without other files.
-    file: Option<PathBuf>,
+    pub file: Option<PathBuf>,
     /// Places along the profile, increasing: roll angles.
-    roll_deg: Option<Vec<f64>>,
+    pub roll_deg: Option<Vec<f64>>,
     /// Places along the profile, increasing: diameters, instead of roll angles.
-    diameter_mm: Option<Vec<f64>>,
+    pub diameter_mm: Option<Vec<f64>>,
     /// Places along the axis from mid-face, increasing.
-    z_mm: Option<Vec<f64>>,
+    pub z_mm: Option<Vec<f64>>,
     /// Material removed: a list for each place along the profile, with a number for each place along the axis.
-    removed_um: Option<Vec<Vec<f64>>>,
+    pub removed_um: Option<Vec<Vec<f64>>>,
 }
 
 /// Largest amount in micrometres.

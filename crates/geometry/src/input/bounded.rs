@@ -136,6 +136,12 @@ impl<R> std::fmt::Display for Bounded<R> {
     }
 }
 
+impl<R> Default for Bounded<R> {
+    fn default() -> Self {
+        0.0.into()
+    }
+}
+
 impl<R> PartialEq for Bounded<R> {
     fn eq(&self, other: &Self) -> bool {
         self.0 == other.0
@@ -147,6 +153,13 @@ impl<R> Deref for Bounded<R> {
 
     fn deref(&self) -> &f64 {
         &self.0
+    }
+}
+
+/// The number as it stands, for tables in memory: it is checked where the table is read.
+impl<R> From<f64> for Bounded<R> {
+    fn from(value: f64) -> Self {
+        Self(value, PhantomData)
     }
 }
 
@@ -225,7 +238,7 @@ impl<R: Range> JsonSchema for Bounded<R> {
 }
 
 /// A whole number from `LOW` to `HIGH`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(transparent)]
 pub struct Count<const LOW: usize, const HIGH: usize>(usize);
 
@@ -233,6 +246,13 @@ impl<const LOW: usize, const HIGH: usize> Count<LOW, HIGH> {
     /// The number.
     pub fn get(self) -> usize {
         self.0
+    }
+}
+
+/// The number as it stands, for tables in memory: it is checked where the table is read.
+impl<const LOW: usize, const HIGH: usize> From<usize> for Count<LOW, HIGH> {
+    fn from(value: usize) -> Self {
+        Self(value)
     }
 }
 

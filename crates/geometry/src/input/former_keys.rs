@@ -168,7 +168,7 @@ fn put<'t>(
     }
 }
 
-/// A value as it can stand behind a key, in one line.
+/// A value as it can stand behind a key, in one line: as the text has it, if there is one.
 fn inline(value: &Value<'_>, text: &str) -> String {
     match value.get_ref() {
         DeValue::Table(table) => {
@@ -187,6 +187,10 @@ fn inline(value: &Value<'_>, text: &str) -> String {
             let items: Vec<String> = items.iter().map(|item| inline(item, text)).collect();
             format!("[{}]", items.join(", "))
         }
+        DeValue::String(words) if text.is_empty() => format!("{words:?}"),
+        DeValue::Integer(number) if text.is_empty() => number.to_string(),
+        DeValue::Float(number) if text.is_empty() => number.to_string(),
+        DeValue::Boolean(truth) if text.is_empty() => truth.to_string(),
         _ => text.get(value.span()).unwrap_or_default().to_owned(),
     }
 }

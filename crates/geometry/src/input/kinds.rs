@@ -3,11 +3,11 @@
 //!
 //! serde reads such tables, too, but forgets where it is as soon as it has seen the tag. Here complaints keep the key.
 
-use serde::Deserialize;
 use serde::de::{
     DeserializeSeed, Deserializer, EnumAccess, Error, IntoDeserializer, VariantAccess, Visitor,
     value,
 };
+use serde::{Deserialize, Serialize, Serializer};
 use serde_path_to_error::Segment;
 
 /// An enumeration of tables, one variant a kind. Made by [`kinds!`](crate::kinds), not by hand.
@@ -20,11 +20,17 @@ pub trait Kinds: Sized {
     /// # Errors
     /// Those of the deserializer.
     fn from_named<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error>;
+
+    /// Writes that form.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    fn to_named<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
 }
 
-/// Makes an enumeration readable from tables with a tag: `kinds!(BearingModel, "kind");`.
+/// Makes an enumeration readable from tables with a tag, and writable: `kinds!(BearingModel, "kind");`.
 ///
-/// The enumeration derives `Deserialize` with `#[serde(remote = "Self", deny_unknown_fields)]` and has no variants without a table; for
+/// The enumeration derives `Deserialize` and `Serialize` with `#[serde(remote = "Self", deny_unknown_fields)]` and has no variants without a table; for
 /// its schema it says `#[schemars(tag = "kind", rename = "ITS NAME")]`.
 #[macro_export]
 macro_rules! kinds {
@@ -37,6 +43,16 @@ macro_rules! kinds {
             ) -> Result<Self, D::Error> {
                 // serde's derived function; `remote` keeps it from being the trait's.
                 Self::deserialize(deserializer)
+            }
+
+            fn to_named<S: ::serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                Self::serialize(self, serializer)
+            }
+        }
+
+        impl ::serde::Serialize for $name {
+            fn serialize<S: ::serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                $crate::input::write_kind(self, serializer)
             }
         }
 
@@ -79,6 +95,26 @@ pub fn read_kind<'de, T: Kinds, D: Deserializer<'de>>(deserializer: D) -> Result
         serde_path_to_error::Deserializer::new(toml::Value::Table(named), &mut track);
     T::from_named(deserializer)
         .map_err(|error: toml::de::Error| below(&keys_of(&track.path()), error.message().trim()))
+}
+
+/// Writes a table of one of the kinds.
+///
+/// # Errors
+/// The serializer's.
+pub fn write_kind<T: Kinds, S: Serializer>(kind: &T, serializer: S) -> Result<S::Ok, S::Error> {
+    struct Named<'a, T>(&'a T);
+    impl<T: Kinds> Serialize for Named<'_, T> {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            self.0.to_named(serializer)
+        }
+    }
+    let named = toml::Value::try_from(Named(kind)).map_err(serde::ser::Error::custom)?;
+    let mut written = toml::Table::new();
+    for (name, keys) in named.as_table().into_iter().flatten() {
+        written.insert(T::TAG.to_owned(), toml::Value::String(name.clone()));
+        written.extend(keys.as_table().cloned().unwrap_or_default());
+    }
+    written.serialize(serializer)
 }
 
 /// A table without its tag: perhaps the tag is misspelt, and stands there as a key that no kind knows.
@@ -287,21 +323,21 @@ impl<'de> VariantAccess<'de> for Question<'_> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use crate::input::InputDocument;
-    use serde::Deserialize;
+    use serde::{Deserialize, Serialize};
 
-    #[derive(Debug, PartialEq, Deserialize)]
+    #[derive(Debug, PartialEq, Deserialize, Serialize)]
     #[serde(deny_unknown_fields)]
     struct Scene {
         bearing: Vec<Bearing>,
     }
 
-    #[derive(Debug, PartialEq, Deserialize)]
+    #[derive(Debug, PartialEq, Deserialize, Serialize)]
     #[serde(deny_unknown_fields)]
     struct Bearing {
         model: Model,
     }
 
-    #[derive(Debug, PartialEq, Deserialize)]
+    #[derive(Debug, PartialEq, Deserialize, Serialize)]
     #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
     enum Model {
         Rigid {},
@@ -313,7 +349,7 @@ mod tests {
         },
     }
 
-    #[derive(Debug, PartialEq, Deserialize)]
+    #[derive(Debug, PartialEq, Deserialize, Serialize)]
     #[serde(deny_unknown_fields)]
     #[allow(non_snake_case)]
     struct Linear {
@@ -322,7 +358,7 @@ mod tests {
         exponent: f64,
     }
 
-    #[derive(Debug, PartialEq, Deserialize)]
+    #[derive(Debug, PartialEq, Deserialize, Serialize)]
     #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
     enum Damping {
         Viscous { damping_s: f64 },
@@ -354,7 +390,9 @@ mod tests {
         };
         let text =
             "gap_um = [1.0, 2.0]\nkind = 'film'\ndamping = { law = 'viscous', damping_s = 3.0 }";
-        assert_eq!(read(text), Ok(film));
+        assert_eq!(read(text).as_ref(), Ok(&film));
+        let written = toml::Value::try_from(&film).unwrap();
+        assert_eq!(written.try_into(), Ok(film));
     }
 
     /// Every way to be wrong, with the line that a person reads: as good as in a table without kinds, at any depth.

@@ -3,7 +3,17 @@
 use super::profile::ReliefShape;
 
 /// Faces of a gear.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    serde::Deserialize,
+    serde::Serialize,
+    schemars::JsonSchema,
+)]
 pub enum FaceEnds {
     /// Both.
     #[default]

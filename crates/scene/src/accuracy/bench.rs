@@ -12,7 +12,7 @@ use super::effects::{Effect, of_scene};
 use super::element_knob;
 use super::knobs::{Knob, Rung, case_of_rung, of_bevel, of_pair};
 use super::system_knobs::of_system;
-use crate::pair::ModelShelf;
+use crate::model_shelf::ModelShelf;
 use crate::study::{
     BaseScene, Case, Effort, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, Setting,
     StudyError, StudyOptions, Subject, VaryError, Wanted, evaluate, known_columns, make_files,

@@ -6,7 +6,7 @@ use gearmesh_geometry::{Element, GearDefinition};
 use toml::Value;
 
 use super::knobs::{Knob, Rung, rounded};
-use crate::pair::ModelShelf;
+use crate::model_shelf::ModelShelf;
 use crate::study::BaseScene;
 
 /// Element and factor on the element lengths, cheapest first; the middle one is the gear file's own.

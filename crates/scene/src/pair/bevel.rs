@@ -6,12 +6,12 @@
 use super::all_positions::{Positions, TorquePositions, Watched, curves};
 use super::bevel_result::BevelRest;
 use super::contact_places::PatchPlace;
-use super::model_shelf::{ModelShelf, ShelvedModel};
 use super::position::Measures;
 use super::result::SceneResult;
 use super::run::{RunError, absolute};
+use crate::model_shelf::{ModelShelf, ShelvedModel};
 use crate::periods::Coverage;
-use gearmesh_bevel::pair_file::LoadRequest;
+use gearmesh_bevel::pair_file::{BevelFile, LoadRequest};
 use gearmesh_bevel::{AssembledPair, PairDesign, PairFile};
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{ContactPatch, LocalContact, StaticContact};
@@ -53,6 +53,14 @@ pub struct LoadedBevel {
 }
 
 impl BevelScene {
+    /// The pair of tables in memory; file names are relative to `folder`, models in memory are those of the shelf it is loaded with.
+    ///
+    /// # Errors
+    /// [`InputError`] with the path of the field, what was found and what is allowed.
+    pub fn new(tables: &BevelFile, folder: &Path) -> Result<Self, InputError> {
+        Self::from_document(InputDocument::of_values(tables, folder)?)
+    }
+
     /// Checks a pair file that is in memory; its file names are relative to where it says it lies.
     ///
     /// # Errors
@@ -65,9 +73,7 @@ impl BevelScene {
     /// Folder that its file names are relative to.
     #[must_use]
     pub fn folder(&self) -> &Path {
-        Path::new(&self.document.file)
-            .parent()
-            .unwrap_or(Path::new(""))
+        self.document.folder()
     }
 
     /// The pair with its models, those of the shelf.

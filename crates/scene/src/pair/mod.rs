@@ -1,6 +1,5 @@
 //! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks,
-//! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it, `model_shelf.rs`
-//! keeps models that many scenes share, `taken_misalignment.rs` takes the axes from a gearbox's result, `run.rs`
+//! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it, `taken_misalignment.rs` takes the axes from a gearbox's result, `run.rs`
 //! computes, position by position (`all_positions.rs`, `position.rs`, `between_positions.rs`), `figures.rs` makes the
 //! figures of a torque of it, `figure_table.rs` says how all doors show them, `contacts.rs` says where the teeth
 //! touch, `coverage.rs` says how much of each period that sees, `result.rs` keeps, `result_record.rs` stores,
@@ -17,7 +16,6 @@ mod coverage;
 pub mod figure_table;
 mod figures;
 mod flank_effects;
-mod model_shelf;
 pub mod plan;
 mod position;
 pub mod rating;
@@ -32,7 +30,6 @@ pub use between_positions::{BetweenPositions, PEAK_SHARE};
 pub use bevel::{BevelScene, LoadedBevel};
 pub use contact_places::ContactPlaces;
 pub use figures::{FigureErrors, PairFigures};
-pub use model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 pub use plan::Plan;
 pub use result::{SceneResult, StrainSeries};
 pub use result_record::RESULT_FORMAT;

@@ -4,12 +4,12 @@ use super::all_positions::{Positions, Watched, curves};
 use super::contact_places::ContactPlaces;
 use super::contacts;
 use super::flank_effects;
-use super::model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 use super::plan::Plan;
 use super::position::Measures;
 use super::rating::{PairRating, RatedPair, judged};
 use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
+use crate::model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 use crate::periods::PairPeriods;
 use gearmesh_contact::{
     AxialSpread, ContactError, ContactLines, ContactPatch, FlankDeviations, PathExtension, Runout,
@@ -18,7 +18,7 @@ use gearmesh_contact::{
 use gearmesh_drivetrain::DrivetrainError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
-use gearmesh_model::{FileError, ReducedGear, ReducedGearError, read_reduced_gear};
+use gearmesh_model::{FileError, ReducedGear, ReducedGearError};
 use gearmesh_recovery::GaugeReader;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -114,9 +114,9 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
 /// # Errors
 /// As [`load`].
 pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, RunError> {
-    demand_gears_that_fit(&scene)?;
+    demand_gears_that_fit(&scene, shelf)?;
     let read = |key: &str, path: &Path| -> Result<(ShelvedModel, GearDefinition), RunError> {
-        if !path.exists() {
+        if !shelf.knows(path) {
             let problem = format!(
                 "the model {} does not exist; make it with `gearmesh reduce GEAR.toml -o {}`",
                 path.display(),
@@ -242,14 +242,14 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
 ///
 /// # Errors
 /// [`InputError`] for gears that do not run together, as two of one hand.
-pub fn demand_gears_that_fit(scene: &Scene) -> Result<(), InputError> {
+pub fn demand_gears_that_fit(scene: &Scene, shelf: &ModelShelf) -> Result<(), InputError> {
     let models = [&scene.gear_1, &scene.gear_2];
-    if models.iter().all(|path| path.exists()) {
+    if models.iter().all(|path| shelf.knows(path)) {
         return Ok(());
     }
     let stated = |path: &Path| -> Option<GearDefinition> {
-        if path.exists() {
-            let model = read_reduced_gear(path).ok()?;
+        if shelf.knows(path) {
+            let model = shelf.model(path).ok()?.model;
             return model.input.definition_in(path.display()).ok().cloned();
         }
         let file = path.with_extension("toml");

@@ -11,72 +11,74 @@ use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{Bounded, Count, End, InputDocument, Positive, Within};
 use gearmesh_geometry::{Flank, InputError, Misalignment, kinds, number_range};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-#[derive(Deserialize, JsonSchema)]
+/// The keys of the file.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SceneTable {
+pub struct PairTables {
     /// Title in prints and reports.
-    title: String,
+    pub title: String,
     /// The gears and how they stand.
-    pair: PairTable,
+    pub pair: PairTable,
     /// What gear 1 has beside its body.
     #[serde(default)]
-    gear_1: GearTable,
+    pub gear_1: GearTable,
     /// What gear 2 has beside its body.
     #[serde(default)]
-    gear_2: GearTable,
+    pub gear_2: GearTable,
     /// Model of the teeth.
-    mesh: MeshTable,
+    pub mesh: MeshTable,
     /// Torques and angles.
-    run: RunTable,
+    pub run: RunTable,
     /// Gauges to read.
     #[serde(default)]
-    gauges: GaugesTable,
+    pub gauges: GaugesTable,
     /// What is judged after the run, at each torque.
     #[serde(default)]
-    rating: Vec<RatingTable>,
+    pub rating: Vec<RatingTable>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+/// `[pair]`.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct PairTable {
+pub struct PairTable {
     /// Reduced model (.h5) of the driving gear, relative to the scene.
-    gear_1: PathBuf,
+    pub gear_1: PathBuf,
     /// Reduced model of the driven gear.
-    gear_2: PathBuf,
+    pub gear_2: PathBuf,
     /// Centre distance.
-    centre_distance_mm: Bounded<Positive>,
+    pub centre_distance_mm: Bounded<Positive>,
     /// Hand of the flanks in contact; "right" (gear 1 turns clockwise) where not given.
     #[serde(default = "default_flank")]
-    flank: Flank,
+    pub flank: Flank,
     /// Mid-face of gear 2 from that of gear 1 along the axes; 0 where not given.
-    axial_offset_mm: Option<Bounded<Within<-10_000, 10_000>>>,
+    pub axial_offset_mm: Option<Bounded<Within<-10_000, 10_000>>>,
     /// Axis error in the plane of the axes; 0 where not given.
-    inclination_mrad: Option<Bounded<SmallAngle>>,
+    pub inclination_mrad: Option<Bounded<SmallAngle>>,
     /// Axis error across the plane of the axes; 0 where not given.
-    deviation_mrad: Option<Bounded<SmallAngle>>,
+    pub deviation_mrad: Option<Bounded<SmallAngle>>,
     /// Axis errors as a static run of the gearbox has found them, instead of the two.
-    misalignment_from: Option<MisalignmentFrom>,
+    pub misalignment_from: Option<MisalignmentFrom>,
 }
 
 number_range!(
     /// Angles between axes.
-    SmallAngle: End::At(-10.0), End::At(10.0), "the misalignment is treated as small"
+    pub SmallAngle: End::At(-10.0), End::At(10.0), "the misalignment is treated as small"
 );
 
 number_range!(
     /// Torques under which a pair rests.
-    ClosingTorque: End::Beyond(0.0), End::Open, "the static solution needs a load that closes the contact"
+    pub ClosingTorque: End::Beyond(0.0), End::Open, "the static solution needs a load that closes the contact"
 );
 
 /// `[gear_1]` and `[gear_2]`.
-#[derive(Deserialize, JsonSchema, Default)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
-struct GearTable {
+pub struct GearTable {
     /// Microgeometry, instead of all that the gear file inside the model states.
-    microgeometry: Option<MicrogeometryTable>,
+    pub microgeometry: Option<MicrogeometryTable>,
 }
 
 fn default_flank() -> Flank {
@@ -84,22 +86,22 @@ fn default_flank() -> Flank {
 }
 
 /// `[mesh]`.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "PairMeshTable")]
-struct MeshTable {
+pub struct MeshTable {
     /// Model of the teeth.
-    model: PairModel,
+    pub model: PairModel,
     /// What touches and how.
     #[serde(default)]
-    teeth: PairTeethTable,
+    pub teeth: PairTeethTable,
 }
 
 /// `mesh.model`.
-#[derive(Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "PairModel")]
-enum PairModel {
+pub enum PairModel {
     /// Finite element compliance and the contact problem of the slices.
     Hybrid {
         /// Local contact; "calibrated" where not given.
@@ -112,52 +114,63 @@ enum PairModel {
 
 kinds!(PairModel, "kind");
 
+impl Default for PairModel {
+    fn default() -> Self {
+        Self::Hybrid {
+            local: LocalContact::default(),
+            slices: None,
+        }
+    }
+}
+
 /// `mesh.teeth`.
-#[derive(Deserialize, JsonSchema, Default)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields, default)]
-struct PairTeethTable {
+pub struct PairTeethTable {
     /// Ends of the path of contact; "extended" where not given, "line-of-action" for helical teeth.
-    path: Option<PathWord>,
+    pub path: Option<PathWord>,
     /// With path = "extended": radius of the tip edges; 100 where not given.
-    edge_radius_um: Option<Bounded<Within<1, 1000>>>,
+    pub edge_radius_um: Option<Bounded<Within<1, 1000>>>,
     /// Tooth friction; none where not given.
-    friction: Option<PairFrictionTable>,
+    pub friction: Option<PairFrictionTable>,
     /// Errors and faults of gear 1.
-    errors_1: Vec<FlankErrorTable>,
+    pub errors_1: Vec<FlankErrorTable>,
     /// Errors and faults of gear 2.
-    errors_2: Vec<FlankErrorTable>,
+    pub errors_2: Vec<FlankErrorTable>,
     /// Place of gear 1 on its body: runout and wobble.
-    eccentricity_1: Option<EccentricityTable>,
+    pub eccentricity_1: Option<EccentricityTable>,
     /// Place of gear 2 on its body.
-    eccentricity_2: Option<EccentricityTable>,
+    pub eccentricity_2: Option<EccentricityTable>,
 }
 
 /// Radius of a tip edge where the scene states none, in micrometres: a deburred edge.
 const DEFAULT_EDGE_RADIUS_UM: f64 = 100.0;
 
-#[derive(Deserialize, JsonSchema)]
+/// `[run]`.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
-struct RunTable {
+pub struct RunTable {
     /// Torques on gear 2.
-    torques_Nm: Vec<Bounded<ClosingTorque>>,
+    pub torques_Nm: Vec<Bounded<ClosingTorque>>,
     /// First driver angle; 0 where not given.
-    start_deg: Option<Bounded<Within<-36_000, 36_000>>>,
+    pub start_deg: Option<Bounded<Within<-36_000, 36_000>>>,
     /// Pitches of gear 1 to run through.
-    pitches: Count<1, 100_000>,
+    pub pitches: Count<1, 100_000>,
     /// Positions per pitch.
-    points_per_pitch: Count<4, 100_000>,
+    pub points_per_pitch: Count<4, 100_000>,
 }
 
-#[derive(Deserialize, JsonSchema, Default)]
+/// `[gauges]`.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct GaugesTable {
+pub struct GaugesTable {
     /// Gauges of gear 1, by name.
     #[serde(default)]
-    gear_1: Vec<String>,
+    pub gear_1: Vec<String>,
     /// Gauges of gear 2, by name.
     #[serde(default)]
-    gear_2: Vec<String>,
+    pub gear_2: Vec<String>,
 }
 
 /// A scene that has been read and checked. Paths are relative to the scene file's folder.
@@ -225,13 +238,21 @@ impl Scene {
         Self::from_document(InputDocument::read(path)?, folder)
     }
 
+    /// The scene of tables in memory; file names are relative to `folder`, models in memory are those of the shelf it is loaded with.
+    ///
+    /// # Errors
+    /// [`InputError`] with the path of the field, what was found and what is allowed.
+    pub fn new(tables: &PairTables, folder: &Path) -> Result<Self, InputError> {
+        Self::from_document(InputDocument::of_values(tables, folder)?, folder)
+    }
+
     /// Checks a scene that is already in memory; model paths are taken relative to `folder`.
     ///
     /// # Errors
     /// As [`Scene::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let document = document.with_former(PAIR);
-        let table: SceneTable = document.parse()?;
+        let table: PairTables = document.parse()?;
         let pair = &table.pair;
         for (key, value) in [
             ("pair.inclination_mrad", pair.inclination_mrad),

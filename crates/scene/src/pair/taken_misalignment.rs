@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{Flank, GearPair, InputError, Misalignment};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::system::names;
 use crate::system_run::{ResultKind, SystemResult};
@@ -15,7 +15,7 @@ use crate::system_run::{ResultKind, SystemResult};
 const SAME_LOAD: f64 = 0.02;
 
 /// `misalignment_from`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MisalignmentFrom {
     /// Result of a `static` run, relative to the scene.

@@ -14,13 +14,13 @@ use gearmesh_geometry::input::{Bounded, Count, Positive, TableKeys, Within};
 use gearmesh_geometry::kinds;
 use gearmesh_rating::{LoadPoint, MeanStress, Passage, SurfaceState};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// A megapascal in pascals.
 const MPA: f64 = 1e6;
 
 /// `[[rating]]` as written in the file.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "RatingTable")]
 pub enum RatingTable {
@@ -35,7 +35,7 @@ pub enum RatingTable {
 kinds!(RatingTable, "kind");
 
 /// Keys of `kind = "fatigue"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct FatigueTable {
@@ -66,7 +66,7 @@ pub struct FatigueTable {
 }
 
 /// Keys of `kind = "nominal"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NominalTable {
     /// Multibody scenes: the part of the run before this time is left out; 0 where not given.
@@ -83,7 +83,7 @@ pub struct NominalTable {
 }
 
 /// Keys of `kind = "bearing-life"`, multibody scenes only.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BearingLifeTable {
     /// Name of a `[[bearing]]`, not of kind "rigid".
@@ -99,7 +99,7 @@ pub struct BearingLifeTable {
 }
 
 /// `surface`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceWord {
     /// Held along the axis.
@@ -110,7 +110,7 @@ pub enum SurfaceWord {
 }
 
 /// `mean_stress`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MeanStressWord {
     /// The mean is not looked at.
@@ -121,7 +121,7 @@ pub enum MeanStressWord {
 }
 
 /// `passage`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PassageWord {
     /// Again and again.
@@ -132,7 +132,7 @@ pub enum PassageWord {
 }
 
 /// `load_point`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LoadPointWord {
     /// The highest point of single contact.

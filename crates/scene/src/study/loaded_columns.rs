@@ -7,8 +7,9 @@ use super::cases::StudyError;
 use super::pair_columns::{PairColumns, RestColumn, columns};
 use super::rest_cases::RestFigures;
 use super::rest_columns;
+use crate::model_shelf::ModelShelf;
+use crate::pair::BevelScene;
 use crate::pair::bevel_result::BevelRest;
-use crate::pair::{BevelScene, ModelShelf};
 
 /// Names of all columns of a bevel pair.
 ///

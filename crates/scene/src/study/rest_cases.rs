@@ -14,8 +14,9 @@ use super::loaded_columns;
 use super::pair_columns::{PairColumns, RestColumn, columns, place, unit_of};
 use super::rest_columns;
 use super::subject::Subject;
+use crate::model_shelf::ModelShelf;
 use crate::named_files_and_theirs;
-use crate::pair::{LoadedScene, ModelShelf, RunError, Scene, load_from, run};
+use crate::pair::{LoadedScene, RunError, Scene, load_from, run};
 
 /// Digits of the digest in a file's name.
 const NAME_DIGITS: usize = 16;

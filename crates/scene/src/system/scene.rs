@@ -1,11 +1,12 @@
 //! The scene file of a multibody system, read and checked as far as no other file is needed.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::host_functions::HostFunctions;
 use super::planetary::{self, PlanetarySet};
@@ -22,10 +23,11 @@ use super::tables::run::{Run, RunTable};
 use super::tables::shaft::ShaftTable;
 use super::tables::solver::{Solver, SolverTable};
 use crate::former_forms::SYSTEM;
+use crate::model_shelf::ModelShelf;
 use crate::rating::RatingTable;
 
 /// The keys of the file.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SystemTables {
     /// Title in prints and reports.
@@ -85,7 +87,7 @@ pub struct SystemTables {
 }
 
 /// `[[gauge]]`: gauges of a reduced gear that are read.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GaugeTable {
     /// The gear's body.
@@ -117,6 +119,8 @@ pub struct SystemScene {
     pub document: InputDocument,
     /// The file's folder.
     pub folder: PathBuf,
+    /// The reduced gears that it names, as far as they were read.
+    pub models: Arc<ModelShelf>,
 }
 
 impl SystemScene {
@@ -134,9 +138,33 @@ impl SystemScene {
     /// # Errors
     /// As [`SystemScene::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
+        Self::with_models(document, folder, Arc::default())
+    }
+
+    /// The scene of tables in memory; `models`: reduced gears in memory, and those of files that were read before.
+    ///
+    /// # Errors
+    /// [`InputError`] with the path of the field, what was found and what is allowed.
+    pub fn new(
+        tables: &SystemTables,
+        folder: &Path,
+        models: Arc<ModelShelf>,
+    ) -> Result<Self, InputError> {
+        let document = InputDocument::of_values(tables, folder)?;
+        Self::with_models(document, folder, models)
+    }
+
+    fn with_models(
+        document: InputDocument,
+        folder: &Path,
+        models: Arc<ModelShelf>,
+    ) -> Result<Self, InputError> {
         let document = document.with_former(SYSTEM);
-        let expanded = planetary::expand(document.clone(), folder);
-        let checked = expanded.and_then(|(document, sets)| Self::checked(document, sets, folder));
+        let expanded = planetary::expand(document.clone(), (folder, &models));
+        let checked = expanded.and_then(|(document, sets)| {
+            let scene = Self::checked(document, sets, folder)?;
+            Ok(Self { models, ..scene })
+        });
         checked.map_err(|error| super::other_run_kind::explained(error, &document))
     }
 
@@ -193,6 +221,7 @@ impl SystemScene {
             host: HostFunctions::default(),
             document,
             folder: folder.to_path_buf(),
+            models: Arc::default(),
         })
     }
 }

@@ -10,11 +10,12 @@ use gearmesh_dynamics::Body;
 use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{GearDefinition, InputError, Material};
-use gearmesh_model::{RadialMotions, ReducedGear, read_reduced_gear};
+use gearmesh_model::{RadialMotions, ReducedGear};
 use nalgebra::{Matrix3, Vector3};
 
 use super::cut_into_shaft::OnFaces;
 use crate::microgeometry_words::microgeometry_words;
+use crate::model_shelf::ModelShelf;
 use crate::system::scene::SystemScene;
 use crate::system::tables::body::{BoreHold, Flexibility};
 use crate::system::tables::gear_mesh::GearMeshTable;
@@ -131,11 +132,12 @@ impl GearFiles {
         &mut self,
         path: &Path,
         keys: &TableKeys<'_>,
+        models: &ModelShelf,
     ) -> Result<BodyGear, InputError> {
         if let Some(gear) = self.read.get(path) {
             return Ok(gear.clone());
         }
-        let gear = BodyGear::read(path, keys)?;
+        let gear = BodyGear::read(path, keys, models)?;
         self.read.insert(path.to_path_buf(), gear.clone());
         Ok(gear)
     }
@@ -197,7 +199,7 @@ impl GearFiles {
 }
 
 impl BodyGear {
-    fn read(path: &Path, keys: &TableKeys<'_>) -> Result<Self, InputError> {
+    fn read(path: &Path, keys: &TableKeys<'_>, models: &ModelShelf) -> Result<Self, InputError> {
         let shown = path.display();
         let gear = match path.extension().and_then(|e| e.to_str()) {
             Some("toml") => {
@@ -220,14 +222,15 @@ impl BodyGear {
                     bore_motions: None,
                 }
             }
-            Some("h5") => {
-                if !path.exists() {
+            ending if ending == Some("h5") || models.knows(path) && !path.exists() => {
+                if !models.knows(path) {
                     let problem = format!(
                         "the model {shown} does not exist; make it with `gearmesh reduce GEAR.toml -o {shown}`"
                     );
                     return Err(keys.error("gear", problem));
                 }
-                let model = Arc::new(read_reduced_gear(path).map_err(|e| keys.error("gear", e))?);
+                let shelved = models.model(path).map_err(|e| keys.error("gear", e))?;
+                let model = shelved.model;
                 if model.bevel.is_some() {
                     let file = path.to_path_buf();
                     return Ok(Self::Bevel(Arc::new(ReducedBevel { file, model })));

@@ -123,7 +123,7 @@ impl SystemScene {
         for (i, table) in self.tables.body.iter().enumerate() {
             let key = format!("body.{i}");
             let keys = TableKeys::new(&self.document, &key);
-            let read = |path| files.get(&self.folder.join(path), &keys);
+            let read = |path| files.get(&self.folder.join(path), &keys, &self.models);
             let gear = table.gear.as_ref().map(read).transpose()?;
             let gear = gears::with_own_microgeometry(gear, &self, i)?;
             let gear = files.with_own_bore(gear, &self, i)?;

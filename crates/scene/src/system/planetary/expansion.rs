@@ -12,6 +12,7 @@ use toml::{Table, Value};
 
 use super::gears::{SetGears, teeth_of};
 use super::{PlanetarySet, SetMembers, keys};
+use crate::model_shelf::ModelShelf;
 use crate::system::names;
 use crate::system::tables::MM;
 use crate::system::tables::planetary::{MemberTable, PlanetaryTable, SupportWord};
@@ -46,7 +47,7 @@ struct Sets {
 /// [`InputError`] in the table of a set, or in a file of its gears.
 pub(in crate::system) fn expand(
     document: InputDocument,
-    folder: &Path,
+    files: (&Path, &ModelShelf),
 ) -> Result<(InputDocument, Vec<PlanetarySet>), InputError> {
     if document.glance::<Marks>()?.planetary.is_none() {
         return Ok((document, Vec::new()));
@@ -66,7 +67,7 @@ pub(in crate::system) fn expand(
             axes: axes(table.axis, &TableKeys::new(&document, &key))?,
             items: Vec::new(),
         };
-        let set = expansion.run(&mut gears, folder)?;
+        let set = expansion.run(&mut gears, files)?;
         items.append(&mut expansion.items);
         sets.push(set);
     }
@@ -162,7 +163,7 @@ impl Expansion<'_> {
     fn run(
         &mut self,
         gears: &mut BTreeMap<String, Option<PathBuf>>,
-        folder: &Path,
+        (folder, models): (&Path, &ModelShelf),
     ) -> Result<PlanetarySet, InputError> {
         let table = self.table;
         keys::check(table, &self.keys)?;
@@ -177,13 +178,13 @@ impl Expansion<'_> {
             let Some(name) = name else { return Ok(None) };
             let key = format!("{key}.gear");
             match gears.get(name).cloned().flatten() {
-                Some(file) => teeth_of(&folder.join(file), (&self.keys, &key)).map(Some),
+                Some(file) => teeth_of(&folder.join(file), (&self.keys, &key), models).map(Some),
                 None => Err(self
                     .keys
                     .error(&key, format!("missing; `{name}` needs teeth"))),
             }
         };
-        let of_planet = |file: &Path, key| teeth_of(&folder.join(file), (&self.keys, key));
+        let of_planet = |file: &Path, key| teeth_of(&folder.join(file), (&self.keys, key), models);
         let second = table.planets.second.as_ref();
         let teeth = SetGears {
             sun: of_member(&members.sun, "sun")?,

@@ -6,9 +6,9 @@ use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{
     GearDefinition, GearPair, InputError, Misalignment, PairError, ToothGeometry,
 };
-use gearmesh_model::read_reduced_gear;
 
 use super::layout::SetTeeth;
+use crate::model_shelf::ModelShelf;
 use crate::system::tables::planetary::{MemberTable, PlanetaryTable, SupportWord};
 use crate::system::tables::{MM, UM};
 
@@ -25,15 +25,16 @@ pub(super) struct SetGears {
 pub(super) fn teeth_of(
     path: &Path,
     (keys, key): (&TableKeys<'_>, &str),
+    models: &ModelShelf,
 ) -> Result<ToothGeometry, InputError> {
-    let is_model = path.extension().is_some_and(|ending| ending == "h5");
-    if !path.exists() {
+    let is_gear_file = path.extension().is_some_and(|ending| ending == "toml");
+    if !models.knows(path) {
         let problem = format!("the gear {} does not exist", path.display());
         return Err(keys.error(key, problem));
     }
-    if is_model {
-        let model = read_reduced_gear(path).map_err(|e| keys.error(key, e))?;
-        let definition = model.input.definition_in(path.display())?;
+    if !is_gear_file {
+        let shelved = models.model(path).map_err(|e| keys.error(key, e))?;
+        let definition = shelved.model.input.definition_in(path.display())?;
         return Ok(definition.profile.clone());
     }
     Ok(GearDefinition::read(path)?.profile)

@@ -6,7 +6,7 @@ use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{Bounded, End};
 use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 number_range!(
     /// Damping ratios below the critical one.
@@ -14,7 +14,7 @@ number_range!(
 );
 
 /// `[[body]]` as written in the file.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyTable {
     /// Name by which the other tables know the body. "ground" is the world.
@@ -63,7 +63,7 @@ pub struct BodyTable {
 }
 
 /// Whose forces a mesh feels in a body that it shares with others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Coupling {
     /// Those of all meshes.
@@ -74,7 +74,7 @@ pub enum Coupling {
 }
 
 /// How the bore of a gear is held.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BoreHold {
     /// Glued to a rigid pin.
@@ -98,7 +98,7 @@ impl BoreHold {
 }
 
 /// How a gear body deflects.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Flexibility {
     /// Not at all.

@@ -2,10 +2,10 @@
 //! at the start.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// `[[spring]]`: along the line between two points.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct SpringTable {
@@ -29,7 +29,7 @@ pub struct SpringTable {
 }
 
 /// `[[torsion_spring]]`: about an axis, over any number of turns.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct TorsionSpringTable {
@@ -53,7 +53,7 @@ pub struct TorsionSpringTable {
 
 /// `[[bushing]]`: six components, for small relative rotations. Either the diagonals or the 6×6 matrices; order x, y,
 /// z, rotations about x, y, z, with z along `axis`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct BushingTable {

@@ -12,12 +12,12 @@ use gearmesh_drivetrain::{FlankError, RootCrack};
 use gearmesh_geometry::input::{Bounded, NumberTable, Positive, TableKeys};
 use gearmesh_geometry::{Flank, InputError, ToothGeometry, kinds};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{MM, UM};
 
 /// End of the face width.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 pub enum EndWord {
     /// Towards +z.
     #[serde(rename = "+z")]
@@ -28,7 +28,7 @@ pub enum EndWord {
 }
 
 /// An error or fault.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "FlankErrorTable")]
 pub enum FlankErrorTable {
@@ -246,7 +246,7 @@ impl FlankErrorTable {
 }
 
 /// A root crack, as section loss of a beam tooth.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CrackTable {
     /// The tooth.

@@ -7,7 +7,7 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{Bounded, Positive, TableKeys, Within};
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{MM, UM};
 
@@ -18,7 +18,7 @@ const DEFAULT_STATIC_SPEED_MM_PER_S: f64 = 10.0;
 const DEFAULT_REVERSAL_UM: f64 = 20.0;
 
 /// `friction` of gear meshes.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "model", rename = "FrictionTable")]
 pub enum FrictionTable {
@@ -38,7 +38,7 @@ pub enum FrictionTable {
 kinds!(FrictionTable, "model");
 
 /// `friction` of pairs at rest.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "model", rename = "PairFrictionTable")]
 pub enum PairFrictionTable {

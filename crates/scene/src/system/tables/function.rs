@@ -7,15 +7,15 @@ use gearmesh_dynamics::{Interpolation, Table, TimeFunction};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{NumberTable, TableKeys};
 use schemars::JsonSchema;
-use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use serde::{Deserialize, Serialize};
 
 use crate::system::host_functions::HostFunctions;
 
 /// A function of time; its unit is that of its key.
-#[derive(Debug, Clone, JsonSchema)]
-#[schemars(untagged)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[serde(untagged)]
 pub enum FunctionTable {
     /// The same at all times.
     Constant(f64),
@@ -24,7 +24,7 @@ pub enum FunctionTable {
 }
 
 /// Forms of functions.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum FunctionForm {
     /// at_zero + slope_per_s · t
@@ -91,7 +91,7 @@ pub(crate) struct Sources<'a> {
 }
 
 /// Between the rows of a table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum InterpolationWord {
     /// Straight lines; the rate jumps.

@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use gearmesh_geometry::{Flank, kinds};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::flank_errors::FlankErrorTable;
 use super::friction::FrictionTable;
 use super::mesh_model::{HertzTable, MeshModel};
 
 /// `[[gear_mesh]]` as written in the file.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GearMeshTable {
     /// Name.
@@ -46,7 +46,7 @@ pub struct GearMeshTable {
 
 /// `gear_mesh.bevel_surface`: what the pinion's flanks are divided into. Edges should be a fifth of the contact ellipse or less; at least eight facets along
 /// the face and up the flank, two hundred thousand on a flank at most.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "BevelSurfaceTable")]
 pub enum BevelSurfaceTable {
@@ -69,7 +69,7 @@ pub enum BevelSurfaceTable {
 kinds!(BevelSurfaceTable, "kind");
 
 /// `gear_mesh.teeth`: what touches and how, whatever the model that knows flanks.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TeethTable {
     /// Flanks that can touch: "both" (backlash is what the tooth thickness leaves), or "right" or "left" alone. Right
@@ -94,7 +94,7 @@ pub struct TeethTable {
 }
 
 /// Flanks that can touch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TouchingFlanks {
     /// Both sides of the teeth.
@@ -118,7 +118,7 @@ impl TouchingFlanks {
 }
 
 /// Ends of the path of contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PathWord {
     /// Contact on the rigid path only.
@@ -129,7 +129,7 @@ pub enum PathWord {
 }
 
 /// `eccentricity_1` and `eccentricity_2`.
-#[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EccentricityTable {
     /// Distance of the gear's axis from the body's z axis.

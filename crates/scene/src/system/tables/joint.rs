@@ -1,12 +1,12 @@
 //! `[[joint]]` and `[[motion]]`.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::function::FunctionTable;
 
 /// `[[joint]]` as written in the file. Places and axes are those of the world at the start.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointTable {
     /// Name.
@@ -24,10 +24,11 @@ pub struct JointTable {
 }
 
 /// `joint.kind`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum JointWord {
     /// No relative motion.
+    #[default]
     Fixed,
     /// Turns about the axis.
     Revolute,
@@ -57,7 +58,7 @@ impl JointWord {
 }
 
 /// `[[motion]]` as written in the file: exactly one of the four functions.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MotionTable {
     /// Name; "motion of JOINT" where not given.

@@ -1,12 +1,12 @@
 //! `[[load]]`: a force or a torque on a body as a function of time.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::function::FunctionTable;
 
 /// `[[load]]` as written in the file: either `torque_Nm` or `force_N`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct LoadTable {
@@ -27,7 +27,7 @@ pub struct LoadTable {
 }
 
 /// Axes in which a direction stands still.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AxesWord {
     /// The world's.

@@ -8,13 +8,13 @@ use gearmesh_geometry::gear_file::PoissonRatio;
 use gearmesh_geometry::input::{Bounded, Count, End, NotNegative, Positive, Within};
 use gearmesh_geometry::{kinds, number_range};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::flank_errors::CrackTable;
 use super::{MM, UM};
 
 /// `gear_mesh.model`, cheapest first.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "MeshModel")]
 pub enum MeshModel {
@@ -33,6 +33,13 @@ pub enum MeshModel {
 }
 
 kinds!(MeshModel, "kind");
+
+impl Default for MeshModel {
+    /// The cheapest.
+    fn default() -> Self {
+        Self::Kinematic {}
+    }
+}
 
 /// A kind of model without its keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -120,7 +127,7 @@ number_range!(
 );
 
 /// Keys of `kind = "impact"`.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[allow(non_snake_case)]
 pub struct ImpactTable {
@@ -141,7 +148,7 @@ pub struct ImpactTable {
 }
 
 /// Keys of `kind = "node-to-surface"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct NodeSurfaceTable {
@@ -175,7 +182,7 @@ impl NodeSurfaceTable {
 }
 
 /// `weights` of `node-to-surface`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "NodeWeights")]
 #[allow(non_snake_case)]
@@ -192,7 +199,7 @@ pub enum NodeWeights {
 kinds!(NodeWeights, "kind");
 
 /// `gear_mesh.model.hertz`, `half_space` and `gear_mesh.tooth_pairs`: material of both gears.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[allow(non_snake_case)]
 pub struct HertzTable {
@@ -203,7 +210,7 @@ pub struct HertzTable {
 }
 
 /// Keys of `kind = "iso6336"`.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[allow(non_snake_case)]
 pub struct Iso6336Table {
@@ -222,7 +229,7 @@ pub struct Iso6336Table {
 }
 
 /// Keys of `kind = "analytic"`.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AnalyticTable {
     /// Damping; none where not given.
@@ -236,7 +243,7 @@ pub struct AnalyticTable {
 }
 
 /// Keys of `kind = "hybrid"`.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[allow(non_snake_case)]
 pub struct HybridTable {
@@ -254,7 +261,7 @@ pub struct HybridTable {
 }
 
 /// `stiffness`: the pair's own static curve.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct PairStiffnessTable {
@@ -271,7 +278,7 @@ pub struct PairStiffnessTable {
 }
 
 /// `damping`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "DampingTable")]
 #[allow(non_snake_case)]

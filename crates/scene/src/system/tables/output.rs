@@ -3,7 +3,7 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::run::Run;
 
@@ -11,7 +11,7 @@ use super::run::Run;
 pub const MOST_ROWS: f64 = 4_294_967_296.0;
 
 /// `[output]` as written in the file.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutputTable {
     /// Distance of the output times, for runs that step through time.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{Bounded, Count, Positive};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::bearing::{BearingModel, HousingTable};
 use super::body::{BoreHold, Coupling, Flexibility};
@@ -17,7 +17,7 @@ use super::mesh_model::{HertzTable, MeshModel};
 
 /// `[[planetary]]` as written in the file. Angles count counter-clockwise about the axis of the set, from x, or from
 /// where x is after the turns about x and then y that take z into the axis.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlanetaryTable {
     /// Name. The parts are called after it: `NAME sun`, `NAME ring`, `NAME carrier`, `NAME planet 1`.
@@ -49,7 +49,7 @@ pub struct PlanetaryTable {
 }
 
 /// The sense of a torque.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SenseWord {
     /// Counter-clockwise.
@@ -59,7 +59,7 @@ pub enum SenseWord {
 }
 
 /// `sun`, `ring` and `carrier`. Keys of the body are those of `[[body]]`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct MemberTable {
@@ -116,7 +116,7 @@ impl MemberTable {
 }
 
 /// `support`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SupportWord {
     /// Fixed to the ground.
@@ -146,7 +146,7 @@ impl SupportWord {
 }
 
 /// A bearing of a member on the ground, or of a planet on its pin.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetBearingTable {
     /// Place along the axis, from the sun's mid-face; 0 where not given.
@@ -160,7 +160,7 @@ pub struct SetBearingTable {
 
 /// A wave of the ring's pitch circle: the teeth stand `amplitude_um` · cos(lobes · (φ − crest_deg)) farther outside,
 /// and the ring is not stretched.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutOfRoundTable {
     /// Waves around.
@@ -173,7 +173,7 @@ pub struct OutOfRoundTable {
 }
 
 /// `carrier_eccentricity`.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CarrierEccentricityTable {
     /// Distance.
@@ -184,7 +184,7 @@ pub struct CarrierEccentricityTable {
 }
 
 /// `planets`. Keys of the body are those of `[[body]]`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlanetsTable {
     /// Gear file (.toml) or reduced gear (.h5), relative to the scene.
@@ -227,7 +227,7 @@ pub struct PlanetsTable {
 }
 
 /// `planets.second`: the gear of stepped planets that meshes with the ring.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SecondGearTable {
     /// Gear file (.toml) or reduced gear (.h5), relative to the scene.
@@ -247,7 +247,7 @@ pub struct SecondGearTable {
 }
 
 /// How one planet differs.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlanetDeviationTable {
     /// The planet, from 1.
@@ -273,7 +273,7 @@ pub struct PlanetDeviationTable {
 
 /// `sun_mesh` and `ring_mesh`: what all meshes of a kind have. Errors and eccentricities are those of the sun
 /// (`errors_1`, `eccentricity_1`) or of the ring (`errors_2`, `eccentricity_2`); those of planets stand in `planets`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetMeshTable {
     /// Model of the teeth, as of `[[gear_mesh]]`.

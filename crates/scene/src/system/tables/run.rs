@@ -13,10 +13,10 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{Bounded, Count, InputDocument, Positive, TableKeys};
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// `[run]` as written in the file.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "RunTable")]
 pub enum RunTable {
@@ -35,8 +35,15 @@ pub enum RunTable {
 
 kinds!(RunTable, "kind");
 
+impl Default for RunTable {
+    /// One equilibrium.
+    fn default() -> Self {
+        Self::Static(StaticTable::default())
+    }
+}
+
 /// Keys of `kind = "static"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StaticTable {
     /// Shares of all `[[load]]` at which an equilibrium is sought, one after the other; 1 alone where not given.
@@ -48,7 +55,7 @@ pub struct StaticTable {
 }
 
 /// Keys of `kind = "eigen"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct EigenTable {
@@ -65,7 +72,7 @@ pub struct EigenTable {
 }
 
 /// Keys of `kind = "speed-sweep"`: stepped with `speeds`, `settle_s` and `measure_s`, ramped with `ramp_s`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpeedSweepTable {
     /// Name of the `[[motion]]` that is varied.
@@ -114,7 +121,7 @@ impl RunKind {
 }
 
 /// Which way a sweep goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
     /// From the first to the last speed.

@@ -4,10 +4,10 @@ use gearmesh_geometry::gear_file::PoissonRatio;
 use gearmesh_geometry::input::{Bounded, NotNegative, Positive};
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// `[[shaft]]` as written in the file.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct ShaftTable {
@@ -38,7 +38,7 @@ pub struct ShaftTable {
 }
 
 /// `shaft.model`.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "ShaftModel")]
 #[allow(non_snake_case)]
@@ -59,7 +59,7 @@ pub enum ShaftModel {
 kinds!(ShaftModel, "kind");
 
 /// `[[shaft.part]]`: mass and inertia at a station.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PartTable {
     /// Number of the station, from 0.
@@ -72,7 +72,7 @@ pub struct PartTable {
 
 /// `[[shaft.seat]]`: a body on the shaft. On a beam it takes the place of the station's own body, and the shaft's mass
 /// there is added to it; on a rigid shaft it is fixed.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SeatTable {
     /// Number of the station, from 0.

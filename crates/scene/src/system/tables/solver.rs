@@ -5,12 +5,12 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{Bounded, Count, End, InputDocument, Positive, TableKeys, Within};
 use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::run::Run;
 
 /// `[solver]` as written in the file. Used by runs that step through time.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolverTable {
     /// What is left of the highest frequencies after a step, 0 to 1, with joints below 1; 0.8 where not given.
@@ -33,7 +33,7 @@ number_range!(
 );
 
 /// `[solver.adaptive]`.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AdaptiveTable {
     /// Longest step.
@@ -49,7 +49,7 @@ pub struct AdaptiveTable {
 }
 
 /// Where a motion begins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Start {
     /// Places and speeds as the bodies state them, moved onto the joints.

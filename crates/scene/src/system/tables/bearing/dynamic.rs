@@ -3,10 +3,10 @@
 use gearmesh_geometry::input::{Bounded, Positive};
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Keys of `kind = "dynamic"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DynamicBearingTable {
     /// Bearing file of a ball bearing (docs/bearings.md), from the scene's folder.
@@ -33,7 +33,7 @@ pub struct DynamicBearingTable {
 }
 
 /// `contact`: F = max(0, K (δ/mm)^e + c STEP(δ; 0, 0, d, 1) δ̇), the impact function of multibody programs.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct ContactTable {
@@ -49,7 +49,7 @@ pub struct ContactTable {
 }
 
 /// `rebound`: damping that fades in with the load and never pulls, stated by a free blow.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct ReboundTable {
@@ -60,7 +60,7 @@ pub struct ReboundTable {
 }
 
 /// `traction`: what acts against the slip of a ball.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "TractionTable")]
 #[allow(non_snake_case)]
@@ -95,7 +95,7 @@ pub enum TractionTable {
 kinds!(TractionTable, "kind");
 
 /// `surface`: what the races are made of.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "SurfaceTable")]
 pub enum SurfaceTable {
@@ -111,7 +111,7 @@ pub enum SurfaceTable {
 kinds!(SurfaceTable, "kind");
 
 /// `cage`: a body with six degrees of freedom, called `BEARING/cage`, of two rows `BEARING/cage_1` and `BEARING/cage_2`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct CageTable {
@@ -126,7 +126,7 @@ pub struct CageTable {
 }
 
 /// `cage.pockets`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct PocketTable {
@@ -147,7 +147,7 @@ pub struct PocketTable {
 }
 
 /// `cage.pockets.shape`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PocketWord {
     /// A bore along the radius.
@@ -158,7 +158,7 @@ pub enum PocketWord {
 }
 
 /// `cage.land`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct LandTable {
@@ -182,7 +182,7 @@ pub struct LandTable {
 }
 
 /// `cage.land.ring`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RingWord {
     /// The outer ring, round the cage.
@@ -192,7 +192,7 @@ pub enum RingWord {
 }
 
 /// `cage.land.film`.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct LandFilmTable {
@@ -203,7 +203,7 @@ pub struct LandFilmTable {
 }
 
 /// `cage.land.friction`.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LandFrictionTable {
     /// Coefficient of friction.

@@ -1,11 +1,11 @@
 //! `bearing.housing`: what lies between the outer ring and the housing or the ground.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// `bearing.housing`: the outer ring becomes a body, called `BEARING/ring`, on a stiffness, called `BEARING/housing`. Either the diagonals or the 6×6
 /// matrices; order x, y, z, rotations about x, y, z, with z along the bearing's axis.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct HousingTable {

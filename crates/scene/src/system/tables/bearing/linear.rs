@@ -2,13 +2,13 @@
 
 use gearmesh_geometry::given;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::ControlWord;
 
 /// Keys of `kind = "linear"`: the stiffness is stated by its diagonal (`radial_stiffness_N_per_mm` …), by a matrix, or taken from a bearing file
 /// (`tangent_of`).
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[allow(non_snake_case)]
 pub struct LinearBearingTable {
@@ -40,7 +40,7 @@ pub struct LinearBearingTable {
 }
 
 /// `axial_support`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AxialSupportWord {
     /// Both ways.

@@ -17,10 +17,10 @@ pub use rigid::{HeldWord, RigidBearingTable};
 
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// `[[bearing]]`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BearingTable {
     /// Name.
@@ -40,7 +40,7 @@ pub struct BearingTable {
 }
 
 /// `bearing.model`, cheapest first.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "BearingModel")]
 pub enum BearingModel {
@@ -55,6 +55,13 @@ pub enum BearingModel {
 }
 
 kinds!(BearingModel, "kind");
+
+impl Default for BearingModel {
+    /// The cheapest.
+    fn default() -> Self {
+        Self::Rigid(RigidBearingTable::default())
+    }
+}
 
 impl BearingModel {
     /// The bearing file that it names.

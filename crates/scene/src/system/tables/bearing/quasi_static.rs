@@ -1,10 +1,10 @@
 //! `kind = "quasi-static"`: every ball or roller in equilibrium at every moment.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Keys of `kind = "quasi-static"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct QuasiStaticBearingTable {
@@ -28,7 +28,7 @@ pub struct QuasiStaticBearingTable {
 }
 
 /// `control`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ControlWord {
     /// Balls do not spin on the outer race.

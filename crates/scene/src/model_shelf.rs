@@ -1,7 +1,9 @@
-//! Reduced gears that many scenes share: each file is read once, and condensed once to the slices of a contact.
+//! Reduced gears that many scenes share: each file is read once, and condensed once to the slices of a contact. Models in memory
+//! stand there under the names that scenes have for them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use gearmesh_contact::{ContactError, SliceContact};
@@ -12,7 +14,7 @@ use gearmesh_model::{FileError, ReducedGear, file_digest, read_reduced_gear};
 pub struct ShelvedModel {
     /// The model.
     pub model: Arc<ReducedGear>,
-    /// Digest of its file, 64 hexadecimal digits.
+    /// Digest of its file, 64 hexadecimal digits; of a model in memory what tells it from others.
     pub digest: String,
 }
 
@@ -38,7 +40,7 @@ impl CondensedPairs {
     ///
     /// # Errors
     /// Those of `condense`.
-    pub(super) fn of(
+    pub(crate) fn of(
         &self,
         key: String,
         condense: impl FnOnce() -> Result<SliceContact, ContactError>,
@@ -66,7 +68,27 @@ impl CondensedPairs {
     }
 }
 
+/// Models that were ever put in memory, which tells them apart.
+static KEPT: AtomicU64 = AtomicU64::new(0);
+
 impl ModelShelf {
+    /// Puts a model under the name that scenes have for it, joined to their folder, instead of a file's.
+    pub fn keep(&self, name: impl Into<PathBuf>, model: impl Into<Arc<ReducedGear>>) {
+        let number = KEPT.fetch_add(1, Ordering::Relaxed);
+        let kept = ShelvedModel {
+            model: model.into(),
+            digest: format!("model {number} in memory"),
+        };
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.insert(name.into(), kept);
+    }
+
+    /// Whether there is a model under this name, or may be one in a file.
+    pub fn knows(&self, path: &Path) -> bool {
+        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.contains_key(path) || path.exists()
+    }
+
     /// The model of a file, which is read if it was not before.
     ///
     /// # Errors
@@ -86,7 +108,7 @@ impl ModelShelf {
     }
 
     /// Where contacts of these models find what was condensed before.
-    pub(super) fn condensed(&self) -> CondensedPairs {
+    pub(crate) fn condensed(&self) -> CondensedPairs {
         self.condensed.clone()
     }
 
@@ -95,7 +117,7 @@ impl ModelShelf {
         self.condensed.count()
     }
 
-    /// How many files were read.
+    /// How many models are here.
     pub fn count(&self) -> usize {
         let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         read.len()
