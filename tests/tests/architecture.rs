@@ -134,6 +134,7 @@ const ALLOWED: [(&str, &[&str]); 22] = [
     (
         "tests",
         &[
+            "bearings",
             "geometry",
             "mesh",
             "fe",

@@ -18,6 +18,8 @@ use crate::slice_plane::Matrix6;
 
 /// What the force of a roller may miss, of the largest one.
 const SETTLED: f64 = 1e-10;
+/// What it may miss where rollers are thrown out only, by forces as small as their weight \[N\].
+const NOTHING_N: f64 = 1e-6;
 /// Most iterations of rollers and flanks.
 const MOST_SETTLINGS: usize = 50;
 
@@ -430,7 +432,7 @@ fn settle(
             bore.expect(bending.motions_m());
             bore.find(view, bending.motions_m(), true)?;
             let [missed_n, most_n, rounding_n] = bore.missed_n();
-            settled &= missed_n <= SETTLED * most_n + rounding_n;
+            settled &= missed_n <= SETTLED * most_n + rounding_n + NOTHING_N;
         }
         if settled {
             return Ok(());
