@@ -251,13 +251,8 @@ impl BearingFromFile {
     /// # Errors
     /// [`InputError`] for a document that is no TOML.
     pub fn recognises(document: &InputDocument) -> Result<bool, InputError> {
-        #[derive(Deserialize)]
-        struct Marks {
-            kind: Option<serde::de::IgnoredAny>,
-            tooth: Option<serde::de::IgnoredAny>,
-        }
-        let marks: Marks = document.glance()?;
-        Ok(marks.kind.is_some() && marks.tooth.is_none())
+        let keys = document.top_keys()?;
+        Ok(keys.contains("kind") && !keys.contains("tooth"))
     }
 
     /// Reads and checks a bearing file.

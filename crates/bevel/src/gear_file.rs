@@ -78,12 +78,7 @@ impl BevelGear {
     /// # Errors
     /// [`InputError`] for a document that is no TOML.
     pub fn recognises(document: &InputDocument) -> Result<bool, InputError> {
-        #[derive(Deserialize)]
-        struct Marks {
-            bevel_gear: Option<serde::de::IgnoredAny>,
-        }
-        let marks: Marks = document.glance()?;
-        Ok(marks.bevel_gear.is_some())
+        Ok(document.top_keys()?.contains("bevel_gear"))
     }
 
     /// Reads and checks a bevel gear file and the pair file that it names.

@@ -87,12 +87,7 @@ impl PairFile {
     /// # Errors
     /// [`InputError`] for a document that is no TOML.
     pub fn recognises(document: &InputDocument) -> Result<bool, InputError> {
-        #[derive(Deserialize)]
-        struct Marks {
-            bevel: Option<serde::de::IgnoredAny>,
-        }
-        let marks: Marks = document.glance()?;
-        Ok(marks.bevel.is_some())
+        Ok(document.top_keys()?.contains("bevel"))
     }
 
     /// Reads and checks a pair file.

@@ -106,21 +106,18 @@ impl GearDefinition {
         let reduction = file.reduction.check(document, mesh.plane_strain)?;
         let hub_support = file.hub.support();
         if blank.meshed().is_some() {
-            for (key, given) in [
+            let unused = [
                 (
                     "material.density_kg_per_m3",
                     material.density_kg_per_m3.is_some(),
                 ),
                 ("modes", file.modes.is_some()),
                 ("hub.support", hub_support != HubSupport::Fixed),
-            ] {
-                if given {
-                    return Err(document.error(
-                        key,
-                        "blank.kind = \"mesh\" is reduced at rest with its bore fixed and does not use it; remove it",
-                    ));
-                }
-            }
+            ];
+            TableKeys::new(document, "").refuse(
+                &unused,
+                "blank.kind = \"mesh\" is reduced at rest with its bore fixed and does not use it; remove it",
+            )?;
         }
         let without = match &blank {
             Blank::Solid { .. } | Blank::Webbed { .. } => {

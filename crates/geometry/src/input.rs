@@ -36,6 +36,7 @@ pub use threads::demand_threads;
 use values::Held;
 
 use serde::de::DeserializeOwned;
+use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -233,6 +234,15 @@ impl InputDocument {
         let tree = self.tree().map_err(|e| self.complaint(Vec::new(), &e))?;
         serde_path_to_error::deserialize(toml::Deserializer::from(tree))
             .map_err(|e| self.complaint(kinds::keys_of(e.path()), e.inner()))
+    }
+
+    /// The keys at the top: they tell what a document is meant as.
+    ///
+    /// # Errors
+    /// [`InputError`] for a text that is no TOML.
+    pub fn top_keys(&self) -> Result<BTreeSet<String>, InputError> {
+        let table: toml::Table = self.glance()?;
+        Ok(table.into_iter().map(|(key, _)| key).collect())
     }
 
     /// A complaint about what serde found at `path`.

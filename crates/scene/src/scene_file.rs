@@ -4,8 +4,6 @@ use std::path::Path;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
-use serde::Deserialize;
-use serde::de::IgnoredAny;
 
 use crate::pair::{BevelScene, Scene};
 use crate::system::SystemScene;
@@ -19,24 +17,6 @@ pub enum SceneFile {
     Bevel(Box<BevelScene>),
     /// A multibody system.
     System(Box<SystemScene>),
-}
-
-/// The tables and keys that tell the kinds of files apart.
-#[derive(Deserialize)]
-#[allow(non_snake_case)]
-struct Marks {
-    pair: Option<IgnoredAny>,
-    bevel: Option<IgnoredAny>,
-    body: Option<IgnoredAny>,
-    shaft: Option<IgnoredAny>,
-    planetary: Option<IgnoredAny>,
-    tooth: Option<IgnoredAny>,
-    scene: Option<IgnoredAny>,
-    parameter: Option<IgnoredAny>,
-    objective: Option<IgnoredAny>,
-    cycles: Option<IgnoredAny>,
-    stress_amplitude_MPa: Option<IgnoredAny>,
-    angle_origin: Option<IgnoredAny>,
 }
 
 /// What a TOML file is meant as; the kind decides which complaints its reader sees.
@@ -62,25 +42,18 @@ impl InputKind {
     /// # Errors
     /// [`InputError`] for a document that is no TOML.
     pub fn of(document: &InputDocument) -> Result<Self, InputError> {
-        let marks: Marks = document.glance()?;
-        let any = |marks: &[&Option<IgnoredAny>]| marks.iter().any(|mark| mark.is_some());
-        Ok(
-            if any(&[&marks.pair, &marks.body, &marks.shaft, &marks.planetary]) {
-                Self::Scene
-            } else if any(&[&marks.tooth]) {
-                Self::Gear
-            } else if any(&[&marks.objective]) {
-                Self::Optimisation
-            } else if any(&[&marks.scene, &marks.parameter]) {
-                Self::Study
-            } else if any(&[&marks.cycles, &marks.stress_amplitude_MPa]) {
-                Self::SnTable
-            } else if any(&[&marks.angle_origin]) {
-                Self::Record
-            } else {
-                Self::Gear
-            },
-        )
+        let keys = document.top_keys()?;
+        let has = |key: &&str| keys.contains(*key);
+        let of: [(&[&str], Self); 6] = [
+            (&["pair", "body", "shaft", "planetary"], Self::Scene),
+            (&["tooth"], Self::Gear),
+            (&["objective"], Self::Optimisation),
+            (&["scene", "parameter"], Self::Study),
+            (&["cycles", "stress_amplitude_MPa"], Self::SnTable),
+            (&["angle_origin"], Self::Record),
+        ];
+        let found = of.iter().find(|(marks, _)| marks.iter().any(has));
+        Ok(found.map_or(Self::Gear, |(_, kind)| *kind))
     }
 }
 
@@ -99,21 +72,23 @@ impl SceneFile {
     /// # Errors
     /// As [`SceneFile::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
-        let marks: Marks = document.glance()?;
-        match (marks.pair, marks.body.or(marks.shaft).or(marks.planetary)) {
-            (Some(_), None) => Ok(Self::Pair(Box::new(Scene::from_document(document, folder)?))),
-            (None, Some(_)) => Ok(Self::System(Box::new(SystemScene::from_document(document, folder)?))),
-            (Some(_), Some(_)) => Err(document.error(
+        let keys = document.top_keys()?;
+        let has = |key: &str| keys.contains(key);
+        let is_system = has("body") || has("shaft") || has("planetary");
+        match (has("pair"), is_system) {
+            (true, false) => Ok(Self::Pair(Box::new(Scene::from_document(document, folder)?))),
+            (false, true) => Ok(Self::System(Box::new(SystemScene::from_document(document, folder)?))),
+            (true, true) => Err(document.error(
                 "body",
                 "a scene has [pair] (one gear pair, static positions) or [[body]] and [[shaft]] (a multibody system), not both",
             )),
-            (None, None) if marks.bevel.is_some() => {
+            (false, false) if has("bevel") => {
                 Ok(Self::Bevel(Box::new(BevelScene::from_document(document.in_folder(folder))?)))
             }
-            (None, None) if marks.tooth.is_some() => {
+            (false, false) if has("tooth") => {
                 Err(document.error("tooth", "this is a gear file; a scene has [pair] or [[body]]"))
             }
-            (None, None) => Err(document.error(
+            (false, false) => Err(document.error(
                 "",
                 "no scene: it has neither [pair] (one gear pair, static positions) nor [[body]] or [[shaft]] (a multibody system)",
             )),

@@ -1,6 +1,7 @@
 //! Keys of ball bearings.
 
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::given;
 use gearmesh_geometry::input::TableKeys;
 
 use super::element_keys::{Clearances, Elements, contact_angle_rad};
@@ -117,17 +118,10 @@ fn free_angle(
     let deep_groove = file.kind == Kind::DeepGroove;
     let range = Clearances::of_balls(MM * ball, 2.0 * MM * distance_mm);
     if let Some([bottom_inner, bottom_outer]) = file.raceway_diameters_mm {
-        for (key, given) in [
-            ("contact_angle_deg", file.contact_angle_deg.is_some()),
-            ("radial_clearance_um", file.radial_clearance_um.is_some()),
-        ] {
-            if given {
-                return Err(keys.error(
-                    key,
-                    "is given together with raceway_diameters_mm, from which it follows; remove one of the two",
-                ));
-            }
-        }
+        keys.refuse(
+            &given!(file; contact_angle_deg, radial_clearance_um),
+            "is given together with raceway_diameters_mm, from which it follows; remove one of the two",
+        )?;
         let clearance = bottom_outer - bottom_inner - 2.0 * ball;
         let pair = format!("found {bottom_inner} and {bottom_outer}");
         let goes_in = clearance >= 0.0 || deep_groove;

@@ -1,6 +1,7 @@
 //! Keys of a bearing that is known by its catalogue line only.
 
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::given;
 use gearmesh_geometry::input::{Bounded, InputDocument, Positive, TableKeys};
 
 use super::ball_keys::{angle_of_clearance, four_point_kind, shoulder_heights_m};
@@ -103,24 +104,14 @@ fn designated(
             ),
         )
     })?;
-    for (key, given) in [
-        ("type", file.r#type.is_some()),
-        ("bore_mm", file.bore_mm.is_some()),
-        ("outside_diameter_mm", file.outside_diameter_mm.is_some()),
-        ("width_mm", file.width_mm.is_some()),
-        (
-            "contact_angle_deg",
-            file.contact_angle_deg.is_some() && listed.says_angle,
-        ),
-    ] {
-        if given {
-            return Err(keys.error(
-                key,
-                "is given together with a designation, which says it; remove one of the two",
-            ));
-        }
-    }
-    if !listed.says_angle {
+    let twice = "is given together with a designation, which says it; remove one of the two";
+    keys.refuse(
+        &given!(file; r#type, bore_mm, outside_diameter_mm, width_mm),
+        twice,
+    )?;
+    if listed.says_angle {
+        keys.refuse(&given!(file; contact_angle_deg), twice)?;
+    } else {
         listed.line.contact_angle_rad = contact_angle(file, keys, listed.line.kind)?;
     }
     notes.push(format!("{}: {}", listed.designation, listed.source()));

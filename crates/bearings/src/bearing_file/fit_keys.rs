@@ -163,11 +163,9 @@ fn refuse_unused(table: &FitTable, keys: &TableKeys<'_>) -> Result<(), InputErro
             given!(table; housing_outside_diameter_mm, housing_material, housing_temperature_C),
         ),
     ] {
-        if let Some((key, _)) = given.iter().find(|(_, given)| *given && !is_there) {
-            return Err(keys.error(
-                key,
-                format!("is not used without {needs}; remove it, or state the fit"),
-            ));
+        if !is_there {
+            let problem = format!("is not used without {needs}; remove it, or state the fit");
+            keys.refuse(&given, problem)?;
         }
     }
     Ok(())

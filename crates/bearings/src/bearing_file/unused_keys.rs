@@ -6,23 +6,6 @@ use gearmesh_geometry::{InputError, given};
 use super::BearingFile;
 use crate::catalogue::CatalogueType;
 
-/// Keys of a file, each with whether it is given, and the kinds that use them, between blanks.
-type Group<'a> = (&'a [(&'a str, bool)], &'a str);
-
-fn refuse(
-    keys: &TableKeys<'_>,
-    chosen: (&str, &str),
-    groups: &[Group<'_>],
-) -> Result<(), InputError> {
-    for (given, users) in groups {
-        let users: Vec<&str> = users.split(' ').collect();
-        for (key, is_given) in *given {
-            keys.refuse_unused(chosen, &[(key, *is_given, &users)])?;
-        }
-    }
-    Ok(())
-}
-
 /// Keys that the chosen kind does not use are errors.
 pub(super) fn by_kind(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputError> {
     const BALLS: &str = "deep-groove angular-contact four-point thrust-ball catalogue";
@@ -33,7 +16,7 @@ pub(super) fn by_kind(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), In
     // Four-point and thrust bearings have one row, spherical roller bearings two that face one sphere.
     const PAIRED: &str = "deep-groove angular-contact cylindrical-roller tapered-roller catalogue";
     const BARRELS: &str = "spherical-roller";
-    let groups: &[Group<'_>] = &[
+    let groups: &[(&[(&str, bool)], &str)] = &[
         (&given!(file; balls, ball_diameter_mm), BALLS),
         (&given!(file; inner_conformity, outer_conformity), BALLS),
         (&given!(file; rollers, roller_diameter_mm), ROLLERS),
@@ -63,7 +46,7 @@ pub(super) fn by_kind(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), In
         (&given!(file; preload_N, preload_um), PRELOADED),
         (&given!(file; arrangement, row_distance_mm), PAIRED),
     ];
-    refuse(keys, ("kind", file.kind.word()), groups)
+    keys.refuse_unused(("kind", file.kind.word()), groups)
 }
 
 /// Keys that the type of a catalogue's line does not use.
@@ -81,7 +64,7 @@ pub(super) fn by_type(
     const WITH_PLAY: &str = "deep-groove four-point cylindrical-roller spherical-roller";
     const PAIRED: &str =
         "deep-groove angular-contact angular-contact-double-row cylindrical-roller tapered-roller";
-    let groups: &[Group<'_>] = &[
+    let groups: &[(&[(&str, bool)], &str)] = &[
         (&given!(file; balls, ball_diameter_mm), BALLS),
         (&given!(file; inner_conformity, outer_conformity), BALLS),
         (&given!(file; shoulder_heights_mm), WITH_SHOULDERS),
@@ -90,5 +73,5 @@ pub(super) fn by_type(
         (&given!(file; radial_clearance_um), WITH_PLAY),
         (&given!(file; arrangement, row_distance_mm), PAIRED),
     ];
-    refuse(keys, ("type", kind.word()), groups)
+    keys.refuse_unused(("type", kind.word()), groups)
 }

@@ -1,6 +1,7 @@
 //! `[bevel]`: teeth and blank of a pair.
 
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::given;
 use gearmesh_geometry::input::{
     Bounded, Count, End, InputDocument, NotNegative, Positive, TableKeys, UpTo, Within,
 };
@@ -57,17 +58,12 @@ impl BlankTable {
             ToothForm::Zerol => "zerol",
             ToothForm::Straight => "straight",
         };
-        const MILLED: &[&str] = &["spiral", "zerol"];
+        const MILLED: &str = "spiral zerol";
         keys.refuse_unused(
             ("form", word),
             &[
-                (
-                    "spiral_angle_deg",
-                    self.spiral_angle_deg.is_some(),
-                    &["spiral"],
-                ),
-                ("pinion_hand", self.pinion_hand.is_some(), MILLED),
-                ("cutter_radius_mm", self.cutter_radius_mm.is_some(), MILLED),
+                (&given!(self; spiral_angle_deg), "spiral"),
+                (&given!(self; pinion_hand, cutter_radius_mm), MILLED),
             ],
         )?;
         let spiral = match form {

@@ -1,5 +1,6 @@
 //! `[load]`: torques under which the contact is analysed, and what deflects.
 
+use gearmesh_geometry::given;
 use std::path::PathBuf;
 
 use gearmesh_geometry::InputError;
@@ -63,16 +64,8 @@ impl LoadTable {
             return Err(keys.error("torques_Nm", problem));
         }
         if self.models.is_some() {
-            let given = [
-                ("young_GPa", self.young_GPa.is_some()),
-                ("poisson", self.poisson.is_some()),
-            ];
-            if let Some((key, _)) = given.into_iter().find(|(_, given)| *given) {
-                return Err(keys.error(
-                    key,
-                    "is not used with `models`, which have their own; remove it",
-                ));
-            }
+            let problem = "is not used with `models`, which have their own; remove it";
+            keys.refuse(&given!(self; young_GPa, poisson), problem)?;
         }
         let young = self.young_GPa.map_or(206.0, f64::from);
         let poisson = self.poisson.map_or(0.3, f64::from);

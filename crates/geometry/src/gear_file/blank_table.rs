@@ -5,6 +5,7 @@ use super::openings_table::{HolesTable, SlotsTable, check_openings};
 use super::{MM, TableKeys};
 use crate::blank::{Blank, Contour, CutIntoShaft, LengthUnit, Lugs, MeshedBody, Rim, Web};
 use crate::definition::ToothDefinition;
+use crate::given;
 use crate::input::{Bounded, Count, InputDocument, InputError, Within};
 use crate::kinds;
 use crate::tooth::ToothGeometry;
@@ -286,15 +287,10 @@ impl SolidTable {
             let problem = "is not used with a bore, at which the gear is held; remove it or set bore_diameter_mm = 0";
             return Err(keys.error("shaft_diameter_mm", problem));
         }
-        for (key, given) in [
-            ("slots", self.slots.is_some()),
-            ("holes", self.holes.is_some()),
-        ] {
-            if given {
-                let problem = "is not used with bore_diameter_mm = 0: a gear cut into its shaft has no openings; remove it";
-                return Err(keys.error(key, problem));
-            }
-        }
+        keys.refuse(
+            &given!(self; slots, holes),
+            "is not used with bore_diameter_mm = 0: a gear cut into its shaft has no openings; remove it",
+        )?;
         let ends = self.shaft_diameter_mm.ok_or_else(|| {
             let problem = "found 0; a gear that is cut into its shaft needs shaft_diameter_mm = [back, front] as well, the faces at which it joins the shaft";
             keys.error("bore_diameter_mm", problem)

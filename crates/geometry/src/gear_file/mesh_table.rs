@@ -4,6 +4,7 @@ use super::{MM, TableKeys};
 use crate::blank::Blank;
 use crate::body_outline::beyond_layers;
 use crate::definition::{MeshSettings, ToothDefinition};
+use crate::given;
 use crate::input::{Bounded, End, InputDocument, InputError};
 use crate::number_range;
 use gearmesh_elements::Element;
@@ -62,21 +63,10 @@ impl MeshTable {
             Ok::<f64, InputError>(size_mm * MM)
         };
         if blank.meshed().is_some() {
-            for (key, given) in [
-                ("flank_mm", self.flank_mm.is_some()),
-                ("fillet_mm", self.fillet_mm.is_some()),
-                ("body_mm", self.body_mm.is_some()),
-                ("axial_mm", self.axial_mm.is_some()),
-                ("min_scaled_jacobian", self.min_scaled_jacobian.is_some()),
-                ("plane_strain", self.plane_strain),
-            ] {
-                if given {
-                    return Err(keys.error(
-                        key,
-                        "blank.kind = \"mesh\" has its elements in the mesh file and does not use it; remove it",
-                    ));
-                }
-            }
+            let problem = "blank.kind = \"mesh\" has its elements in the mesh file and does not use it; remove it";
+            let sizes = given!(self; flank_mm, fillet_mm, body_mm, axial_mm, min_scaled_jacobian);
+            keys.refuse(&sizes, problem)?;
+            keys.refuse(&[("plane_strain", self.plane_strain)], problem)?;
         }
         if self.plane_strain && self.axial_mm.is_some() {
             return Err(keys.error(

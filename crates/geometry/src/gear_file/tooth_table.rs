@@ -3,6 +3,7 @@
 use super::cutter_table::CutterTable;
 use super::{MM, TableKeys};
 use crate::definition::{Gearing, InternalRoot, ToothDefinition};
+use crate::given;
 use crate::input::{Bounded, End, InputDocument, InputError, NotNegative, Positive, Within};
 use crate::number_range;
 use schemars::JsonSchema;
@@ -138,38 +139,21 @@ impl ToothTable {
     /// Refuses the keys of tools that do not cut these teeth.
     fn refuse_other_tools(&self, keys: &TableKeys, internal: bool) -> Result<(), InputError> {
         let full_round = self.root == Some(RootWord::FullRound);
-        for (key, given, why) in [
-            (
-                "root",
-                !internal && self.root.is_some(),
-                "is used by internal teeth only, teeth = -99; remove it",
-            ),
-            (
-                "cutter",
-                !internal && self.cutter.is_some(),
-                "is used by internal teeth only, teeth = -99; remove it",
-            ),
-            (
-                "cutter",
-                internal && full_round && self.cutter.is_some(),
-                "is not used by root = \"full-round\"; remove it",
-            ),
-            (
-                "rack_tip_radius",
-                internal && self.rack_tip_radius.is_some(),
-                "is not used by internal teeth, which no rack can cut; remove it, and give cutter.tip_radius or root = \"full-round\"",
-            ),
-            (
-                "dedendum",
-                internal && !full_round && self.dedendum.is_some(),
-                "is not used by internal teeth whose root a pinion cutter makes; remove it and give cutter.addendum",
-            ),
-        ] {
-            if given {
-                return Err(keys.error(key, why));
-            }
+        if !internal {
+            let why = "is used by internal teeth only, teeth = -99; remove it";
+            return keys.refuse(&given!(self; root, cutter), why);
         }
-        Ok(())
+        if full_round {
+            let why = "is not used by root = \"full-round\"; remove it";
+            keys.refuse(&given!(self; cutter), why)?;
+        }
+        let why = "is not used by internal teeth, which no rack can cut; remove it, and give cutter.tip_radius or root = \"full-round\"";
+        keys.refuse(&given!(self; rack_tip_radius), why)?;
+        if full_round {
+            return Ok(());
+        }
+        let why = "is not used by internal teeth whose root a pinion cutter makes; remove it and give cutter.addendum";
+        keys.refuse(&given!(self; dedendum), why)
     }
 
     /// The signed helix angle \[rad\], positive for a right hand.

@@ -1,6 +1,7 @@
 //! `microgeometry.topography`: a table over the flank, in the file itself or in one of its own.
 
 use super::{MM, UM};
+use crate::given;
 use crate::input::{InputError, NumberTable, TableKeys};
 use crate::involute;
 use crate::microgeometry::Topography;
@@ -39,16 +40,10 @@ impl TopographyTable {
         let Some(file) = &self.file else {
             return self.stated(keys, profile);
         };
-        for (key, given) in [
-            ("roll_deg", self.roll_deg.is_some()),
-            ("diameter_mm", self.diameter_mm.is_some()),
-            ("z_mm", self.z_mm.is_some()),
-            ("removed_um", self.removed_um.is_some()),
-        ] {
-            if given {
-                return Err(keys.error(key, "is given together with `file`; remove one of the two"));
-            }
-        }
+        keys.refuse(
+            &given!(self; roll_deg, diameter_mm, z_mm, removed_um),
+            "is given together with `file`; remove one of the two",
+        )?;
         let Some(folder) = folder else {
             let problem = "a gear file cannot name another file: its model keeps the gear file alone. Write the table here, with \
                            roll_deg or diameter_mm, z_mm and removed_um, or name the file in the scene";

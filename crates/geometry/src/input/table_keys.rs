@@ -63,29 +63,37 @@ impl<'a> TableKeys<'a> {
         value.ok_or_else(|| self.error(key, format!("missing; {needed_by} needs it")))
     }
 
-    /// Complains about keys that are given but not used by the chosen kind. Each key comes with whether it is given and
-    /// the kinds that use it; `word` is the key that chooses the kind, which is empty
-    /// where that key is not given.
+    /// Complains about keys that are given where they do not belong; see [`given!`](crate::given).
+    ///
+    /// # Errors
+    /// [`InputError`] for the first such key.
+    pub fn refuse(&self, given: &[(&str, bool)], problem: impl Display) -> Result<(), InputError> {
+        match given.iter().find(|(_, given)| *given) {
+            None => Ok(()),
+            Some((key, _)) => Err(self.error(key, problem)),
+        }
+    }
+
+    /// Complains about keys that are given but not used by the chosen kind. Each group of keys with whether they are given comes with
+    /// the kinds that use it, between blanks; `word` is the key that chooses the kind, which is empty where that key is not
+    /// given.
     ///
     /// # Errors
     /// [`InputError`] for the first such key.
     pub fn refuse_unused(
         &self,
         (word, kind): (&str, &str),
-        keys: &[(&str, bool, &[&str])],
+        groups: &[(&[(&str, bool)], &str)],
     ) -> Result<(), InputError> {
-        for (key, given, users) in keys {
-            if *given && !users.contains(&kind) {
-                let others: Vec<String> = users.iter().map(|user| format!("\"{user}\"")).collect();
+        for (given, users) in groups {
+            if users.split(' ').all(|user| user != kind) {
                 let chosen = match kind {
                     "" => format!("where {word} is not given"),
                     kind => format!("by {word} = \"{kind}\""),
                 };
-                let others = others.join(", ");
-                return Err(self.error(
-                    key,
-                    format!("is not used {chosen}, only by {others}; remove it"),
-                ));
+                let others = users.replace(' ', "\", \"");
+                let problem = format!("is not used {chosen}, only by \"{others}\"; remove it");
+                self.refuse(given, problem)?;
             }
         }
         Ok(())

@@ -1,5 +1,7 @@
 //! The file: variables with bounds, what scatters, what is to be small.
 
+use gearmesh_geometry::given;
+use gearmesh_geometry::input::TableKeys;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -226,21 +228,14 @@ impl Optimisation {
             searches,
             scatter,
             scatter_samples,
-            judged_by,
             objective,
             ..
         } = &self.tables;
         let error = |key: &str, problem: &str| Err(self.document.error(key, problem));
-        for (key, stated) in [
-            ("scatter_samples", scatter_samples.is_some()),
-            ("judged_by", judged_by.is_some()),
-        ] {
-            if stated && scatter.is_empty() {
-                return error(
-                    key,
-                    "belongs to [[scatter]], of which there is none; remove it",
-                );
-            }
+        if scatter.is_empty() {
+            let problem = "belongs to [[scatter]], of which there is none; remove it";
+            let keys = TableKeys::new(&self.document, "");
+            keys.refuse(&given!(self.tables; scatter_samples, judged_by), problem)?;
         }
         if scatter_samples.is_some_and(|samples| !(1..=1000).contains(&samples)) {
             return error("scatter_samples", "allowed is 1 to 1000");

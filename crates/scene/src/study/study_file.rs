@@ -1,5 +1,7 @@
 //! The study file: the scene, the keys that vary, their values and the columns that are looked at.
 
+use gearmesh_geometry::given;
+use gearmesh_geometry::input::TableKeys;
 use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::InputError;
@@ -255,14 +257,9 @@ impl Study {
 /// `samples` and `seed` stand where cases are drawn, and nowhere else.
 fn demand_samples(tables: &StudyTables, document: &InputDocument) -> Result<(), InputError> {
     let sampled = tables.design.is_sampled();
-    for (key, stated) in [
-        ("samples", tables.samples.is_some()),
-        ("seed", tables.seed.is_some()),
-    ] {
-        if stated && !sampled {
-            let problem = "belongs to design = \"latin-hypercube\" and \"random\"; remove it";
-            return Err(document.error(key, problem));
-        }
+    if !sampled {
+        let problem = "belongs to design = \"latin-hypercube\" and \"random\"; remove it";
+        TableKeys::new(document, "").refuse(&given!(tables; samples, seed), problem)?;
     }
     if sampled && tables.samples.is_none_or(|samples| samples < 1) {
         let problem = "must be stated with this design: how many cases, 1 or more";

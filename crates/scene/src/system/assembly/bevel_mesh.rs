@@ -1,5 +1,6 @@
 //! `[[gear_mesh]]` with `bevel_pair`: flanks from a pair file between two bodies whose axes meet.
 
+use gearmesh_geometry::given;
 use std::path::Path;
 
 use gearmesh_bevel::PairFile;
@@ -172,53 +173,40 @@ impl SceneBevel<'_> {
 
     /// What of the table bevel flanks do not use.
     fn refuse_unused(&self, bodies: &Bodies, numbers: [usize; 2]) -> Result<(), InputError> {
-        let unused = |keys: &TableKeys<'_>, key: &str| {
-            Err(keys.error(key, "is not used by a bevel pair; remove it"))
-        };
+        const UNUSED: &str = "is not used by a bevel pair; remove it";
         match &self.table.model {
             MeshModel::Impact(model) => {
-                if model.stiffness.is_some() {
-                    return unused(&self.model_keys, "stiffness");
-                }
-                if model.slices.is_some() {
-                    return unused(&self.model_keys, "slices");
-                }
-                if self.table.bevel_models.is_some() {
-                    let problem = "is not used by kind = \"impact\"; remove it, or take \"hybrid\"";
-                    return Err(self.keys.error("bevel_models", problem));
-                }
+                self.model_keys
+                    .refuse(&given!(model; stiffness, slices), UNUSED)?;
+                let problem = "is not used by kind = \"impact\"; remove it, or take \"hybrid\"";
+                self.keys
+                    .refuse(&given!(self.table; bevel_models), problem)?;
             }
             MeshModel::NodeToSurface(_) => {
-                if self.table.bevel_surface.is_some() {
-                    let problem =
-                        "belongs to kind = \"impact\"; patches are stated in the model, remove it";
-                    return Err(self.keys.error("bevel_surface", problem));
-                }
-                if self.table.bevel_models.is_some() {
-                    let problem = "is not used by kind = \"node-to-surface\"; name the models as `gear` of bodies with flexibility = \"modal\", or remove it";
-                    return Err(self.keys.error("bevel_models", problem));
-                }
+                let problem =
+                    "belongs to kind = \"impact\"; patches are stated in the model, remove it";
+                self.keys
+                    .refuse(&given!(self.table; bevel_surface), problem)?;
+                let problem = "is not used by kind = \"node-to-surface\"; name the models as `gear` of bodies with flexibility = \"modal\", or remove it";
+                self.keys
+                    .refuse(&given!(self.table; bevel_models), problem)?;
             }
             MeshModel::Hybrid(model) => {
-                if self.table.bevel_surface.is_some() {
-                    let problem =
-                        "belongs to kind = \"impact\"; slices cut smooth flanks, remove it";
-                    return Err(self.keys.error("bevel_surface", problem));
-                }
+                let problem = "belongs to kind = \"impact\"; slices cut smooth flanks, remove it";
+                self.keys
+                    .refuse(&given!(self.table; bevel_surface), problem)?;
                 let of_bodies = numbers.iter().any(|i| bodies.list[*i].bevel().is_some());
                 self.check_hybrid(model, of_bodies)?;
             }
             _ => return Err(self.other_model()),
         }
-        if self.table.microgeometry.is_some() {
-            return unused(&self.keys, "microgeometry");
-        }
-        if !self.teeth.errors_1.is_empty() {
-            return unused(&self.teeth_keys, "errors_1");
-        }
-        if !self.teeth.errors_2.is_empty() {
-            return unused(&self.teeth_keys, "errors_2");
-        }
+        self.keys
+            .refuse(&given!(self.table; microgeometry), UNUSED)?;
+        let errors = [
+            ("errors_1", !self.teeth.errors_1.is_empty()),
+            ("errors_2", !self.teeth.errors_2.is_empty()),
+        ];
+        self.teeth_keys.refuse(&errors, UNUSED)?;
         if self.teeth.path == PathWord::LineOfAction {
             let problem =
                 "found \"line-of-action\"; the edges of bevel teeth always touch, remove it";
@@ -321,16 +309,10 @@ impl SceneBevel<'_> {
         let Some(table) = &model.hertz else {
             return Ok(None);
         };
-        let keys = &self.model_keys;
-        for (key, given) in [
-            ("stiffness_N_per_mm_e", model.stiffness_N_per_mm_e.is_some()),
-            ("exponent", model.exponent.is_some()),
-        ] {
-            if given {
-                let problem = "is not used with `hertz`, which gives K and e = 1.5 from the curvatures; remove one of the two";
-                return Err(keys.error(key, problem));
-            }
-        }
+        self.model_keys.refuse(
+            &given!(model; stiffness_N_per_mm_e, exponent),
+            "is not used with `hertz`, which gives K and e = 1.5 from the curvatures; remove one of the two",
+        )?;
         Ok(Some(contact_modulus(table)))
     }
 

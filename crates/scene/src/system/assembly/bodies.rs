@@ -1,5 +1,6 @@
 //! `[[body]]` to bodies in their places, and markers on them.
 
+use gearmesh_geometry::given;
 use std::sync::Arc;
 
 use gearmesh_drivetrain::{modal_gear_body, modes_up_to};
@@ -58,13 +59,13 @@ impl PlacedBody {
         };
         body.name.clone_from(&table.name);
         if let Some(centre) = table.centre_of_mass_mm {
-            body.center_of_mass_m = vector(keys, "centre_of_mass_mm", centre, MM)?;
+            body.center_of_mass_m = MM * Vector3::from(centre);
         }
         if let Some(position) = table.position_mm {
-            body.position_m = vector(keys, "position_mm", position, MM)?;
+            body.position_m = MM * Vector3::from(position);
         }
         if let Some(velocity) = table.velocity_mm_per_s {
-            body.velocity_m_per_s = vector(keys, "velocity_mm_per_s", velocity, MM)?;
+            body.velocity_m_per_s = MM * Vector3::from(velocity);
         }
         let mode_count = modes(table, keys, gear.as_ref(), &mut body)?;
         let mut turn_is_free = true;
@@ -79,7 +80,6 @@ impl PlacedBody {
                     ),
                 ));
             }
-            vector(keys, "cardan_deg", [angle(0), angle(1), angle(2)], 1.0)?;
             let about = |axis: Vector3<f64>, degrees: f64| {
                 UnitQuaternion::from_scaled_axis(axis * degrees.to_radians())
             };
@@ -91,13 +91,11 @@ impl PlacedBody {
         match (table.speed_rpm, table.angular_velocity_rad_per_s) {
             (None, None) => {}
             (Some(rpm), None) => {
-                keys.require("speed_rpm", rpm, true, "a finite number")?;
                 body.angular_velocity_rad_per_s =
                     Vector3::new(0.0, 0.0, rpm * std::f64::consts::TAU / 60.0);
             }
             (None, Some(omega)) => {
-                body.angular_velocity_rad_per_s =
-                    vector(keys, "angular_velocity_rad_per_s", omega, 1.0)?;
+                body.angular_velocity_rad_per_s = Vector3::from(omega);
             }
             (Some(_), Some(_)) => {
                 return Err(keys.error(
@@ -188,12 +186,11 @@ fn modes(
     keys.refuse_unused(
         ("flexibility", word),
         &[
-            ("modes_up_to_Hz", table.modes_up_to_hz.is_some(), &["modal"]),
             (
-                "modal_damping_ratio",
-                table.modal_damping_ratio.is_some(),
-                &["modal"],
+                &[("modes_up_to_Hz", table.modes_up_to_hz.is_some())],
+                "modal",
             ),
+            (&given!(table; modal_damping_ratio), "modal"),
         ],
     )?;
     let on_faces = gear.and_then(|gear| gear.cylindrical()?.on_faces.as_ref());
@@ -263,26 +260,13 @@ fn stated_mass(table: &BodyTable, keys: &TableKeys<'_>) -> Result<Body, InputErr
     })
 }
 
-/// Three finite numbers times a unit.
-pub(super) fn vector(
-    keys: &TableKeys<'_>,
-    key: &str,
-    values: [f64; 3],
-    unit: f64,
-) -> Result<Vector3<f64>, InputError> {
-    for (i, &value) in values.iter().enumerate() {
-        keys.require(&format!("{key}.{i}"), value, true, "a finite number")?;
-    }
-    Ok(unit * Vector3::from(values))
-}
-
 /// A direction, scaled to length 1.
 pub(super) fn direction(
     keys: &TableKeys<'_>,
     key: &str,
     values: [f64; 3],
 ) -> Result<Vector3<f64>, InputError> {
-    let direction = vector(keys, key, values, 1.0)?;
+    let direction = Vector3::from(values);
     let length = direction.norm();
     keys.require(
         key,
@@ -422,7 +406,7 @@ impl Bodies {
     ) -> Result<Frame, InputError> {
         let mut frame = self.frame(body_2);
         if let Some(at) = at_mm {
-            frame.origin_m = vector(keys, "at_mm", at, MM)?;
+            frame.origin_m = MM * Vector3::from(at);
         }
         if let Some(axis) = axis {
             frame.axes = axes_along(&direction(keys, "axis", axis)?);

@@ -1,5 +1,6 @@
 //! `[[load]]`, `[[spring]]`, `[[torsion_spring]]`, `[[bushing]]` and `[[python_element]]` to force elements; `bearings/` has those of `[[bearing]]`.
 
+use gearmesh_geometry::given;
 use std::path::Path;
 
 use gearmesh_bearings::QuasiStaticElement;
@@ -13,7 +14,7 @@ use nalgebra::{Matrix6, Vector3};
 
 use super::bearings::cages::PlacedCage;
 use super::bearings::{self, tangent::Tangent};
-use super::bodies::{Bodies, Frame, direction, vector};
+use super::bodies::{Bodies, Frame, direction};
 use super::parts::Parts;
 use super::stiffness::refuse_rigid;
 use crate::system::scene::SystemTables;
@@ -79,7 +80,7 @@ pub(super) fn add(
                 keys,
                 &[("stiffness_N_per_mm", table.stiffness_N_per_mm, PER_MM)],
             )?;
-            let (spring, pair) = spring(table, keys, bodies, ends, &mut notes)?;
+            let (spring, pair) = spring(table, bodies, ends, &mut notes);
             Ok(spring.between(&table.name, pair))
         })?;
     }
@@ -94,11 +95,9 @@ pub(super) fn add(
                 let frame = bodies.stated_frame(keys, ends[1], None, table.axis)?;
                 let stiffness = table.stiffness_Nm_per_rad;
                 refuse_rigid(keys, &[("stiffness_Nm_per_rad", stiffness, 1.0)])?;
-                let free_deg = table.free_angle_deg;
-                keys.require("free_angle_deg", free_deg, true, "a finite number")?;
                 let mut spring =
                     TorsionSpring::new(table.stiffness_Nm_per_rad, table.damping_Nm_s_per_rad);
-                spring.free_angle_rad = free_deg.to_radians();
+                spring.free_angle_rad = table.free_angle_deg.to_radians();
                 Ok(spring.between(&table.name, pair(bodies, ends, &frame)))
             },
         )?;
@@ -193,7 +192,7 @@ fn load(
             ("torque_Nm", torque, LoadKind::Torque)
         }
         (None, Some(force)) => {
-            let point_m = vector(keys, "at_mm", table.at_mm.unwrap_or_default(), MM)?.into();
+            let point_m = table.at_mm.unwrap_or_default().map(|x| MM * x);
             ("force_N", force, LoadKind::Force { point_m })
         }
         (Some(_), Some(_)) => {
@@ -237,14 +236,13 @@ fn load(
 
 fn spring(
     table: &SpringTable,
-    keys: &TableKeys<'_>,
     bodies: &Bodies,
     ends: [Option<usize>; 2],
     notes: &mut Vec<String>,
-) -> Result<(SpringDamper, MarkerPair), InputError> {
-    let first = vector(keys, "at_1_mm", table.at_1_mm, MM)?;
+) -> (SpringDamper, MarkerPair) {
+    let first = MM * Vector3::from(table.at_1_mm);
     let second = match table.at_2_mm {
-        Some(at) => vector(keys, "at_2_mm", at, MM)?,
+        Some(at) => MM * Vector3::from(at),
         None => bodies.frame(ends[1]).origin_m,
     };
     let marker = |end: Option<usize>, origin_m: Vector3<f64>| {
@@ -269,7 +267,7 @@ fn spring(
         a: marker(ends[0], first),
         b: marker(ends[1], second),
     };
-    Ok((spring, pair))
+    (spring, pair)
 }
 
 pub(super) fn bushing(table: &BushingTable, keys: &TableKeys<'_>) -> Result<Bushing, InputError> {
@@ -289,19 +287,10 @@ pub(super) fn bushing(table: &BushingTable, keys: &TableKeys<'_>) -> Result<Bush
             refuse_rigid(keys, &[(&key, *entry, 1.0)])?;
         }
     }
-    let diagonals = [
-        ("stiffness_N_per_mm", table.stiffness_N_per_mm.is_some()),
-        ("stiffness_Nm_per_rad", table.stiffness_Nm_per_rad.is_some()),
-        ("damping_N_s_per_mm", table.damping_N_s_per_mm.is_some()),
-        ("damping_Nm_s_per_rad", table.damping_Nm_s_per_rad.is_some()),
-    ];
+    let diagonals = given!(table; stiffness_N_per_mm, stiffness_Nm_per_rad, damping_N_s_per_mm, damping_Nm_s_per_rad);
     if let Some(stiffness) = &table.stiffness_matrix_SI {
-        if let Some((key, _)) = diagonals.iter().find(|(_, given)| *given) {
-            return Err(keys.error(
-                key,
-                "is given together with stiffness_matrix_SI; remove one of the two",
-            ));
-        }
+        let problem = "is given together with stiffness_matrix_SI; remove one of the two";
+        keys.refuse(&diagonals, problem)?;
         let matrix = |rows: &[[f64; 6]; 6]| Matrix6::from_fn(|i, j| rows[i][j]);
         return Ok(Bushing {
             stiffness: matrix(stiffness),
@@ -312,12 +301,8 @@ pub(super) fn bushing(table: &BushingTable, keys: &TableKeys<'_>) -> Result<Bush
             free_displacement_m: Vector3::zeros(),
         });
     }
-    if table.damping_matrix_SI.is_some() {
-        return Err(keys.error(
-            "damping_matrix_SI",
-            "is given without stiffness_matrix_SI; give both, or the diagonals",
-        ));
-    }
+    let problem = "is given without stiffness_matrix_SI; give both, or the diagonals";
+    keys.refuse(&given!(table; damping_matrix_SI), problem)?;
     if !diagonals[0].1 && !diagonals[1].1 {
         return Err(keys.error(
             "stiffness_N_per_mm",

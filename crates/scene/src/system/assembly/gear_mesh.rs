@@ -1,5 +1,6 @@
 //! `[[gear_mesh]]` to gear meshes: which gears, whether they fit, where they sit; `mesh_model.rs` makes their teeth.
 
+use gearmesh_geometry::given;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -100,17 +101,10 @@ impl PreparedMesh {
             };
             return scene.prepare((&key, numbers), bodies, parts);
         }
-        for (key, given) in [
-            ("bevel_models", table.bevel_models.is_some()),
-            ("bevel_surface", table.bevel_surface.is_some()),
-        ] {
-            if given {
-                return Err(keys.error(
-                    key,
-                    "belongs to a `bevel_pair`, which this mesh is not; remove it",
-                ));
-            }
-        }
+        keys.refuse(
+            &given!(table; bevel_models, bevel_surface),
+            "belongs to a `bevel_pair`, which this mesh is not; remove it",
+        )?;
         let gear = |i: usize| {
             let placed = &bodies.list[numbers[i]];
             placed.cylindrical().ok_or_else(|| {

@@ -1,6 +1,7 @@
 //! Stiffness of `impact` and `iso6336` meshes: stated, after ISO 6336-1, or from the pair's own static curve; and what
 //! it is, in words.
 
+use gearmesh_geometry::given;
 use std::path::Path;
 
 use gearmesh_contact::SliceLayout;
@@ -54,6 +55,10 @@ pub(super) fn impact_law(
     Impact::new(stiffness, damping, depth_m, slices).map_err(|error| keys.error("", error))
 }
 
+/// Of a key beside `stiffness`.
+const STATED_TWICE: &str =
+    "is not used where `stiffness` takes it from the pair's curve; remove one of the two";
+
 impl SceneMesh<'_> {
     /// K in N/mm^e and e of `impact`.
     fn impact_stiffness(&self, table: &ImpactTable) -> Result<(f64, f64), InputError> {
@@ -63,12 +68,7 @@ impl SceneMesh<'_> {
             return Err(keys.error("hertz", problem));
         }
         if let Some(curve) = &self.curve {
-            if table.stiffness_N_per_mm_e.is_some() {
-                return Err(keys.error(
-                    "stiffness_N_per_mm_e",
-                    "is not used where `stiffness` takes it from the pair's curve; remove one of the two",
-                ));
-            }
+            keys.refuse(&given!(table; stiffness_N_per_mm_e), STATED_TWICE)?;
             return Ok(curve.pair_law(
                 self.pair,
                 self.zone_width_m(),
@@ -118,19 +118,10 @@ impl SceneMesh<'_> {
         let middle = self.pair.working_pressure_angle_rad.tan();
         let helix = self.pair.base_helix_angle_rad();
         if let Some(curve) = &self.curve {
-            for (key, given) in [
-                (
-                    "stiffness_N_per_mm_um",
-                    table.stiffness_N_per_mm_um.is_some(),
-                ),
-                ("line_load_N_per_mm", table.line_load_N_per_mm.is_some()),
-                ("stiffness_amplitude", table.stiffness_amplitude.is_some()),
-            ] {
-                if given {
-                    let problem = "is not used where `stiffness` takes it from the pair's curve; remove one of the two";
-                    return Err(self.model_keys.error(key, problem));
-                }
-            }
+            self.model_keys.refuse(
+                &given!(table; stiffness_N_per_mm_um, line_load_N_per_mm, stiffness_amplitude),
+                STATED_TWICE,
+            )?;
             let slope = self.pair.clone().on_flanks(side).roll_slope_1_rad_per_m();
             let ahead = layout.centres_m().iter().map(|z| slope * z).collect();
             return Ok(MeshSpring::on_curve(curve, slices, middle)

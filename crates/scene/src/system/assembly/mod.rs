@@ -326,7 +326,7 @@ impl LoadedSystem {
             let note = groups.add(meshes, (document, &bodies), &mut builder)?;
             parts.notes.push(note);
         }
-        self.add_gravity(&bodies, &mut builder, &mut parts)?;
+        self.add_gravity(&bodies, &mut builder, &mut parts);
         self.check_output(&bodies, &parts)?;
         let system = builder.build().map_err(|e| self.scene.complaint(&e))?;
         for redundancy in system.redundant() {
@@ -448,19 +448,12 @@ impl LoadedSystem {
         Ok(gauges)
     }
 
-    fn add_gravity(
-        &self,
-        bodies: &Bodies,
-        builder: &mut SystemBuilder,
-        parts: &mut Parts,
-    ) -> Result<(), InputError> {
+    fn add_gravity(&self, bodies: &Bodies, builder: &mut SystemBuilder, parts: &mut Parts) {
         let Some(gravity) = self.scene.tables.gravity_m_per_s2 else {
             parts.effect("weight", None);
-            return Ok(());
+            return;
         };
-        let keys = TableKeys::new(&self.scene.document, "");
-        let gravity = bodies::vector(&keys, "gravity_m_per_s2", gravity, 1.0)?;
-        builder.gravity(gravity.into());
+        builder.gravity(gravity);
         for (i, placed) in bodies.list.iter().enumerate() {
             // The name that the element of dynamics has.
             parts.element_on(
@@ -477,7 +470,6 @@ impl LoadedSystem {
                 gravity[0], gravity[1], gravity[2]
             )),
         );
-        Ok(())
     }
 }
 

@@ -11,7 +11,7 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-use super::bodies::{Bodies, Frame, PlacedBody, axes_along, direction, vector};
+use super::bodies::{Bodies, Frame, PlacedBody, axes_along, direction};
 use super::cut_into_shaft::moving_end;
 use super::lump::Lump;
 use super::parts::Parts;
@@ -52,18 +52,14 @@ impl PlacedShaft {
     ) -> Result<Self, InputError> {
         let keys = TableKeys::new(document, &key);
         let rigid = matches!(table.model, ShaftModel::Rigid {});
-        let origin = vector(&keys, "origin_mm", table.origin_mm, MM)?;
+        let origin = MM * Vector3::from(table.origin_mm);
         let axis = direction(&keys, "axis", table.axis.unwrap_or([0.0, 0.0, 1.0]))?;
         let axes = axes_along(&axis);
         let z = stations(table, &keys)?;
         let radii = radii(table, &keys, z.len() - 1)?;
-        let omega = match table.speed_rpm {
-            None => None,
-            Some(rpm) => {
-                keys.require("speed_rpm", rpm, true, "a finite number")?;
-                Some(rpm * std::f64::consts::TAU / 60.0)
-            }
-        };
+        let omega = table
+            .speed_rpm
+            .map(|rpm| rpm * std::f64::consts::TAU / 60.0);
         let spans_m = spans(table, (document, &key), bodies, &z)?;
         let lumps = lumps(table, &keys, &spans_m, &z, &radii)?;
         let points_m: Vec<Vector3<f64>> = z.iter().map(|z| origin + *z * axis).collect();

@@ -161,28 +161,18 @@ impl FunctionTable {
         unit: f64,
         sources: Sources<'_>,
     ) -> Result<TimeFunction, InputError> {
-        let finite = |name: &str, value: f64| {
-            keys.require(&format!("{key}{name}"), value, true, "a finite number")
-        };
         let form = match self {
-            Self::Constant(value) => {
-                finite("", *value)?;
-                return Ok(TimeFunction::Constant(unit * value));
-            }
+            Self::Constant(value) => return Ok(TimeFunction::Constant(unit * value)),
             Self::Form(form) => form,
         };
         Ok(match form.as_ref() {
             FunctionForm::Linear {
                 at_zero,
                 slope_per_s,
-            } => {
-                finite(".linear.at_zero", *at_zero)?;
-                finite(".linear.slope_per_s", *slope_per_s)?;
-                TimeFunction::Linear {
-                    at_zero: unit * at_zero,
-                    slope_per_s: unit * slope_per_s,
-                }
-            }
+            } => TimeFunction::Linear {
+                at_zero: unit * at_zero,
+                slope_per_s: unit * slope_per_s,
+            },
             FunctionForm::Step {
                 start_s,
                 from,
@@ -195,22 +185,12 @@ impl FunctionTable {
                 amplitude,
                 frequency_hz,
                 phase_deg,
-            } => {
-                for (name, value) in [
-                    ("offset", offset),
-                    ("amplitude", amplitude),
-                    ("frequency_Hz", frequency_hz),
-                    ("phase_deg", phase_deg),
-                ] {
-                    finite(&format!(".sine.{name}"), *value)?;
-                }
-                TimeFunction::Sine {
-                    offset: unit * offset,
-                    amplitude: unit * amplitude,
-                    frequency_hz: *frequency_hz,
-                    phase_rad: phase_deg.to_radians(),
-                }
-            }
+            } => TimeFunction::Sine {
+                offset: unit * offset,
+                amplitude: unit * amplitude,
+                frequency_hz: *frequency_hz,
+                phase_rad: phase_deg.to_radians(),
+            },
             FunctionForm::Table {
                 file,
                 column,

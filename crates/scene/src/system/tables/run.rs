@@ -7,6 +7,7 @@
 //! | `eigen` | natural frequencies about an operating point | `settle_s`, `most_frequency_Hz`, `load_factors`; `motion` with `speeds_rpm` |
 //! | `speed-sweep` | motion at a driver's speed that goes up and down | `motion`, `from_rpm`, `to_rpm`, `direction`; `speeds`, `settle_s`, `measure_s` or `ramp_s` |
 
+use gearmesh_geometry::given;
 use std::f64::consts::TAU;
 
 use gearmesh_geometry::InputError;
@@ -354,18 +355,9 @@ impl RunTable {
 impl SpeedSweepTable {
     fn schedule(&self, keys: &TableKeys<'_>) -> Result<Schedule, InputError> {
         if let Some(ramp_s) = self.ramp_s {
-            for (key, given) in [
-                ("speeds", self.speeds.is_some()),
-                ("settle_s", self.settle_s.is_some()),
-                ("measure_s", self.measure_s.is_some()),
-            ] {
-                if given {
-                    return Err(keys.error(
-                        key,
-                        "belongs to a stepped sweep, ramp_s to a ramped one; remove one of the two",
-                    ));
-                }
-            }
+            let problem =
+                "belongs to a stepped sweep, ramp_s to a ramped one; remove one of the two";
+            keys.refuse(&given!(self; speeds, settle_s, measure_s), problem)?;
             return Ok(Schedule::Ramped { ramp_s: *ramp_s });
         }
         let stepped = "a stepped sweep (or give ramp_s)";

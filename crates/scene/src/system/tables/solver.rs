@@ -2,6 +2,7 @@
 
 use gearmesh_dynamics::scheme::{AdaptiveStep, Params, StepControl};
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::given;
 use gearmesh_geometry::input::{Bounded, Count, End, InputDocument, Positive, TableKeys, Within};
 use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
@@ -76,19 +77,12 @@ impl SolverTable {
     pub fn check(&self, document: &InputDocument, run: &Run) -> Result<Solver, InputError> {
         let keys = TableKeys::new(document, "solver");
         if run.simulated_s().is_none() {
-            for (key, given) in [
-                ("rho_infinity", self.rho_infinity.is_some()),
-                ("step_s", self.step_s.is_some()),
-                ("adaptive", self.adaptive.is_some()),
-                ("newton_tolerance", self.newton_tolerance.is_some()),
-                ("most_iterations", self.most_iterations.is_some()),
-                ("start", self.start.is_some()),
-            ] {
-                if given {
-                    let kind = run.kind().name();
-                    return Err(keys.error(key, format!("is not used by run.kind = \"{kind}\", which does not step through time; remove it")));
-                }
-            }
+            let kind = run.kind().name();
+            let stated = given!(self; rho_infinity, step_s, adaptive, newton_tolerance, most_iterations, start);
+            let problem = format!(
+                "is not used by run.kind = \"{kind}\", which does not step through time; remove it"
+            );
+            keys.refuse(&stated, problem)?;
             return Ok(Solver {
                 params: None,
                 start: Start::AsGiven,

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 use super::cages::PlacedCage;
 use super::rolling_bearing;
-use crate::system::assembly::bodies::{Frame, vector};
+use crate::system::assembly::bodies::Frame;
 use crate::system::assembly::elements::{Connections, PER_MM, pair};
 use crate::system::tables::bearing::{
     BearingTable, DynamicBearingTable, LandTable, PocketTable, PocketWord, ReboundTable, RingWord,
@@ -131,10 +131,7 @@ fn weight(
 ) -> Result<Option<[f64; 3]>, InputError> {
     match (model.ball_weight, gravity_m_per_s2) {
         (false, _) => Ok(None),
-        (true, Some(gravity)) => {
-            let gravity = vector(keys, "gravity_m_per_s2", gravity, 1.0)?;
-            Ok(Some(gravity.into()))
-        }
+        (true, Some(gravity)) => Ok(Some(gravity)),
         (true, None) => Err(keys.error(
             "model.ball_weight",
             "needs the scene's gravity_m_per_s2, which is missing; state it, or remove this key",

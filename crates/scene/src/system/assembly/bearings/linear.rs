@@ -4,6 +4,7 @@ use gearmesh_bearings::{QuasiStaticBearing, QuasiStaticElement, RingDamping};
 use gearmesh_dynamics::elements::{AxialSupport, ForceElement, LinearBearing, MatrixBearing};
 use gearmesh_dynamics::{DynamicsError, MarkerPair};
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::given;
 use gearmesh_geometry::input::TableKeys;
 use nalgebra::{Matrix5, Vector5};
 
@@ -12,7 +13,7 @@ use super::{control, quasi_static, rolling_bearing};
 use crate::system::assembly::elements::{Connections, PER_MM, pair};
 use crate::system::assembly::stiffness::refuse_rigid;
 use crate::system::tables::bearing::{
-    AxialSupportWord, BearingTable, LinearBearingTable, QuasiStaticBearingTable, StiffnessSource,
+    AxialSupportWord, BearingTable, LinearBearingTable, QuasiStaticBearingTable,
 };
 
 /// Adds one.
@@ -22,29 +23,33 @@ pub(super) fn add(
     model: &LinearBearingTable,
     connections: &mut Connections<'_>,
 ) -> Result<(), InputError> {
-    let (source, said) = model.source();
-    let key = format!("bearing.{number}");
+    let key = format!("bearing.{number}.model");
     let keys = TableKeys::new(connections.document, &key);
-    for (given, sources) in model.given() {
-        if !sources.contains(&source) {
-            let problem = format!("is not used together with {said}; remove one of the two");
-            return Err(keys.error(&format!("model.{given}"), problem));
-        }
+    let beside = |said| format!("is not used together with {said}; remove one of the two");
+    let diagonals = given!(model; radial_stiffness_N_per_mm, axial_stiffness_N_per_mm, tilt_stiffness_Nm_per_rad, axial_support);
+    if let Some(file) = &model.tangent_of {
+        keys.refuse(&diagonals, beside("tangent_of"))?;
+        let matrices = given!(model; stiffness_matrix_SI, damping_matrix_SI);
+        keys.refuse(&matrices, beside("tangent_of"))?;
+        return by_tangent(number, (table, file), model, connections);
     }
-    match source {
-        StiffnessSource::Diagonal => between(number, table, connections, |keys, at| {
-            Ok(diagonal(model, keys)?.between(&table.name, at))
-        }),
-        StiffnessSource::Matrix => between(number, table, connections, |keys, at| {
-            let [stiffness, damping] = [
-                (&model.stiffness_matrix_SI, "model.stiffness_matrix_SI"),
-                (&model.damping_matrix_SI, "model.damping_matrix_SI"),
-            ]
-            .map(|(rows, key)| matrix(rows.as_deref(), key, keys));
-            Ok(MatrixBearing::unloaded(stiffness?, damping?).between(&table.name, at))
-        }),
-        StiffnessSource::Tangent => by_tangent(number, table, model, connections),
+    if let Some(stiffness) = &model.stiffness_matrix_SI {
+        let dampings = given!(model; control, radial_damping_N_s_per_mm, axial_damping_N_s_per_mm, tilt_damping_Nm_s_per_rad);
+        keys.refuse(&diagonals, beside("stiffness_matrix_SI"))?;
+        keys.refuse(&dampings, beside("stiffness_matrix_SI"))?;
+        return between(number, table, connections, |keys, at| {
+            let stiffness = matrix(stiffness, "model.stiffness_matrix_SI", keys)?;
+            let damping = model.damping_matrix_SI.as_ref();
+            let damping = damping.map(|rows| matrix(rows, "model.damping_matrix_SI", keys));
+            let damping = damping.transpose()?.unwrap_or_else(Matrix5::zeros);
+            Ok(MatrixBearing::unloaded(stiffness, damping).between(&table.name, at))
+        });
     }
+    let others = given!(model; damping_matrix_SI, control);
+    keys.refuse(&others, beside("radial_stiffness_N_per_mm"))?;
+    between(number, table, connections, |keys, at| {
+        Ok(diagonal(model, keys)?.between(&table.name, at))
+    })
 }
 
 /// Adds an element in the bearing's frame, between both bodies.
@@ -107,15 +112,8 @@ fn dampings(model: &LinearBearingTable) -> [f64; 3] {
     .map(Option::unwrap_or_default)
 }
 
-/// A symmetric 5×5 matrix without negative eigenvalues, stated with five or six rows; zeros where there is none.
-fn matrix(
-    rows: Option<&[Vec<f64>]>,
-    key: &str,
-    keys: &TableKeys<'_>,
-) -> Result<Matrix5<f64>, InputError> {
-    let Some(rows) = rows else {
-        return Ok(Matrix5::zeros());
-    };
+/// A symmetric 5×5 matrix without negative eigenvalues, stated with five or six rows.
+fn matrix(rows: &[Vec<f64>], key: &str, keys: &TableKeys<'_>) -> Result<Matrix5<f64>, InputError> {
     let size = rows.len();
     if !(5..=6).contains(&size) || rows.iter().any(|row| row.len() != size) {
         let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
@@ -156,11 +154,10 @@ fn matrix(
 
 fn by_tangent(
     number: usize,
-    table: &BearingTable,
+    (table, file): (&BearingTable, &str),
     model: &LinearBearingTable,
     connections: &mut Connections<'_>,
 ) -> Result<(), InputError> {
-    let file = model.tangent_of.clone().unwrap_or_default();
     let found = connections.manner.tangents.iter();
     let found = found.clone().find(|tangent| tangent.bearing == number);
     let (folder, bodies) = (connections.folder, connections.bodies);
@@ -169,7 +166,7 @@ fn by_tangent(
     let keys = TableKeys::new(connections.document, &key);
     let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
     let frame = bodies.stated_frame(&keys, ends[1], table.at_mm, table.axis)?;
-    let definition = rolling_bearing::definition("model.tangent_of", &file, folder, &keys)?;
+    let definition = rolling_bearing::definition("model.tangent_of", file, folder, &keys)?;
     let rolling = QuasiStaticBearing::new(&definition).map_err(|e| keys.error("model", e))?;
     let at = rolling.ring_markers(pair(bodies, ends, &frame));
     let seat = TangentSeat::new(number, (at, rolling), model);
@@ -177,7 +174,7 @@ fn by_tangent(
     let Some(tangent) = found else {
         // On the way to the operating point.
         let rolling = QuasiStaticBearingTable {
-            file,
+            file: file.to_owned(),
             control: model.control.unwrap_or_default(),
             radial_damping_N_s_per_mm: radial,
             axial_damping_N_s_per_mm: axial,

@@ -1,6 +1,5 @@
 //! `kind = "linear"`: a bearing of constant stiffness and damping.
 
-use gearmesh_geometry::given;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -50,51 +49,4 @@ pub enum AxialSupportWord {
     Positive,
     /// Forces on the shaft against the axis.
     Negative,
-}
-
-/// Where the stiffness comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StiffnessSource {
-    /// Its diagonal is stated.
-    Diagonal,
-    /// Its matrix is stated.
-    Matrix,
-    /// The tangent of a bearing file.
-    Tangent,
-}
-
-impl LinearBearingTable {
-    /// Where the stiffness comes from, and which key says so.
-    #[must_use]
-    pub fn source(&self) -> (StiffnessSource, &'static str) {
-        if self.tangent_of.is_some() {
-            (StiffnessSource::Tangent, "tangent_of")
-        } else if self.stiffness_matrix_SI.is_some() {
-            (StiffnessSource::Matrix, "stiffness_matrix_SI")
-        } else {
-            (StiffnessSource::Diagonal, "radial_stiffness_N_per_mm")
-        }
-    }
-
-    /// Keys that are given, each with the sources it goes with.
-    pub fn given(&self) -> impl Iterator<Item = (&'static str, &'static [StiffnessSource])> {
-        use StiffnessSource::{Diagonal, Matrix, Tangent};
-        let of = |sources: &'static [StiffnessSource], keys: &[(&'static str, bool)]| {
-            let given = keys.iter().filter(|(_, given)| *given);
-            given.map(|(key, _)| (*key, sources)).collect::<Vec<_>>()
-        };
-        let stiffnesses = given!(self; radial_stiffness_N_per_mm, axial_stiffness_N_per_mm, tilt_stiffness_Nm_per_rad, axial_support);
-        let dampings = given!(self; radial_damping_N_s_per_mm, axial_damping_N_s_per_mm, tilt_damping_Nm_s_per_rad);
-        [
-            of(&[Diagonal], &stiffnesses),
-            of(
-                &[Matrix],
-                &given!(self; stiffness_matrix_SI, damping_matrix_SI),
-            ),
-            of(&[Tangent], &given!(self; tangent_of, control)),
-            of(&[Diagonal, Tangent], &dampings),
-        ]
-        .into_iter()
-        .flatten()
-    }
 }

@@ -11,7 +11,7 @@ pub use dynamic::{
     RingWord, SurfaceTable, TractionTable,
 };
 pub use housing::HousingTable;
-pub use linear::{AxialSupportWord, LinearBearingTable, StiffnessSource};
+pub use linear::{AxialSupportWord, LinearBearingTable};
 pub use quasi_static::{ControlWord, QuasiStaticBearingTable};
 pub use rigid::{HeldWord, RigidBearingTable};
 
