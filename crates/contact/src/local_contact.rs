@@ -17,21 +17,13 @@
 //! It is about half the width of the hats, because below that the model's own near field takes over.
 
 use crate::nlcp::{LineContact, LocalLaw, LocalLawError};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Local contact compliance added to the model's; its words in files and on the command line are those of
 /// [`LocalContact::name`].
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Default,
-    serde::Deserialize,
-    serde::Serialize,
-    schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LocalContact {
     /// None: C_hub as the mesh gives it, near field of the hats included. Cheapest, and mesh dependent.

@@ -1,21 +1,12 @@
 //! The elements on offer, by name.
 
 use crate::cell_kind::CellKind;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Kind and formulation of an element. A gear file may name those without wedges, which only fill gaps of imported
 /// meshes.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Element {
     /// Hexahedron of eight nodes: trilinear displacement, 2×2×2 Gauss points. Locks in bending.

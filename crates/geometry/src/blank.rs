@@ -1,5 +1,7 @@
 //! The body of a gear below the teeth: solid, with a web, or meshed elsewhere.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 use crate::definition::Flank;
@@ -245,17 +247,7 @@ impl MeshedBody {
 }
 
 /// Unit of the coordinates in a file.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    serde::Deserialize,
-    serde::Serialize,
-    schemars::JsonSchema,
-    Default,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema, Default)]
 pub enum LengthUnit {
     /// Metres.
     #[serde(rename = "m")]

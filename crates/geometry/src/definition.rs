@@ -1,6 +1,8 @@
 //! What a gear is: the validated definition, in SI units. The defaults of its parts are empty records to be filled, no gears.
 
 use gearmesh_elements::Element;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::blank::Blank;
 use crate::microgeometry::GearMicrogeometry;
@@ -18,9 +20,9 @@ use std::fmt;
     Hash,
     PartialOrd,
     Ord,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
+    Serialize,
+    Deserialize,
+    JsonSchema,
     Default,
 )]
 #[serde(rename_all = "kebab-case")]
@@ -171,17 +173,7 @@ impl Default for ModeRange {
 }
 
 /// How the bore is held.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Default,
-    serde::Deserialize,
-    serde::Serialize,
-    schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum HubSupport {
     /// Fixed.
@@ -231,17 +223,7 @@ impl MeshSettings {
 }
 
 /// Whether the repetition of the gear is used to solve it. The numbers are the same to rounding.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Default,
-    serde::Deserialize,
-    serde::Serialize,
-    schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Symmetry {
     /// One tooth and one sector are factorised, and the ring of sectors by its harmonics.

@@ -72,7 +72,8 @@ impl CondensedPairs {
 static KEPT: AtomicU64 = AtomicU64::new(0);
 
 impl ModelShelf {
-    /// Puts a model under the name that scenes have for it, joined to their folder, instead of a file's.
+    /// Puts a model under the name that scenes have for it, joined to their folder, instead of a file's. What reads a
+    /// result's models again, such as the recovery of strain, needs them in files.
     pub fn keep(&self, name: impl Into<PathBuf>, model: impl Into<Arc<ReducedGear>>) {
         let number = KEPT.fetch_add(1, Ordering::Relaxed);
         let kept = ShelvedModel {

@@ -113,7 +113,7 @@ fn allowed<R: Range>() -> String {
     }
 }
 
-/// A number within its range, in the unit of its key.
+/// A number within its range, in the unit of its key: checked where a table is read, files and tables in memory alike.
 pub struct Bounded<R>(f64, PhantomData<R>);
 
 impl<R> Clone for Bounded<R> {

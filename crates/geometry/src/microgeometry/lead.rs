@@ -1,19 +1,11 @@
 //! Laws along the face: end relief.
 
 use super::profile::ReliefShape;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Faces of a gear.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Default,
-    serde::Deserialize,
-    serde::Serialize,
-    schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 pub enum FaceEnds {
     /// Both.
     #[default]
