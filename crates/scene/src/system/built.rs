@@ -24,6 +24,8 @@ pub struct BuiltSystem {
     pub meshes: Vec<BuiltMesh>,
     /// Pitches that the fastest toothed mesh goes through for a radian of the motion that a static series varies.
     pub pitches_per_rad: f64,
+    /// Speed that the scene states for the motion that the run varies \[rad/s\]; 0 where there is none.
+    pub varied_rad_per_s: f64,
     /// Gauges to read.
     pub gauges: Vec<BuiltGauge>,
     /// What is judged after the run.

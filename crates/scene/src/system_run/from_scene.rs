@@ -68,7 +68,7 @@ impl RunJob {
                 }
                 let built = nominal.insert(loaded.build_varied(&variation)?);
                 let angles = angles_rad.clone();
-                let job = static_job(&loaded, load_factors, angles, built.pitches_per_rad)?;
+                let job = static_job(&loaded, load_factors, angles, built)?;
                 RunKind::Static(job)
             }
             Run::Eigen {
@@ -117,31 +117,45 @@ pub(super) fn varied(motion: &str, function: Motion, load_factor: f64) -> Variat
 /// pitch wide.
 const LONGEST_STEP_PITCHES: f64 = 0.25;
 
-/// The points of a static series: every angle at every load factor. The angle is a function of a time that counts the
-/// angles; it begins at the start of the scene, where teeth touch.
+/// The shortest way from one angle of a series to the next, for the clock \[rad\]: the same angle twice.
+const SHORTEST_WAY_RAD: f64 = 1e-9;
+
+/// The points of a static series: every angle at every load factor. The angle is a function of time, which begins at
+/// the start of the scene, where teeth touch, and goes on as at the speed that the scene states (1 rad/s where none), so
+/// that balls and rollers go round with the rings.
 fn static_job(
     loaded: &LoadedSystem,
     load_factors: &[f64],
     angles: Option<MotionValues>,
-    pitches_per_rad: f64,
+    built: &BuiltSystem,
 ) -> Result<StaticJob, SystemRunError> {
     let values = angles.as_ref().map(|angles| &angles.values[..]);
-    let steps_to = |i: usize| {
+    let turned_to = |i: usize| {
         let turned = values.map_or(0.0, |v| v[i] - if i > 0 { v[i - 1] } else { 0.0 });
-        let pitches = turned.abs() * pitches_per_rad;
+        turned.abs()
+    };
+    let stated = built.varied_rad_per_s.abs();
+    let rad_per_s = if stated > 0.0 { stated } else { 1.0 };
+    let mut times_s = vec![0.0];
+    for i in 0..values.map_or(0, <[f64]>::len) {
+        times_s.push(times_s[i] + turned_to(i).max(SHORTEST_WAY_RAD) / rad_per_s);
+    }
+    let steps_to = |i: usize| {
+        let pitches = turned_to(i) * built.pitches_per_rad;
         (pitches / LONGEST_STEP_PITCHES - 1e-9).ceil().max(1.0) as usize
     };
     let of_factor = |&load_factor: &f64| {
-        let count = values.map_or(1, <[f64]>::len);
+        let (count, times_s) = (values.map_or(1, <[f64]>::len), &times_s);
         (0..count).map(move |i| StaticPoint {
             angle_rad: values.map(|values| values[i]),
-            time_s: values.map_or(0.0, |_| i as f64 + 1.0),
+            time_s: values.map_or(0.0, |_| times_s[i + 1]),
             load_factor,
             steps: steps_to(i),
         })
     };
     let points = load_factors.iter().flat_map(of_factor).collect();
-    let function = angles.map(series_in_time).transpose()?;
+    let function = angles.map(|series| series_in_time(series, times_s));
+    let function = function.transpose()?;
     let loaded = loaded.clone();
     Ok(StaticJob {
         points,
@@ -156,11 +170,13 @@ fn static_job(
     })
 }
 
-/// The start, from which a motion counts, at t = 0 and value i at t = i + 1 seconds.
-fn series_in_time(series: MotionValues) -> Result<(String, Motion), DynamicsError> {
+/// The start, from which a motion counts, at the first of the times, and the values at the others.
+fn series_in_time(
+    series: MotionValues,
+    times_s: Vec<f64>,
+) -> Result<(String, Motion), DynamicsError> {
     let values = [&[0.0], &series.values[..]].concat();
-    let times = (0..values.len()).map(|i| i as f64).collect();
-    let table = Table::new("angles_deg", times, values, Interpolation::Linear)?;
+    let table = Table::new("angles_deg", times_s, values, Interpolation::Linear)?;
     let function = TimeFunction::Table(table);
     Ok((series.motion, Motion::Position(function)))
 }

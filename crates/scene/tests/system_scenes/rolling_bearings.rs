@@ -117,6 +117,48 @@ fn rests(text: &str, [across, along]: [f64; 2]) {
     }
 }
 
+/// A static series of angles has the speeds that the scene states: balls press on the outer race with what carries them
+/// round, as at the one equilibrium of a scene without a series.
+#[test]
+fn a_series_of_angles_has_the_speed_of_its_motion() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("pair.toml"), PAIR).unwrap();
+    let driven = "[[joint]]\nname = \"axis\"\nkind = \"planar\"\nbody_2 = \"shaft\"\n\
+                  [[motion]]\nname = \"spin\"\njoint = \"axis\"\nspeed_rpm = 12000.0\n";
+    let without_spring = SCENE.split("[[torsion_spring]]").next().unwrap();
+    let load = SCENE.split_once("[[load]]").unwrap().1;
+    let scene = format!("{without_spring}{driven}[[load]]{load}");
+    let outer_n = |text: &str| {
+        let loaded = crate::common::load(text, folder.path()).unwrap();
+        let result = Desk::new().run(RunJob::from_scene(loaded).unwrap());
+        let columns = (1..=19).map(|ball| format!("elements/pair/element_{ball}_outer_N"));
+        let read = |column: String| *result.rows.read(&column).unwrap().last().unwrap();
+        columns.map(read).collect::<Vec<f64>>()
+    };
+    let [still, once, series] = [
+        outer_n(&changed(&scene, "12000.0", "0.0")),
+        outer_n(&scene),
+        outer_n(&format!("{scene}motion = \"spin\"\nangles_deg = [0.0]\n")),
+    ];
+    let largest = |values: &[f64], other: &[f64]| {
+        let gaps = values.iter().zip(other).map(|(a, b)| (a - b).abs());
+        gaps.fold(0.0, f64::max)
+    };
+    assert!(largest(&still, &once) > 20.0, "{still:?} {once:?}");
+    assert!(largest(&series, &once) < 1e-3, "{series:?} {once:?}");
+    // Balls go round with the rings, however the way is cut.
+    let [at_once, in_steps] = ["[90.0]", "[10.0, 15.0, 90.0]"].map(|angles| {
+        outer_n(&format!(
+            "{scene}motion = \"spin\"\nangles_deg = {angles}\n"
+        ))
+    });
+    assert!(largest(&at_once, &once) > 1.0, "{at_once:?}");
+    assert!(
+        largest(&at_once, &in_steps) < 1e-3,
+        "{at_once:?} {in_steps:?}"
+    );
+}
+
 /// A missing file is named at its key; a fault in it is told with its own file and line.
 #[test]
 fn bad_bearing_files_are_told() {

@@ -92,6 +92,8 @@ pub(super) struct PlacedMotion {
     pub joint: usize,
     driven: Driven,
     motion: Motion,
+    /// Of a static series: the speed that the scene states \[rad/s\], whichever way the first angle lies.
+    stated_spin: Option<f64>,
 }
 
 impl PlacedMotion {
@@ -102,6 +104,9 @@ impl PlacedMotion {
 
     /// Speed about the joint's axis at t = 0 \[rad/s\], where the angle is driven.
     pub(super) fn spin_at_start(&self) -> Option<f64> {
+        if self.stated_spin.is_some() {
+            return self.stated_spin;
+        }
         match (&self.motion, self.driven) {
             (_, Driven::Place) => None,
             (Motion::Speed(f), Driven::Angle) => Some(f.at(0.0).value),
@@ -140,8 +145,11 @@ impl PlacedMotion {
         fastest.filter(|speed| speed.is_finite())
     }
 
-    /// Takes another function, of the same kind of coordinate.
+    /// Takes another function, of the same kind of coordinate: other speeds, or the angles of a static series.
     fn vary(&mut self, motion: &Motion) {
+        if matches!(motion, Motion::Position(_)) {
+            self.stated_spin = self.spin_at_start().filter(|spin| *spin != 0.0);
+        }
         self.motion = motion.clone();
     }
 }
@@ -209,6 +217,7 @@ pub(super) fn motions(
             joint,
             driven,
             motion,
+            stated_spin: None,
         };
         if let Some((_, other)) = varied.iter().find(|(name, _)| *name == motion.name) {
             motion.vary(other);

@@ -255,6 +255,12 @@ impl LoadedSystem {
         start_speeds::settle_speeds(&mut fastest, holds, moved, &meshes, &mut Vec::new());
         mesh_frequency::refuse_long_steps(&self.scene, &meshes, [&bodies, &fastest])?;
         let pitches_per_rad = mesh_frequency::pitches_per_rad(&self.scene.run, &meshes, &fastest);
+        let is_varied =
+            |motion: &&PlacedMotion| self.scene.run.varied_motion() == Some(motion.name());
+        let varied_rad_per_s = motions
+            .iter()
+            .find(is_varied)
+            .and_then(PlacedMotion::spin_at_start);
         stated_speeds::check(&tables.body, &bodies, &joints, document)?;
         let seeks_rest = at_rest || self.scene.solver.start == Start::Equilibrium;
         let at = (document, seeks_rest);
@@ -353,6 +359,7 @@ impl LoadedSystem {
             elements: parts.elements,
             meshes: built_meshes,
             pitches_per_rad,
+            varied_rad_per_s: varied_rad_per_s.unwrap_or(0.0),
             gauges,
             ratings,
             notes: parts.notes,
