@@ -1,12 +1,11 @@
 //! One correction of a static equilibrium.
 //!
-//! It is the smallest that solves Newton's equations. Where the scaled matrix is regular by far, orthogonal factors (in
-//! large systems sparse ones) give it. Else singular values do, which find the directions that nothing resists.
+//! It is the smallest that solves Newton's equations. Where the scaled matrix is regular by far, the factors of a step in
+//! time give it. Else singular values do, which find the directions that nothing resists.
 
 use std::sync::Arc;
 
-use faer::linalg::solvers::Solve;
-use faer::{ColRef, Mat};
+use faer::Mat;
 
 use crate::equations::Equations;
 use crate::error::DynamicsError;
@@ -25,11 +24,8 @@ const ROUNDING: f64 = 1e-14;
 /// by rounding has of a load beside its direction.
 const FELT: f64 = 1e-5;
 
-/// Unknowns of motions and joints from which a sparse factorisation is tried first.
-const LARGE: usize = 300;
-
-/// Largest growth of a vector by the inverse of the scaled matrix, and largest ratio of two pivots of its orthogonal
-/// factors, at which it counts as regular: a hundred times below where singular values count as zero.
+/// Largest growth of a vector by the inverse of the scaled matrix at which it counts as regular: a hundred times below
+/// where singular values count as zero.
 const REGULAR: f64 = 1e9;
 
 /// A scaled Newton matrix, decomposed, with what it says about free motions.
@@ -62,21 +58,14 @@ pub(crate) fn correct(
     equations: &Equations,
     pushing: &[f64],
 ) -> Result<Correction, DynamicsError> {
-    let size = system.degrees_of_freedom() + system.kept.len();
-    if size >= LARGE
-        && let Some(correction) = by_sparse_factors(system, equations)
-    {
-        return Ok(correction);
-    }
-    let scaled = Scaled::new(system, equations);
-    match scaled.by_orthogonal_factors() {
+    match by_factors(system, equations) {
         Some(correction) => Ok(correction),
-        None => by_singular_values(&scaled, equations, pushing),
+        None => by_singular_values(&Scaled::new(system, equations), equations, pushing),
     }
 }
 
 /// `None` if the matrix is singular or nearly so.
-fn by_sparse_factors(system: &System, equations: &Equations) -> Option<Correction> {
+fn by_factors(system: &System, equations: &Equations) -> Option<Correction> {
     let diagonal = system.mass_diagonal();
     let form = SaddleForm::new(&system.structure, &system.kept, LinearSolver::Automatic);
     let mut saddle = Saddle::new(&diagonal, system.layout.massless(), &Arc::new(form));
@@ -182,25 +171,6 @@ impl Scaled {
             scale,
             right,
         }
-    }
-
-    /// The correction by orthogonal factors with pivots; none where the matrix is singular or nearly so. It is then the
-    /// only solution, and so the smallest.
-    fn by_orthogonal_factors(&self) -> Option<Correction> {
-        let factors = self.matrix.col_piv_qr();
-        let r = factors.R();
-        let pivots = (0..self.right.len()).map(|k| r[(k, k)].abs());
-        let (least, most) = pivots.fold((f64::INFINITY, 0.0_f64), |(least, most), pivot| {
-            (least.min(pivot), most.max(pivot))
-        });
-        let is_regular = least * REGULAR > most;
-        if !is_regular {
-            return None;
-        }
-        let solved = factors.solve(ColRef::from_slice(&self.right));
-        let values = self.scale.iter().zip(solved.iter());
-        let values: Vec<f64> = values.map(|(scale, x)| scale * x).collect();
-        Correction::of_regular(values)
     }
 }
 
@@ -329,38 +299,4 @@ fn by_singular_values(
         return Err(singular());
     }
     Ok(correction)
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)] // test code
-mod tests {
-    use super::*;
-
-    /// Regular as far as pivots 1e8 apart; none of a matrix that is singular to rounding, or no number.
-    #[test]
-    fn orthogonal_factors_solve_what_is_regular() {
-        let scaled = |least: f64| {
-            let turned = Mat::from_fn(3, 3, |i, j| {
-                [[2.0, 1.0, 0.0], [0.0, 2.0, 1.0], [1.0, 0.0, 2.0]][i][j]
-            });
-            let diagonal =
-                Mat::from_fn(3, 3, |i, j| if i == j { [1.0, 0.5, least][i] } else { 0.0 });
-            let matrix = &turned * &diagonal * turned.transpose();
-            let x = Mat::from_fn(3, 1, |i, _| [1.0, -2.0, 3.0][i]);
-            let right = (&matrix * x).col(0).iter().copied().collect();
-            Scaled {
-                matrix,
-                scale: vec![1.0, 2.0, 1.0],
-                right,
-            }
-        };
-        let found = scaled(1e-8).by_orthogonal_factors().unwrap();
-        for (found, exact) in found.values.iter().zip([1.0, -4.0, 3.0]) {
-            assert!((found - exact).abs() < 1e-6, "{found} {exact}");
-        }
-        assert!(found.free.is_empty());
-        for least in [1e-14, 0.0, f64::NAN] {
-            assert!(scaled(least).by_orthogonal_factors().is_none());
-        }
-    }
 }

@@ -157,6 +157,46 @@ impl ForceElement for Stops {
     }
 }
 
+/// Springs far apart in stiffness are both springs; one that is rounding beside the other is none, and what it alone holds
+/// is reported.
+#[test]
+fn a_soft_spring_beside_a_stiff_one_counts_until_it_is_rounding() {
+    let (stiff, torque_nm) = (1e7, 3.0);
+    for (soft, is_felt) in [(1e2, true), (1e-9, false)] {
+        let mut builder = System::builder();
+        let mut wheel = |name: &str, stiffness: f64, torque_nm: f64| {
+            let id = builder.body(Body::rigid(name, 1.0, [0.1; 3])).unwrap();
+            let (a, b) = (Marker::ground([0.0; 3]), Marker::at(id, [0.0; 3]));
+            let axle = format!("axle of {name}");
+            builder.joint(Joint::new(&axle, JointKind::Revolute, a, b).unwrap());
+            let spring = TorsionSpring::new(stiffness, 0.0);
+            let held = format!("spring of {name}");
+            builder.element(spring.between(&held, MarkerPair { a, b }).unwrap());
+            let (axis, torque) = (
+                (Axes::World, [0.0, 0.0, 1.0]),
+                TimeFunction::Constant(torque_nm),
+            );
+            let motor = format!("motor of {name}");
+            builder.element(AppliedLoad::new(&motor, id, LoadKind::Torque, axis, torque).unwrap());
+        };
+        wheel("first", stiff, torque_nm);
+        wheel("second", soft, if is_felt { torque_nm } else { 0.0 });
+        let mut system = builder.build().unwrap();
+        let start = system.start().clone();
+        let found = equilibrium(&mut system, &start, &StaticParams::default()).unwrap();
+        let angle = |body: usize| found.state.orientations[body].scaled_axis().z;
+        close(angle(0), torque_nm / stiff, 1e-9);
+        if is_felt {
+            close(angle(1), torque_nm / soft, 1e-9);
+        }
+        let named = found.held.iter().filter(|motion| motion.contains("second"));
+        assert_eq!(
+            (found.held.len(), named.count()),
+            if is_felt { (0, 0) } else { (1, 1) }
+        );
+    }
+}
+
 /// A weak spring would let the torque turn the wheel by many pitches; the first stop holds it.
 #[test]
 fn the_first_stop_is_found_though_newton_would_jump_over_many() {
