@@ -296,7 +296,10 @@ impl Expansion<'_> {
                     .error(&format!("planets.deviation.{i}.planet"), problem));
             }
         }
-        let fitted = gears.teeth().fitted(&angles);
+        let fitted = gears.teeth().fitted(
+            &angles,
+            gears.room(MM * f64::from(self.table.centre_distance_mm)),
+        );
         fitted.map_err(|misfit| self.keys.error(key, misfit))
     }
 

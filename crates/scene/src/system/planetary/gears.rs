@@ -1,5 +1,6 @@
 //! The gears of a planetary set, and whether they fit between each other.
 
+use std::f64::consts::TAU;
 use std::path::Path;
 
 use gearmesh_geometry::input::TableKeys;
@@ -118,32 +119,38 @@ impl SetGears {
         Ok(())
     }
 
+    /// How far the axes of planets are apart whose tip circles touch \[m\].
+    fn planets_apart_m(&self) -> f64 {
+        let second_m = self.second.iter().map(|gear| gear.tip_radius_m);
+        2.0 * second_m.fold(self.planet.tip_radius_m, f64::max)
+    }
+
+    /// How many planets stand at equal angles without touching each other.
+    pub(super) fn room(&self, distance_m: f64) -> usize {
+        let share = 0.5 * self.planets_apart_m() / distance_m;
+        let angle_rad = 2.0 * share.min(1.0).asin();
+        (TAU / angle_rad * (1.0 - 1e-12)).floor() as usize
+    }
+
     fn check_neighbours(
         &self,
         distance_m: f64,
         angles_rad: &[f64],
         keys: &TableKeys<'_>,
     ) -> Result<(), InputError> {
-        let tip_m = |gear: &ToothGeometry| gear.tip_radius_m;
-        let needed_m = 2.0
-            * self
-                .second
-                .iter()
-                .map(tip_m)
-                .fold(tip_m(&self.planet), f64::max);
+        let needed_m = self.planets_apart_m();
         for (i, first) in angles_rad.iter().enumerate() {
             for (k, second) in angles_rad.iter().enumerate().skip(i + 1) {
                 let found_m = 2.0 * distance_m * (0.5 * (second - first)).sin().abs();
                 if found_m <= needed_m {
-                    let most = std::f64::consts::PI / (0.5 * needed_m / distance_m).asin();
                     let problem = format!(
                         "planets {} and {} touch each other: their axes are {:.4} mm apart, their tip circles need more than {:.4} mm; at equal angles \
-                         {most:.0} planets or fewer have room",
+                         {} planets or fewer have room",
                         i + 1,
                         k + 1,
                         found_m / MM,
                         needed_m / MM,
-                        most = (most * (1.0 - 1e-12)).floor()
+                        self.room(distance_m)
                     );
                     return Err(keys.error("planets", problem));
                 }

@@ -49,7 +49,7 @@ pub struct Misfit {
     pub places: usize,
     /// The nearest places of all planets.
     pub nearest_deg: Vec<f64>,
-    /// Numbers of planets that fit at equal angles, up to twelve.
+    /// Numbers of planets that fit and have room at equal angles, up to twelve.
     pub counts: Vec<usize>,
 }
 
@@ -105,11 +105,12 @@ impl SetTeeth {
         Some((sun * self.planet_to_ring + ring * self.planet) / common)
     }
 
-    /// The angles, moved to the places from which they differ by rounding.
+    /// The angles, moved to the places from which they differ by rounding; `room`: how many planets do not touch at equal
+    /// angles.
     ///
     /// # Errors
     /// [`Misfit`] where one differs by more.
-    pub fn fitted(&self, angles_rad: &[f64]) -> Result<Vec<f64>, Misfit> {
+    pub fn fitted(&self, angles_rad: &[f64], room: usize) -> Result<Vec<f64>, Misfit> {
         let (Some(places), Some(&first)) = (self.places(), angles_rad.first()) else {
             return Ok(angles_rad.to_vec());
         };
@@ -131,7 +132,7 @@ impl SetTeeth {
                 .iter()
                 .map(|angle| rounded(nearest(angle)))
                 .collect(),
-            counts: (2..=12)
+            counts: (2..=room.min(12))
                 .filter(|count| places.is_multiple_of(*count))
                 .collect(),
         })
