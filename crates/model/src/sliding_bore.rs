@@ -2,8 +2,11 @@
 //! holds.
 //!
 //! ```text
-//! S_oo q_o = s_oᵀ f,      C = C_hub + s_o S_oo⁻¹ s_oᵀ        o: tangential and axial motions but the rigid ones
+//! S_oo q_o = s_oᵀ f,      C = C_hub + s_o S_oo⁻¹ s_oᵀ,      ε = a f + γ_o q_o = (a + γ_o S_oo⁻¹ s_oᵀ) f
 //! ```
+//!
+//! o: tangential and axial motions but the rigid ones; f: normal loads, a: a gauge's strain with the bore held, γ: its
+//! strain per motion. What friction on the flanks moves the bore by is left out.
 //!
 //! Radial motions are held, as by a pin that presses and pulls; for rollers, which let them go,
 //!
@@ -21,8 +24,8 @@ use crate::reduced_gear_error::ReducedGearError;
 /// A gear whose bore slides, and the radial motions of the bore that its support holds or lets go.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlidingBore {
-    /// The gear as its flanks feel it where all radial motions are held. Gauges, modes and the bore's motions, which are
-    /// those of a held bore, are left out.
+    /// The gear as its flanks and gauges feel it where all radial motions are held. Modes and the bore's motions, which
+    /// are those of a held bore, are left out.
     pub gear: ReducedGear,
     /// The radial motions.
     pub radial: RadialMotions,
@@ -123,8 +126,22 @@ impl ReducedGear {
                 }
             }
         }
+        let gauges = self.gauges.iter().zip(bore.gauges.chunks_exact(m));
+        let gauges = gauges.map(|(gauge, motions)| {
+            let mut half: Vec<f64> = free.iter().map(|&motion| motions[motion]).collect();
+            forward(&factor, &mut half);
+            let mut gauge = gauge.clone();
+            let of_loads = gauge.adjoint.chunks_exact_mut(3);
+            for (strain, load) in of_loads.zip(halves.chunks_exact(n)) {
+                strain[0] += dot(load, &half);
+            }
+            gauge
+        });
         Ok(SlidingBore {
-            gear: self.softened(&halves, n),
+            gear: ReducedGear {
+                gauges: gauges.collect(),
+                ..self.softened(&halves, n)
+            },
             radial: RadialMotions {
                 along: bore.along,
                 radius_m: bore.radius_m,
@@ -271,6 +288,39 @@ mod tests {
                         assert!(off < 1e-12 * before[at].abs().max(adds.abs()), "{off}");
                     }
                 }
+            }
+        }
+    }
+
+    /// A gauge feels the motions of the bore as well: strain per motion times the motions, solved another way.
+    #[test]
+    fn gauges_feel_the_free_motions() {
+        let gear = small_bored_gear();
+        let sliding = gear.with_sliding_bore().unwrap().gear;
+        let bore = gear.bore.as_ref().unwrap();
+        let (m, each) = (bore.count(), bore.count() / 3);
+        let free: Vec<usize> = (each + 1..2 * each).chain(2 * each + 1..m).collect();
+        let row = |i: &usize| free.iter().map(|&j| bore.stiffness[i * m + j]).collect();
+        let matrix: Vec<Vec<f64>> = free.iter().map(row).collect();
+        let loads = gear.grid.len();
+        for (number, (before, after)) in gear.gauges.iter().zip(&sliding.gauges).enumerate() {
+            assert_eq!(before.own_tooth, after.own_tooth);
+            for (tooth, flank, load) in [(0, 0, 0), (2, 1, loads - 1), (gear.teeth - 1, 0, 1)] {
+                let rows = gear.bore_rows(tooth, gear.flanks[flank]).unwrap();
+                let push = free.iter().map(|&q| rows[load * m + q]).collect();
+                let motions = solved(matrix.clone(), push);
+                let felt = free.iter().zip(&motions);
+                let adds: f64 = felt.map(|(&q, x)| bore.gauges[number * m + q] * x).sum();
+                let at = 3 * ((tooth * gear.flanks.len() + flank) * loads + load);
+                let off = after.adjoint[at] - before.adjoint[at] - adds;
+                assert!(
+                    adds != 0.0 && off.abs() < 1e-11 * adds.abs(),
+                    "{off} {adds}"
+                );
+                assert_eq!(
+                    before.adjoint[at + 1..at + 3],
+                    after.adjoint[at + 1..at + 3]
+                );
             }
         }
     }

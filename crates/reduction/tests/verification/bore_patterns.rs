@@ -49,6 +49,16 @@ fn forces_on_a_held_bore_are_those_of_the_motions() {
     let gear = with_motions(0.0);
     let (model, _) = reduced(&gear, false);
     let bore = model.bore.as_ref().unwrap();
+    // A rigid motion strains nothing: what is left of the strains of its parts is rounding.
+    for motion in bore.rigid() {
+        for strains in bore.gauges.chunks_exact(bore.count()) {
+            let parts = motion.iter().zip(strains).map(|(q, strain)| q * strain);
+            let (sum, largest) = parts.fold((0.0, 0.0_f64), |(sum, most), part| {
+                (sum + part, most.max(part.abs()))
+            });
+            assert!(sum.abs() < 1e-7 * largest, "{sum:e} of {largest:e}");
+        }
+    }
     let body = body(&gear);
     let side = gear.reduction.flanks[0];
     let loads = flank_loads(&gear, &body.mesh, &flank_grid(&gear), 0, side);

@@ -392,11 +392,11 @@ impl LoadedSystem {
             let keys = TableKeys::new(&self.scene.document, &key);
             let body = bodies.find_body(&keys, "body", &table.body)?;
             let bore = self.scene.tables.body.get(body).and_then(|body| body.bore);
-            if let Some(bore @ (BoreHold::Sliding | BoreHold::Rollers)) = bore {
+            if bore == Some(BoreHold::Rollers) {
                 let problem = format!(
-                    "`{}` has bore = \"{}\", under which no gauge is read: its rows are those of a held bore; remove the gauge, or take \"bonded\"",
-                    table.body,
-                    bore.name()
+                    "`{}` has bore = \"rollers\", under which no gauge is read: how rollers bend the bore is not in its rows; remove the gauge, or \
+                     take \"sliding\" or \"bonded\"",
+                    table.body
                 );
                 return Err(keys.error("body", problem));
             }

@@ -135,6 +135,55 @@ fn give_the_planet_a_bore(folder: &Path) {
     std::fs::write(folder.join("rollers.toml"), rollers).unwrap();
 }
 
+/// Gauges on a bore that slides feel its motions: one that feels nothing else reads nothing on a bonded bore. On rollers,
+/// whose push it does not know, it is refused.
+#[test]
+fn gauges_feel_a_bore_that_slides() {
+    let folder = tempfile::tempdir().unwrap();
+    made_up_gears::write_set(folder.path());
+    give_the_planet_a_bore(folder.path());
+    let path = folder.path().join("planet.h5");
+    let mut gear = gearmesh_model::read_reduced_gear(&path).unwrap();
+    let loads = gear.flanks.len() * gear.grid.len();
+    gear.modes = None;
+    gear.gauges = vec![gearmesh_model::GaugeRows {
+        name: "rim".to_owned(),
+        tooth: 0,
+        side: gear.flanks[0],
+        description: "made up".to_owned(),
+        error_estimate_relative: 0.0,
+        adjoint: vec![0.0; 3 * gear.teeth * loads],
+        own_tooth: vec![0.0; loads],
+    }];
+    let bore = gear.bore.as_mut().unwrap();
+    bore.flank.fill(0.05);
+    bore.gauges = vec![20.0; bore.count()];
+    gearmesh_model::write_reduced_gear(&path, &gear).unwrap();
+    let gauge = "[[gauge]]\nbody = \"set planet 1\"\nnames = [\"rim\"]\n";
+    let with = |planets: &str| format!("{}{gauge}", set(["", "", planets]));
+    let strain = |bore: &str| {
+        let result = run(&with(&format!("bore = \"{bore}\"")), folder.path());
+        let mut columns = result.rows.columns().iter().map(|column| &column.name);
+        let name = columns.find(|name| name.contains("rim_method2")).unwrap();
+        result.rows.read(name).unwrap()
+    };
+    assert!(strain("bonded").iter().all(|strain| *strain == 0.0));
+    // 23 motions with one tangential and one axial left out; forces of both meshes, some 1e4 N.
+    let found = strain("sliding");
+    assert!(
+        found
+            .iter()
+            .all(|strain| (0.01..10.0).contains(&strain.abs())),
+        "{found:?}"
+    );
+    let refused = build_in(&with(ON_ROLLERS), folder.path());
+    let message = refused.map(|_| ()).unwrap_err().to_string();
+    assert!(
+        message.contains("bore = \"rollers\", under which no gauge"),
+        "{message}"
+    );
+}
+
 const ON_ROLLERS: &str = "bore = \"rollers\"\nsupport = \"floating\"\n\
     bearings = [{ model = { kind = \"quasi-static\", file = \"rollers.toml\", element_loads = true } }]";
 
