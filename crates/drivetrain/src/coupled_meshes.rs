@@ -9,6 +9,7 @@
 //! [`CoupledMeshes`] pushes on all bodies; a [`CoupledMesh`] stands for each mesh by its name and reports what that
 //! mesh does. Gears without vibration modes: those deflect all meshes of their body already.
 
+use std::sync::atomic::AtomicUsize;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use gearmesh_contact::{BoreBending, JointContact};
@@ -117,6 +118,7 @@ impl CoupledMeshes {
             sides,
             joint: JointContact::new(links, capacity).with_bores(bendings),
             bores,
+            solutions: Arc::default(),
             bodies: bodies.clone(),
             known: Vec::with_capacity(bodies.len()),
             ahead_m: Vec::with_capacity(capacity),
@@ -151,6 +153,13 @@ impl CoupledMeshes {
             group,
         };
         Ok((coupled, parts, bearings))
+    }
+
+    /// Solutions of the joint problem of all flanks, counted as long as the element is there: one an evaluation, some more
+    /// where rollers bend a bore.
+    #[must_use]
+    pub fn solutions(&self) -> Arc<AtomicUsize> {
+        Arc::clone(&lock(&self.group).solutions)
     }
 
     /// Pairs of sides that feel each other through a body.

@@ -1,6 +1,7 @@
 //! Meshes that are solved together: the bodies that link them, their joint solution and its tangents.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use gearmesh_contact::{AxialSpread, BoreFlank, CrossCompliance, JointContact, MeshLink};
 use gearmesh_dynamics::elements::{ForceElement, Loads, View};
@@ -40,6 +41,8 @@ pub(super) struct Group {
     pub jacobians: Vec<Jacobian>,
     /// Gears on rollers, in the order of the joint problem's bores.
     pub bores: Vec<RollerBore>,
+    /// Solutions of the joint problem so far.
+    pub solutions: Arc<AtomicUsize>,
     /// Motions of all bodies at the last evaluation.
     pub bodies: Vec<BodyId>,
     pub known: Vec<BodyMotion>,
@@ -202,7 +205,7 @@ impl Group {
                 joint.couple(link, ends);
             }
         }
-        settle(joint, &mut self.bores, view)?;
+        settle(joint, &mut self.bores, view, &self.solutions)?;
         for link in 0..joint.links().len() {
             if let Some(ends) = ends(&joint.links()[link]) {
                 joint.walk(link, ends);
@@ -406,10 +409,15 @@ fn settle(
     joint: &mut JointContact,
     bores: &mut [RollerBore],
     view: &View<'_>,
+    solutions: &AtomicUsize,
 ) -> Result<(), DrivetrainError> {
     let goes_on = view.iterate == Iterate::Correction;
+    let solve = |joint: &mut JointContact, goes_on: bool| {
+        solutions.fetch_add(1, Ordering::Relaxed);
+        joint.solve(goes_on)
+    };
     if bores.is_empty() {
-        joint.solve(goes_on)?;
+        solve(joint, goes_on)?;
         return Ok(());
     }
     for (bore, bending) in bores.iter_mut().zip(joint.bores_mut()) {
@@ -426,7 +434,7 @@ fn settle(
                 .support(&bore.force_n, &bore.stiffness)
                 .map_err(|_| unsettled(bore, iteration))?;
         }
-        joint.solve(goes_on || iteration > 0)?;
+        solve(joint, goes_on || iteration > 0)?;
         let mut settled = true;
         for (bore, bending) in bores.iter_mut().zip(joint.bores_mut()) {
             bore.expect(bending.motions_m());

@@ -1,6 +1,8 @@
 //! An idler between two wheels on fixed axes, made-up gears on soft rims.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::AtomicUsize;
 
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingMaterial;
@@ -143,12 +145,17 @@ pub const PLAIN: Meshes = Meshes {
 
 /// Bodies turned so that both meshes overlap by these depths \[m\], the idler turning at a speed, a torque on the first
 /// wheel and the balancing one on the last.
-pub fn idler(
+pub fn idler(theta: f64, depths_m: [f64; 2], how: Meshes, load: (f64, f64)) -> System {
+    idler_counted(theta, depths_m, how, load).0
+}
+
+/// The same, with the count of its solutions of both meshes together.
+pub fn idler_counted(
     theta: f64,
     depths_m: [f64; 2],
     how: Meshes,
     (speed_rad_per_s, torque_nm): (f64, f64),
-) -> System {
+) -> (System, Arc<AtomicUsize>) {
     let [first, second] = pairs();
     let a = first.centre_distance_m;
     let [wheel_1, idler] = angles(&first, SIDES[0], theta, -depths_m[0]);
@@ -221,7 +228,7 @@ pub fn idler(
         for mesh in meshes {
             builder.element(mesh.element);
         }
-        return builder.build().unwrap();
+        return (builder.build().unwrap(), Arc::default());
     }
     let pin = Marker::ground([a, 0.0, 0.0]);
     let bearing = how
@@ -243,6 +250,7 @@ pub fn idler(
     }
     let (together, parts, bearings) = CoupledMeshes::new("together", meshes.into(), gears).unwrap();
     assert_eq!(together.link_count(), 1);
+    let solutions = together.solutions();
     builder.element(together);
     for bearing in bearings {
         builder.element(bearing);
@@ -250,5 +258,5 @@ pub fn idler(
     for part in parts {
         builder.element(part);
     }
-    builder.build().unwrap()
+    (builder.build().unwrap(), solutions)
 }
