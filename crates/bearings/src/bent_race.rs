@@ -1,15 +1,15 @@
 //! Outer races that bend under their rollers: those of a bore in an elastic body.
 //!
-//! At each roller the race moves away from the axis by w(z) = Σ_d b_d P_d(z), P_d functions along it; the roller presses
-//! it with G_d = Σ Q P_d over its laminae. With the roller's own place x in equilibrium, R(x, ring, b) = 0, T = −∂R/∂x,
-//! and a_d = ∂R/∂b_d = Σ Q′ P_d ∂(approach)/∂x
+//! At each roller the race moves away from the axis by w(z) = Σ_d b_d P_d(z), P_d functions along it; the roller
+//! presses it with G_d = Σ Q P_d over its laminae. With the roller's own place x in equilibrium, R(x, ring, b) = 0, T =
+//! −∂R/∂x, and a_d = ∂R/∂b_d = Σ Q′ P_d ∂(approach)/∂x
 //!
 //! ```text
 //! ∂G_d/∂b_e = −Σ Q′ P_d P_e + a_dᵀ T⁻¹ a_e        ∂(load on the ring)/∂b_d = ∂(load)/∂x T⁻¹ a_d = (∂G_d/∂ring)ᵀ
 //! ```
 //!
-//! Forces and loads come from one potential V of ring and race, the sum of all contacts' energies less what the rollers'
-//! own centrifugal force and gyroscopic moment have done on them.
+//! Forces and loads come from one potential V of ring and race, the sum of all contacts' energies less what the
+//! rollers' own centrifugal force and gyroscopic moment have done on them.
 
 use nalgebra::{Matrix3, Matrix6x3, Vector3, Vector6};
 

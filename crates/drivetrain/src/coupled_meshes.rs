@@ -47,25 +47,24 @@ pub struct CoupledMeshes {
     group: Arc<Mutex<Group>>,
 }
 
-/// One of them, for what it reports.
-pub struct CoupledMesh {
+/// One of them, or the bearing of a gear on rollers, for what it reports.
+pub struct CoupledPart {
     name: String,
     bodies: [BodyId; 2],
-    number: usize,
+    part: Part,
     group: Arc<Mutex<Group>>,
 }
 
-/// The bearing of a gear on rollers, for what it reports.
-pub struct CoupledBearing {
-    name: String,
-    bodies: [BodyId; 2],
-    number: usize,
-    group: Arc<Mutex<Group>>,
+/// What a part is, by its number in the group.
+#[derive(Clone, Copy)]
+enum Part {
+    Mesh(usize),
+    Bearing(usize),
 }
 
 impl CoupledMeshes {
-    /// Couples meshes by the bodies that two or more of them have a model for, and by rollers in the bores of gears. The
-    /// first is the element that pushes.
+    /// Couples meshes by the bodies that two or more of them have a model for, and by rollers in the bores of gears.
+    /// Answers with the element that pushes, the parts of the meshes, and those of the bearings.
     ///
     /// # Errors
     /// [`DrivetrainError::NotCoupled`] for a mesh whose model is not `hybrid` or whose gears have vibration modes,
@@ -75,7 +74,7 @@ impl CoupledMeshes {
         name: &str,
         meshes: Vec<MeshToCouple<'_>>,
         gears: Vec<GearOnRollers<'_>>,
-    ) -> Result<(Self, Vec<CoupledMesh>, Vec<CoupledBearing>), DrivetrainError> {
+    ) -> Result<(Self, Vec<CoupledPart>, Vec<CoupledPart>), DrivetrainError> {
         let (mut elements, mut models) = (Vec::new(), Vec::new());
         for mesh in meshes {
             elements.push(mesh.element);
@@ -125,25 +124,20 @@ impl CoupledMeshes {
             drag_n: Vec::with_capacity(capacity),
             meshes: elements,
         }));
-        let each = |(number, mesh): (usize, &MeshElement)| CoupledMesh {
-            name: mesh.name().to_owned(),
-            bodies: mesh.gear_bodies(),
-            number,
+        let each = |name: &str, bodies, part| CoupledPart {
+            name: name.to_owned(),
+            bodies,
+            part,
             group: Arc::clone(&group),
         };
-        let parts = lock(&group).meshes.iter().enumerate().map(each).collect();
-        let of_bearing = |(number, bore): (usize, &RollerBore)| CoupledBearing {
-            name: bore.bearing.name().to_owned(),
-            bodies: bore.bodies(),
-            number,
-            group: Arc::clone(&group),
-        };
-        let bearings = lock(&group)
-            .bores
-            .iter()
-            .enumerate()
-            .map(of_bearing)
-            .collect();
+        let held = lock(&group);
+        let meshes = held.meshes.iter().enumerate();
+        let meshes = meshes.map(|(i, mesh)| each(mesh.name(), mesh.gear_bodies(), Part::Mesh(i)));
+        let bearings = held.bores.iter().enumerate();
+        let bearings =
+            bearings.map(|(i, bore)| each(bore.bearing.name(), bore.bodies(), Part::Bearing(i)));
+        let (parts, bearings) = (meshes.collect(), bearings.collect());
+        drop(held);
         let name = name.to_owned();
         let coupled = Self {
             name,
@@ -155,8 +149,8 @@ impl CoupledMeshes {
         Ok((coupled, parts, bearings))
     }
 
-    /// Solutions of the joint problem of all flanks, counted as long as the element is there: one an evaluation, some more
-    /// where rollers bend a bore.
+    /// Solutions of the joint problem of all flanks, counted as long as the element is there: one an evaluation, some
+    /// more where rollers bend a bore.
     #[must_use]
     pub fn solutions(&self) -> Arc<AtomicUsize> {
         Arc::clone(&lock(&self.group).solutions)
@@ -259,7 +253,7 @@ impl ForceElement for CoupledMeshes {
     }
 }
 
-impl ForceElement for CoupledMesh {
+impl ForceElement for CoupledPart {
     fn name(&self) -> &str {
         &self.name
     }
@@ -279,7 +273,11 @@ impl ForceElement for CoupledMesh {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        lock(&self.group).meshes[self.number].channels()
+        let group = lock(&self.group);
+        match self.part {
+            Part::Mesh(number) => group.meshes[number].channels(),
+            Part::Bearing(number) => group.bores[number].bearing.channels(),
+        }
     }
 
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
@@ -289,41 +287,12 @@ impl ForceElement for CoupledMesh {
             out.fill(f64::NAN);
             return;
         }
-        let motion = group.motions[self.number];
-        group.meshes[self.number].sample_updated(view, &motion, out);
-    }
-}
-
-impl ForceElement for CoupledBearing {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn bodies(&self) -> &[BodyId] {
-        &self.bodies
-    }
-
-    /// Its forces are among those of the [`CoupledMeshes`].
-    fn evaluate(&mut self, _view: &View<'_>, _loads: &mut Loads) -> Result<(), ElementFailure> {
-        Ok(())
-    }
-
-    /// Nothing depends on anything.
-    fn couplings(&self, starts: &[usize]) -> Vec<Vec<usize>> {
-        vec![vec![starts[0]]]
-    }
-
-    fn channels(&self) -> Vec<Channel> {
-        lock(&self.group).bores[self.number].bearing.channels()
-    }
-
-    fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
-        let mut group = lock(&self.group);
-        if !group.is_at(view) && group.update(view, false).is_err() {
-            group.known.clear();
-            out.fill(f64::NAN);
-            return;
+        match self.part {
+            Part::Mesh(number) => {
+                let motion = group.motions[number];
+                group.meshes[number].sample_updated(view, &motion, out);
+            }
+            Part::Bearing(number) => group.bores[number].bearing.sample(view, out),
         }
-        group.bores[self.number].bearing.sample(view, out);
     }
 }

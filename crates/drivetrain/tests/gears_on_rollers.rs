@@ -53,8 +53,8 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs())) / largest
 }
 
-/// A bore that is stiff beyond measure is round: meshes and the quasi-static bearing beside them. 1e-9 as asked; the bore
-/// is 1e11 times stiffer than a rim that changes the forces by more than 1 %.
+/// A bore that is stiff beyond measure is round: meshes and the quasi-static bearing beside them. 1e-9 as asked; the
+/// bore is 1e11 times stiffer than a rim that changes the forces by more than 1 %.
 #[test]
 fn rollers_on_a_stiff_bore_are_those_of_the_quasi_static_bearing() {
     let at = |bore: Option<f64>, elements: &[&str]| {
@@ -71,9 +71,9 @@ fn rollers_on_a_stiff_bore_are_those_of_the_quasi_static_bearing() {
     assert!(largest_difference(&round, &soft) > 1e-2);
 }
 
-/// Many rollers stiff beyond measure, pressed in so that the teeth lift none, hold the bore all round as the pin on which
-/// it slides does: the meshes' forces are those without motions of the bore. 1e-6: rollers are 1e8 times stiffer than
-/// steel ones, whose deflection changes the forces by more than 1 %; places are rounded to 1e-17 m of 1e-12.
+/// Many rollers stiff beyond measure, pressed in so that the teeth lift none, hold the bore all round as the pin on
+/// which it slides does: the meshes' forces are those without motions of the bore. 1e-6: rollers are 1e8 times stiffer
+/// than steel ones, whose deflection changes the forces by more than 1 %; places are rounded to 1e-17 m of 1e-12.
 #[test]
 fn many_stiff_rollers_are_a_pin_on_which_the_bore_slides() {
     let rollers = Rollers {
@@ -143,8 +143,8 @@ fn forces_of_meshes_and_rollers_have_a_potential_and_tangents_are_their_changes(
     assert!(off < 3e-3, "{off:e}");
 }
 
-/// Largest error of the energy balance \[J\] over some teeth, with the work of the loads; corrections a step, and solutions
-/// of all flanks for each.
+/// Largest error of the energy balance \[J\] over some teeth, with the work of the loads; corrections a step, and
+/// solutions of all flanks for each.
 fn in_time(step_s: f64) -> [f64; 3] {
     let how = Meshes {
         ends: PathEnds::Extended,
@@ -170,8 +170,8 @@ fn in_time(step_s: f64) -> [f64; 3] {
 }
 
 /// Undamped teeth and rollers keep their energy, the work of the cage counted: the error falls with h². A factor of 16;
-/// half of that is asked, because of tip edges and of rollers that begin to carry. Flanks and rollers are in balance with
-/// each other after few solutions.
+/// half of that is asked, because of tip edges and of rollers that begin to carry. Flanks and rollers are in balance
+/// with each other after few solutions.
 #[test]
 fn an_idler_on_rollers_keeps_its_energy_and_takes_few_solutions() {
     let [[coarse, corrections, solutions], [fine, ..]] = [8e-6, 2e-6].map(in_time);

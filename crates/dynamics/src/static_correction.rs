@@ -1,7 +1,7 @@
 //! One correction of a static equilibrium.
 //!
-//! It is the smallest that solves Newton's equations. Where the scaled matrix is regular by far, the factors of a step in
-//! time give it. Else singular values do, which find the directions that nothing resists.
+//! It is the smallest that solves Newton's equations. Where the scaled matrix is regular by far, the factors of a step
+//! in time give it. Else singular values do, which find the directions that nothing resists.
 
 use std::sync::Arc;
 

@@ -157,8 +157,8 @@ impl ForceElement for Stops {
     }
 }
 
-/// Springs far apart in stiffness are both springs; one that is rounding beside the other is none, and what it alone holds
-/// is reported.
+/// Springs far apart in stiffness are both springs; one that is rounding beside the other is none, and what it alone
+/// holds is reported.
 #[test]
 fn a_soft_spring_beside_a_stiff_one_counts_until_it_is_rounding() {
     let (stiff, torque_nm) = (1e7, 3.0);

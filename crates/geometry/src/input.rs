@@ -65,7 +65,8 @@ impl InputError {
     }
 }
 
-/// The text of an input file together with its name, so that complaints can point into it; or values that never were a text.
+/// The text of an input file together with its name, so that complaints can point into it; or values that never were a
+/// text.
 #[derive(Debug, Clone)]
 pub struct InputDocument {
     /// The file as the user named it; empty where there is none.

@@ -1,4 +1,5 @@
-//! A gear pair at rest: two gears are reduced, one after the other, and a scene without a file runs them under three torques.
+//! A gear pair at rest: two gears are reduced, one after the other, and a scene without a file runs them under three
+//! torques.
 //!
 //! `cargo run --example pair_at_rest -- fe_models/first_pair target/first_pair`: folder of the gear files, folder for the models.
 

@@ -87,7 +87,8 @@ pub(crate) fn check_gear(
     Ok((gear.name, profile.teeth, radii_m, notes))
 }
 
-/// Checks a scene's text, or its tables as JSON where file is empty; other files are relative to folder. Returns (kind, title): kind is "pair" or "system".
+/// Checks a scene's text, or its tables as JSON where file is empty; other files are relative to folder. Returns (kind,
+/// title): kind is "pair" or "system".
 ///
 /// Files that the scene names are not opened. Raises InputError with the place of what is wrong.
 #[pyfunction]

@@ -1,5 +1,5 @@
-//! Reduced gears that many scenes share: each file is read once, and condensed once to the slices of a contact. Models in memory
-//! stand there under the names that scenes have for them.
+//! Reduced gears that many scenes share: each file is read once, and condensed once to the slices of a contact. Models
+//! in memory stand there under the names that scenes have for them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

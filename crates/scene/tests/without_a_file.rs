@@ -1,5 +1,5 @@
-//! Scenes of tables in memory, with models from files and from memory: the results of the same scenes in files, bit for bit;
-//! complaints name the path of the field.
+//! Scenes of tables in memory, with models from files and from memory: the results of the same scenes in files, bit for
+//! bit; complaints name the path of the field.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::path::Path;

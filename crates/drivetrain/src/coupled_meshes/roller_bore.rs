@@ -5,8 +5,9 @@
 //! on the bore                 N_wd = Σ_j s_w wave_w(φ_j) G_jd
 //! ```
 //!
-//! A roller presses evenly over an arc of its own diameter, 2h = D/R, with pressures whose resultant is its force. With P_i = ŝ_i M⁻¹ Z, Z = Σ_j s wave ∂(ring
-//! load)/∂b, the place p of the inner ring is felt by the flanks as a gap of P_i p, and
+//! A roller presses evenly over an arc of its own diameter, 2h = D/R, with pressures whose resultant is its force. With
+//! P_i = ŝ_i M⁻¹ Z, Z = Σ_j s wave ∂(ring load)/∂b, the place p of the inner ring is felt by the flanks as a gap of P_i
+//! p, and
 //!
 //! ```text
 //! ∂(ring load) = (T + Zᵀ M⁻¹ Z) δp + Σ_i P_iᵀ δF_i

@@ -30,8 +30,8 @@ pub trait Kinds: Sized {
 
 /// Makes an enumeration readable from tables with a tag, and writable: `kinds!(BearingModel, "kind");`.
 ///
-/// The enumeration derives `Deserialize` and `Serialize` with `#[serde(remote = "Self", deny_unknown_fields)]` and has no variants without a table; for
-/// its schema it says `#[schemars(tag = "kind", rename = "ITS NAME")]`.
+/// The enumeration derives `Deserialize` and `Serialize` with `#[serde(remote = "Self", deny_unknown_fields)]` and has
+/// no variants without a table; for its schema it says `#[schemars(tag = "kind", rename = "ITS NAME")]`.
 #[macro_export]
 macro_rules! kinds {
     ($name:ident, $tag:literal) => {

@@ -74,9 +74,9 @@ impl<'a> TableKeys<'a> {
         }
     }
 
-    /// Complains about keys that are given but not used by the chosen kind. Each group of keys with whether they are given comes with
-    /// the kinds that use it, between blanks; `word` is the key that chooses the kind, which is empty where that key is not
-    /// given.
+    /// Complains about keys that are given but not used by the chosen kind. Each group of keys with whether they are
+    /// given comes with the kinds that use it, between blanks; `word` is the key that chooses the kind, which is empty
+    /// where that key is not given.
     ///
     /// # Errors
     /// [`InputError`] for the first such key.

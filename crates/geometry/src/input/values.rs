@@ -71,8 +71,9 @@ pub(super) fn table(entries: &[(String, Held)]) -> Result<DeTable<'_>, toml::de:
 }
 
 impl InputDocument {
-    /// A document without a file, of tables in memory: complaints about it name the path of the key alone. Files that it
-    /// names are relative to `folder`. [`InputDocument::text`] is what a file of these tables would be, for results to keep.
+    /// A document without a file, of tables in memory: complaints about it name the path of the key alone. Files that
+    /// it names are relative to `folder`. [`InputDocument::text`] is what a file of these tables would be, for results
+    /// to keep.
     ///
     /// # Errors
     /// [`InputError`] for what TOML cannot hold.

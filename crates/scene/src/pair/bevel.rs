@@ -53,7 +53,8 @@ pub struct LoadedBevel {
 }
 
 impl BevelScene {
-    /// The pair of tables in memory; file names are relative to `folder`, models in memory are those of the shelf it is loaded with.
+    /// The pair of tables in memory; file names are relative to `folder`, models in memory are those of the shelf it is
+    /// loaded with.
     ///
     /// # Errors
     /// [`InputError`] with the path of the field, what was found and what is allowed.

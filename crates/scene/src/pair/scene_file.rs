@@ -238,7 +238,8 @@ impl Scene {
         Self::from_document(InputDocument::read(path)?, folder)
     }
 
-    /// The scene of tables in memory; file names are relative to `folder`, models in memory are those of the shelf it is loaded with.
+    /// The scene of tables in memory; file names are relative to `folder`, models in memory are those of the shelf it
+    /// is loaded with.
     ///
     /// # Errors
     /// [`InputError`] with the path of the field, what was found and what is allowed.

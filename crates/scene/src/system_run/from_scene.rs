@@ -121,8 +121,8 @@ const LONGEST_STEP_PITCHES: f64 = 0.25;
 const SHORTEST_WAY_RAD: f64 = 1e-9;
 
 /// The points of a static series: every angle at every load factor. The angle is a function of time, which begins at
-/// the start of the scene, where teeth touch, and goes on as at the speed that the scene states (1 rad/s where none), so
-/// that balls and rollers go round with the rings.
+/// the start of the scene, where teeth touch, and goes on as at the speed that the scene states (1 rad/s where none),
+/// so that balls and rollers go round with the rings.
 fn static_job(
     loaded: &LoadedSystem,
     load_factors: &[f64],

@@ -11,9 +11,10 @@ const ROLLERS: [(usize, f64, f64); 2] = [(14, 6.0, 31.0), (12, 4.0, 16.0)];
 
 /// The planet's keys, its bearing's file written: straight steel rollers of 10 mm, play 10 µm, the first at an angle.
 ///
-/// The other program has radial pressures over an arc of 2h = D/R whose sum is the roller's force, Q = k (w − e)^(10/9),
-/// w their mean displacement: their resultant is smaller by s = sin(h)/h, and so is w where the bore moves as a whole.
-/// Here the force is the resultant. Both are the same problem with the play e/s and with k s^(19/9) in place of k.
+/// The other program has radial pressures over an arc of 2h = D/R whose sum is the roller's force, Q = k (w −
+/// e)^(10/9), w their mean displacement: their resultant is smaller by s = sin(h)/h, and so is w where the bore moves
+/// as a whole. Here the force is the resultant. Both are the same problem with the play e/s and with k s^(19/9) in
+/// place of k.
 fn on_rollers(thin: bool, bore: &str, first_rad: f64, folder: &Path) -> String {
     let (rollers, diameter, circle) = ROLLERS[usize::from(!thin)];
     let half_arc = diameter / (circle + diameter);

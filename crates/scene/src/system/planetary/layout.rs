@@ -105,8 +105,8 @@ impl SetTeeth {
         Some((sun * self.planet_to_ring + ring * self.planet) / common)
     }
 
-    /// The angles, moved to the places from which they differ by rounding; `room`: how many planets do not touch at equal
-    /// angles.
+    /// The angles, moved to the places from which they differ by rounding; `room`: how many planets do not touch at
+    /// equal angles.
     ///
     /// # Errors
     /// [`Misfit`] where one differs by more.

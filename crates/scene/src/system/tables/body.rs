@@ -40,8 +40,8 @@ pub struct BodyTable {
     /// modes all meshes feel.
     pub coupling: Option<Coupling>,
     /// Reduced gear with [reduction.bore]: "bonded", the bore is glued to a rigid pin; "sliding", it slides on it;
-    /// "rollers", those of the quasi-static cylindrical roller bearing whose outer ring (`body_1`) is this body press on
-    /// it, each where it touches. "bonded" where not given.
+    /// "rollers", those of the quasi-static cylindrical roller bearing whose outer ring (`body_1`) is this body press
+    /// on it, each where it touches. "bonded" where not given.
     pub bore: Option<BoreHold>,
     /// `modal`: modes up to this frequency; all of the model where not given.
     #[serde(rename = "modes_up_to_Hz")]

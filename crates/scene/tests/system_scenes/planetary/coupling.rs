@@ -135,8 +135,8 @@ fn give_the_planet_a_bore(folder: &Path) {
     std::fs::write(folder.join("rollers.toml"), rollers).unwrap();
 }
 
-/// Gauges on a bore that slides feel its motions: one that feels nothing else reads nothing on a bonded bore. On rollers,
-/// whose push it does not know, it is refused.
+/// Gauges on a bore that slides feel its motions: one that feels nothing else reads nothing on a bonded bore. On
+/// rollers, whose push it does not know, it is refused.
 #[test]
 fn gauges_feel_a_bore_that_slides() {
     let folder = tempfile::tempdir().unwrap();
