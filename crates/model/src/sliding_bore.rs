@@ -42,7 +42,7 @@ pub struct RadialMotions {
     pub radius_m: f64,
     /// Its back and front (m).
     pub ends_m: [f64; 2],
-    /// Wave and degree of each, as in [`BorePatterns`].
+    /// Wave and degree of each, as in [`BorePatterns`](crate::BorePatterns).
     pub motions: Vec<[usize; 2]>,
     /// Force along a motion per another one (N/m), `[motion][motion]`; positive definite.
     pub stiffness: Vec<f64>,
