@@ -6,7 +6,7 @@
 //! tangent ∂(load A) = Σ_i d_i ∂F_i,   ∂F_i = −Σ_j K_ij g_j ∂(pose of j's mesh)        K = (C + diag δ′)⁻¹ of all
 //! ```
 //!
-//! [`CoupledMeshes`] pushes on all bodies; a [`CoupledMesh`] stands for each mesh by its name and reports what that
+//! [`CoupledMeshes`] pushes on all bodies; a [`CoupledPart`] stands for each mesh by its name and reports what that
 //! mesh does. Gears without vibration modes: those deflect all meshes of their body already.
 
 use std::sync::atomic::AtomicUsize;
