@@ -1,5 +1,6 @@
 """Ctrl-C ends a reduction, a pair's run and a study soon, and leaves no half file; no function of the package starts the program for what it can do itself."""
 
+import signal
 import time
 from pathlib import Path
 
@@ -13,6 +14,14 @@ PENDULUM = "fe_models/scene_pendulum.toml"
 
 SOON_S = 10.0
 """A call that has heard Ctrl-C looks at it every 50 ms and waits half a second for its work; the rest is for a busy machine."""
+
+
+@pytest.fixture(autouse=True)
+def ctrl_c_is_heard():
+    """Where tests are started in the background of a script, Ctrl-C is ignored from the start."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="module")
