@@ -378,7 +378,7 @@ impl Roller<'_> {
         }
     }
 
-    /// What the roller does to an outer race that bends, at its place.
+    /// Adds the force of the roller on an outer race that bends, and how it changes as the race moves.
     fn add_to_race(&self, place: &Vector3<f64>, state: &State, bent: &mut BentAtRoller<'_>) {
         let row = self.row;
         let (_, across) = self.axes(place[2]);

@@ -175,7 +175,7 @@ fn in_time(step_s: f64) -> [f64; 3] {
 #[test]
 fn an_idler_on_rollers_keeps_its_energy_and_takes_few_solutions() {
     let [[coarse, corrections, solutions], [fine, ..]] = [8e-6, 2e-6].map(in_time);
-    // 3.2 and 1.7.
+    // 3.2 and 1.7 were found; a tenth more is allowed.
     assert!(
         corrections < 3.5 && solutions < 1.9,
         "{corrections} {solutions}"

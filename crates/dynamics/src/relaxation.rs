@@ -10,8 +10,11 @@
 //! With a large σ a step goes a little way along the forces over the masses, with none it is Newton's. σ becomes
 //! smaller while what is unbalanced does, and larger where a step makes it much larger, which is then not made.
 
+use std::sync::Arc;
+
 use crate::equations::{Detail, Equations};
 use crate::error::DynamicsError;
+use crate::saddle::SaddleForm;
 use crate::state::State;
 use crate::static_correction::correct;
 use crate::static_steps::{SHORT, Walk, in_masses, measure, moments_in_world, standing};
@@ -40,7 +43,7 @@ pub(crate) fn relax(
     system: &mut System,
     (state, lambda): (&mut State, &mut Vec<f64>),
     load_factor: f64,
-    equations: &mut Equations,
+    (equations, form): (&mut Equations, &Arc<SaddleForm>),
 ) -> Result<usize, DynamicsError> {
     let n = system.degrees_of_freedom();
     let (rest, size) = (vec![0.0; n], system.size_m());
@@ -74,7 +77,7 @@ pub(crate) fn relax(
                 equations.stiffness.add(dof, dof, (weight - added) * mass);
             }
             added = weight;
-            let correction = correct(system, equations, &pushing)?;
+            let correction = correct(system, (equations, form), &pushing)?;
             let walk = Walk {
                 from: state.clone(),
                 lambda_from: lambda.clone(),

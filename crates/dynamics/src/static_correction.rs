@@ -52,23 +52,32 @@ impl Correction {
     }
 }
 
+/// Where the entries of all corrections of a system are.
+pub(crate) fn form_of(system: &System) -> Arc<SaddleForm> {
+    let form = SaddleForm::new(&system.structure, &system.kept, LinearSolver::Automatic);
+    Arc::new(form)
+}
+
 /// The correction at an evaluated motion; `pushing`: all that pushes on each degree of freedom, whatever its sign.
 pub(crate) fn correct(
     system: &System,
-    equations: &Equations,
+    (equations, form): (&Equations, &Arc<SaddleForm>),
     pushing: &[f64],
 ) -> Result<Correction, DynamicsError> {
-    match by_factors(system, equations) {
+    match by_factors(system, equations, form) {
         Some(correction) => Ok(correction),
         None => by_singular_values(&Scaled::new(system, equations), equations, pushing),
     }
 }
 
 /// `None` if the matrix is singular or nearly so.
-fn by_factors(system: &System, equations: &Equations) -> Option<Correction> {
+fn by_factors(
+    system: &System,
+    equations: &Equations,
+    form: &Arc<SaddleForm>,
+) -> Option<Correction> {
     let diagonal = system.mass_diagonal();
-    let form = SaddleForm::new(&system.structure, &system.kept, LinearSolver::Automatic);
-    let mut saddle = Saddle::new(&diagonal, system.layout.massless(), &Arc::new(form));
+    let mut saddle = Saddle::new(&diagonal, system.layout.massless(), form);
     let (n, m) = (diagonal.len(), system.equations());
     // Over the largest scaled stiffness, so that entries are as large as those of joints.
     let stiffest = (0..n).flat_map(|j| {

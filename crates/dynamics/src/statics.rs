@@ -10,11 +10,14 @@
 //! iterations, because resistance may come with the position; if none comes it is an error. It moves a little at first and further each
 //! time: surfaces that just touch have to be met within their deflection, a pendulum released level has a long way to go.
 
+use std::sync::Arc;
+
 use crate::equations::{Detail, Equations};
 use crate::error::DynamicsError;
 use crate::relaxation::relax;
+use crate::saddle::SaddleForm;
 use crate::state::State;
-use crate::static_correction::{Correction, correct};
+use crate::static_correction::{Correction, correct, form_of};
 use crate::static_steps::{SHORT, Walk, in_masses, measure, moments_in_world, standing};
 use crate::system::System;
 use crate::unbalanced::{most_unbalanced, pushing};
@@ -136,7 +139,7 @@ fn follow(
     path: Path,
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
-    let mut equations = Equations::new(system);
+    let (mut equations, form) = (Equations::new(system), form_of(system));
     let mut start = from.clone();
     // Nothing inside an element moves at rest.
     start.velocity[system.layout.first_unknown()..].fill(0.0);
@@ -166,7 +169,13 @@ fn follow(
             }
         };
         let start = trial.clone();
-        let mut settled = settle(system, &mut trial, load_factor, params, &mut equations);
+        let mut settled = settle(
+            system,
+            &mut trial,
+            load_factor,
+            params,
+            (&mut equations, &form),
+        );
         if relaxes && matches!(settled, Err(DynamicsError::NoEquilibrium { .. })) {
             // Newton's method goes to and fro where contacts come and go: down the forces first, then once more.
             let iterations = trial.iterations;
@@ -175,9 +184,20 @@ fn follow(
                 ..start
             };
             let Equilibrium { state, lambda, .. } = &mut trial;
-            if let Ok(steps) = relax(system, (state, lambda), load_factor, &mut equations) {
+            if let Ok(steps) = relax(
+                system,
+                (state, lambda),
+                load_factor,
+                (&mut equations, &form),
+            ) {
                 trial.iterations += steps;
-                settled = settle(system, &mut trial, load_factor, params, &mut equations);
+                settled = settle(
+                    system,
+                    &mut trial,
+                    load_factor,
+                    params,
+                    (&mut equations, &form),
+                );
             }
             // Where it does not help, shorter steps may: not both, each time.
             relaxes = settled.is_ok();
@@ -243,7 +263,7 @@ fn settle(
     found: &mut Equilibrium,
     load_factor: f64,
     params: &StaticParams,
-    equations: &mut Equations,
+    (equations, form): (&mut Equations, &Arc<SaddleForm>),
 ) -> Result<(), DynamicsError> {
     let n = system.degrees_of_freedom();
     let rest = vec![0.0; n];
@@ -269,7 +289,7 @@ fn settle(
         let pushing = pushing(system, equations, lambda);
         let at_rest = balances(system, equations, &pushing, params.tolerance * size);
         moments_in_world(system, equations);
-        let mut correction = correct(system, equations, &pushing)?;
+        let mut correction = correct(system, (equations, form), &pushing)?;
         let unbalanced = (0..correction.free.len())
             .filter(|&k| correction.share[k] > BALANCED)
             .max_by(|&a, &b| correction.share[a].total_cmp(&correction.share[b]));

@@ -1,4 +1,4 @@
-//! A gear body whose bore rollers press: the bearing inside it, and what its rollers do to the motions of the bore.
+//! A gear on rollers that press its bore: the bearing, and the forces of its rollers along the motions of the bore.
 //!
 //! ```text
 //! roller j at the angle φ_j   b_jd = Σ_w q_wd s_w wave_w(φ_j),   s_w = sin(nh)/(n sin h)

@@ -20,11 +20,10 @@ pub(super) fn add(
     let keys = TableKeys::new(connections.document, &key);
     let ends = connections.bodies.find_pair(&keys, named.1, named.2)?;
     let in_bore = ends[0].filter(|body| connections.bodies.list[*body].bore_motions().is_some());
+    let element = element((table, model), &keys, ends, connections)?;
     let Some(body) = in_bore else {
-        let element = element(table, model, &keys, connections)?;
         return connections.add(("bearing", number), KIND, named, |_, _| Ok(Ok(element)));
     };
-    let element = element(table, model, &keys, connections)?;
     connections
         .parts
         .element(&table.name, KIND, connections.bodies, ends);
@@ -38,14 +37,14 @@ pub(super) fn add(
 
 const KIND: &str = "quasi-static bearing";
 
+/// The bearing between two bodies, or one and the ground.
 fn element(
-    table: &BearingTable,
-    model: &QuasiStaticBearingTable,
+    (table, model): (&BearingTable, &QuasiStaticBearingTable),
     keys: &TableKeys<'_>,
+    ends: [Option<usize>; 2],
     connections: &Connections<'_>,
 ) -> Result<QuasiStaticElement, InputError> {
     let bodies = connections.bodies;
-    let ends = bodies.find_pair(keys, table.body_1.as_deref(), &table.body_2)?;
     let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
     let folder = connections.folder;
     let definition = rolling_bearing::definition("model.file", &model.file, folder, keys)?;
