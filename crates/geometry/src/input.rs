@@ -11,6 +11,7 @@ mod near_names;
 mod number_ranges;
 mod number_table;
 mod readable_file;
+mod reader;
 mod table_keys;
 mod threads;
 mod unit_slips;
@@ -150,9 +151,7 @@ impl InputDocument {
     /// # Errors
     /// [`InputError`] for a text that is no TOML.
     pub fn former_notes(&self) -> Result<Vec<InputError>, InputError> {
-        let mut tree = self
-            .own_tree()
-            .map_err(|e| self.complaint(Vec::new(), &e))?;
+        let mut tree = self.own_tree().map_err(|e| self.no_toml(&e))?;
         let text = self.values.as_ref().map_or(&*self.text, |_| "");
         let renewed = self.former.iter();
         let renewed = renewed.flat_map(|former| former.renew(tree.get_mut(), text));
@@ -212,6 +211,15 @@ impl InputDocument {
         Ok(tree)
     }
 
+    /// The values in the present form.
+    ///
+    /// # Errors
+    /// [`InputError`] with the line of a syntax error, or of a number that no processor holds.
+    pub fn table(&self) -> Result<toml::Table, InputError> {
+        let tree = self.tree().map_err(|e| self.no_toml(&e))?;
+        reader::table_of(tree.get_ref()).map_err(|problem| self.refusal(&problem))
+    }
+
     /// Parses the document into a structure whose keys are all checked by serde; every number is finite and within the
     /// [`NumberRange`] of its key.
     ///
@@ -220,9 +228,9 @@ impl InputDocument {
     /// type, an unknown name or a number out of its range. An unknown key that differs from a known one by its unit
     /// only is answered with the right key.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, InputError> {
-        let table: toml::Table = self.glance()?;
+        let table = self.table()?;
         match number_ranges::first_problem(&table) {
-            None => self.glance(),
+            None => self.read_table(table),
             Some((key, problem)) => Err(self.error(&key, problem)),
         }
     }
@@ -232,9 +240,12 @@ impl InputDocument {
     /// # Errors
     /// As [`InputDocument::parse`].
     pub fn glance<T: DeserializeOwned>(&self) -> Result<T, InputError> {
-        let tree = self.tree().map_err(|e| self.complaint(Vec::new(), &e))?;
-        serde_path_to_error::deserialize(toml::Deserializer::from(tree))
-            .map_err(|e| self.complaint(kinds::keys_of(e.path()), e.inner()))
+        self.read_table(self.table()?)
+    }
+
+    fn read_table<T: DeserializeOwned>(&self, table: toml::Table) -> Result<T, InputError> {
+        let read = reader::read(&toml::Value::Table(table));
+        read.map_err(|problem| self.refusal(&problem))
     }
 
     /// The keys at the top: they tell what a document is meant as.
@@ -242,30 +253,32 @@ impl InputDocument {
     /// # Errors
     /// [`InputError`] for a text that is no TOML.
     pub fn top_keys(&self) -> Result<BTreeSet<String>, InputError> {
-        let table: toml::Table = self.glance()?;
-        Ok(table.into_iter().map(|(key, _)| key).collect())
+        Ok(self.table()?.into_iter().map(|(key, _)| key).collect())
     }
 
-    /// A complaint about what serde found at `path`.
-    fn complaint(&self, mut path: Vec<String>, error: &toml::de::Error) -> InputError {
-        let (deeper, message) = kinds::told_below(error.message().trim());
-        path.extend(deeper.iter().map(|part| (*part).to_owned()));
-        if self.derived_place(&path.join(".")).is_some() {
-            let (key, problem) = wording::in_plain_words(path, message);
-            return self.error(&key, problem);
-        }
-        // A span is that of the place that serde knows.
-        let span = error.span().filter(|_| deeper.is_empty());
-        let line = match span {
-            Some(span) => self.line_of(span.start),
-            None => self.locate(&path.join(".")),
-        };
-        let (key, problem) = wording::in_plain_words(path, message);
+    /// A complaint about a text that is no TOML.
+    fn no_toml(&self, error: &toml::de::Error) -> InputError {
         InputError {
             file: self.file.clone(),
-            line,
-            key,
-            problem,
+            line: error.span().and_then(|span| self.line_of(span.start)),
+            key: String::new(),
+            problem: error.message().trim().to_owned(),
+        }
+    }
+
+    /// A complaint about what serde refuses.
+    fn refusal(&self, refusal: &reader::Refusal) -> InputError {
+        let path = refusal.path();
+        let place = path.join(".");
+        let (key, problem) = wording::in_plain_words(path, refusal.message.trim());
+        let told = self.error(&key, problem);
+        match self.derived_place(&place) {
+            Some(_) => told,
+            // That of the key itself, also where the complaint names its table; the first of a file that lacks a key.
+            None => InputError {
+                line: self.locate(&place).or_else(|| self.line_of(0)),
+                ..told
+            },
         }
     }
 

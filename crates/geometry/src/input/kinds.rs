@@ -8,7 +8,8 @@ use serde::de::{
     value,
 };
 use serde::{Deserialize, Serialize, Serializer};
-use serde_path_to_error::Segment;
+
+use super::reader::Reader;
 
 /// An enumeration of tables, one variant a kind. Made by [`kinds!`](crate::kinds), not by hand.
 pub trait Kinds: Sized {
@@ -90,11 +91,11 @@ pub fn read_kind<'de, T: Kinds, D: Deserializer<'de>>(deserializer: D) -> Result
         ));
     }
     let named = toml::Table::from_iter([(kind, toml::Value::Table(table))]);
-    let mut track = serde_path_to_error::Track::new();
-    let deserializer =
-        serde_path_to_error::Deserializer::new(toml::Value::Table(named), &mut track);
-    T::from_named(deserializer)
-        .map_err(|error: toml::de::Error| below(&keys_of(&track.path()), error.message().trim()))
+    T::from_named(Reader(&toml::Value::Table(named))).map_err(|problem| {
+        let path = problem.path();
+        // The first part is the kind.
+        below(path.get(1..).unwrap_or_default(), &problem.message)
+    })
 }
 
 /// Writes a table of one of the kinds.
@@ -160,17 +161,6 @@ fn one_of(names: &[String]) -> String {
         [first, second] => format!("{first} or {second}"),
         several => format!("one of {}", several.join(", ")),
     }
-}
-
-/// Keys of a path within a document.
-pub(super) fn keys_of(path: &serde_path_to_error::Path) -> Vec<String> {
-    path.iter()
-        .filter_map(|segment| match segment {
-            Segment::Map { key } => Some(key.clone()),
-            Segment::Seq { index } => Some(index.to_string()),
-            Segment::Enum { .. } | Segment::Unknown => None,
-        })
-        .collect()
 }
 
 /// Stands before and behind the path of a complaint that lies deeper than its reader knows; in no text that people write.
