@@ -1,6 +1,6 @@
 """Bending frequencies of an annular plate, bore clamped, outside free: Kirchhoff's and Mindlin's exact solutions.
 
-Prints the table that crates/fe/tests/annular_plate.rs holds. Both theories separate in polar coordinates into Bessel
+Prints the table that crates/fe/tests/verification/annular_plate.rs holds. Both theories separate in polar coordinates into Bessel
 functions; a frequency is a zero of the determinant of the six (four) boundary conditions.
 Mindlin (1951, kappa^2 = 5/6): w = w1 + w2, psi_r = (s1 - 1) dw1/dr + (s2 - 1) dw2/dr + n w3 / r,
 psi_t = -n/r ((s1 - 1) w1 + (s2 - 1) w2) - dw3/dr, each w_j a combination of two Bessel functions of order n.

@@ -1,7 +1,7 @@
 """Deflection of a spiral bevel tooth under patch loads: `reference/bevel_tooth/compliance.csv`.
 
 The gear of fe_models/bevel_20_20.toml with a bore of 34 mm, held there. Of it the points of the tooth's surface are taken (`surface.csv`, written by the ignored test of
-crates/mesh/tests/bevel_gears.rs) and the drawing of the blank; all else is done anew: gmsh's triangles in one section, moved from section to section by Laplace's equation,
+crates/mesh/tests/verification/bevel_gears.rs) and the drawing of the blank; all else is done anew: gmsh's triangles in one section, moved from section to section by Laplace's equation,
 split into ten-node tetrahedra with straight edges, scikit-fem's stiffness, conjugate gradients.
 
 The whole ring is solved with coarse tetrahedra. What finer ones change is found on the loaded tooth and one on either side, where body and neighbours are cut off, and added:

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | involute teeth, spur and helical, external or inside a ring, on parallel axes | `involute_mesh.rs`, with [`crate::MeshKinematics`] |
 //! | bevel gears, on axes that meet | `bevel/` |
-//! | crowned cylinders on crossed axes, the example of docs/extending.md | `tests/conformance/crowned_cylinders.rs` |
+//! | crowned cylinders on crossed axes, the example of docs/extending.md | `tests/verification/conformance/crowned_cylinders.rs` |
 //!
 //! At rest, [`crate::PosedFlanks`] makes of any family what a static contact asks for.
 //! A family finds the patches that face each other at a pose, with their gaps and derivatives ([`FlankContacts`]). Models, friction, modes and

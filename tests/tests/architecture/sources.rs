@@ -192,11 +192,11 @@ fn the_page_on_extending_shows_its_examples() {
     let page = read(&root().join("docs/extending.md"));
     for name in [
         "crates/cli/src/commands/schema.rs",
-        "crates/drivetrain/tests/conformance/examples/spring_teeth.rs",
-        "crates/drivetrain/tests/conformance/examples/waviness.rs",
+        "crates/drivetrain/tests/verification/conformance/examples/spring_teeth.rs",
+        "crates/drivetrain/tests/verification/conformance/examples/waviness.rs",
         "crates/dynamics/tests/problems/distance_sensor.rs",
         "crates/dynamics/tests/problems/maxwell.rs",
-        "crates/scene/tests/event_positions/own_figure.rs",
+        "crates/scene/tests/verification/event_positions/own_figure.rs",
     ] {
         let file = read(&root().join(name));
         assert!(

@@ -36,7 +36,8 @@ Usage: cargo xtask <COMMAND>
   test [--fast]   everything that CI runs: formatting, lints, documentation, Rust tests, Python tests
                   --fast   leaves out the tests marked #[ignore], which take minutes
   rust-tests [NAME...]
-                  the Rust tests alone, or those of the programs named (such as `verification`), with the ten slowest
+                  the Rust tests alone, or those of the packages, programs and modules named (such as `scene`,
+                  `validation`, `speed_sweep`), with the slowest
   demo [ARGS]     gear pair A from definition to report, into out/demo; ARGS go to `gearmesh demo`
   bench offline [--quick] [--program PATH]
                   time and memory of the offline stage beside other programs, into docs/benchmarks/offline.md

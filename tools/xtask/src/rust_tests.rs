@@ -20,10 +20,12 @@ pub use binaries::{Binary, built};
 use part::{Length, Part, PartResult};
 
 /// Programs that take minutes. They start first, so that none is left alone at the end; the others in cargo's order.
-const LONG: [(&str, Length); 5] = [
+const LONG: [(&str, Length); 7] = [
     ("reduction verification", Length::LongInModules),
     ("tests validation", Length::LongInModules),
-    ("scene system_scenes", Length::LongInModules),
+    ("scene verification", Length::LongInModules),
+    ("drivetrain verification", Length::LongInModules),
+    ("cli commands", Length::LongInModules),
     // Its modules share two reduced gears.
     ("cli scene_commands", Length::Long),
     ("cli fuzz", Length::Long),
@@ -32,29 +34,33 @@ const LONG: [(&str, Length); 5] = [
 /// Tests listed at the end.
 const SLOWEST: usize = 25;
 
-/// Runs the tests of the programs named in `only`, of all where it is empty. All parts run, whatever fails.
+/// Runs the tests of the packages, programs and modules named in `only`, all where it is empty. All parts run, whatever
+/// fails.
 ///
 /// # Errors
-/// [`XtaskError::TestsFailed`] with the names of what failed or of programs that are not there.
+/// [`XtaskError::TestsFailed`] with the names of what failed or of what is not there.
 pub fn run(
     binaries: Vec<Binary>,
     venv: &Venv,
     extent: Extent,
     only: &[String],
 ) -> Result<(), XtaskError> {
-    let there = |name: &&String| binaries.iter().any(|binary| binary.name == **name);
-    if let Some(name) = only.iter().find(|name| !there(name)) {
-        let names = vec![format!("{name}: no test program has this name")];
-        return Err(XtaskError::TestsFailed { names });
-    }
     let mut parts = Vec::new();
     for binary in binaries {
-        if !only.is_empty() && !only.contains(&binary.name) {
-            continue;
-        }
         let known = LONG.iter().find(|(label, _)| *label == binary.label());
         let length = known.map_or(Length::Short, |(_, length)| *length);
         parts.extend(part::parts_of(binary, extent, length)?);
+    }
+    let missing: Vec<String> = (only.iter())
+        .filter(|name| !parts.iter().any(|part| part.has(name)))
+        .map(|name| format!("{name}: no package, test program or module of tests has this name"))
+        .collect();
+    if !missing.is_empty() {
+        return Err(XtaskError::TestsFailed { names: missing });
+    }
+    if !only.is_empty() {
+        parts.iter_mut().for_each(|part| part.keep(only));
+        parts.retain(|part| !part.tests.is_empty());
     }
     parts.sort_by_key(|part| !part.long);
     summary(&run_side_by_side(parts, venv)?)

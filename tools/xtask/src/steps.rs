@@ -132,7 +132,7 @@ fn tests_build(workspace: &Workspace, venv: &Venv) -> Command {
     build
 }
 
-/// The Rust tests of the programs named, of all where none is.
+/// The Rust tests of the packages, programs and modules named, all where none is.
 ///
 /// # Errors
 /// As [`rust_tests::built`] and [`rust_tests::run`].

@@ -1,7 +1,11 @@
 //! Verification of the reduction on small gears. One binary, so that it links once and long tests run beside each
 //! other.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
+#![allow(clippy::print_stdout, clippy::unwrap_used, missing_docs)]
 
+mod bevel_bodies;
+mod bevel_gauges;
+mod bevel_gears;
+mod bevel_webs;
 mod bore_patterns;
 mod cut_into_shaft;
 mod cut_with_stubs;

@@ -62,8 +62,8 @@ pub fn parts_of(binary: Binary, extent: Extent, length: Length) -> Result<Vec<Pa
     let label = binary.label();
     let mut parts: Vec<Part> = Vec::new();
     for test in tests {
-        let label = match test.split_once("::") {
-            Some((module, _)) if length == Length::LongInModules => format!("{label} {module}"),
+        let label = match module(&test) {
+            Some(module) if length == Length::LongInModules => format!("{label} {module}"),
             _ => label.clone(),
         };
         match parts.iter_mut().find(|part| part.label == label) {
@@ -78,6 +78,11 @@ pub fn parts_of(binary: Binary, extent: Extent, length: Length) -> Result<Vec<Pa
         }
     }
     Ok(parts)
+}
+
+/// The module at the top in which a test is.
+fn module(test: &str) -> Option<&str> {
+    test.split_once("::").map(|(module, _)| module)
 }
 
 /// Names of the program's tests.
@@ -100,6 +105,23 @@ fn names(binary: &Binary, choice: &[&str]) -> Result<Vec<String>, XtaskError> {
 }
 
 impl Part {
+    /// Whether a name is that of its package, of its program or of a module in it.
+    pub fn has(&self, name: &str) -> bool {
+        self.is_all_of(name) || self.tests.iter().any(|test| module(test) == Some(name))
+    }
+
+    fn is_all_of(&self, name: &str) -> bool {
+        self.binary.label().split(' ').any(|word| word == name)
+    }
+
+    /// Keeps the tests that one of the names has.
+    pub fn keep(&mut self, names: &[String]) {
+        if !names.iter().any(|name| self.is_all_of(name)) {
+            let named = |test: &str| names.iter().any(|name| module(test) == Some(name));
+            self.tests.retain(|test| named(test));
+        }
+    }
+
     /// Runs the tests one after another.
     ///
     /// # Errors
@@ -296,6 +318,31 @@ mod tests {
         names.sort();
         all.sort();
         assert_eq!(names, all);
+    }
+
+    #[test]
+    fn parts_are_kept_by_package_program_or_module() {
+        let names = |words: &[&str]| {
+            words
+                .iter()
+                .map(|&word| word.to_owned())
+                .collect::<Vec<String>>()
+        };
+        let whole = own_parts(Length::Long).remove(0);
+        assert!(whole.has("xtask") && whole.has("console") && !whole.has("consol"));
+        let mut all = whole.clone();
+        all.keep(&names(&["console", "xtask"]));
+        assert_eq!(all, whole);
+        let mut some = whole.clone();
+        some.keep(&names(&["console", "venv"]));
+        assert!(!some.tests.is_empty() && some.tests.len() < whole.tests.len());
+        assert!(
+            some.tests
+                .iter()
+                .all(|test| test.starts_with("console::") || test.starts_with("venv::"))
+        );
+        some.keep(&names(&["elsewhere"]));
+        assert!(some.tests.is_empty());
     }
 
     fn ran(tests: &[&str]) -> PartResult {

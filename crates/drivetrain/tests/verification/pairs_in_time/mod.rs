@@ -1,0 +1,17 @@
+//! Gear pairs in time: hard cases, what must be conserved, resonance with backlash, parametric instability, a cracked
+//! tooth, seed 003.
+//!
+//! One program, so that its libraries are linked once.
+#![allow(clippy::unwrap_used, clippy::print_stdout)] // the figures are printed
+
+mod conservation;
+mod friction_reversal;
+mod hard_cases;
+mod helical;
+mod instability;
+mod newton;
+mod overloaded_flanks;
+mod resonance;
+mod root_crack;
+mod scene;
+mod seed_003;

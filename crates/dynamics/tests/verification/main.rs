@@ -1,0 +1,10 @@
+//! Systems of rigid bodies in time, in equilibrium and vibrating.
+#![allow(clippy::unwrap_used)]
+
+mod hard_cases;
+mod mechanisms;
+#[path = "../../../../tests/support/property_cases.rs"]
+mod property_cases;
+mod rigid_body;
+mod statics;
+mod vibration;

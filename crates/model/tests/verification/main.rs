@@ -1,0 +1,6 @@
+//! Model files: written, read, damaged, interrupted.
+#![allow(clippy::unwrap_used)]
+
+mod damaged_files;
+mod interrupted_writing;
+mod reduced_gear_roundtrip;
