@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, clippy::unwrap_used, missing_docs)]
 
 mod analytic_tooth;
+#[path = "../../support/computed.rs"]
 mod computed;
 mod cracked_tooth;
 mod end_effect;

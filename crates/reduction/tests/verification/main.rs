@@ -7,6 +7,8 @@ mod bevel_gauges;
 mod bevel_gears;
 mod bevel_webs;
 mod bore_patterns;
+#[path = "../../../../tests/support/computed.rs"]
+mod computed;
 mod cut_into_shaft;
 mod cut_with_stubs;
 mod cyclic_symmetry;
