@@ -17,6 +17,8 @@ pub(crate) struct LanczosBasis {
     pub len: usize,
     /// Columns that A was applied to.
     pub processed: usize,
+    /// M times the columns after those.
+    product: Mat<f64>,
 }
 
 /// Parts of new columns W = V C + Q R.
@@ -24,6 +26,8 @@ struct Split {
     q: Mat<f64>,
     c: Mat<f64>,
     r: Mat<f64>,
+    /// M Q.
+    product: Mat<f64>,
 }
 
 /// Ritz pairs, largest θ first.
@@ -43,6 +47,7 @@ impl LanczosBasis {
             h: Mat::zeros(0, 0),
             len: 0,
             processed: 0,
+            product: Mat::zeros(unknowns, 0),
         }
     }
 
@@ -55,9 +60,11 @@ impl LanczosBasis {
             .collect();
         // Twice is enough: the second pass removes what rounding of the first left. With W = V C₁ + Q₁ R₁ and
         // Q₁ = V C₂ + Q₂ R₂ the coefficients of W are C₁ + C₂ R₁ and R₂ R₁.
-        let first = self.orthonormalise(w, problem, &norms);
+        let first = self.orthonormalise((w, &product), problem, &norms);
         let units = vec![1.0; first.q.ncols()];
-        let second = self.orthonormalise(first.q, problem, &units);
+        // Anew: where little remained, what the first pass made of the product has its rounding.
+        let product = problem.mass_product(first.q.as_ref());
+        let second = self.orthonormalise((first.q, &product), problem, &units);
         self.reserve(self.len + second.q.ncols());
         if let Some(column) = image_of {
             let in_basis = first.c + second.c * &first.r;
@@ -70,6 +77,7 @@ impl LanczosBasis {
         let added = second.q.ncols();
         self.v.subcols_mut(self.len, added).copy_from(&second.q);
         self.len += added;
+        self.product = second.product;
     }
 
     /// Room for so many columns, and a quarter more so that it is not asked for at every step.
@@ -81,11 +89,16 @@ impl LanczosBasis {
         }
     }
 
-    /// W = V C + Q R with Q M-orthonormal and M-orthogonal to V; columns without remainder, measured against `norms`,
-    /// give none in Q.
-    fn orthonormalise(&self, mut w: Mat<f64>, problem: &impl ModeProblem, norms: &[f64]) -> Split {
+    /// W = V C + Q R with Q M-orthonormal and M-orthogonal to V, from W and M W; columns without remainder, measured
+    /// against `norms`, give none in Q.
+    fn orthonormalise(
+        &self,
+        (mut w, product): (Mat<f64>, &Mat<f64>),
+        problem: &impl ModeProblem,
+        norms: &[f64],
+    ) -> Split {
         let basis = self.v.subcols(0, self.len);
-        let c = basis.transpose() * problem.mass_product(w.as_ref());
+        let c = basis.transpose() * product;
         w -= basis * &c;
         let mut product = problem.mass_product(w.as_ref());
         let columns = w.ncols();
@@ -112,8 +125,16 @@ impl LanczosBasis {
             }
             kept.push(j);
         }
+        let chosen = |of: &Mat<f64>| {
+            let mut chosen = Mat::zeros(of.nrows(), kept.len());
+            for (j, &column) in kept.iter().enumerate() {
+                chosen.col_mut(j).copy_from(of.col(column));
+            }
+            chosen
+        };
         Split {
-            q: Mat::from_fn(w.nrows(), kept.len(), |i, j| w[(i, kept[j])]),
+            q: chosen(&w),
+            product: chosen(&product),
             c,
             r: r.subrows(0, kept.len()).to_owned(),
         }
@@ -123,7 +144,8 @@ impl LanczosBasis {
     pub fn grow(&mut self, block: usize, problem: &impl ModeProblem) -> usize {
         let first = self.processed;
         let count = block.min(self.len - first);
-        let mut images = problem.mass_product(self.v.subcols(first, count));
+        // A block brings as many columns at most: all that were not processed are those of the last one.
+        let mut images = self.product.subcols(0, count).to_owned();
         problem.solve_in_place(images.as_mut());
         self.append(images, problem, Some(first));
         self.processed += count;

@@ -30,10 +30,8 @@ pub(crate) struct SectorMass<'a> {
     hub: SymmetricRows,
     /// Unknown node of each sector node; that of a node of cut L is its image on cut R.
     place: Vec<usize>,
-    /// Whether a sector node lies on cut L.
-    on_left_cut: Vec<bool>,
-    /// Unknown nodes of the sector, teeth apart.
-    sector_nodes: usize,
+    /// Sector node of each unknown node, teeth apart.
+    node: Vec<usize>,
     /// Nodes of the tooth cell that are not shared with the sector.
     inner: Vec<usize>,
 }
@@ -55,13 +53,11 @@ impl<'a> SectorMass<'a> {
         for &node in left {
             on_left_cut[node] = true;
         }
-        let mut place = vec![0; body.sector.node_count()];
-        let mut sector_nodes = 0;
-        for node in 0..place.len() {
-            if !on_left_cut[node] {
-                place[node] = sector_nodes;
-                sector_nodes += 1;
-            }
+        let all = 0..on_left_cut.len();
+        let node: Vec<usize> = all.filter(|&node| !on_left_cut[node]).collect();
+        let mut place = vec![0; on_left_cut.len()];
+        for (unknown, &node) in node.iter().enumerate() {
+            place[node] = unknown;
         }
         for (&r, &l) in right.iter().zip(left) {
             place[l] = place[r];
@@ -80,8 +76,7 @@ impl<'a> SectorMass<'a> {
                 density_kg_per_m3,
             )?),
             place,
-            on_left_cut,
-            sector_nodes,
+            node,
             inner: (0..shared.len()).filter(|&n| !shared[n]).collect(),
         })
     }
@@ -103,12 +98,12 @@ impl<'a> SectorMass<'a> {
 
     /// Displacements in one sector.
     fn unknowns(&self) -> usize {
-        3 * (self.sector_nodes + self.body.sector.own * self.inner.len())
+        3 * (self.node.len() + self.body.sector.own * self.inner.len())
     }
 
     /// First unknown of the inner nodes of the a-th tooth.
     fn tooth_start(&self, a: usize) -> usize {
-        3 * (self.sector_nodes + a * self.inner.len())
+        3 * (self.node.len() + a * self.inner.len())
     }
 }
 
@@ -132,62 +127,70 @@ impl HarmonicProblem<'_> {
         (self.parts as f64 / self.mass.body.sector.sectors as f64).sqrt()
     }
 
-    /// e^{ikα} (a, b) for real and imaginary part a and b; b is zero for real harmonics.
-    fn ahead(&self, steps: usize, [a, b]: [f64; 2]) -> [f64; 2] {
-        let turned = c64::new(a, b) * self.mass.body.interface.turn(self.harmonic * steps);
-        [turned.re, turned.im]
+    /// e^{iksα}: what sector s has more in phase than sector 0.
+    fn turn(&self, s: usize) -> c64 {
+        self.mass.body.interface.turn(self.harmonic * s)
     }
 
-    /// Real and imaginary part of entry `i` of a vector.
-    fn entry(&self, x: MatRef<'_, f64>, i: usize, column: usize) -> [f64; 2] {
-        let n = self.mass.unknowns();
-        let imaginary = if self.parts == 2 {
-            x[(n + i, column)]
-        } else {
-            0.0
+    /// Part of an entry of column `parts` · vector + part, turned by a phase.
+    fn turned(&self, all: &Mat<f64>, (row, first): (usize, usize), turn: c64) -> c64 {
+        let imaginary = match self.parts {
+            2 => all[(row, first + 1)],
+            _ => 0.0,
         };
-        [x[(i, column)], imaginary]
+        turn * c64::new(all[(row, first)], imaginary)
     }
 
-    /// The sector's displacements (rows) from vectors: columns `parts` · vector + part.
-    fn on_sector(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        let mass = self.mass;
-        let mut on_sector = Mat::zeros(3 * mass.place.len(), self.parts * x.ncols());
-        for vector in 0..x.ncols() {
-            for (node, &place) in mass.place.iter().enumerate() {
-                let steps = usize::from(mass.on_left_cut[node]);
-                for axis in 0..3 {
-                    let value = self.ahead(steps, self.entry(x, 3 * place + axis, vector));
-                    for part in 0..self.parts {
-                        on_sector[(3 * node + axis, self.parts * vector + part)] = value[part];
-                    }
+    /// Turns what the sector has on its cut L.
+    fn turn_left_cut(&self, on_sector: &mut Mat<f64>, turn: c64) {
+        let [_, left] = self.mass.body.sector.cuts();
+        for first in (0..on_sector.ncols()).step_by(self.parts) {
+            for row in left.iter().flat_map(|node| 3 * node..3 * node + 3) {
+                let value = self.turned(on_sector, (row, first), turn);
+                on_sector[(row, first)] = value.re;
+                if self.parts == 2 {
+                    on_sector[(row, first + 1)] = value.im;
                 }
             }
         }
+    }
+
+    /// The unknowns of column `parts` · vector + part.
+    fn unknowns<'x>(&self, x: &'x Mat<f64>, column: usize) -> &'x [f64] {
+        let n = self.mass.unknowns();
+        &x.col_as_slice(column / self.parts)[column % self.parts * n..][..n]
+    }
+
+    /// The same to be written.
+    fn unknowns_mut<'x>(&self, x: &'x mut Mat<f64>, column: usize) -> &'x mut [f64] {
+        let n = self.mass.unknowns();
+        &mut x.col_as_slice_mut(column / self.parts)[column % self.parts * n..][..n]
+    }
+
+    /// The sector's displacements (rows) from vectors: columns `parts` · vector + part.
+    fn on_sector(&self, x: &Mat<f64>) -> Mat<f64> {
+        let place = &self.mass.place;
+        let mut on_sector = Mat::zeros(3 * place.len(), self.parts * x.ncols());
+        for column in 0..on_sector.ncols() {
+            let nodes = place.iter().copied().enumerate();
+            let own = self.unknowns(x, column);
+            put(on_sector.col_as_slice_mut(column), own, nodes);
+        }
+        self.turn_left_cut(&mut on_sector, self.turn(1));
         on_sector
     }
 
     /// The displacements of all teeth of the sector, columns tooth by tooth as those of [`Self::on_sector`].
-    fn on_teeth(&self, x: MatRef<'_, f64>, on_sector: MatRef<'_, f64>) -> Mat<f64> {
+    fn on_teeth(&self, x: &Mat<f64>, on_sector: &Mat<f64>) -> Mat<f64> {
         let (mass, body) = (self.mass, self.mass.body);
         let columns = on_sector.ncols();
         let mut teeth = Mat::zeros(3 * body.tooth.node_count(), body.sector.own * columns);
         for a in 0..body.sector.own {
-            let (feet, start) = (body.sector.tooth_nodes(a), mass.tooth_start(a));
             for column in 0..columns {
-                let (vector, part) = (column / self.parts, column % self.parts);
-                let mut tooth = teeth.col_mut(a * columns + column);
-                for (&inside, &node) in body.tooth.boundary().iter().zip(feet) {
-                    for axis in 0..3 {
-                        tooth[3 * inside + axis] = on_sector[(3 * node + axis, column)];
-                    }
-                }
-                for (i, &inside) in mass.inner.iter().enumerate() {
-                    for axis in 0..3 {
-                        let value = self.entry(x, start + 3 * i + axis, vector);
-                        tooth[3 * inside + axis] = value[part];
-                    }
-                }
+                let tooth = teeth.col_as_slice_mut(a * columns + column);
+                put(tooth, on_sector.col_as_slice(column), feet(body, a));
+                let inner = &self.unknowns(x, column)[mass.tooth_start(a)..];
+                put(tooth, inner, counted(&mass.inner));
             }
         }
         teeth
@@ -201,57 +204,41 @@ impl HarmonicProblem<'_> {
         of_tooth: impl Fn(MatRef<'_, f64>) -> Mat<f64>,
     ) -> Mat<f64> {
         let (mass, body) = (self.mass, self.mass.body);
-        let on_sector = self.on_sector(x);
+        let x = x.to_owned();
+        let on_sector = self.on_sector(&x);
         let columns = on_sector.ncols();
         let nodes = body.sector.body_nodes();
-        let at_body = Mat::from_fn(3 * nodes.len(), columns, |i, column| {
-            on_sector[(3 * nodes[i / 3] + i % 3, column)]
-        });
+        let mut at_body = Mat::zeros(3 * nodes.len(), columns);
+        for column in 0..columns {
+            let to = at_body.col_as_slice_mut(column);
+            put(
+                to,
+                on_sector.col_as_slice(column),
+                turned_round(counted(nodes)),
+            );
+        }
         let from_body = of_body(at_body.as_ref());
-        let from_teeth = of_tooth(self.on_teeth(x, on_sector.as_ref()).as_ref());
+        let from_teeth = of_tooth(self.on_teeth(&x, &on_sector).as_ref());
         let mut forces = Mat::zeros(on_sector.nrows(), columns);
         for column in 0..columns {
-            for (i, &node) in nodes.iter().enumerate() {
-                for axis in 0..3 {
-                    forces[(3 * node + axis, column)] += from_body[(3 * i + axis, column)];
-                }
-            }
+            let total = forces.col_as_slice_mut(column);
+            add(total, from_body.col_as_slice(column), counted(nodes));
             for a in 0..body.sector.own {
-                let feet = body.sector.tooth_nodes(a);
-                for (&inside, &node) in body.tooth.boundary().iter().zip(feet) {
-                    for axis in 0..3 {
-                        forces[(3 * node + axis, column)] +=
-                            from_teeth[(3 * inside + axis, a * columns + column)];
-                    }
-                }
+                let tooth = from_teeth.col_as_slice(a * columns + column);
+                add(total, tooth, turned_round(feet(body, a)));
             }
         }
         // Forces on cut L act on cut R, as many phases behind.
+        self.turn_left_cut(&mut forces, self.turn(1).conj());
         let mut result = Mat::zeros(self.size(), x.ncols());
-        let (n, own) = (mass.unknowns(), body.sector.own);
-        for vector in 0..x.ncols() {
-            let first = self.parts * vector;
-            for (node, &place) in mass.place.iter().enumerate() {
-                let back = usize::from(mass.on_left_cut[node]) * (body.sector.sectors - 1);
-                for axis in 0..3 {
-                    let force = std::array::from_fn(|part| match part < self.parts {
-                        true => forces[(3 * node + axis, first + part)],
-                        false => 0.0,
-                    });
-                    let force = self.ahead(back, force);
-                    for part in 0..self.parts {
-                        result[(part * n + 3 * place + axis, vector)] += force[part];
-                    }
-                }
-            }
-            for (a, part) in (0..own).flat_map(|a| (0..self.parts).map(move |part| (a, part))) {
-                let column = a * columns + first + part;
-                for (i, &inside) in mass.inner.iter().enumerate() {
-                    for axis in 0..3 {
-                        let row = part * n + mass.tooth_start(a) + 3 * i + axis;
-                        result[(row, vector)] = from_teeth[(3 * inside + axis, column)];
-                    }
-                }
+        for column in 0..columns {
+            let own = self.unknowns_mut(&mut result, column);
+            let places = mass.place.iter().copied().enumerate();
+            add(own, forces.col_as_slice(column), turned_round(places));
+            for a in 0..body.sector.own {
+                let tooth = from_teeth.col_as_slice(a * columns + column);
+                let inner = turned_round(counted(&mass.inner));
+                put(&mut own[mass.tooth_start(a)..], tooth, inner);
             }
         }
         result
@@ -261,22 +248,75 @@ impl HarmonicProblem<'_> {
     /// teeth.
     pub fn in_sector(&self, shape: &[f64], sector: usize) -> (Vec<f64>, Vec<Vec<f64>>) {
         let body = self.mass.body;
-        let x = MatRef::from_column_major_slice(shape, shape.len(), 1);
-        let on_sector = self.on_sector(x);
-        let teeth = self.on_teeth(x, on_sector.as_ref());
-        let real = |all: &Mat<f64>, first: usize, row: usize| {
-            let imaginary = if self.parts == 2 {
-                all[(row, first + 1)]
-            } else {
-                0.0
-            };
-            self.ahead(sector, [all[(row, first)], imaginary])[0]
-        };
+        let x = MatRef::from_column_major_slice(shape, shape.len(), 1).to_owned();
+        let on_sector = self.on_sector(&x);
+        let teeth = self.on_teeth(&x, &on_sector);
+        let turn = self.turn(sector);
         let rows = |all: &Mat<f64>, first: usize| -> Vec<f64> {
-            (0..all.nrows()).map(|row| real(all, first, row)).collect()
+            let rows = 0..all.nrows();
+            rows.map(|row| self.turned(all, (row, first), turn).re)
+                .collect()
         };
         let of_teeth = (0..body.sector.own).map(|a| rows(&teeth, a * self.parts));
         (rows(&on_sector, 0), of_teeth.collect())
+    }
+
+    /// Displacements of both cuts from the loads that were carried to them, columns `parts` · vector + part.
+    fn at_cuts(&self, loads: &Mat<f64>, vectors: usize) -> Mat<f64> {
+        let interface = &self.mass.body.interface;
+        let (cut, turn) = (interface.cut_size(), self.turn(1));
+        let complex = |row: usize, vector: usize, turn: c64| {
+            self.turned(loads, (row, self.parts * vector), turn)
+        };
+        let mut at_cut = Mat::from_fn(cut, vectors, |i, vector| {
+            complex(i, vector, c64::new(1.0, 0.0)) + complex(cut + i, vector, turn.conj())
+        });
+        interface.solve_harmonic(self.harmonic, at_cut.as_mut());
+        Mat::from_fn(2 * cut, self.parts * vectors, |i, column| {
+            let value = at_cut[(i % cut, column / self.parts)];
+            let value = if i < cut { value } else { turn * value };
+            match column % self.parts {
+                0 => value.re,
+                _ => value.im,
+            }
+        })
+    }
+}
+
+/// Pairs of nodes between which components go: where to and where from.
+trait NodePairs: Iterator<Item = (usize, usize)> {}
+
+impl<I: Iterator<Item = (usize, usize)>> NodePairs for I {}
+
+/// To the listed nodes from those of a list of their own.
+fn counted(nodes: &[usize]) -> impl NodePairs {
+    nodes.iter().copied().zip(0..)
+}
+
+/// To the feet of a tooth cell from the sector's nodes.
+fn feet(body: &CyclicBody, tooth: usize) -> impl NodePairs {
+    let of_sector = body.sector.tooth_nodes(tooth).iter().copied();
+    body.tooth.boundary().iter().copied().zip(of_sector)
+}
+
+/// The other way.
+fn turned_round(nodes: impl NodePairs) -> impl NodePairs {
+    nodes.map(|(to, from)| (from, to))
+}
+
+/// Copies the components of nodes.
+fn put(to: &mut [f64], from: &[f64], nodes: impl NodePairs) {
+    for (at, of) in nodes {
+        to[3 * at..3 * at + 3].copy_from_slice(&from[3 * of..3 * of + 3]);
+    }
+}
+
+/// Adds them.
+fn add(to: &mut [f64], from: &[f64], nodes: impl NodePairs) {
+    for (at, of) in nodes {
+        for axis in 0..3 {
+            to[3 * at + axis] += from[3 * of + axis];
+        }
     }
 }
 
@@ -305,111 +345,65 @@ impl ModeProblem for HarmonicProblem<'_> {
     /// Inwards from the teeth to the sector and its cuts, round the ring, out again.
     fn solve_in_place(&self, mut b: MatMut<'_, f64>) {
         let (mass, body) = (self.mass, self.mass.body);
-        let (n, own, vectors) = (mass.unknowns(), body.sector.own, b.ncols());
+        let (own, vectors) = (body.sector.own, b.ncols());
         let columns = self.parts * vectors;
-        // Of column `parts` · vector + part: the row of an unknown.
-        let row = |column: usize, i: usize| (column % self.parts * n + i, column / self.parts);
+        let mut x = b.to_owned();
+        let (tooth, sector) = (body.tooth.condensation(), body.sector.condensation());
 
-        let mut loads = Mat::zeros(body.tooth.condensation().size(), own * columns);
+        let mut loads = Mat::zeros(tooth.size(), own * columns);
         for (a, column) in (0..own).flat_map(|a| (0..columns).map(move |c| (a, c))) {
-            for (i, &inside) in mass.inner.iter().enumerate() {
-                for axis in 0..3 {
-                    let from = row(column, mass.tooth_start(a) + 3 * i + axis);
-                    loads[(3 * inside + axis, a * columns + column)] = b[from];
-                }
-            }
+            let inner = &self.unknowns(&x, column)[mass.tooth_start(a)..];
+            let to = loads.col_as_slice_mut(a * columns + column);
+            put(to, inner, counted(&mass.inner));
         }
-        let in_teeth = body.tooth.condensation().condense(loads.as_ref());
+        let in_teeth = tooth.condense(loads.as_ref());
         drop(loads);
 
-        let mut loads = Mat::zeros(body.sector.condensation().size(), columns);
+        let mut loads = Mat::zeros(sector.size(), columns);
         for column in 0..columns {
-            for (node, &place) in mass.place.iter().enumerate() {
-                if !mass.on_left_cut[node] {
-                    for axis in 0..3 {
-                        loads[(3 * node + axis, column)] = b[row(column, 3 * place + axis)];
-                    }
-                }
-            }
+            let to = loads.col_as_slice_mut(column);
+            put(to, self.unknowns(&x, column), counted(&mass.node));
             for a in 0..own {
-                for (foot, &node) in body.sector.tooth_nodes(a).iter().enumerate() {
-                    for axis in 0..3 {
-                        loads[(3 * node + axis, column)] +=
-                            in_teeth.kept[(3 * foot + axis, a * columns + column)];
-                    }
-                }
+                let of_tooth = in_teeth.kept.col_as_slice(a * columns + column);
+                add(to, of_tooth, counted(body.sector.tooth_nodes(a)));
             }
         }
-        let in_sector = body.sector.condensation().condense(loads.as_ref());
+        let in_sector = sector.condense(loads.as_ref());
         drop(loads);
 
-        let cut = body.interface.cut_size();
-        let kept = &in_sector.kept;
-        let complex = |row: usize, vector: usize| {
-            let first = self.parts * vector;
-            let imaginary = if self.parts == 2 {
-                kept[(row, first + 1)]
-            } else {
-                0.0
-            };
-            c64::new(kept[(row, first)], imaginary)
-        };
-        let turn = body.interface.turn(self.harmonic);
-        let mut at_cut = Mat::from_fn(cut, vectors, |i, vector| {
-            complex(i, vector) + turn.conj() * complex(cut + i, vector)
-        });
-        body.interface
-            .solve_harmonic(self.harmonic, at_cut.as_mut());
-        let cuts = Mat::from_fn(2 * cut, columns, |i, column| {
-            let value = at_cut[(i % cut, column / self.parts)];
-            let value = if i < cut { value } else { turn * value };
-            if column % self.parts == 0 {
-                value.re
-            } else {
-                value.im
-            }
-        });
-
-        let mut interior = Mat::zeros(body.sector.condensation().interior_size(), columns);
+        let cuts = self.at_cuts(&in_sector.kept, vectors);
+        let mut interior = Mat::zeros(sector.interior_size(), columns);
         for column in 0..columns {
             in_sector.put_interior(column, interior.col_mut(column));
         }
-        let sector = body.sector.condensation();
         let on_sector = sector.expand(cuts.as_ref(), interior.as_ref());
         drop(interior);
 
-        let feet = Mat::from_fn(
-            3 * body.tooth.boundary_count(),
-            own * columns,
-            |i, column| {
-                let node = body.sector.tooth_nodes(column / columns)[i / 3];
-                on_sector[(3 * node + i % 3, column % columns)]
-            },
-        );
-        let mut interior = Mat::zeros(body.tooth.condensation().interior_size(), own * columns);
-        for column in 0..own * columns {
-            in_teeth.put_interior(column, interior.col_mut(column));
+        let mut feet = Mat::zeros(3 * body.tooth.boundary_count(), own * columns);
+        let mut interior = Mat::zeros(tooth.interior_size(), own * columns);
+        for (a, column) in (0..own).flat_map(|a| (0..columns).map(move |c| (a, c))) {
+            let both = a * columns + column;
+            let nodes = turned_round(counted(body.sector.tooth_nodes(a)));
+            put(
+                feet.col_as_slice_mut(both),
+                on_sector.col_as_slice(column),
+                nodes,
+            );
+            in_teeth.put_interior(both, interior.col_mut(both));
         }
-        let tooth = body.tooth.condensation();
         let on_teeth = tooth.expand(feet.as_ref(), Some(interior.as_ref()));
 
         for column in 0..columns {
-            for (node, &place) in mass.place.iter().enumerate() {
-                if !mass.on_left_cut[node] {
-                    for axis in 0..3 {
-                        b[row(column, 3 * place + axis)] = on_sector[(3 * node + axis, column)];
-                    }
-                }
-            }
+            let to = self.unknowns_mut(&mut x, column);
+            let nodes = turned_round(counted(&mass.node));
+            put(to, on_sector.col_as_slice(column), nodes);
             for a in 0..own {
-                for (i, &inside) in mass.inner.iter().enumerate() {
-                    for axis in 0..3 {
-                        let to = row(column, mass.tooth_start(a) + 3 * i + axis);
-                        b[to] = on_teeth[(3 * inside + axis, a * columns + column)];
-                    }
-                }
+                let of_tooth = on_teeth.col_as_slice(a * columns + column);
+                let inner = turned_round(counted(&mass.inner));
+                put(&mut to[mass.tooth_start(a)..], of_tooth, inner);
             }
         }
+        b.copy_from(&x);
     }
 
     /// Closed under multiplication by i, so that both members of each pair are found at the same step.
