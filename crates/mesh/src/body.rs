@@ -124,27 +124,35 @@ pub(crate) fn element_length(gear: &GearDefinition, ring_size: f64) -> impl Fn(f
     }
 }
 
-/// Radius down to which a body that does not repeat does so with its teeth \[m\]; none of one that repeats, and where
-/// nothing lies between the ring below the teeth and the openings.
+/// Places of a circle between the openings and the next one outside of them, as shares of the room there, in the order
+/// in which they are tried: beside some gmsh finds poor quads only.
+const CIRCLE_AT: [f64; 3] = [0.5, 0.6, 0.4];
+
+/// Radii down to which a body that does not repeat may do so with its teeth \[m\], the one that is tried first ahead;
+/// none of one that repeats, and where nothing lies between the ring below the teeth and the openings.
 ///
 /// What is outside of it has the same mesh below every tooth: it is condensed once and joined to a ring by harmonics,
 /// as the teeth are. Half way between the openings and the next circle outside of them, where a module is between
 /// them, the mesh has become coarser, so that few nodes lie on the circle.
-pub fn repeating_down_to_m(gear: &GearDefinition) -> Option<f64> {
-    let openings = gear.blank.openings()?;
-    if gear.sectors() > 1 || gear.mesh.element == Element::Tet10 || gear.mesh.plane_strain {
-        return None;
-    }
-    let (_, outer) = openings.radii_m();
+pub fn repeating_down_to_m(gear: &GearDefinition) -> Vec<f64> {
+    let repeats = gear.sectors() > 1;
+    let openings = gear.blank.openings();
+    let openings = openings
+        .filter(|_| !(repeats || gear.mesh.element == Element::Tet10 || gear.mesh.plane_strain));
+    let Some((_, outer)) = openings.map(|openings| openings.radii_m()) else {
+        return Vec::new();
+    };
     let circles = region_circles(gear);
-    let above = circles.iter().rev().find(|(r, _)| *r > outer)?.0;
+    let mut inwards_last = circles.iter().rev().map(|(r, _)| *r);
+    let above = inwards_last.find(|r| *r > outer).unwrap_or(outer);
     let room = above - outer;
     let deep = if room >= gear.tooth.module_m {
-        outer + 0.5 * room
+        CIRCLE_AT.map(|share| outer + share * room).to_vec()
     } else {
-        above
+        vec![above]
     };
-    (deep < ring_radius_m(gear) - SAME_M).then_some(deep)
+    let ring = ring_radius_m(gear);
+    deep.into_iter().filter(|r| *r < ring - SAME_M).collect()
 }
 
 /// Circles that separate the regions of the body, from the ring inwards, and whether the region below each is web only.
@@ -267,6 +275,11 @@ pub fn body_problem(
         let length = size(inner).min(inner * angle / least as f64);
         thin_ring::is_thin(outer, inner, length) && openings_in(i).is_none()
     };
+    // The bore takes over the hub's number of pieces, so that the hub can be paved regularly.
+    let is_regular = |i: usize| {
+        let is_bore = i + 2 == levels.len() && levels[i + 1].0 <= gear.blank.edge_radius_m();
+        is_bore && gear.blank.web().is_some()
+    };
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut add = |r: f64, phi: f64| {
         points.push([r * phi.cos(), r * phi.sin(), size(r)]);
@@ -277,10 +290,7 @@ pub fn body_problem(
         .iter()
         .enumerate()
         .map(|(level, &(r, _))| {
-            // The bore takes over the hub's number of pieces, so that the hub can be paved regularly.
-            let is_bore = level + 1 == levels.len() && r <= gear.blank.edge_radius_m();
-            let hub_inside = is_bore && gear.blank.web().is_some();
-            if level > 0 && !hub_inside && !is_thin(level - 1) {
+            if level > 0 && !is_regular(level - 1) && !is_thin(level - 1) {
                 // Free regions are meshed two boundary pieces at a time, and blossom needs an even number of those:
                 // the outline of a region has a multiple of four pieces, of which two equal edges are even already.
                 let outer = n;
@@ -356,7 +366,7 @@ pub fn body_problem(
             }
         }
         let mut quads = Vec::new();
-        if is_thin(i) {
+        if is_thin(i) || closed && is_regular(i) && openings_in(i).is_none() {
             let pieces = outer.len() - usize::from(!closed);
             let place = |k: usize| start + angle * k as f64 / pieces as f64;
             let between = thin_ring::circles(steps, &edges, outer.len(), |r, k| add(r, place(k)));

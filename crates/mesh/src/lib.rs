@@ -53,6 +53,7 @@ pub mod grading;
 pub mod heights;
 pub mod layers;
 pub mod mesh_size;
+mod meshed_spans;
 pub mod mid_sides;
 pub mod plane_mesher;
 pub mod python;

@@ -41,8 +41,12 @@ pub struct MeshSize {
     pub tooth_nodes: f64,
     /// Those of them that it shares with the rest.
     pub foot_nodes: f64,
-    /// Nodes of hub, web and rim of one sector, with the feet of its teeth.
-    pub sector_nodes: f64,
+    /// Those of these that it shares with the next tooth.
+    pub side_nodes: f64,
+    /// Nodes of hub, web and rim of one sector.
+    pub body_nodes: f64,
+    /// Nodes of the circle on which the teeth stand.
+    pub circle_nodes: f64,
     /// Nodes of the cut between two sectors; none where one sector is the whole gear.
     pub cut_nodes: f64,
 }
@@ -85,18 +89,20 @@ impl MeshSize {
             tooth_elements,
             tooth_nodes,
             foot_nodes: 0.0,
-            sector_nodes: 0.0,
+            side_nodes: column(side, all),
+            body_nodes: 0.0,
+            circle_nodes: 0.0,
             cut_nodes: column(side, all),
         };
         let mut circles = region_circles(gear);
-        let deep = repeating_down_to_m(gear);
+        let deep = repeating_down_to_m(gear).first().copied();
         if let Some(deep) = deep {
             let inside = circles.iter().position(|(radius, _)| *radius < deep);
             let at = inside.unwrap_or(circles.len());
             circles.insert(at, (deep, circles[at - 1].1));
         }
         let below = if circles[0].1 { web } else { all };
-        size.foot_nodes = column(2.0 * side - 2.0, all) + column(ring + 1.0, below);
+        size.circle_nodes = teeth * column(ring, below);
         let length = element_length(gear, ring_size);
         let (mut body_nodes, mut below_teeth) = (0.0, 0.0);
         for pair in circles.windows(2) {
@@ -120,24 +126,37 @@ impl MeshSize {
                 size.cut_nodes += 4.0 * across / gear.mesh.body_m.powi(2);
                 continue;
             }
-            let quads = free_quads(gear, outer, inner, &length);
-            size.elements += quads * layers;
             let even = Pieces {
                 least: 2,
                 even: true,
             };
             let radial = graded(outer, inner, &length, even).len() as f64 - 1.0;
+            let is_hub = gear
+                .blank
+                .web()
+                .is_some_and(|web| web.hub_radius_m == outer);
+            let quads = if is_hub {
+                // As many pieces on all circles.
+                radial * TAU * outer / length(outer)
+            } else {
+                free_quads(gear, outer, inner, &length)
+            };
+            size.elements += quads * layers;
             if deep.is_some_and(|deep| inner >= deep) {
                 // Part of the cells of the teeth, which share their sides.
                 below_teeth += column(quads, layers);
                 size.tooth_nodes += column(quads / teeth + radial, layers);
+                size.side_nodes += column(radial, layers);
+                let pieces = (inner * TAU / teeth / length(inner) / 2.0).ceil() * 2.0;
+                size.circle_nodes = teeth * column(pieces, layers);
                 continue;
             }
             body_nodes += column(quads, layers);
             size.cut_nodes += column(radial, layers);
         }
         size.nodes += body_nodes + below_teeth;
-        size.sector_nodes = (body_nodes + teeth * (size.foot_nodes - column(side, all))) / sectors;
+        size.foot_nodes = 2.0 * size.side_nodes + size.circle_nodes / teeth;
+        size.body_nodes = body_nodes / sectors;
         if sectors == 1.0 {
             size.cut_nodes = 0.0;
         }

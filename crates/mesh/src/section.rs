@@ -1,9 +1,10 @@
 //! The whole cross-section: tooth cells and body sectors copied round the axis and joined.
 
 use crate::MeshError;
-use crate::body::{BodyLengths, Span, body_problem, first_tooth, repeating_down_to_m};
+use crate::body::first_tooth;
 use crate::crack_line::CrackLine;
-use crate::plane_mesher::{PlaneMesh, mesh_plane};
+use crate::meshed_spans::MeshedSpans;
+use crate::plane_mesher::{PlaneMeshError, mesh_plane};
 use crate::python::PythonEnvironment;
 use crate::ring_radius::ring_radius_m;
 use crate::tooth_blocks::ToothBlocks;
@@ -73,68 +74,29 @@ impl Section {
         let teeth_per_sector = teeth / sectors;
         let cell_problem = ToothBlocks::new(gear);
         let shape = gear.mesh.element.cell();
-        let mismatch = || crate::plane_mesher::PlaneMeshError::Mismatch("another number of meshes");
         if shape == CellKind::Tet10 {
+            let mismatch = || PlaneMeshError::Mismatch("another number of meshes");
             let mut meshes = mesh_plane(python, std::slice::from_ref(&cell_problem.problem))?;
             let cell = cell_problem.finish(meshes.pop().ok_or_else(mismatch)?, shape);
             return Ok(Self::of_teeth(cell, teeth, sectors, first_tooth(gear)?));
         }
         let ring_pieces = cell_problem.ring_pieces();
-        let ring_m = ring_radius_m(gear);
-        let ring_size_m = ring_m * TAU / (teeth * ring_pieces) as f64;
-        let below_teeth = repeating_down_to_m(gear).map(|deep_m| Span {
-            radii_m: [ring_m, deep_m],
-            sectors: teeth,
-            first_tooth: 0,
-            pieces: ring_pieces,
-        });
-        let mut below_teeth = below_teeth
-            .map(|span| body_problem(gear, ring_size_m, &span, BodyLengths::WithinSector))
-            .transpose()?;
-        let mut span = Span {
-            radii_m: [
-                repeating_down_to_m(gear).unwrap_or(ring_m),
-                gear.blank.edge_radius_m(),
-            ],
-            sectors,
-            first_tooth: first_tooth(gear)?,
-            pieces: (below_teeth.as_ref()).map_or(ring_pieces, |below| below.bore.len() - 1),
-        };
-        let mut body = body_problem(gear, ring_size_m, &span, BodyLengths::Wanted)?;
-        let mut problems = vec![cell_problem.problem.clone(), body.problem.clone()];
-        problems.extend(below_teeth.as_ref().map(|below| below.problem.clone()));
-        let mut meshes = mesh_plane(python, &problems)?.into_iter();
-        let (Some(cell_mesh), Some(mut body_mesh)) = (meshes.next(), meshes.next()) else {
-            return Err(mismatch().into());
-        };
-        if sectors > 1 && body_mesh.smallest_scaled_jacobian() < gear.mesh.min_scaled_jacobian {
-            let narrow = body_problem(gear, ring_size_m, &span, BodyLengths::WithinSector)?;
-            let mut meshes = mesh_plane(python, std::slice::from_ref(&narrow.problem))?;
-            (body, body_mesh) = (narrow, meshes.pop().ok_or_else(mismatch)?);
-        }
-        let is_poor =
-            |mesh: &PlaneMesh| mesh.smallest_scaled_jacobian() < gear.mesh.min_scaled_jacobian;
-        if below_teeth.is_some() && (is_poor(&body_mesh) || meshes.as_slice().iter().any(is_poor)) {
-            // gmsh finds no good quads beside this circle: the cells of the teeth end at the ring.
-            below_teeth = None;
-            (span.radii_m[0], span.pieces) = (ring_m, ring_pieces);
-            body = body_problem(gear, ring_size_m, &span, BodyLengths::Wanted)?;
-            let mut meshes = mesh_plane(python, std::slice::from_ref(&body.problem))?;
-            body_mesh = meshes.pop().ok_or_else(mismatch)?;
-        }
-        let mut cell = cell_problem.finish(cell_mesh, shape);
+        let ring_size_m = ring_radius_m(gear) * TAU / (teeth * ring_pieces) as f64;
+        let mut found = MeshedSpans::new(gear, python, &cell_problem, ring_size_m)?;
+        let (span, body, body_mesh) = (&found.span, &mut found.body, &mut found.body_mesh);
+        let mut cell = cell_problem.finish(found.cell_mesh, shape);
         let crack = gear.crack.as_ref();
         let crack = crack
             .map(|crack| CrackLine::new(&mut cell, gear, crack))
             .transpose()?;
         if shape == CellKind::Hex20 {
-            body.make_quadratic(&mut body_mesh);
+            body.make_quadratic(body_mesh);
         }
-        if let (Some(below), Some(mut mesh)) = (&mut below_teeth, meshes.next()) {
+        if let Some((below, mesh)) = &mut found.below_teeth {
             if shape == CellKind::Hex20 {
-                below.make_quadratic(&mut mesh);
+                below.make_quadratic(mesh);
             }
-            cell.extend_below(below, &mesh);
+            cell.extend_below(below, mesh);
         }
         let ring_per_tooth = cell.bottom.len() - 1;
         let mut section = Self::of_teeth(cell, teeth, sectors, span.first_tooth);
@@ -191,7 +153,7 @@ impl Section {
         bore.dedup();
         section.bore = bore;
         section.crack = crack;
-        section.body_right_side = body.right_side;
+        section.body_right_side = found.body.right_side;
         Ok(section)
     }
 

@@ -17,7 +17,7 @@ const AXES: usize = 3;
 
 /// Displacements of the circle that are factorised as one dense block: it takes 1.6 GB, as much as the circle of a
 /// wheel of 90 teeth with 12 layers. Beyond that nested dissection needs less.
-const MOST_ON_CIRCLE: usize = 14_000;
+pub(crate) const MOST_ON_CIRCLE: usize = 14_000;
 
 /// A sector without the inside of its teeth, condensed.
 pub enum SectorCondensation {

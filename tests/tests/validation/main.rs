@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 mod analytic_tooth;
+#[path = "../../support/computed.rs"]
 mod computed;
 mod end_effect;
 mod friction_at_the_root;

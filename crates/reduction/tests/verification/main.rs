@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 mod bore_patterns;
+#[path = "../../../../tests/support/computed.rs"]
+mod computed;
 mod cut_into_shaft;
 mod cut_with_stubs;
 mod cyclic_symmetry;

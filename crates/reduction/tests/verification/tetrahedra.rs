@@ -1,6 +1,7 @@
 //! Gears in ten-node tetrahedra: the mesh is one body without gaps, has the volume of its contour with fillets,
 //! repeats; the teeth deflect as those of hexahedra; small fillets lead to the sharp contour.
 
+use crate::computed;
 use crate::small_gears::{CONTOUR, FILLETED, SLOTS, SOLID, TETRAHEDRA, THIN_RIM, gear, reduced};
 use gearmesh_geometry::body_outline::body_outline;
 use gearmesh_geometry::{GearDefinition, ProfileCurve};
@@ -260,6 +261,12 @@ fn deflections(gear: &GearDefinition) -> [f64; 2] {
     [sum(0) + (contact - mesh) / model.face_width_m, sum(9)]
 }
 
+/// [`deflections`] of a reference, recorded.
+fn recorded(name: &str, gear: &GearDefinition) -> [f64; 2] {
+    let numbers = computed::numbers(name, &gear.source, || deflections(gear).to_vec());
+    numbers.try_into().unwrap()
+}
+
 /// The same solid gear in three elements: no part of the way from mesh to figures is common to both but the algebra.
 #[test]
 #[ignore = "four gears, half a minute"]
@@ -273,10 +280,11 @@ fn a_solid_gear_deflects_as_one_of_hexahedra() {
             2.0 * size
         )
     };
-    let of = |element: &str, size: f64| deflections(&gear(&mesh(element, size), SOLID, 0.0));
+    let with = |element: &str, size: f64| gear(&mesh(element, size), SOLID, 0.0);
+    let of = |element: &str, size: f64| deflections(&with(element, size));
     let tetrahedra = of("tet10", 1.5);
     let finer = of("tet10", 1.0);
-    let quadratic = of("hex20", 1.0);
+    let quadratic = recorded("quadratic_hexahedra_solid", &with("hex20", 1.0));
     let brick = of("hex8-incompatible", 0.75);
     println!("{tetrahedra:?} {finer:?} {quadratic:?} {brick:?}");
     for (k, allowed) in [(0, [3e-3, 1e-3, 1e-2]), (1, [2e-3, 1e-3, 1e-2])] {
@@ -324,7 +332,8 @@ fn small_fillets_lead_to_the_sharp_contour() {
         deflections(&gear(&tetrahedra, &blank, 0.0))
     };
     let sharp = deflections(&gear(&tetrahedra, CONTOUR, 0.0));
-    let layers = deflections(&gear(&format!("element = \"hex20\"\n{mesh}"), CONTOUR, 0.0));
+    let layers = gear(&format!("element = \"hex20\"\n{mesh}"), CONTOUR, 0.0);
+    let layers = recorded("quadratic_hexahedra_sharp_contour", &layers);
     let rounded = [2.0, 1.0, 0.5].map(with);
     println!("layers {layers:?}\nsharp {sharp:?}\n{rounded:?}");
     for k in 0..2 {
