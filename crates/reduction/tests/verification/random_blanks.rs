@@ -283,57 +283,6 @@ impl Draw {
     }
 }
 
-impl Draw {
-    /// A ring with internal teeth: thickness of its rim, what holds it, its cutter and helix.
-    fn ring(&mut self) -> String {
-        let teeth: u32 = self.of(&[24, 30, 36, 45, 60]);
-        let helix = self.of(&["", "", "helix_angle_deg = 15.0\nhand = \"right\"\n"]);
-        let width = self.near(4.0, 20.0);
-        let transverse: f64 = if helix.is_empty() {
-            1.0
-        } else {
-            15f64.to_radians().cos()
-        };
-        let reference = 2.0 * f64::from(teeth) / transverse;
-        // A pinion cutter's root lies at some 1.25 modules; half a module of rim is the least that is thought of here.
-        let outside = self.near(reference + 5.0 + 2.0, reference + 40.0);
-        let band = [self.near(-0.5 * width, 0.0), self.near(0.0, 0.5 * width)];
-        let band = format!("held_band_mm = {band:?}\n");
-        let count: u32 = self.of(&[2, 3, 4, 6, teeth]);
-        let widest = 360.0 / f64::from(count);
-        let lugs = format!(
-            "[blank.lugs]\ncount = {count}\nwidth_deg = {:?}\nphase_deg = {:?}\n",
-            self.near(0.0, widest),
-            self.near(0.0, 10.0)
-        );
-        let held = [
-            String::new(),
-            band.clone(),
-            lugs.clone(),
-            format!("{band}{lugs}"),
-        ];
-        let held = &held[self.0.usize(..held.len())];
-        let cutter = format!(
-            "[tooth.cutter]\nteeth = {}\ntip_radius = {:?}\n",
-            self.of(&[10, 14, 18, 22]),
-            self.near(0.0, 0.4)
-        );
-        let root = self.of(&["", "", "root = \"full-round\"\n"]);
-        let cutter = self.of(&["", "", &cutter]).to_owned();
-        let element = self.of(&["hex8", "hex8-incompatible", "hex20"]);
-        let (shift, addendum) = (self.near(-0.3, 0.5), self.near(0.5, 0.9));
-        let (flank, fillet) = (self.near(1.2, 2.0), self.near(0.3, 0.7));
-        let (long, axial) = (self.near(3.0, 20.0), self.near(0.25 * width, width));
-        format!(
-            "name = \"drawn\"\n[tooth]\nteeth = -{teeth}\nmodule_mm = 2.0\nprofile_shift = {shift:?}\naddendum = {addendum:?}\nface_width_mm = {width:?}\n{helix}{root}\
-             {cutter}[material]\nyoung_GPa = 210.0\npoisson = 0.3\ndensity_kg_per_m3 = 7850.0\n\
-             [reduction]\nroll_stations = 3\nslices = 1\nflanks = [\"right\"]\n\
-             [mesh]\nelement = \"{element}\"\nflank_mm = {flank:?}\nfillet_mm = {fillet:?}\nbody_mm = {long:?}\naxial_mm = {axial:?}\n\
-             [blank]\nkind = \"ring\"\nouter_diameter_mm = {outside:?}\n{held}"
-        )
-    }
-}
-
 /// What became of a drawn gear.
 enum Outcome {
     /// Refused by the key that the message names.
@@ -396,26 +345,15 @@ fn every_blank_is_reduced_or_refused() {
 #[test]
 #[ignore = "some seconds a blank"]
 fn many_blanks_are_reduced_or_refused() {
-    many(Draw::gear, 40);
-}
-
-/// The same of rings with internal teeth, with the same variables.
-#[test]
-#[ignore = "some seconds a ring"]
-fn many_rings_are_reduced_or_refused() {
-    many(Draw::ring, 10);
-}
-
-fn many(drawn: impl Fn(&mut Draw) -> String, default: u64) {
     let number = |name: &str, default: u64| {
         let given = std::env::var(name).ok();
         given.map_or(default, |text| text.parse().unwrap())
     };
-    let (first, count) = (number("BLANKS_FIRST", 1), number("BLANKS", default));
+    let (first, count) = (number("BLANKS_FIRST", 1), number("BLANKS", 40));
     let python = PythonEnvironment::find().unwrap();
     let (mut reduced, mut by_key, mut later, mut failed) = (0, 0, 0, 0);
     for seed in first..first + count {
-        let text = drawn(&mut Draw(fastrand::Rng::with_seed(seed)));
+        let text = Draw(fastrand::Rng::with_seed(seed)).gear();
         let clock = Instant::now();
         let found = catch_unwind(|| outcome(&text, &python));
         let seconds = clock.elapsed().as_secs_f64();
