@@ -176,6 +176,9 @@ def test_what_is_no_model_and_no_number_is_told(pinion, models):
         gm.Pair(models[0], pinion, centre_distance_mm=94.6, torques_Nm=[50])
     with pytest.raises(gm.InputError, match="tooth.profile_shift: found nan"):
         pinion.but(profile_shift=float("nan"))
+    for value, found in [({1, 2}, "a Python set"), (b"x", "a Python bytes"), ([1.0, None], "None")]:
+        with pytest.raises(gm.InputError, match=f"tooth.profile_shift.*: found {found}"):
+            pinion.but(profile_shift=value)
     distance_mm: Any = np.float32(94.6)
     torque_Nm: Any = np.int64(50)
     one = gm.Pair(*models, centre_distance_mm=distance_mm, torques_Nm=torque_Nm)

@@ -203,7 +203,7 @@ def turned(q):
     return z * cos(t) + np.cross(n, z) * sin(t)
 
 
-def solve_rollers(row, force, moments=None, tilt=(0.0, 0.0), guess=(0.0, 0.0)):
+def solve_rollers(row, force, moments=None, tilt=(0.0, 0.0), guess=(0.0, 0.0), methods=("lm", "hybr", "hybr")):
     """Ring under (Fx, Fy) with stated moments (N mm), or with a held tilt. Rollers without load stay midway."""
     count = 2 if moments is None else 4
     arm = 3.0
@@ -235,7 +235,7 @@ def solve_rollers(row, force, moments=None, tilt=(0.0, 0.0), guess=(0.0, 0.0)):
     # Rollers on the loaded side begin pressed.
     for j, p in enumerate(row.psi):
         x[count + 2 * j] = 0.5e3 * (guess[0] * cos(p) + guess[1] * sin(p))
-    for method in ("lm", "hybr", "hybr"):
+    for method in methods:
         x = root(misfit, x, jac=lambda at: slopes(misfit, at), method=method, options=dict(xtol=1e-14)).x
     size = np.abs(misfit(x)).max()
     assert size < 1e-6 * (1 + np.abs(force).max()), size

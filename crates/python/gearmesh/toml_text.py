@@ -25,7 +25,8 @@ def from_toml(text: str, file: str) -> Tables:
 
 
 def plain(value: Any, path: str = "") -> Any:
-    """What JSON knows: paths become texts, NumPy's numbers and arrays Python's. InputError for numbers that are not finite."""
+    """What JSON knows: paths become texts, NumPy's numbers and arrays Python's. InputError for numbers that are not finite and
+    for what a file cannot hold."""
     if isinstance(value, dict):
         below = {str(key): item for key, item in value.items() if item is not None}
         return {key: plain(item, f"{path}.{key}" if path else key) for key, item in below.items()}
@@ -37,7 +38,10 @@ def plain(value: Any, path: str = "") -> Any:
         return [plain(item, f"{path}.{place}") for place, item in enumerate(value)]
     if isinstance(value, float) and not math.isfinite(value):
         raise _native.InputError(f"{path}: found {value}, allowed is a finite number")
-    return value
+    if isinstance(value, (str, int, float)):
+        return value
+    found = "None" if value is None else f"a Python {type(value).__name__}"
+    raise _native.InputError(f"{path}: found {found}, allowed are dicts, lists, numbers, texts and truth values")
 
 
 def with_keys(tables: Tables, changes: dict[str, Any]) -> Tables:

@@ -17,8 +17,10 @@ pub enum Running {
 /// Damping over stiffness of shafts, bearings, meshes and drives \[s\], of which files say nothing: 0.3 % of the
 /// critical one at 1 kHz.
 pub const DAMPING_S: f64 = 1e-6;
-/// Steps in a period of the fastest mesh: the solver asks for ten at least.
+/// Steps in a period of the fastest mesh: the solver asks for ten at least. Planets swing between sun and ring much faster than their teeth come, and
+/// lose them in steps that do not follow.
 const STEPS_A_PERIOD: f64 = 20.0;
+const STEPS_OF_SETS: f64 = 100.0;
 /// Periods of the slowest mesh that are run.
 const PERIODS: f64 = 10.0;
 /// Output times, at most.
@@ -46,12 +48,16 @@ pub fn run_tables(train: &Train) -> Option<String> {
     if fastest == 0.0 {
         return None;
     }
-    let step_s = 1.0 / (STEPS_A_PERIOD * fastest);
+    let steps_a_period = match train.sets.is_empty() {
+        true => STEPS_A_PERIOD,
+        false => STEPS_OF_SETS,
+    };
+    let step_s = 1.0 / (steps_a_period * fastest);
     let steps = (PERIODS / slowest / step_s).ceil();
     let interval_s = step_s * (steps / MOST_ROWS).ceil();
     Some(format!(
         "\n[run]\nkind = \"transient\"\nend_s = {}    # {PERIODS} periods of the slowest mesh\n\n[solver]\nstart = \"equilibrium\"\nstep_s = {}    # a \
-         {STEPS_A_PERIOD}th of a period of the fastest mesh\n\n[output]\ninterval_s = {}\n",
+         {steps_a_period}th of a period of the fastest mesh\n\n[output]\ninterval_s = {}\n",
         number(steps * step_s),
         number(step_s),
         number(interval_s)

@@ -26,9 +26,11 @@ fn printed_settings_are_read_back() {
         let printed = succeeds(&["bevel", &file]).stdout;
         let text = std::fs::read_to_string(&file).unwrap();
         let head = text.split("[gear]").next().unwrap();
-        let again = desk.file(name, format!("{head}\n{printed}"));
-        let [first, second] = [file.as_str(), argument(&again)].map(|f| {
-            let json = succeeds(&["tca", f, "--json"]).json();
+        let again = format!("{head}\n{printed}");
+        let [first, second] = [text.as_str(), &again].map(|pair| {
+            let pair = format!("{pair}\n[tca]\npositions_per_pitch = 8\n");
+            let file = desk.file(name, pair);
+            let json = succeeds(&["tca", argument(&file), "--json"]).json();
             ["peak_to_peak_urad", "contact_ratio"].map(|key| json[key].as_f64().unwrap())
         });
         for (a, b) in first.into_iter().zip(second) {

@@ -3,7 +3,7 @@
 
 use crate::other_gearboxes::{component, demand_all_listed, model, shaft};
 use crate::{file, read};
-use gearmesh_rexs::Import;
+use gearmesh_rexs::{Import, Meshes, Running, import_to_run};
 
 /// Sun 20, three planets 22, ring 64, as an industry program writes them: pins without a relation of their own, carriers in two
 /// halves. `brake` is what the ring's shaft is joined to: the casing, or nothing; `ring_load` a load on that shaft.
@@ -233,5 +233,18 @@ fn planets_that_are_moved_are_named() {
             let off = apart.rem_euclid(120.0);
             assert!(off.min(120.0 - off) < 1e-6, "{angles:?}");
         }
+    }
+}
+
+/// Planets swing between sun and ring faster than their teeth come: with steps of a twentieth of a mesh period, which
+/// trains of cylindrical gears have, sets lost their teeth within milliseconds.
+#[test]
+fn sets_in_time_have_steps_that_follow_their_planets() {
+    let set = gearbox("brake", &[("motor", 10, "50"), ("machine", 14, "")]);
+    for (text, steps) in [(&*set, "a 100th"), (crate::GEARBOX, "a 20th")] {
+        let bytes = text.as_bytes().to_vec();
+        let made = import_to_run(bytes, "box", Meshes::Iso6336, Running::InTime).unwrap();
+        let scene = file(&made, "box.toml");
+        assert!(scene.contains(&format!("# {steps} of a period")), "{scene}");
     }
 }
