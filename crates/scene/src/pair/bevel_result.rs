@@ -335,10 +335,10 @@ pub fn strain(
         let rows = &model.gauges[index];
         let spread = spread_from_heel(model, bevel.face_widths_m[0], result.slices);
         let reader = GaugeReader::new(model, rows, bevel.side, &spread)?;
-        let read = |position: Option<PressedPosition<'_>>| -> Strain {
+        let read = |position: Option<PressedPosition<'_>>, later: usize| -> Strain {
             let pressing = position.into_iter().flat_map(PressedPosition::pressing);
             reader.read(pressing.map(|at| LoadedSlice {
-                tooth: (bevel.teeth_of(at.pair)[member] + rows.tooth) % model.teeth,
+                tooth: (bevel.teeth_of(at.pair + later as i64)[member] + rows.tooth) % model.teeth,
                 slice: at.slice,
                 roll_rad: at.up(member),
                 components: [1.0, 0.0],
@@ -352,8 +352,8 @@ pub fn strain(
         Ok(StrainSeries::read(
             result,
             (gear, rows, coverage),
-            |torque, angle| read(result.even_position(torque, angle)),
-            |position| read(result.position_between(position)),
+            |torque, angle| read(result.even_position(torque, angle), 0),
+            |position, later| read(result.position_between(position), later),
         ))
     };
     gauges.iter().map(one).collect()
