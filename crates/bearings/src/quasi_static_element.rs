@@ -162,10 +162,10 @@ impl QuasiStaticElement {
         &self.pair
     }
 
-    /// Diameter of its balls or rollers \[m\].
+    /// Sizes of its balls or rollers.
     #[must_use]
-    pub fn element_diameter_m(&self) -> f64 {
-        self.sizes.element_diameter_m
+    pub fn sizes(&self) -> &RollingSizes {
+        &self.sizes
     }
 
     /// Angles of all rollers in the frame of the outer ring at a time, row after row \[rad\].

@@ -22,6 +22,17 @@ pub enum DrivetrainError {
         /// By how much \[m\].
         out_m: f64,
     },
+    /// Rollers that go round on a larger circle than the bore.
+    #[error(
+        "its outer race, pitch and roller diameters together, is {:.4} mm wide, the bore in which it stands {:.4} mm: rollers press on the bore itself, or on an outer ring in it; take \
+         the bearing that fits", 1e3 * race_m, 1e3 * bore_m
+    )]
+    RollersTooLarge {
+        /// Diameter of the outer race \[m\].
+        race_m: f64,
+        /// Diameter of the bore \[m\].
+        bore_m: f64,
+    },
     /// Rollers and bore that do not settle.
     #[error(
         "bearing `{bearing}`: rollers and elastic bore do not settle, {missed_n:.3e} N are left of {most_n:.3e} N after {iterations} iterations"

@@ -127,11 +127,11 @@ pub fn read(
             }
             Some(k) if k > 0.0 => k,
             _ => {
-                source.assume(
-                    component,
-                    About::Stiffness,
-                    format!("no {id} given: {without:e} N/mm"),
-                );
+                let found = given.map_or(format!("no {id} given"), |k| {
+                    format!("{id} is {k:e} N/mm, which no bearing has")
+                });
+                let words = format!("{found}: {without:e} N/mm");
+                source.assume(component, About::Stiffness, words);
                 without
             }
         })

@@ -73,9 +73,12 @@ pub fn read(
         source.number(component, "u_coordinate_on_shaft_outer_side", MM)?,
     ];
     let number = |id: &str, unit, most: f64| -> Result<f64, RexsError> {
-        Ok(source
-            .number(component, id, unit)?
-            .map_or(0.0, |k| (1e-3 * k).clamp(0.0, most)))
+        let given = source.number(component, id, unit)?.unwrap_or(0.0);
+        if given < 0.0 {
+            let words = format!("{id} is below zero, which no coupling has: taken as not given");
+            source.assume(component, About::Stiffness, words);
+        }
+        Ok((1e-3 * given).clamp(0.0, most))
     };
     let axial = number("axial_stiffness", N_PER_M, 1e7)?;
     let radial = number("radial_stiffness", N_PER_M, 1e7)?;

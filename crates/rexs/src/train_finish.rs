@@ -341,7 +341,7 @@ pub fn power(source: &Source<'_>, train: &Train) -> Flow {
     }
     let transmitting: Vec<&Load> = train.loads.iter().filter(|l| l.transmits).collect();
     for shaft in found.assumed_speed.iter().filter_map(|&id| component(id)) {
-        source.assume(shaft, About::Torque, format!("no speed of its train is given: {} 1/min, in the sense in which the first torque drives", ASSUMED_RPM));
+        source.assume(shaft, About::Torque, format!("no speed but 0 of its train is given: {} 1/min, in the sense in which the first torque drives", ASSUMED_RPM));
     }
     let stated = |l: &&Load| {
         let torques = [l.torque_nm, l.power_w].into_iter().flatten();

@@ -1,9 +1,11 @@
 //! Bearings that several tests use.
 
-use gearmesh_bearings::QuasiStaticBearing;
 use gearmesh_bearings::bearing_file::BearingFromFile;
-use gearmesh_bearings::definition::BearingDefinition;
+use gearmesh_bearings::definition::{BearingDefinition, BearingGeometry};
+use gearmesh_bearings::quasi_static::Row;
+use gearmesh_bearings::{QuasiStaticBearing, Ratings};
 use gearmesh_geometry::input::InputDocument;
+use nalgebra::{Matrix2, Vector2};
 
 /// REFERENCES §2: Z 16, D 22.23, f 0.5232, 40°, E 206 GPa.
 pub const B218: &str = r#"
@@ -83,4 +85,68 @@ pub fn close(found: f64, expected: f64, relative: f64) {
         "found {found}, expected {expected} within {relative:e}: {:e} off",
         found / expected - 1.0
     );
+}
+
+/// Where the ring of a ball bearing stands under a radial force, and what its balls carry, by springs K δ^1.5 in the
+/// plane, δ = u·e_r less half of the play, each of both races in a row.
+pub fn on_springs(
+    text: &str,
+    force_n: [f64; 3],
+    play_m: f64,
+    missing: Option<usize>,
+) -> (Vector2<f64>, Vec<f64>) {
+    let own = bearing(text);
+    let Row::Ball(row) = &own.rows[0] else {
+        panic!("balls")
+    };
+    let soft = |k: f64| k.powf(-2.0 / 3.0);
+    let both =
+        soft(row.inner.contact.stiffness_n_per_m15) + soft(row.outer.contact.stiffness_n_per_m15);
+    let stiffness = both.powf(-1.5);
+    let approach = |u: &Vector2<f64>, ball: usize| {
+        let angle = std::f64::consts::TAU * ball as f64 / row.balls as f64;
+        let e = Vector2::new(angle.cos(), angle.sin());
+        let is_there = missing != Some(ball);
+        let depth_m = if is_there {
+            u.dot(&e) - 0.5 * play_m
+        } else {
+            0.0
+        };
+        (e, depth_m.max(0.0))
+    };
+    let force = Vector2::new(force_n[0], force_n[1]);
+    let mut u =
+        force.normalize() * (0.5 * play_m.max(0.0) + (force.norm() / stiffness).powf(2.0 / 3.0));
+    for _ in 0..100 {
+        let (mut residual, mut tangent) = (force, Matrix2::zeros());
+        for (e, depth_m) in (0..row.balls).map(|ball| approach(&u, ball)) {
+            residual -= e * (stiffness * depth_m.powf(1.5));
+            tangent += e * e.transpose() * (1.5 * stiffness * depth_m.sqrt());
+        }
+        u += tangent.try_inverse().unwrap() * residual;
+    }
+    let loads = (0..row.balls).map(|ball| stiffness * approach(&u, ball).1.powf(1.5));
+    (u, loads.collect())
+}
+
+/// L10r (10⁶ turns) of ball loads alike on both races, the inner ring turning: ISO/TS 16281 (22) to (26), written out anew for a
+/// bearing without contact angle.
+pub fn life_of_balls(text: &str, loads_n: &[f64]) -> f64 {
+    let definition = definition(text);
+    let BearingGeometry::Ball(g) = &definition.geometry else {
+        panic!("balls")
+    };
+    let gamma = g.ball_diameter_m / g.pitch_diameter_m;
+    let groove = |f: f64| (2.0 * f - 1.0) / f;
+    let grooves = (groove(g.outer_conformity) / groove(g.inner_conformity)).powf(0.41);
+    let ratio = 1.044 * ((1.0 - gamma) / (1.0 + gamma)).powf(1.72) * grooves;
+    let even = Ratings::of(&definition).dynamic_n / g.balls as f64;
+    let mean = |power: f64| {
+        let sum: f64 = loads_n.iter().map(|q| q.powf(power)).sum();
+        (sum / g.balls as f64).powf(1.0 / power)
+    };
+    let inner = even / 0.407 * (1.0 + ratio.powf(10.0 / 3.0)).powf(0.3);
+    let outer = even / 0.389 * (1.0 + ratio.powf(-10.0 / 3.0)).powf(0.3);
+    let damage = (mean(3.0) / inner).powf(10.0 / 3.0) + (mean(10.0 / 3.0) / outer).powf(10.0 / 3.0);
+    damage.powf(-0.9)
 }

@@ -8,8 +8,9 @@ use std::cell::Cell;
 use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Vector3};
 
+use super::nearest_points::LongEdge;
 use super::pose_derivatives::PoseDerivatives;
-use super::section_points::{TIPS, TipHeld, middle, nearest_on_section, tip_of};
+use super::section_points::{EDGES, edge_of, middle, nearest_on_section};
 use super::sliced_mesh::{BevelSlices, nearest_first};
 use super::tooth_side::placed;
 use crate::flank_contacts::{FlankContacts, TeethLine};
@@ -42,7 +43,7 @@ pub(super) struct Searched {
 struct Sought {
     line: usize,
     slice: usize,
-    tip: TipHeld,
+    edge: Option<LongEdge>,
     at: [[f64; 2]; 2],
 }
 
@@ -113,7 +114,7 @@ impl BevelSlices {
             searched.sought.push(Sought {
                 line: contact.line,
                 slice: contact.slice,
-                tip: tip_of(last),
+                edge: edge_of(last),
                 at: [0, 1].map(|m: usize| [0, 1].map(|k: usize| last.at[m][k] + by[2 * m + k])),
             });
         }
@@ -129,12 +130,12 @@ impl BevelSlices {
             let (first, mut least_m) = (found.contacts.len(), f64::INFINITY);
             for sought in of_line {
                 let s = middle(sought.slice, self.slices());
-                let tips = std::iter::once(sought.tip).chain(TIPS);
-                let point = nearest_on_section(&bodies, s, tips, sought.at);
+                let edges = std::iter::once(sought.edge).chain(EDGES);
+                let point = nearest_on_section(&bodies, s, edges, sought.at);
                 is_whole = point.is_some_and(|point| {
                     least_m = least_m.min(point.gap_m);
                     let motion = &mut list[found.contacts.len()];
-                    *motion = if tip_of(&point) == sought.tip {
+                    *motion = if edge_of(&point) == sought.edge {
                         motion.next_to(&point, &pose.displacement_m)
                     } else {
                         PoseDerivatives::new(&point, &pose.displacement_m)

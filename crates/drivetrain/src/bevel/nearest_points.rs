@@ -25,6 +25,9 @@ use super::tooth_side::about_z;
 const MOST_STEPS: usize = 15;
 /// Longest step of a coordinate, flanks being 1 long.
 const LONGEST: f64 = 0.3;
+/// Lower lines count that stand no deeper behind the mate's flank than this share of their own flank's height, a fifth of a module: a tooth is
+/// thicker, and what lies behind it is no contact.
+const DEEPEST: f64 = 0.1;
 /// A step below ends the iteration: what is left is of the order of its square, and points at its end follow from those at
 /// its start by their derivatives.
 const CLOSE: f64 = 1e-7;
@@ -134,6 +137,14 @@ impl Nearest {
                 None => true,
                 Some(end) => self.slope(m, k) * (2.0 * end - 1.0) <= 1e-12,
             })
+        })
+    }
+
+    /// Whether no lower line holds it from behind the mate's tooth.
+    pub(super) fn is_before_the_tooth(&self) -> bool {
+        LongEdge::of(&self.held).is_none_or(|edge| {
+            let height_m = self.points[edge.member].dr[1].norm();
+            edge.is_tip || self.gap_m > -DEEPEST * height_m
         })
     }
 }
@@ -247,22 +258,68 @@ pub(super) fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) 
     None
 }
 
+/// An edge along the face: the tip of a member, or the lower line of one whose patch ends there, as those of flanks do that
+/// turn back close below. A mate that reaches deeper touches that line: its contact would else be lost with all its force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct LongEdge {
+    pub member: usize,
+    pub is_tip: bool,
+}
+
+impl LongEdge {
+    pub(super) const ALL: [Self; 4] = [
+        Self::new(0, true),
+        Self::new(1, true),
+        Self::new(0, false),
+        Self::new(1, false),
+    ];
+
+    const fn new(member: usize, is_tip: bool) -> Self {
+        Self { member, is_tip }
+    }
+
+    /// The one that holds a contact.
+    pub(crate) fn of(held: &Held) -> Option<Self> {
+        let of_member = |m: usize| Some(Self::new(m, held[m][1]? > 0.5));
+        (0..2).find_map(of_member)
+    }
+
+    /// Its place up the flank.
+    pub(super) fn end(self) -> f64 {
+        f64::from(u8::from(self.is_tip))
+    }
+
+    /// Whether the patch has it.
+    pub(super) fn is_there(self, bodies: &[Placed<'_>; 2]) -> bool {
+        self.is_tip || bodies[self.member].patch.domain()[1][0] >= 0.0
+    }
+}
+
 /// What holds a contact back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Limit {
-    /// Tip of member 0 or 1.
-    Tip(usize),
+    /// An edge along the face.
+    Long(LongEdge),
     /// Both toes or both heels: the first of the two ends.
     End(usize),
 }
 
-const LIMITS: [Limit; 4] = [Limit::Tip(0), Limit::Tip(1), Limit::End(0), Limit::End(1)];
+const LIMITS: [Limit; 6] = [
+    Limit::Long(LongEdge::ALL[0]),
+    Limit::Long(LongEdge::ALL[1]),
+    Limit::Long(LongEdge::ALL[2]),
+    Limit::Long(LongEdge::ALL[3]),
+    Limit::End(0),
+    Limit::End(1),
+];
 
 impl Limit {
     /// By how much a contact stands beyond it, in lengths of the flank; within it below zero.
     fn excess(self, at: &[[f64; 2]; 2]) -> f64 {
         match self {
-            Self::Tip(member) => at[member][1] - 1.0,
+            Self::Long(edge) if edge.is_tip => at[edge.member][1] - 1.0,
+            // A patch that goes on below its lower line has no edge there, one that does not has no contacts beyond.
+            Self::Long(_) => f64::NEG_INFINITY,
             Self::End(end) => {
                 let sign = 2.0 * end as f64 - 1.0;
                 let beyond = |m: usize| sign * (at[m][0] - end as f64);
@@ -274,7 +331,7 @@ impl Limit {
     /// Holds the coordinate of a member.
     fn hold(self, member: usize, mut held: Held) -> Held {
         match self {
-            Self::Tip(_) => held[member][1] = Some(1.0),
+            Self::Long(edge) => held[member][1] = Some(edge.end()),
             Self::End(end) => held[member][0] = Some(end as f64),
         }
         held
@@ -284,51 +341,56 @@ impl Limit {
 /// Slack of limits: rounding.
 const SLACK: f64 = 1e-9;
 
-/// What holds a contact: a tip, toes or heels, a tip and an end, or nothing inside both flanks.
+/// What holds a contact: an edge along the face, toes or heels, such an edge and an end, or nothing inside both flanks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Limits {
-    tip: Option<usize>,
+    long: Option<LongEdge>,
     end: Option<usize>,
 }
 
 impl Limits {
-    const NONE: Self = Self {
-        tip: None,
-        end: None,
-    };
-    const ONE: [Self; 4] = [
-        Self::new(Some(0), None),
-        Self::new(Some(1), None),
+    const NONE: Self = Self::new(None, None);
+    const ONE: [Self; 6] = [
+        Self::new(Some(LongEdge::ALL[0]), None),
+        Self::new(Some(LongEdge::ALL[1]), None),
         Self::new(None, Some(0)),
         Self::new(None, Some(1)),
+        Self::new(Some(LongEdge::ALL[2]), None),
+        Self::new(Some(LongEdge::ALL[3]), None),
     ];
 
-    /// The tip of a member, or nothing.
-    pub(super) const fn of_tip(tip: Option<usize>) -> Self {
-        Self::new(tip, None)
+    /// An edge along the face, or nothing.
+    pub(super) const fn along(long: Option<LongEdge>) -> Self {
+        Self::new(long, None)
     }
 
-    const fn new(tip: Option<usize>, end: Option<usize>) -> Self {
-        Self { tip, end }
+    const fn new(long: Option<LongEdge>, end: Option<usize>) -> Self {
+        Self { long, end }
+    }
+
+    /// Edges along the face with toes or heels.
+    fn corners() -> impl Iterator<Item = Self> {
+        let with_ends = |edge| [0, 1].map(|end| Self::new(Some(edge), Some(end)));
+        LongEdge::ALL.into_iter().flat_map(with_ends)
     }
 
     /// Those that hold coordinates of a contact.
     pub(crate) fn of(held: &Held) -> Self {
         let end = held.iter().find_map(|own| own[0]);
         Self {
-            tip: (0..2).find(|m| held[*m][1].is_some()),
+            long: LongEdge::of(held),
             end: end.map(|end| usize::from(end > 0.5)),
         }
     }
 
-    /// The tip that holds, if one does.
-    pub(super) fn tip(self) -> Option<usize> {
-        self.tip
+    /// The edge along the face that holds, if one does.
+    pub(super) fn long(self) -> Option<LongEdge> {
+        self.long
     }
 
     fn holds(self, limit: Limit) -> bool {
         match limit {
-            Limit::Tip(member) => self.tip == Some(member),
+            Limit::Long(edge) => self.long == Some(edge),
             Limit::End(end) => self.end == Some(end),
         }
     }
@@ -352,9 +414,14 @@ impl Limits {
         start: [[f64; 2]; 2],
         elsewhere: &Cell<Option<Nearest>>,
     ) -> Option<Nearest> {
-        let tips = self.tip.map_or(FREE, |tip| Limit::Tip(tip).hold(tip, FREE));
+        if self.long.is_some_and(|edge| !edge.is_there(bodies)) {
+            return None;
+        }
+        let hold = |edge: LongEdge| Limit::Long(edge).hold(edge.member, FREE);
+        let long = self.long.map_or(FREE, hold);
         let one = |held: Held| {
-            let found = solve(bodies, held, start).filter(|found| self.others_hold(&found.at));
+            let found = solve(bodies, held, start)
+                .filter(|found| self.others_hold(&found.at) && found.is_before_the_tooth());
             let (back, on) = (
                 found.filter(Nearest::is_held_back),
                 found.filter(|f| !f.is_held_back()),
@@ -363,9 +430,9 @@ impl Limits {
             back
         };
         let Some(end) = self.end else {
-            return one(tips);
+            return one(long);
         };
-        let [a, b] = [0, 1].map(|member| one(Limit::End(end).hold(member, tips)));
+        let [a, b] = [0, 1].map(|member| one(Limit::End(end).hold(member, long)));
         match (a, b) {
             (Some(a), Some(b)) => Some(if b.gap_m > a.gap_m { b } else { a }),
             (a, b) => a.or(b),
@@ -388,12 +455,8 @@ pub(crate) fn nearest_from(
     likely: Limits,
     guess: [[f64; 2]; 2],
 ) -> Option<Nearest> {
-    let corners = [0, 1].map(|tip| [0, 1].map(|end| Limits::new(Some(tip), Some(end))));
     let others = [Limits::NONE].into_iter().chain(Limits::ONE);
-    let mut all = [likely]
-        .into_iter()
-        .chain(others)
-        .chain(corners.into_iter().flatten());
+    let mut all = [likely].into_iter().chain(others).chain(Limits::corners());
     all.find_map(|limits| nearest_within(bodies, limits, guess))
 }
 
@@ -434,9 +497,12 @@ pub(crate) fn nearest(
     };
     // Those that the contact of the surfaces has passed first, or, where none was found, those towards which the gap shrinks;
     // the others only where none of them holds.
-    let passed = |limits: Limits| match (inside, limits.tip, limits.end) {
+    let passed = |limits: Limits| match (inside, limits.long, limits.end) {
         (Some(found), ..) => !limits.none_passed(&found.at),
-        (None, Some(member), _) => foot.slope(member, 1) < 0.0 || foot.slope(1 - member, 1) > 0.0,
+        (None, Some(edge), _) => {
+            let sign = 2.0 * edge.end() - 1.0;
+            sign * foot.slope(edge.member, 1) < 0.0 || sign * foot.slope(1 - edge.member, 1) > 0.0
+        }
         (None, None, end) => {
             let sign = 2.0 * end.unwrap_or(0) as f64 - 1.0;
             sign * foot.slope(0, 0) < 0.0 || sign * foot.slope(1, 0) < 0.0
@@ -464,11 +530,8 @@ pub(crate) fn nearest(
         return Ok(found);
     }
     let mut found = None;
-    for tip in [0, 1] {
-        for end in [0, 1] {
-            let limits = Limits::new(Some(tip), Some(end));
-            found = least(found, limits.contact(bodies, start, &Cell::new(None)));
-        }
+    for limits in Limits::corners() {
+        found = least(found, limits.contact(bodies, start, &Cell::new(None)));
     }
     let from = elsewhere.get().map_or(start, |from| from.at);
     found.ok_or(NoContact::Missed(from))

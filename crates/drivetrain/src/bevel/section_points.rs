@@ -8,52 +8,60 @@
 //! gear 2's tip       d·∂r₁/∂v = 0,  d·∂r₂/∂s = 0,  v of gear 2 at its end: the section across the tip's edge
 //! ```
 //!
+//! Lower lines at which a patch ends hold as tips do.
+//!
 //! The row of sections follows the line on which the flanks nearly touch; where the tips touch it follows their edges.
 
 use nalgebra::{Vector3, Vector4};
 
-use super::nearest_points::{Held, Nearest, Placed, equations, solve};
+use super::nearest_points::{Held, LongEdge, Nearest, Placed, equations, solve};
 
 /// Slack of the ends: rounding.
 const SLACK: f64 = 1e-9;
 
-/// Which tip holds a section's contact: of gear 1, of gear 2, or none.
-pub(crate) type TipHeld = Option<usize>;
-
-/// What may hold a section, whichever comes first.
-pub(super) const TIPS: [TipHeld; 3] = [None, Some(0), Some(1)];
+/// What may hold a section, whichever comes first: nothing, or an edge along the face.
+pub(super) const EDGES: [Option<LongEdge>; 5] = [
+    None,
+    Some(LongEdge::ALL[0]),
+    Some(LongEdge::ALL[1]),
+    Some(LongEdge::ALL[2]),
+    Some(LongEdge::ALL[3]),
+];
 
 /// Coordinates of a section that stand still.
-fn held(s: f64, tip: TipHeld) -> Held {
+fn held(s: f64, edge: Option<LongEdge>) -> Held {
     let mut held = [[Some(s), None], [None; 2]];
-    if let Some(member) = tip {
-        held[member][1] = Some(1.0);
+    if let Some(edge) = edge {
+        held[edge.member][1] = Some(edge.end());
     }
     held
 }
 
-/// The tip that holds a contact.
-pub(crate) fn tip_of(found: &Nearest) -> TipHeld {
-    (0..2).find(|m| found.held[*m][1].is_some())
+/// The edge along the face that holds a contact.
+pub(crate) fn edge_of(found: &Nearest) -> Option<LongEdge> {
+    LongEdge::of(&found.held)
 }
 
-/// The nearest points of a section under the first of these tips that holds it, from a guess nearby.
+/// The nearest points of a section under the first of these edges that holds it, from a guess nearby.
 pub(crate) fn nearest_on_section(
     bodies: &[Placed<'_>; 2],
     s: f64,
-    tips: impl IntoIterator<Item = TipHeld>,
+    edges: impl IntoIterator<Item = Option<LongEdge>>,
     start: [[f64; 2]; 2],
 ) -> Option<Nearest> {
-    let holds = |found: &Nearest, tip: TipHeld| {
-        (0..2).all(|m| match tip == Some(m) {
-            // Beyond the tip the gap would shrink further.
-            true => found.slope(m, 1) <= 1e-12,
-            false => found.at[m][1] <= 1.0 + SLACK,
+    let holds = |found: &Nearest, edge: Option<LongEdge>| {
+        (0..2).all(|m| match edge.filter(|edge| edge.member == m) {
+            // Beyond the edge the gap would shrink further.
+            Some(edge) => {
+                (2.0 * edge.end() - 1.0) * found.slope(m, 1) <= 1e-12 && found.is_before_the_tooth()
+            }
+            None => found.at[m][1] <= 1.0 + SLACK,
         })
     };
-    for tip in tips {
-        let found = solve(bodies, held(s, tip), start);
-        if found.as_ref().is_some_and(|found| holds(found, tip)) {
+    let is_there = |edge: &Option<LongEdge>| edge.is_none_or(|edge| edge.is_there(bodies));
+    for edge in edges.into_iter().filter(is_there) {
+        let found = solve(bodies, held(s, edge), start);
+        if found.as_ref().is_some_and(|found| holds(found, edge)) {
             return found;
         }
     }
@@ -69,23 +77,24 @@ pub(super) fn middle(slice: usize, slices: usize) -> f64 {
 pub(super) fn sections(
     bodies: &[Placed<'_>; 2],
     at: [[f64; 2]; 2],
-    tip: TipHeld,
+    edge: Option<LongEdge>,
     slices: usize,
 ) -> Vec<Option<Nearest>> {
     let mut all = vec![None; slices];
     let first = ((at[0][0] * slices as f64) as usize).min(slices - 1);
     let mut go = |numbers: &mut dyn Iterator<Item = usize>| {
-        let (mut start, mut tip) = (at, tip);
+        let (mut start, mut edge) = (at, edge);
         for slice in numbers {
             let s = middle(slice, slices);
             let shift = s - start[0][0];
             let mut guess = start;
             guess[0][0] = s;
             guess[1][0] += shift;
-            let order = std::iter::once(tip).chain(TIPS.into_iter().filter(|other| *other != tip));
+            let others = EDGES.into_iter().filter(|other| *other != edge);
+            let order = std::iter::once(edge).chain(others);
             all[slice] = nearest_on_section(bodies, s, order, guess);
             if let Some(found) = &all[slice] {
-                (start, tip) = (found.at, tip_of(found));
+                (start, edge) = (found.at, edge_of(found));
             }
         }
     };

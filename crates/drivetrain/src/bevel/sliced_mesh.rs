@@ -19,7 +19,7 @@ use super::nearby_sections::{NEARBY_M, Searched};
 use super::nearest_points::Nearest;
 use super::nominal_contacts::Guess;
 use super::pose_derivatives::{MovingContacts, PoseDerivatives, gradient};
-use super::section_points::{TIPS, middle, nearest_on_section};
+use super::section_points::{EDGES, middle, nearest_on_section};
 use super::sliced_side::SlicedSide;
 use super::tooth_pairing::{Candidate, MOST_PAIRS};
 use super::tooth_side::{about_z, placed};
@@ -240,9 +240,9 @@ impl BevelSlices {
             let s = middle(slice, self.layout.slices);
             let likely = sliced.nominal[slice]
                 .limits(&guess)
-                .map(|limits| limits.tip());
-            let tips = likely.chain(TIPS);
-            let Some(point) = nearest_on_section(&bodies, s, tips, guess.at) else {
+                .map(|limits| limits.long());
+            let edges = likely.chain(EDGES);
+            let Some(point) = nearest_on_section(&bodies, s, edges, guess.at) else {
                 continue;
             };
             let motion = PoseDerivatives::new(&point, &pose.displacement_m);

@@ -10,7 +10,7 @@ use super::hertz_stiffness::curvature;
 use super::line_geometry::{LineGeometry, Sample};
 use super::nearest_points::{Nearest, nearest_within};
 use super::nominal_contacts::NominalContacts;
-use super::section_points::{line_tangent, sections, tip_of};
+use super::section_points::{edge_of, line_tangent, sections};
 use super::tooth_side::{REACH, Side, nominal_rotation, placed};
 
 /// A side in slices.
@@ -44,12 +44,12 @@ impl SlicedSide {
             let whole = side.nominal.entry(number);
             let whole = whole.and_then(|(limits, at)| nearest_within(&bodies, limits, at));
             let here = whole.map_or(vec![None; slices], |whole| {
-                sections(&bodies, whole.at, tip_of(&whole), slices)
+                sections(&bodies, whole.at, edge_of(&whole), slices)
             });
             let inside = here
                 .iter()
                 .flatten()
-                .filter(|point| tip_of(point).is_none());
+                .filter(|point| edge_of(point).is_none());
             samples.extend(inside.filter_map(sample));
             found.push(here.into_iter().map(|point| (rotation, point)).collect());
         }

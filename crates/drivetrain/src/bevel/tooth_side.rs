@@ -12,7 +12,7 @@ use super::nearest_points::{
     FREE, Limits, Nearest, NoContact, Placed, nearest, nearest_from, nearest_within, solve,
 };
 use super::nominal_contacts::{Guess, NominalContacts};
-use super::section_points::{sections, tip_of};
+use super::section_points::{edge_of, sections};
 use crate::error::DrivetrainError;
 
 /// Pitches of the pinion to either side of the plane of the axes within which teeth are looked at.
@@ -132,8 +132,7 @@ impl Side {
         let found = found.or_else(|| searched(bodies, &self.spheres, far_m));
         found.or_else(|| {
             let guess = nominal?;
-            nearest_from(bodies, Limits::of_tip(None), guess.at)
-                .filter(|found| found.gap_m <= far_m)
+            nearest_from(bodies, Limits::along(None), guess.at).filter(|found| found.gap_m <= far_m)
         })
     }
 }
@@ -262,7 +261,7 @@ pub(super) fn searched(
             let found = sections(bodies, from, None, SECTIONS);
             let found = found.into_iter().flatten();
             let least = found.min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))?;
-            nearest_from(bodies, Limits::of_tip(tip_of(&least)), least.at)
+            nearest_from(bodies, Limits::along(edge_of(&least)), least.at)
                 .filter(|found| found.gap_m <= far_m)
         }
     }

@@ -26,6 +26,9 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::error::DrivetrainError;
 
+/// Largest outer race of the rollers over the bore: files round their numbers.
+const LARGEST_RACE: f64 = 1.01;
+
 /// A gear on rollers that press on its bore.
 pub struct GearOnRollers<'a> {
     /// The bearing: its outer ring, marker A, is the gear's bore.
@@ -93,8 +96,14 @@ impl RollerBore {
             let out_m = farthest_m.get();
             return Err(DrivetrainError::RollersOutside { out_m });
         }
+        let sizes = bearing.sizes();
+        let race_m = sizes.pitch_diameter_m + sizes.element_diameter_m;
+        let bore_m = 2.0 * motions.radius_m;
+        if race_m > LARGEST_RACE * bore_m {
+            return Err(DrivetrainError::RollersTooLarge { race_m, bore_m });
+        }
         let m = motions.count();
-        let half_arc_rad = 0.5 * bearing.element_diameter_m() / motions.radius_m;
+        let half_arc_rad = sizes.element_diameter_m / bore_m;
         let of_order = |order: f64| match order * half_arc_rad {
             0.0 => 1.0,
             arc => arc.sin() / arc,

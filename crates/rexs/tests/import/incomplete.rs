@@ -61,3 +61,15 @@ fn a_centre_distance_that_the_shafts_do_not_have_is_told() {
     ));
     assert!(!assumed(&read(&small()), "but the shafts stand"));
 }
+
+/// A stiffness of a sign that none has is not "not given".
+#[test]
+fn stiffnesses_below_zero_are_named() {
+    let place = "<attribute id=\"u_coordinate_on_shaft_inner_side\" unit=\"mm\">10</attribute>";
+    let stiff = "<attribute id=\"radial_stiffness\" unit=\"N / m\">-1e9</attribute>";
+    let made = read(&changed(&small(), place, &format!("{place}{stiff}")));
+    assert!(assumed(
+        &made,
+        "radial_stiffness is -1e6 N/mm, which no bearing has: 5e5 N/mm"
+    ));
+}

@@ -358,6 +358,22 @@ fn check_motion(
     tally.deviation("energy error", result.relative_energy_error().unwrap());
 }
 
+/// Number 86 of seed 77: its gear reaches below the lower line of the pinion's flank, where the patch ends. The contact was lost there, came back 32 µm deep
+/// and threw the gear: energy was off by 5 % of the work. Allowed is a tenth of what a run refuses.
+#[test]
+fn a_gear_that_reaches_below_the_flank_touches_its_lower_line() {
+    let text = include_str!("reaches_below.toml");
+    let document = InputDocument::new("drawn.toml", text);
+    let file = PairFile::from_document(&document).unwrap();
+    let design = file.checked_design(&document).unwrap().0;
+    let pair = AssembledPair::new(&file, &design).unwrap();
+    let mut path = pair.path().unwrap().path.iter();
+    assert!(path.any(|p| p.kind == ContactKind::LowerEnd { member: 0 }));
+    let mut tally = Tally::default();
+    check_motion(text, (&file, &design, &pair), &mut tally);
+    assert!(tally.most["energy error"] < 1e-3, "{:?}", tally.most);
+}
+
 /// A few pairs of [`many_bevel_pairs`].
 #[test]
 fn random_pairs_are_refused_or_move_as_analysed() {

@@ -314,6 +314,9 @@ impl LoadedSystem {
             &mut builder,
             &mut parts,
         )?;
+        if seeks_rest {
+            self.refuse_loose_planets(&parts)?;
+        }
         let gauges = self.gauges(&bodies, &meshes)?;
         let ratings = ratings::build(&self.scene, &bodies, &meshes, &gauges)?;
         let built_meshes = meshes.iter().map(|mesh| describe(mesh, &bodies)).collect();

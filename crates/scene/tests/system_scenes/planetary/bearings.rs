@@ -79,6 +79,13 @@ fn planets_with_play_on_rollers_find_their_equilibrium() {
         ],
     )
     .replace("stiffness_N_per_mm_um = 20.0", "stiffness_amplitude = 0.1");
+    // Without what holds them along their pins no equilibrium was found, after half a minute.
+    let refused = build_in(&text.replace("support = \"floating\"\n", ""), folder.path());
+    let message = refused.map(|_| ()).unwrap_err().to_string();
+    assert!(
+        message.contains("nothing else holds `set planet 1` there"),
+        "{message}"
+    );
     let result = run(&text, folder.path());
     for planet in 1..=3 {
         let force = in_carrier(&result, planet, 0);

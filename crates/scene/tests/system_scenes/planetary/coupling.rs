@@ -231,6 +231,15 @@ fn bores_on_rollers_that_nothing_holds_or_follows_are_refused() {
     let balls = "name = \"balls\"\nkind = \"deep-groove\"\nballs = 8\nball_diameter_mm = 5.0\npitch_diameter_mm = 25.0\n\
                  inner_conformity = 0.52\nouter_conformity = 0.53\n";
     std::fs::write(folder.path().join("balls.toml"), balls).unwrap();
+    // Rollers on 30 mm in a bore of 30 mm.
+    let rollers = std::fs::read_to_string(folder.path().join("rollers.toml")).unwrap();
+    let large = changed(
+        &rollers,
+        "pitch_diameter_mm = 25.0",
+        "pitch_diameter_mm = 30.0",
+    );
+    std::fs::write(folder.path().join("large.toml"), large).unwrap();
+    let in_large = ON_ROLLERS.replace("rollers.toml", "large.toml");
     let alone = ON_ROLLERS.split("bearings").next().unwrap().to_owned();
     let own = format!("{ON_ROLLERS}\ncoupling = \"own-mesh\"");
     let in_balls = ON_ROLLERS.replace("rollers.toml", "balls.toml");
@@ -240,6 +249,10 @@ fn bores_on_rollers_that_nothing_holds_or_follows_are_refused() {
         (&own, "is not used with bore = \"rollers\""),
         (&in_balls, "cylindrical roller bearing only"),
         (&out, "stick out of the bore by"),
+        (
+            &in_large,
+            "is 35.0000 mm wide, the bore in which it stands 30.0000 mm",
+        ),
     ] {
         let refused = build_in(&set(["", "", planets]), folder.path());
         let message = refused.map(|_| ()).unwrap_err().to_string();
