@@ -41,6 +41,13 @@ pub enum VhCause {
     TooLarge,
 }
 
+/// A number of the check as it is printed, to four decimals: what rounds to zero has no sign.
+#[must_use]
+pub fn as_printed(value: f64) -> f64 {
+    // The sum makes 0 of -0.
+    (1e4 * value).round() / 1e4 + 0.0
+}
+
 impl VhStop {
     /// In words.
     #[must_use]
@@ -49,8 +56,8 @@ impl VhStop {
         if self.last.error == AssemblyError::default() {
             return format!(
                 "not reached: the mean contact of this assembly, at L {:.4} mm, h {:.4} mm, lies off the pinion's flank",
-                1e3 * place_m[0],
-                1e3 * place_m[1]
+                as_printed(1e3 * place_m[0]),
+                as_printed(1e3 * place_m[1])
             );
         }
         let why = match self.cause {
@@ -64,12 +71,12 @@ impl VhStop {
         };
         format!(
             "not reached: the contact comes to L {:.4} mm, h {:.4} mm with E {:.4}, P {:.4}, G {:.4} mm, {:.4} mrad; {why}",
-            1e3 * place_m[0],
-            1e3 * place_m[1],
-            1e3 * e.offset_m,
-            1e3 * e.pinion_axial_m,
-            1e3 * e.gear_axial_m,
-            1e3 * e.shaft_angle_rad
+            as_printed(1e3 * place_m[0]),
+            as_printed(1e3 * place_m[1]),
+            as_printed(1e3 * e.offset_m),
+            as_printed(1e3 * e.pinion_axial_m),
+            as_printed(1e3 * e.gear_axial_m),
+            as_printed(1e3 * e.shaft_angle_rad)
         )
     }
 }
@@ -314,4 +321,15 @@ fn gear_axial_of_backlash(blank: &PairBlank, pinion: [&Flank; 2]) -> Vector3<f64
     let r = pinion[0].mean().point.r;
     let y = Vector3::y();
     Vector3::new(sum.dot(&y), sum.dot(&k1), -sum.dot(&y.cross(&r))) / sum.dot(&k2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::as_printed;
+
+    #[test]
+    fn what_rounds_to_zero_has_no_sign() {
+        let printed = [-3e-5, 0.0, -0.0, 6e-5, -6e-5].map(|x| format!("{:.4}", as_printed(x)));
+        assert_eq!(printed, ["0.0000", "0.0000", "0.0000", "0.0001", "-0.0001"]);
+    }
 }

@@ -9,6 +9,7 @@ use crate::tca_sides::{
 };
 use crate::watch::Watch;
 use crate::{output_name, overwriting, tca_page};
+use gearmesh_bevel::vh_check::as_printed;
 use gearmesh_bevel::{AssembledPair, BevelError, FlankSide, PairFile, ToothContact};
 use gearmesh_geometry::input::InputDocument;
 use serde::Deserialize;
@@ -132,9 +133,12 @@ fn table(
                 say(
                     lines,
                     match found {
-                        Ok([l, h, v, p, g, angle]) => format!(
-                            "{name:<20} {l:>11.4} {h:>8.4} {v:>13.4} {p:>13.4} {g:>11.4} {angle:>18.4}"
-                        ),
+                        Ok(values) => {
+                            let [l, h, v, p, g, angle] = values.map(as_printed);
+                            format!(
+                                "{name:<20} {l:>11.4} {h:>8.4} {v:>13.4} {p:>13.4} {g:>11.4} {angle:>18.4}"
+                            )
+                        }
                         Err(why) => format!("{name:<20} {why}"),
                     },
                 );

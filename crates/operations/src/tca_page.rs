@@ -5,6 +5,7 @@ use crate::page_file;
 use crate::tca_sides::{NO_MEAN, Side, headline, moves, vh_rows, worth_of_points};
 use crate::watch::Watch;
 use gearmesh_bevel::tca::{PathPoint, ease_off_map};
+use gearmesh_bevel::vh_check::as_printed;
 use gearmesh_bevel::{
     Assembly, BevelError, ContactKind, EaseOff, Flank, MemberBlank, PairFile, ToothContact,
 };
@@ -331,7 +332,7 @@ fn assembly_errors(section: Section, side: &Side<'_>) -> Section {
     for (name, found) in vh_rows(vh) {
         match found {
             Ok(values) => {
-                let [l, h, v, p, g, angle] = values.map(|x| format!("{x:.4}"));
+                let [l, h, v, p, g, angle] = values.map(|x| format!("{:.4}", as_printed(x)));
                 table.push_row([name.to_owned(), l, h, v, p, g, angle]);
             }
             Err(why) => unreached.push(Text::paragraph(format!("{name}: {why}"))),

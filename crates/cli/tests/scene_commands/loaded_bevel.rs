@@ -8,9 +8,9 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use gearmesh_bevel::{FlankPatch, FlankSide, PairFile};
-use gearmesh_scene::SceneResult;
 use gearmesh_scene::pair::bevel_result::{PressedPosition, Pressing};
 use gearmesh_scene::system_run::SystemResult;
+use gearmesh_scene::{SceneResult, StrainSeries};
 use serde_json::Value;
 
 use super::bevel::shipped;
@@ -324,6 +324,7 @@ fn slow_motion_goes_through_positions_at_rest() {
     // motion that is, a whole number, is sought.
     for gear in [1, 2] {
         let of = found.strain.iter().find(|s| s.gear == gear).unwrap();
+        events_are_read_in_their_pitch(&found, of);
         for (method, values) in [(1, &of.method_1), (2, &of.method_2)] {
             let values: Vec<f64> = values.iter().map(|strain| 1e6 * strain).collect();
             let name = format!("method{method}");
@@ -394,4 +395,24 @@ fn more_slices_than_the_members_have_are_refused() {
     let result = desk.path("result.h5");
     let run = ["run", argument(&file), "-o", argument(&result)];
     refused(&gearmesh(&run), 2, &parts);
+}
+
+/// The largest strain at the positions between those of the grid is that of the grid in each pitch, but for what happens
+/// between two of them; of another pitch it would be off by the whole peak.
+fn events_are_read_in_their_pitch(result: &SceneResult, of: &StrainSeries) {
+    let largest =
+        |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a: f64, b| a.max(b.abs()));
+    let (points, pitches) = (result.points_per_pitch(), result.pitches);
+    let peak = largest(&mut of.method_2.iter().copied());
+    let events = result.between.of(0).len();
+    assert!(events > 0 && pitches > 1);
+    for pitch in 0..pitches {
+        let even = largest(&mut of.method_2[pitch * points..][..points].iter().copied());
+        let own = (0..events).map(|event| of.between[1][event * pitches + pitch]);
+        let between = largest(&mut own.into_iter());
+        assert!(
+            (between - even).abs() < 0.3 * peak,
+            "{pitch}: {between:.2e} {even:.2e}"
+        );
+    }
 }

@@ -286,26 +286,24 @@ impl ScatterChart {
                 "" => axis.label.clone(),
                 unit => format!("{} [{unit}]", axis.label),
             };
-            // A long title is set closer instead of being cut.
-            let close = match text_width(&plain(&label)) > room {
-                true => format!(" textLength=\"{room:.0}\" lengthAdjust=\"spacingAndGlyphs\""),
-                false => String::new(),
-            };
-            (close, svg(&label))
+            // A long title is set smaller instead of being cut.
+            let smaller = room / text_width(&plain(&label));
+            let smaller = (smaller < 1.0).then(|| format!(" style=\"--fit:{smaller:.3}\""));
+            (smaller.unwrap_or_default(), svg(&label))
         };
-        let (close, label) = named(&self.axes[0], SIZE[0] - 8.0);
+        let (smaller, label) = named(&self.axes[0], SIZE[0] - 8.0);
         let middle = 0.5 * (left + right);
         let half = 0.5 * text_width(&label).min(SIZE[0] - 8.0);
         let _ = write!(
             page,
-            "\n<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\"{close}>{label}</text>",
+            "\n<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\"{smaller}>{label}</text>",
             middle.clamp(half, (SIZE[0] - half).max(half)),
             SIZE[1] - 6.0
         );
-        let (close, label) = named(&self.axes[1], bottom + BELOW - 12.0);
+        let (smaller, label) = named(&self.axes[1], bottom + BELOW - 12.0);
         let _ = writeln!(
             page,
-            "<text transform=\"translate(13 {:.1}) rotate(-90)\" text-anchor=\"middle\"{close}>{label}</text>",
+            "<text transform=\"translate(13 {:.1}) rotate(-90)\" text-anchor=\"middle\"{smaller}>{label}</text>",
             0.5 * SIZE[1]
         );
         for (number, series) in self.series.iter().enumerate() {

@@ -330,15 +330,17 @@ pub fn strain(
     gauges: &[(usize, usize)],
 ) -> Result<Vec<StrainSeries>, ReducedGearError> {
     let bevel = result.bevel.unwrap_or_default();
+    // The pitch that is solved stands in the middle of the run.
+    let before = (result.pitches / 2) as i64;
     let one = |&(gear, index): &(usize, usize)| {
         let (member, model) = (gear - 1, models[gear - 1]);
         let rows = &model.gauges[index];
         let spread = spread_from_heel(model, bevel.face_widths_m[0], result.slices);
         let reader = GaugeReader::new(model, rows, bevel.side, &spread)?;
-        let read = |position: Option<PressedPosition<'_>>| -> Strain {
+        let read = |position: Option<PressedPosition<'_>>, later: i64| -> Strain {
             let pressing = position.into_iter().flat_map(PressedPosition::pressing);
             reader.read(pressing.map(|at| LoadedSlice {
-                tooth: (bevel.teeth_of(at.pair)[member] + rows.tooth) % model.teeth,
+                tooth: (bevel.teeth_of(at.pair + later)[member] + rows.tooth) % model.teeth,
                 slice: at.slice,
                 roll_rad: at.up(member),
                 components: [1.0, 0.0],
@@ -352,8 +354,8 @@ pub fn strain(
         Ok(StrainSeries::read(
             result,
             (gear, rows, coverage),
-            |torque, angle| read(result.even_position(torque, angle)),
-            |position| read(result.position_between(position)),
+            |torque, angle| read(result.even_position(torque, angle), 0),
+            |position, later| read(result.position_between(position), later as i64 - before),
         ))
     };
     gauges.iter().map(one).collect()

@@ -134,7 +134,10 @@ impl SceneResult {
             &it.method_2
         };
         let added = &it.between[method - 1];
-        let added = added.get(self.between.of(torque)).unwrap_or_default();
+        let periods = added.len() / self.between.angle_rad.len().max(1);
+        let own = self.between.of(torque);
+        let own = own.start * periods..own.end * periods;
+        let added = added.get(own).unwrap_or_default();
         ends(self.curve(even, torque).iter().chain(added))
     }
 

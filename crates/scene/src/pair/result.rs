@@ -24,22 +24,28 @@ pub struct StrainSeries {
     pub method_1: Vec<f64>,
     /// Method 2.
     pub method_2: Vec<f64>,
-    /// Both methods at the positions between the even ones, `[E]`; empty in files of older programs.
+    /// Both methods at the positions between the even ones, `[E][period]`: in each period of the mesh that the run has.
+    /// One of them in files of older programs, or none.
     pub between: [Vec<f64>; 2],
 }
 
 impl StrainSeries {
-    /// Reads a gauge of a gear at all positions of a result: `even` by torque and angle, `between` by number.
+    /// Reads a gauge of a gear at all positions of a result: `even` by torque and angle, `between` by number and pitches
+    /// later. Positions between the even ones are those of the first period; tooth by tooth they come again in each.
     pub(super) fn read(
         result: &SceneResult,
         (gear, rows, coverage): (usize, &GaugeRows, Coverage),
         even: impl Fn(usize, usize) -> Strain,
-        between: impl Fn(usize) -> Strain,
+        between: impl Fn(usize, usize) -> Strain,
     ) -> Self {
         let angles = result.angles();
         let cases = 0..result.torque_nm.len() * angles;
         let at_even: Vec<Strain> = cases.map(|k| even(k / angles, k % angles)).collect();
-        let at_between: Vec<Strain> = (0..result.between.angle_rad.len()).map(between).collect();
+        let mesh = &result.contact_coverage;
+        let periods = (mesh.averaged_pitches() / mesh.period_pitches.max(1)).max(1);
+        let at_between: Vec<Strain> = (0..result.between.angle_rad.len() * periods)
+            .map(|k| between(k / periods, k % periods * mesh.period_pitches))
+            .collect();
         let method =
             |of: &[Strain], value: fn(&Strain) -> f64| of.iter().map(value).collect::<Vec<f64>>();
         let methods = |of: &[Strain]| [method(of, |s| s.method_1), method(of, |s| s.method_2)];

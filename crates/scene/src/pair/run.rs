@@ -19,7 +19,7 @@ use gearmesh_drivetrain::DrivetrainError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
 use gearmesh_model::{FileError, ReducedGear, ReducedGearError};
-use gearmesh_recovery::GaugeReader;
+use gearmesh_recovery::{GaugeReader, LoadedSlice};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -443,14 +443,21 @@ pub fn strain(
             let rows = &model.gauges[index];
             let flank = loaded.lines.pair.flank_of(gear - 1);
             let reader = GaugeReader::new(model, rows, flank, &loaded.spreads[gear - 1])?;
-            let read = |patches: &[ContactPatch], forces: &[f64]| {
-                reader.read(loaded.loaded_slices(gear, patches, forces))
+            let first = loaded.lines.pair.teeth_of(0)[gear - 1];
+            let read = |patches: &[ContactPatch], forces: &[f64], later: usize| {
+                let tooth = loaded.lines.pair.teeth_of(later as i64)[gear - 1];
+                let on = model.teeth + tooth - first;
+                let slices = loaded.loaded_slices(gear, patches, forces);
+                reader.read(slices.map(|at| LoadedSlice {
+                    tooth: (at.tooth + on) % model.teeth,
+                    ..at
+                }))
             };
             Ok(StrainSeries::read(
                 result,
                 (gear, rows, loaded.gauge_coverage(gear, index)),
-                |torque, angle| read(&even[angle], result.position_forces(torque, angle)),
-                |k| read(&between[k], result.between.position_forces(k)),
+                |torque, angle| read(&even[angle], result.position_forces(torque, angle), 0),
+                |k, later| read(&between[k], result.between.position_forces(k), later),
             ))
         })
         .collect()

@@ -9,12 +9,19 @@ use std::path::Path;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::{Scene, SceneResult, load, run};
 
-fn ran(folder: &Path, path: &str, pitches: usize, points: usize) -> SceneResult {
-    let text = format!(
+fn pair_text(path: &str, pitches: usize, points: usize) -> String {
+    format!(
         "title = \"made up\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n[mesh]\nmodel.kind = \"hybrid\"\n\
          model.local = \"weber-banaschek\"\nteeth.path = \"{path}\"\n[run]\ntorques_Nm = [60.0, 240.0]\npitches = {pitches}\npoints_per_pitch = {points}\n\
          [gauges]\ngear_1 = [\"g0\"]\n"
-    );
+    )
+}
+
+fn ran(folder: &Path, path: &str, pitches: usize, points: usize) -> SceneResult {
+    ran_text(folder, pair_text(path, pitches, points))
+}
+
+fn ran_text(folder: &Path, text: String) -> SceneResult {
     let scene = Scene::from_document(InputDocument::new("pair.toml", text), folder).unwrap();
     run(&load(scene).unwrap(), &|_, _| ()).unwrap()
 }
@@ -65,6 +72,36 @@ fn a_coarse_grid_has_the_peaks_of_a_fine_one() {
     assert!(missed, "the even positions have it all");
 }
 
+/// Root strain is largest where pairs change, in a pitch that is not the first. The coarse grid has the change in steps of
+/// 1/384 of a pitch, in which strain changes by as much of its range where a tooth passes over in one pitch; the fine grid has
+/// steps of 1/1000.
+#[test]
+fn root_strain_has_its_ends_in_whichever_pitch_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    made_up_gears::write_models(folder.path());
+    let mut missed = false;
+    for path in ["extended", "line-of-action"] {
+        let [coarse, fine] = [12, 1000].map(|points| {
+            let start = format!("start_deg = {}\npitches = 4", -2.0 * 360.0 / 30.0);
+            let text = pair_text(path, 4, points).replace("pitches = 4", &start);
+            ran_text(folder.path(), text)
+        });
+        for (torque, method) in [(0, 1), (0, 2), (1, 1), (1, 2)] {
+            let range = |r: &SceneResult| {
+                let [low, high] = r.strain_ends(0, method, torque);
+                high - low
+            };
+            let right = range(&fine);
+            let off = (range(&coarse) / right - 1.0).abs();
+            assert!(off < 4e-3, "{path} {torque} {method}: {off:.1e}");
+            let mut even = coarse.clone();
+            even.strain[0].between = Default::default();
+            missed |= (range(&even) / right - 1.0).abs() > 1e-2;
+        }
+    }
+    assert!(missed, "the even positions have it all");
+}
+
 /// Further pitches of gears whose teeth are all alike need no further positions; means are those of the even grid.
 #[test]
 fn only_the_first_period_has_further_positions() {
@@ -88,7 +125,9 @@ fn only_the_first_period_has_further_positions() {
         "{}",
         one.errors_in_words()
     );
-    assert_eq!(one.strain[0].between[1].len(), one.between.angle_rad.len());
+    let each = one.between.angle_rad.len();
+    assert_eq!(one.strain[0].between[1].len(), each);
+    assert_eq!(three.strain[0].between[1].len(), 3 * each);
 }
 
 /// What docs/extending.md shows.
