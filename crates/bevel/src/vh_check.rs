@@ -322,14 +322,3 @@ fn gear_axial_of_backlash(blank: &PairBlank, pinion: [&Flank; 2]) -> Vector3<f64
     let y = Vector3::y();
     Vector3::new(sum.dot(&y), sum.dot(&k1), -sum.dot(&y.cross(&r))) / sum.dot(&k2)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::as_printed;
-
-    #[test]
-    fn what_rounds_to_zero_has_no_sign() {
-        let printed = [-3e-5, 0.0, -0.0, 6e-5, -6e-5].map(|x| format!("{:.4}", as_printed(x)));
-        assert_eq!(printed, ["0.0000", "0.0000", "0.0000", "0.0001", "-0.0001"]);
-    }
-}

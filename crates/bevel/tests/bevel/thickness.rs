@@ -385,3 +385,10 @@ fn nominal_grids_are_read_back() {
     );
     assert_eq!(file.members.len(), 2);
 }
+
+#[test]
+fn numbers_of_the_check_that_round_to_zero_have_no_sign() {
+    let printed = [-3e-5, 0.0, -0.0, 6e-5, -6e-5]
+        .map(|x| format!("{:.4}", gearmesh_bevel::vh_check::as_printed(x)));
+    assert_eq!(printed, ["0.0000", "0.0000", "0.0000", "0.0001", "-0.0001"]);
+}
