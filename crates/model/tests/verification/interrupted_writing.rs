@@ -46,7 +46,11 @@ fn full_disk_leaves_the_old_file() {
             let output = Command::new("bash")
                 .args(["-c", &limited])
                 .arg(std::env::current_exe().unwrap())
-                .args(["--exact", "full_disk_leaves_the_old_file", "--nocapture"])
+                .args([
+                    "--exact",
+                    "interrupted_writing::full_disk_leaves_the_old_file",
+                    "--nocapture",
+                ])
                 .env(CHILD_PATH, path)
                 .stdin(Stdio::null())
                 .output()
@@ -142,7 +146,11 @@ fn killed_run_leaves_nothing_beside_its_result() {
 /// Starts one test of this executable as the process that is to be killed.
 fn this_test(name: &str, path: &Path) -> Child {
     Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", name, "--nocapture"])
+        .args([
+            "--exact",
+            &format!("interrupted_writing::{name}"),
+            "--nocapture",
+        ])
         .env(CHILD_PATH, path)
         .stdout(Stdio::null())
         .spawn()
