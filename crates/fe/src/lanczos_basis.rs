@@ -125,7 +125,10 @@ impl LanczosBasis {
             }
             kept.push(j);
         }
-        let chosen = |of: &Mat<f64>| {
+        let chosen = |of: Mat<f64>| {
+            if kept.len() == columns {
+                return of;
+            }
             let mut chosen = Mat::zeros(of.nrows(), kept.len());
             for (j, &column) in kept.iter().enumerate() {
                 chosen.col_mut(j).copy_from(of.col(column));
@@ -133,8 +136,8 @@ impl LanczosBasis {
             chosen
         };
         Split {
-            q: chosen(&w),
-            product: chosen(&product),
+            q: chosen(w),
+            product: chosen(product),
             c,
             r: r.subrows(0, kept.len()).to_owned(),
         }

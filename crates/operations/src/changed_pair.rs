@@ -61,7 +61,7 @@ impl ChangedPair {
     /// As [`ChangedPair::read`].
     pub fn of_result(shown: &Path, result: &SceneResult) -> Result<Self, Failure> {
         let scene = InputDocument::new(shown.display().to_string(), result.scene_toml.clone());
-        let table: toml::Table = scene.glance()?;
+        let table = scene.table()?;
         let models = result.model_files.clone();
         let names = ["gear_1", "gear_2"].into_iter().zip(models);
         let names = names.filter_map(|(gear, model)| {

@@ -146,7 +146,7 @@ pub fn look(kind: NewKind, folder: &Path) -> Result<Vec<String>, Failure> {
             }
             None => {
                 let table = InputDocument::read(&path)?;
-                table.glance::<toml::Table>()?;
+                table.table()?;
             }
         }
     }
@@ -163,7 +163,7 @@ pub fn rest_figures(kind: NewKind, folder: &Path) -> Result<Value, Failure> {
     let mut document = InputDocument::read(&folder.join(last))?;
     if kind.files.contains(&templates::OPERATION) {
         let operation = InputDocument::read(&folder.join(templates::OPERATION.name))?;
-        let operation: toml::Table = operation.glance()?;
+        let operation = operation.table()?;
         let table = toml::to_string(&toml::Table::from_iter([(
             "operation".to_owned(),
             operation.into(),

@@ -36,8 +36,8 @@ pub(crate) fn toml_from_json(json: &str) -> PyResult<String> {
 /// JSON text of a TOML document; file is its name in complaints. Raises InputError for a text that is no TOML.
 #[pyfunction]
 pub(crate) fn json_from_toml(text: &str, file: &str) -> PyResult<String> {
-    let table: toml::Table = InputDocument::new(file, text)
-        .glance()
+    let table = InputDocument::new(file, text)
+        .table()
         .map_err(input_error)?;
     serde_json::to_string(&table).map_err(|error| InputError::new_err(error.to_string()))
 }

@@ -17,9 +17,10 @@ pub enum Running {
 /// Damping over stiffness of shafts, bearings, meshes and drives \[s\], of which files say nothing: 0.3 % of the
 /// critical one at 1 kHz.
 pub const DAMPING_S: f64 = 1e-6;
-/// Steps in a period of the fastest mesh: the solver asks for ten at least. Planets swing between sun and ring much faster than their teeth come, and
-/// lose them in steps that do not follow.
+/// Steps in a period of the fastest mesh: the solver asks for ten at least.
 const STEPS_A_PERIOD: f64 = 20.0;
+/// The same of planetary sets: planets swing between sun and ring much faster than their teeth come, and lose them in
+/// steps that do not follow.
 const STEPS_OF_SETS: f64 = 100.0;
 /// Periods of the slowest mesh that are run.
 const PERIODS: f64 = 10.0;

@@ -67,8 +67,8 @@ fn places() -> impl Iterator<Item = (f64, usize)> {
     radii.flat_map(|radius_mm| [0, 1, 56].map(|tooth| (radius_mm, tooth)))
 }
 
-/// Deflections \[m\] at [`places`], then the strain of each gauge under a load over the whole width at three quarters of the
-/// flank, on the gauge's tooth.
+/// Deflections \[m\] at [`places`], then the strain of each gauge under a load over the whole width at three quarters
+/// of the flank, on the gauge's tooth.
 fn figures(gear: &ReducedGear) -> Vec<f64> {
     let station = 3 * gear.grid.roll_angles_rad.len() / 4;
     let deflections = places().map(|(mm, tooth)| deflection(gear, mm * 1e-3, tooth));
@@ -77,9 +77,9 @@ fn figures(gear: &ReducedGear) -> Vec<f64> {
     deflections.chain(strains).collect()
 }
 
-/// Coarse against fine, recorded, element lengths apart by 1.5 (the coarse fillet is the default's): compliance within 2 %,
-/// strain at the gauges within 3 %, and the program's own estimate made from the coarse mesh alone is of the size of the
-/// true error, not of another.
+/// Coarse against fine, recorded, element lengths apart by 1.5 (the coarse fillet is the default's): compliance
+/// within 2 %, strain at the gauges within 3 %, and the program's own estimate made from the coarse mesh alone is of
+/// the size of the true error, not of another.
 #[test]
 fn a_finer_mesh_changes_little() {
     let coarse = coarse();

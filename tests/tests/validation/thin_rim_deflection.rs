@@ -100,8 +100,8 @@ fn solid(text: &str) -> String {
     )
 }
 
-/// What the solid gear deflects on the coarser and the finer mesh. Gears 2 and 3 differ in their webs alone: reduced once
-/// for both.
+/// What the solid gear deflects on the coarser and the finer mesh. Gears 2 and 3 differ in their webs alone: reduced
+/// once for both.
 fn solid_on_both_meshes(text: &str) -> [[f64; 6]; 2] {
     static COARSE: OnceLock<(String, [f64; 6])> = OnceLock::new();
     let text = solid(text);

@@ -129,8 +129,8 @@ pub fn on_springs(
     (u, loads.collect())
 }
 
-/// L10r (10⁶ turns) of ball loads alike on both races, the inner ring turning: ISO/TS 16281 (22) to (26), written out anew for a
-/// bearing without contact angle.
+/// L10r (10⁶ turns) of ball loads alike on both races, the inner ring turning: ISO/TS 16281 (22) to (26), written out
+/// anew for a bearing without contact angle.
 pub fn life_of_balls(text: &str, loads_n: &[f64]) -> f64 {
     let definition = definition(text);
     let BearingGeometry::Ball(g) = &definition.geometry else {

@@ -196,8 +196,8 @@ fn a_profile_relieves_the_edge() {
 
 /// Radial stiffness of the catalogue's 6205 at 0.1 C beside Palmgren's approximation δ = 4.37e-4 Q_max^⅔ D^−⅓ mm (N,
 /// mm; A. Palmgren, *Ball and Roller Bearing Engineering*, 1959; quoted by Harris), Q_max = 5 F/Z: stiffness 1.5 F/δ.
-/// The approximation is for all ball bearings alike: its constant stands for one osculation, and Hertz' δ of grooves from
-/// 0.515 to 0.53 spans 17 %. Both may be apart by 15 %.
+/// The approximation is for all ball bearings alike: its constant stands for one osculation, and Hertz' δ of grooves
+/// from 0.515 to 0.53 spans 17 %. Both may be apart by 15 %.
 #[test]
 fn stiffness_at_a_tenth_of_c_is_near_palmgrens() {
     let bearing = bearing(B6205);

@@ -60,7 +60,8 @@ fn the_ring_lacks_that_element_and_nothing_else() {
     assert_eq!(all.elements[0].len(), 17);
 }
 
-/// Radial load on a 6205, whole and without its loaded ball, against a solver of its own; so is the life that the lack costs.
+/// Radial load on a 6205, whole and without its loaded ball, against a solver of its own; so is the life that the
+/// lack costs.
 #[test]
 fn loads_of_the_others_against_springs_in_a_plane() {
     let load = AppliedBearingLoad {

@@ -176,7 +176,8 @@ fn interference_presses_every_ball_alike() {
     ));
     let (_, same) = by_raceways.loads(&RingPose::default(), &still).unwrap();
     close(same.elements[0][0].inner_load_n, expected, 1e-6);
-    // It moves less than the same bearing with play, both as springs in a plane do but for (a micrometre)² over the ring's radius.
+    // It moves less than the same bearing with play, both as springs in a plane do but for (a micrometre)² over the
+    // ring's radius.
     let load = AppliedBearingLoad {
         force_n: [1000.0, 0.0, 0.0],
         tilt: TiltCondition::Held([0.0; 2]),

@@ -397,8 +397,8 @@ fn more_slices_than_the_members_have_are_refused() {
     refused(&gearmesh(&run), 2, &parts);
 }
 
-/// The largest strain at the positions between those of the grid is that of the grid in each pitch, but for what happens
-/// between two of them; of another pitch it would be off by the whole peak.
+/// The largest strain at the positions between those of the grid is that of the grid in each pitch, but for what
+/// happens between two of them; of another pitch it would be off by the whole peak.
 fn events_are_read_in_their_pitch(result: &SceneResult, of: &StrainSeries) {
     let largest =
         |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a: f64, b| a.max(b.abs()));

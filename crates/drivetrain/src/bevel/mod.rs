@@ -8,6 +8,7 @@
 //! | guess of where flanks touch: from the pair as designed | `nominal_contacts.rs` |
 //! | the same for teeth that do not face each other there | `bounding_spheres.rs` |
 //! | where two patches are nearest, edges and corners with them | `nearest_points.rs` |
+//! | which of these hold a contact | `contact_limits.rs` |
 //! | how that changes with the pose | `pose_derivatives.rs` |
 //! | stiffness from the curvatures there | `hertz_stiffness.rs` |
 //! | flanks divided into triangles or quadrilaterals | `facets.rs` |
@@ -25,6 +26,7 @@ mod at_rest;
 mod bevel_mesh;
 mod bevel_teeth;
 mod bounding_spheres;
+mod contact_limits;
 mod facets;
 mod hertz_stiffness;
 mod line_geometry;

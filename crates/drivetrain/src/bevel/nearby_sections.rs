@@ -8,7 +8,7 @@ use std::cell::Cell;
 use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Vector3};
 
-use super::nearest_points::LongEdge;
+use super::contact_limits::LongEdge;
 use super::pose_derivatives::PoseDerivatives;
 use super::section_points::{EDGES, edge_of, middle, nearest_on_section};
 use super::sliced_mesh::{BevelSlices, nearest_first};

@@ -12,7 +12,8 @@
 
 use nalgebra::{Matrix3, Matrix4x6, Vector3};
 
-use super::nearest_points::{Limits, Nearest};
+use super::contact_limits::Limits;
+use super::nearest_points::Nearest;
 use super::pose_derivatives::{PoseDerivatives, gradient};
 use crate::pose::Vector6;
 use crate::slice_plane::stacked;

@@ -14,7 +14,8 @@
 
 use nalgebra::{Vector3, Vector4};
 
-use super::nearest_points::{Held, LongEdge, Nearest, Placed, equations, solve};
+use super::contact_limits::LongEdge;
+use super::nearest_points::{Held, Nearest, Placed, equations, solve};
 
 /// Slack of the ends: rounding.
 const SLACK: f64 = 1e-9;
@@ -53,7 +54,8 @@ pub(crate) fn nearest_on_section(
         (0..2).all(|m| match edge.filter(|edge| edge.member == m) {
             // Beyond the edge the gap would shrink further.
             Some(edge) => {
-                (2.0 * edge.end() - 1.0) * found.slope(m, 1) <= 1e-12 && found.is_before_the_tooth()
+                (2.0 * edge.end() - 1.0) * found.slope(m, 1) <= 1e-12
+                    && edge.is_before_the_tooth(found)
             }
             None => found.at[m][1] <= 1.0 + SLACK,
         })

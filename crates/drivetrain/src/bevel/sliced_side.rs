@@ -6,9 +6,10 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::contact_limits::nearest_within;
 use super::hertz_stiffness::curvature;
 use super::line_geometry::{LineGeometry, Sample};
-use super::nearest_points::{Nearest, nearest_within};
+use super::nearest_points::Nearest;
 use super::nominal_contacts::NominalContacts;
 use super::section_points::{edge_of, line_tangent, sections};
 use super::tooth_side::{REACH, Side, nominal_rotation, placed};

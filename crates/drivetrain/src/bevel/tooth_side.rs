@@ -8,9 +8,8 @@ use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::bounding_spheres::BoundingSpheres;
-use super::nearest_points::{
-    FREE, Limits, Nearest, NoContact, Placed, nearest, nearest_from, nearest_within, solve,
-};
+use super::contact_limits::{Limits, NoContact, nearest, nearest_from, nearest_within};
+use super::nearest_points::{FREE, Nearest, Placed, solve};
 use super::nominal_contacts::{Guess, NominalContacts};
 use super::section_points::{edge_of, sections};
 use crate::error::DrivetrainError;

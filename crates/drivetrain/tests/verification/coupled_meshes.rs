@@ -230,7 +230,8 @@ fn in_time(step_s: f64, coupled: bool) -> (f64, [f64; 2]) {
 /// Undamped teeth keep their energy but for the step: its error falls with h², as that of one pair does. A
 /// coupling that forces felt and energy did not, or whose walking contacts did no work, would leave a part that no step
 /// takes away. Second order gives a factor of 16; half of that is asked, because of tip edges. A step takes at most 1.1
-/// times the corrections of a run without the coupling: the tangents hold how the forces of one mesh change with the motion of the other.
+/// times the corrections of a run without the coupling: the tangents hold how the forces of one mesh change with the
+/// motion of the other.
 #[test]
 fn an_idler_in_time_keeps_its_energy_and_takes_no_more_corrections() {
     let (coarse, effort) = in_time(8e-6, true);

@@ -45,7 +45,7 @@ impl InputDocument {
     /// # Errors
     /// [`InputError`] for a text that is no TOML.
     pub fn with_derived(self, items: Vec<DerivedTable>) -> Result<Self, InputError> {
-        let own: toml::Table = self.glance()?;
+        let own = self.table()?;
         let mut lists = Origins::new();
         let mut all = toml::Table::new();
         for item in items {
@@ -129,7 +129,7 @@ mod tests {
         let document = document
             .with_derived(vec![item("body"), item("joint")])
             .unwrap();
-        let read: toml::Table = document.glance().unwrap();
+        let read = document.table().unwrap();
         let names = |list: &str| -> Vec<String> {
             let items = read[list].as_array().unwrap().iter();
             items

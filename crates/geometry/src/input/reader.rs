@@ -432,6 +432,15 @@ mod tests {
         assert_eq!(read(text).unwrap(), wheel);
     }
 
+    /// Records have days.
+    #[test]
+    fn a_table_keeps_its_dates() {
+        let record = InputDocument::new("r.toml", "day = 2026-11-27\nfrom = [{ at = 10:30:00 }]");
+        let table = record.table().unwrap();
+        assert_eq!(table["day"].to_string(), "2026-11-27");
+        assert_eq!(table["from"][0]["at"].to_string(), "10:30:00");
+    }
+
     /// The path goes into lists and variants, and the line is that of the key.
     #[test]
     fn what_is_wrong_is_named_with_its_path() {

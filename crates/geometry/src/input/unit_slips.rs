@@ -147,7 +147,7 @@ impl InputDocument {
     #[must_use]
     pub fn unit_slips(&self) -> Vec<InputError> {
         let mut found = Vec::new();
-        if let Ok(table) = self.glance::<toml::Table>() {
+        if let Ok(table) = self.table() {
             for (key, value) in &table {
                 self.slips_below(value, (key, key), &mut found);
             }

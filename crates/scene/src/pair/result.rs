@@ -30,8 +30,9 @@ pub struct StrainSeries {
 }
 
 impl StrainSeries {
-    /// Reads a gauge of a gear at all positions of a result: `even` by torque and angle, `between` by number and pitches
-    /// later. Positions between the even ones are those of the first period; tooth by tooth they come again in each.
+    /// Reads a gauge of a gear at all positions of a result: `even` by torque and angle, `between` by number and
+    /// pitches later. Positions between the even ones are those of the first period; tooth by tooth they come again
+    /// in each.
     pub(super) fn read(
         result: &SceneResult,
         (gear, rows, coverage): (usize, &GaugeRows, Coverage),

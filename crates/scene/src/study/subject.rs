@@ -116,13 +116,13 @@ impl Subject {
 
 /// Whether a document is a bearing file, with or without a table `operation`.
 pub(super) fn is_bearing(document: &InputDocument) -> Result<bool, InputError> {
-    let table: toml::Table = document.glance()?;
+    let table = document.table()?;
     Ok(!table.contains_key("tooth") && BearingFromFile::recognises(document)?)
 }
 
 impl BearingSubject {
     fn from_document(document: InputDocument) -> Result<Self, InputError> {
-        let mut table: toml::Table = document.glance()?;
+        let mut table = document.table()?;
         let Some(stated) = table.remove(OPERATION) else {
             return Ok(Self {
                 found: BearingFromFile::from_document(&document)?,

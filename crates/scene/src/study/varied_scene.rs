@@ -99,7 +99,7 @@ impl BaseScene {
             Subject::System(_) => document.with_former(SYSTEM),
             Subject::Bevel(_) | Subject::Bearing(_) => document,
         };
-        let given: toml::Value = document.glance()?;
+        let given = toml::Value::Table(document.table()?);
         let mut begun = given.clone();
         for key in keys {
             begin_microgeometry(&mut begun, key, folder)?;
@@ -137,7 +137,7 @@ impl BaseScene {
         };
         let path = self.named_file(file)?;
         let document = InputDocument::new(path.display().to_string(), file_text(&path).ok()?);
-        let table: toml::Value = document.glance().ok()?;
+        let table = toml::Value::Table(document.table().ok()?);
         found_at(&table, inner).cloned()
     }
 
@@ -270,7 +270,8 @@ impl BaseScene {
         let text = file_text(&path).map_err(VaryError::Scene)?;
         let shown = path.display().to_string();
         let document = InputDocument::new(shown, text);
-        let mut varied: toml::Value = document.glance().map_err(VaryError::Scene)?;
+        let table = document.table().map_err(VaryError::Scene)?;
+        let mut varied = toml::Value::Table(table);
         let is_model = is_hdf5(&path);
         for (key, parameter, value) in keys {
             if is_model && key.starts_with("microgeometry") {
@@ -352,7 +353,7 @@ fn begin_microgeometry(root: &mut toml::Value, key: &str, folder: &Path) -> Resu
         return Ok(());
     }
     let document = InputDocument::new(path.display().to_string(), file_text(&path)?);
-    let gear: toml::Value = document.glance()?;
+    let gear = toml::Value::Table(document.table()?);
     if let Some(table) = gear.get("microgeometry") {
         // Tables on the way are made; nothing else can be wrong.
         let _ = set(root, &stated, table);

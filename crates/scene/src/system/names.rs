@@ -12,7 +12,7 @@ const LONGEST: usize = 100;
 /// # Errors
 /// [`InputError`] at the first name that cannot.
 pub(crate) fn check_names(document: &InputDocument) -> Result<(), InputError> {
-    let tables: toml::Table = document.glance()?;
+    let tables = document.table()?;
     for (kind, value) in &tables {
         let Some(items) = value.as_array() else {
             continue;

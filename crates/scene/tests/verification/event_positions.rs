@@ -72,9 +72,9 @@ fn a_coarse_grid_has_the_peaks_of_a_fine_one() {
     assert!(missed, "the even positions have it all");
 }
 
-/// Root strain is largest where pairs change, in a pitch that is not the first. The coarse grid has the change in steps of
-/// 1/384 of a pitch, in which strain changes by as much of its range where a tooth passes over in one pitch; the fine grid has
-/// steps of 1/1000.
+/// Root strain is largest where pairs change, in a pitch that is not the first. The coarse grid has the change in
+/// steps of 1/384 of a pitch, in which strain changes by as much of its range where a tooth passes over in one pitch;
+/// the fine grid has steps of 1/1000.
 #[test]
 fn root_strain_has_its_ends_in_whichever_pitch_they_are() {
     let folder = tempfile::tempdir().unwrap();

@@ -16,7 +16,7 @@ use gearmesh_scene::{Scene, load, run};
 
 use crate::made_up_gears;
 
-const SCENE: &str = r#"title = "made up"
+pub const SCENE: &str = r#"title = "made up"
 [pair]
 gear_1 = "gear_30.h5"
 gear_2 = "gear_41.h5"

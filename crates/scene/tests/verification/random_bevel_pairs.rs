@@ -358,8 +358,9 @@ fn check_motion(
     tally.deviation("energy error", result.relative_energy_error().unwrap());
 }
 
-/// Number 86 of seed 77: its gear reaches below the lower line of the pinion's flank, where the patch ends. The contact was lost there, came back 32 µm deep
-/// and threw the gear: energy was off by 5 % of the work. Allowed is a tenth of what a run refuses.
+/// Number 86 of seed 77: its gear reaches below the lower line of the pinion's flank, where the patch ends. The
+/// contact was lost there, came back 32 µm deep and threw the gear: energy was off by 5 % of the work. Allowed is a
+/// tenth of what a run refuses.
 #[test]
 fn a_gear_that_reaches_below_the_flank_touches_its_lower_line() {
     let text = include_str!("reaches_below.toml");
@@ -382,9 +383,9 @@ fn random_pairs_are_refused_or_move_as_analysed() {
     tally.refuse_failures();
 }
 
-/// `BEVEL_PAIRS=120 BEVEL_PAIRS_SEED=24 cargo test --workspace --test verification -- --ignored --nocapture many_bevel_pairs`:
-/// so many pairs that no key refuses, drawn with a seed. A pair that fails is printed with its file, and the next one
-/// drawn.
+/// `BEVEL_PAIRS=120 BEVEL_PAIRS_SEED=24 cargo test --workspace --test verification -- --ignored --nocapture
+/// many_bevel_pairs`: so many pairs that no key refuses, drawn with a seed. A pair that fails is printed with its
+/// file, and the next one drawn.
 #[test]
 #[ignore = "takes minutes"]
 fn many_bevel_pairs() {

@@ -30,7 +30,9 @@ use gearmesh_scene::system::{LoadedSystem, SystemScene, SystemTables};
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{ModelShelf, Scene, SceneResult, load, load_from, run};
 
+use crate::common::changed;
 use crate::made_up_gears;
+use crate::pair_study::SCENE;
 use crate::system_runs;
 
 const MODELS: [&str; 2] = ["gear_30.h5", "gear_41.h5"];
@@ -44,30 +46,19 @@ fn in_memory(folder: &Path) -> ModelShelf {
     shelf
 }
 
-const PAIR: &str = r#"title = "a pair"
-[pair]
-gear_1 = "gear_30.h5"
-gear_2 = "gear_41.h5"
-centre_distance_mm = 106.8
-inclination_mrad = 0.1
-[mesh]
-model.kind = "hybrid"
-model.local = "weber-banaschek"
-teeth.path = "line-of-action"
-[gear_1.microgeometry]
-tip_relief_um = 5.0
-tip_relief_start_diameter_mm = 94.0
-[run]
-torques_Nm = [60.0, 120.0]
-pitches = 1
-points_per_pitch = 12
-[gauges]
-gear_1 = ["g0"]
-"#;
+/// The pair of another test, its axes inclined.
+fn pair_text() -> String {
+    let distance = "centre_distance_mm = 106.8\n";
+    changed(
+        SCENE,
+        distance,
+        &format!("{distance}inclination_mrad = 0.1\n"),
+    )
+}
 
 fn pair(models: [&str; 2]) -> PairTables {
     PairTables {
-        title: "a pair".to_owned(),
+        title: "made up".to_owned(),
         pair: PairTable {
             gear_1: models[0].into(),
             gear_2: models[1].into(),
@@ -125,7 +116,7 @@ fn a_pair_of_tables_runs_as_its_file_does() {
         found(run(&load_from(scene, shelf).unwrap(), &|_, _| ()).unwrap())
     };
     let file = folder.path().join("pair.toml");
-    std::fs::write(&file, PAIR).unwrap();
+    std::fs::write(&file, pair_text()).unwrap();
     let of_file = ran(Scene::read(&file).unwrap(), &ModelShelf::default());
     let of_paths = Scene::new(&pair(MODELS), folder.path()).unwrap();
     // A result keeps what a file of these tables would be.

@@ -11,7 +11,6 @@ use super::gear_mesh::PreparedMesh;
 use super::parts::Parts;
 use crate::system::built::BuiltPart;
 use crate::system::names;
-use crate::system::scene::SystemScene;
 use crate::system::tables::body::Flexibility;
 use crate::system::tables::mesh_model::MeshKind;
 
@@ -80,36 +79,42 @@ impl LoadedSystem {
         Ok(())
     }
 
-    /// Cylindrical rollers hold nothing along their axis, and the teeth of a planet do not either: along the pin their forces balance wherever it
-    /// stands. With nothing else it drifts there as soon as its bearing tilts, and no equilibrium is found.
+    /// Cylindrical rollers hold nothing along their axis, and the teeth of a planet do not either: along the pin their
+    /// forces balance wherever it stands. With nothing else it drifts there as soon as its bearing tilts, and no
+    /// equilibrium is found.
     pub(super) fn refuse_loose_planets(&self, parts: &Parts) -> Result<(), InputError> {
-        let SystemScene {
-            document, tables, ..
-        } = &self.scene;
+        let document = &self.scene.document;
         for planet in self.scene.sets.iter().flat_map(|set| &set.planets) {
             let is_on = |part: &&BuiltPart| part.bodies.contains(planet);
             let forces = parts.elements.iter().filter(|part| part.kind != "load");
-            let mut holding = parts.joints.iter().chain(forces).filter(is_on);
-            let mut rollers = None;
-            let mut is_loose = true;
-            while let (Some(part), true) = (holding.next(), is_loose) {
-                let mut bearings = tables.bearing.iter();
-                rollers = bearings.position(|table| table.name == part.name);
-                is_loose = match rollers {
-                    Some(number) => self.is_cylindrical(number)?,
-                    None => false,
-                };
-            }
-            if let Some(number) = rollers.filter(|_| is_loose) {
+            let holding = parts.joints.iter().chain(forces).filter(is_on);
+            if let Some(number) = self.only_cylindrical(holding)? {
                 let problem = format!(
                     "cylindrical rollers hold nothing along their axis, and nothing else holds `{planet}` there; write support = \"floating\" for the \
-                     planets, which does, or give them a bearing that bears along the axis, too"
+                     planets, which does, or give them a bearing that carries along the axis, too"
                 );
                 let key = format!("bearing.{number}");
                 return Err(TableKeys::new(document, &key).error("model", problem));
             }
         }
         Ok(())
+    }
+
+    /// One of these parts, by its place among the `[[bearing]]`s, where all of them have cylindrical rollers.
+    fn only_cylindrical<'p>(
+        &self,
+        parts: impl Iterator<Item = &'p BuiltPart>,
+    ) -> Result<Option<usize>, InputError> {
+        let mut found = None;
+        for part in parts {
+            let mut bearings = self.scene.tables.bearing.iter();
+            found = bearings.position(|table| table.name == part.name);
+            match found {
+                Some(number) if self.is_cylindrical(number)? => {}
+                _ => return Ok(None),
+            }
+        }
+        Ok(found)
     }
 
     /// Whether a `[[bearing]]` has cylindrical rollers.

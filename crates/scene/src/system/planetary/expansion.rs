@@ -53,7 +53,7 @@ pub(in crate::system) fn expand(
         return Ok((document, Vec::new()));
     }
     let tables = document.parse::<Sets>()?.planetary;
-    let raw: Table = document.glance()?;
+    let raw = document.table()?;
     let mut gears = gears_of_bodies(&raw);
     let (mut items, mut sets) = (Vec::new(), Vec::new());
     for (i, table) in tables.iter().enumerate() {
