@@ -17,7 +17,7 @@ impl InputDocument {
     }
 
     /// Parses the document into a structure whose keys are all checked by serde; every number is finite and within the
-    /// [`NumberRange`] of its key.
+    /// [`NumberRange`](super::NumberRange) of its key.
     ///
     /// # Errors
     /// [`InputError`] with the line of a syntax error, or with line and key of an unknown key, a missing key, a wrong
