@@ -6,9 +6,10 @@ use gearmesh_elements::Element;
 
 use crate::element_matrix::ElementMatrix;
 use crate::error::ElementError;
-use crate::isoparametric::{jacobian, point_gradients, stiffness};
+use crate::isoparametric::{determinant, point_gradients, stiffness};
 use crate::material::Material;
 use crate::quadrature::{GAUSS_2, GAUSS_3, TET_8, TET_14, WEDGE_6, WEDGE_18, WeightedPoint};
+use crate::shape_table::ShapeTable;
 use crate::stiffness_block::strain_columns;
 use crate::{hex8, hex8_incompatible, hex20, tet10, wedge6, wedge15};
 
@@ -64,6 +65,9 @@ pub trait ElementFormulas: Sized {
 
     /// Shape functions at a natural point, one per node; the condensed modes are not among them.
     fn shape_functions(self, natural: [f64; 3]) -> Vec<f64>;
+
+    /// ∂N_i/∂(ξ, η, ζ) at a natural point, one per node; the condensed modes are not among them.
+    fn natural_gradients(self, natural: [f64; 3]) -> Vec<[f64; 3]>;
 
     /// Position (m) of a natural point: x = Σ N_i x_i.
     fn position_at(self, coordinates: &[[f64; 3]], natural: [f64; 3]) -> [f64; 3];
@@ -171,6 +175,10 @@ impl ElementFormulas for Element {
         with_shape!(self, shape => shape::shape_functions(natural).to_vec())
     }
 
+    fn natural_gradients(self, natural: [f64; 3]) -> Vec<[f64; 3]> {
+        with_shape!(self, shape => shape::natural_gradients(natural).to_vec())
+    }
+
     fn position_at(self, coordinates: &[[f64; 3]], natural: [f64; 3]) -> [f64; 3] {
         let n = self.shape_functions(natural);
         std::array::from_fn(|k| n.iter().zip(coordinates).map(|(n, x)| n * x[k]).sum())
@@ -181,10 +189,7 @@ impl ElementFormulas for Element {
         coordinates: &[[f64; 3]],
         natural: [f64; 3],
     ) -> Result<f64, ElementError> {
-        with_shape!(self, shape => {
-            let map = jacobian(nodes(coordinates)?, shape::natural_gradients, natural)?;
-            Ok(map.determinant)
-        })
+        with_shape!(self, shape => determinant(coordinates, &shape::natural_gradients(natural), natural))
     }
 
     fn volume(self, coordinates: &[[f64; 3]]) -> Result<f64, ElementError> {
@@ -227,11 +232,8 @@ impl ElementFormulas for Element {
     }
 
     fn check_shape(self, coordinates: &[[f64; 3]]) -> Result<(), ElementError> {
-        let gauss = self.integration_points().iter().map(|(point, _)| point);
-        for point in gauss.chain(self.natural_nodes()).chain(&[self.centre()]) {
-            self.jacobian_determinant(coordinates, *point)?;
-        }
-        Ok(())
+        let mut volumes = ShapeTable::of_check(self).volumes(coordinates);
+        volumes.try_for_each(|volume| volume.map(drop))
     }
 
     fn mass(

@@ -122,7 +122,10 @@ fn lower_solve_block(
             let node = l.supernode(s);
             let (start, size) = (node.start() - first, node.val().ncols());
             let mut own = x.rb_mut().subrows_mut(start, size);
-            if own.norm_max() == 0.0 {
+            if own
+                .col_iter()
+                .all(|column| column.iter().all(|value| *value == 0.0))
+            {
                 return false;
             }
             let (diagonal, rest) = node.val().split_at_row(size);

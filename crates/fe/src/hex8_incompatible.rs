@@ -29,7 +29,7 @@ use crate::element::{StrainOperator, compatible_strain_operator};
 use crate::element_matrix::ElementMatrix;
 use crate::error::ElementError;
 use crate::hex8::{HexCoordinates, natural_gradients};
-use crate::isoparametric::{Jacobian, jacobian, point_gradients};
+use crate::isoparametric::{Jacobian, point_gradients};
 use crate::material::LameParameters;
 use crate::quadrature::GAUSS_2;
 use crate::stiffness_block::{BlockStiffness, add_point_stiffness, strain_columns};
@@ -61,7 +61,7 @@ fn eliminate(
     coordinates: &HexCoordinates,
     lame: LameParameters,
 ) -> Result<Elimination, ElementError> {
-    let centre = jacobian(coordinates, natural_gradients, [0.0; 3])?;
+    let centre = Jacobian::new(coordinates, &natural_gradients([0.0; 3]), [0.0; 3])?;
     let mut full = BlockStiffness::<11>::zero();
     // Every weight of the rule is 1.
     for (point, _) in GAUSS_2 {
@@ -115,7 +115,7 @@ pub(crate) fn strain_operator(
     let amplitudes: ModeMatrix = lower
         .tr_solve_lower_triangular(&half_solved)
         .ok_or(ElementError::ModesNotPositiveDefinite)?;
-    let centre = jacobian(coordinates, natural_gradients, [0.0; 3])?;
+    let centre = Jacobian::new(coordinates, &natural_gradients([0.0; 3]), [0.0; 3])?;
     let at = point_gradients(coordinates, natural_gradients, natural)?;
     let modes = mode_gradients(natural, at.determinant, &centre);
     let mut b = compatible_strain_operator(&at.gradients);

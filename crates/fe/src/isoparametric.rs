@@ -25,24 +25,7 @@ impl Jacobian {
         natural_gradients: &[[f64; 3]; N],
         natural: [f64; 3],
     ) -> Result<Self, ElementError> {
-        // Columns a, b, c: ∂x/∂ξ, ∂x/∂η, ∂x/∂ζ.
-        let column = |k: usize| -> [f64; 3] {
-            std::array::from_fn(|j| {
-                (0..N)
-                    .map(|i| coordinates[i][j] * natural_gradients[i][k])
-                    .sum()
-            })
-        };
-        let (a, b, c) = (column(0), column(1), column(2));
-        let cofactors = [cross(b, c), cross(c, a), cross(a, b)];
-        let determinant: f64 = (0..3).map(|j| a[j] * cofactors[0][j]).sum();
-        // Written so that NaN fails too.
-        if !(determinant > 0.0 && determinant.is_finite()) {
-            return Err(ElementError::JacobianNotPositive {
-                natural,
-                determinant_m3: determinant,
-            });
-        }
+        let (determinant, cofactors) = cofactors(coordinates, natural_gradients, natural)?;
         Ok(Self {
             determinant,
             inverse: cofactors.map(|row| row.map(|v| v / determinant)),
@@ -57,6 +40,52 @@ impl Jacobian {
                 .sum()
         })
     }
+}
+
+/// det ∂x/∂ξ (m³) at a natural point and the cofactors of ∂x/∂ξ, rows ξ, η, ζ.
+fn cofactors(
+    coordinates: &[[f64; 3]],
+    natural_gradients: &[[f64; 3]],
+    natural: [f64; 3],
+) -> Result<(f64, [[f64; 3]; 3]), ElementError> {
+    // Rows a, b, c: ∂x/∂ξ, ∂x/∂η, ∂x/∂ζ.
+    let mut rows = [[0.0; 3]; 3];
+    for (x, gradient) in coordinates.iter().zip(natural_gradients) {
+        for (row, slope) in rows.iter_mut().zip(gradient) {
+            for (sum, x) in row.iter_mut().zip(x) {
+                *sum += x * slope;
+            }
+        }
+    }
+    let [a, b, c] = rows;
+    let cofactors = [cross(b, c), cross(c, a), cross(a, b)];
+    let determinant: f64 = (0..3).map(|j| a[j] * cofactors[0][j]).sum();
+    // Written so that NaN fails too.
+    if !(determinant > 0.0 && determinant.is_finite()) {
+        return Err(ElementError::JacobianNotPositive {
+            natural,
+            determinant_m3: determinant,
+        });
+    }
+    Ok((determinant, cofactors))
+}
+
+/// det ∂x/∂ξ (m³) at a natural point, from coordinates (m) and ∂N_i/∂(ξ, η, ζ) there.
+///
+/// # Errors
+/// [`ElementError::JacobianNotPositive`]; [`ElementError::NodeCount`].
+pub(crate) fn determinant(
+    coordinates: &[[f64; 3]],
+    natural_gradients: &[[f64; 3]],
+    natural: [f64; 3],
+) -> Result<f64, ElementError> {
+    if coordinates.len() != natural_gradients.len() {
+        return Err(ElementError::NodeCount {
+            found: coordinates.len(),
+            expected: natural_gradients.len(),
+        });
+    }
+    Ok(cofactors(coordinates, natural_gradients, natural)?.0)
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -91,18 +120,6 @@ impl<const N: usize> PointGradients<N> {
             determinant: map.determinant,
         })
     }
-}
-
-/// Jacobian at a natural point of an element with these natural gradients.
-///
-/// # Errors
-/// [`ElementError::JacobianNotPositive`].
-pub(crate) fn jacobian<const N: usize>(
-    coordinates: &[[f64; 3]; N],
-    natural_gradients: impl Fn([f64; 3]) -> [[f64; 3]; N],
-    natural: [f64; 3],
-) -> Result<Jacobian, ElementError> {
-    Jacobian::new(coordinates, &natural_gradients(natural), natural)
 }
 
 /// Gradients of the shape functions in physical coordinates at a natural point.

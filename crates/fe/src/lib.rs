@@ -112,6 +112,7 @@ mod reference_points;
 mod rigid_group;
 mod ring_condensation;
 mod ring_transform;
+mod shape_table;
 mod static_condensation;
 mod stiffness_block;
 mod structured;

@@ -14,6 +14,7 @@ use crate::element_matrix::ElementMatrix;
 use crate::error::{ElementError, FeError};
 use crate::graph::NodeGraph;
 use crate::model::FeModel;
+use crate::shape_table::ShapeTable;
 use gearmesh_elements::Element;
 
 /// Mass of one element, [`ElementFormulas::mass`].
@@ -24,9 +25,8 @@ pub(crate) fn mass_of(
 ) -> Result<ElementMatrix, ElementError> {
     let n = element.node_count();
     let mut scalar = vec![0.0; n * n];
-    for &(point, weight) in element.mass_points() {
-        let volume = weight * element.jacobian_determinant(coordinates, point)?;
-        let shape = element.shape_functions(point);
+    for found in ShapeTable::of_mass(element).volumes(coordinates) {
+        let (volume, shape) = found?;
         for i in 0..n {
             let share = density_kg_per_m3 * volume * shape[i];
             for j in i..n {
@@ -138,12 +138,9 @@ pub fn mass_moments(model: &FeModel, density_kg_per_m3: f64) -> Result<[f64; 10]
         let kind = model.element_of(element);
         let coordinates = model.element_coordinates(element)?;
         let mut sums = [0.0; 10];
-        for &(point, weight) in kind.mass_points() {
-            let determinant = kind
-                .jacobian_determinant(&coordinates, point)
-                .map_err(|source| FeError::Element { element, source })?;
-            let mass = density_kg_per_m3 * weight * determinant;
-            let shape = kind.shape_functions(point);
+        for found in ShapeTable::of_mass(kind).volumes(&coordinates) {
+            let (volume, shape) = found.map_err(|source| FeError::Element { element, source })?;
+            let mass = density_kg_per_m3 * volume;
             let [x, y, z] = std::array::from_fn(|k| {
                 let terms = shape.iter().zip(&coordinates).map(|(n, c)| n * c[k]);
                 terms.sum::<f64>()

@@ -68,10 +68,18 @@ impl GearMesh {
                 file: body.file.display().to_string(),
             });
         }
+        Self::in_layers(gear, Section::new(gear, python)?)
+    }
+
+    /// A gear's layers over a cross-section that is at hand: that of a mesh which differs along the axis only.
+    ///
+    /// # Errors
+    /// [`MeshError::Quality`].
+    pub fn in_layers(gear: &GearDefinition, section: Section) -> Result<Self, MeshError> {
         let layers = Layers::new(gear);
         let heights = Heights::new(gear, &layers);
         Self::extruded(
-            Section::new(gear, python)?,
+            section,
             layers,
             &heights,
             Twist::new(gear),

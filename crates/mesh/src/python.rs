@@ -131,6 +131,8 @@ impl PythonEnvironment {
             .command()
             .args(["-c", &limited])
             .args(arguments)
+            // Threads of the linear algebra that comes with numpy spin, and no script computes with it.
+            .env("OPENBLAS_NUM_THREADS", "1")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())

@@ -56,9 +56,10 @@ const CORNERS: [[usize; 4]; 8] = [
 pub fn scaled_jacobian(nodes: &[[f64; 3]]) -> f64 {
     // Direction of the edge from corner `from` to corner `to`, at `from`.
     let edge = |from: usize, to: usize| -> [f64; 3] {
-        let middle = HEX_EDGES
-            .iter()
-            .position(|e| e.contains(&from) && e.contains(&to))
+        let has_both = |e: &[usize; 2]| e.contains(&from) && e.contains(&to);
+        let middle = (nodes.len() > 8)
+            .then(|| HEX_EDGES.iter().position(has_both))
+            .flatten()
             .and_then(|k| nodes.get(8 + k));
         std::array::from_fn(|i| match middle {
             Some(m) => 4.0 * m[i] - 3.0 * nodes[from][i] - nodes[to][i],

@@ -26,7 +26,7 @@ use crate::bevel::loads::bevel_loads;
 use crate::bevel::reduce::{bevel_body_of, flank_patch};
 use crate::flank_loads::{GridLoad, SparseVector, flank_loads};
 use crate::gauge_row::gauge_row;
-use crate::gear_body::GearBody;
+use crate::gear_body::{GearBody, MeshedGear};
 use crate::repeated_mesh::RepeatedMesh;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::tooth_vectors::summed;
@@ -173,12 +173,21 @@ pub fn coarser_meshes(
         side: gear.reduction.flanks[0],
         gauge_teeth: gear.gauges.iter().map(|gauge| gauge.tooth).collect(),
     };
+    // Both coarser meshes have the same cross-section.
+    let mut section = None;
     each_mesh(steps, progress, |axial, progress| {
         let mut coarse = gear.clone();
         // The estimate is that of the sound gear.
         coarse.crack = None;
         coarse.mesh = coarsened(&gear.mesh, axial);
-        let body = GearBody::new(&coarse, python, progress)?;
+        let meshed = match section.take() {
+            Some(section) => MeshedGear::in_layers(&coarse, section),
+            None => MeshedGear::new(&coarse, python, progress),
+        }?;
+        if !one_step {
+            section = Some(meshed.mesh.section.clone());
+        }
+        let body = meshed.held(&coarse, progress)?;
         let loads = flank_loads(&coarse, &body.mesh, grid, 0, asked.side);
         let rows = (coarse.gauges.iter())
             .map(|gauge| gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
@@ -231,7 +240,7 @@ pub fn coarser_bevel_meshes(
 fn each_mesh(
     steps: &[bool],
     progress: &dyn Progress,
-    coarse: impl Fn(bool, &dyn Progress) -> Result<Figures, ReductionError>,
+    mut coarse: impl FnMut(bool, &dyn Progress) -> Result<Figures, ReductionError>,
 ) -> Result<CoarserMeshes, ReductionError> {
     let figures = steps.iter().enumerate().map(|(k, &axial)| {
         let progress = Within {

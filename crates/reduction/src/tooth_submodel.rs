@@ -109,13 +109,12 @@ impl ToothSubmodel {
         Ok(Self { full_dofs, w })
     }
 
-    /// Column of W over all degrees of freedom of the whole gear, zero outside the submodel.
-    pub fn column(&self, load: usize, dof_count: usize) -> Vec<f64> {
-        let mut full = vec![0.0; dof_count];
+    /// Subtracts Σ w_l W_l from a field over all degrees of freedom of the whole gear.
+    pub fn subtract(&self, weights: &[f64], field: &mut [f64]) {
         for (k, &dof) in self.full_dofs.iter().enumerate() {
-            full[dof] = self.w[(k, load)];
+            let row = weights.iter().enumerate();
+            field[dof] -= row.map(|(load, w)| w * self.w[(k, load)]).sum::<f64>();
         }
-        full
     }
 
     /// rowᵀ W for each load, for rows over the whole gear's degrees of freedom: `[row][load]`.

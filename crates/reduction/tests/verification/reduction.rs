@@ -147,7 +147,10 @@ fn the_pattern_identity_holds_across_teeth() {
     .unwrap();
     // W of teeth 1 and 2 by turning W of tooth 0: node by node, because every tooth has the same mesh.
     let turned = |tooth: usize, load: usize| -> Vec<f64> {
-        let w = submodel.column(load, n);
+        let mut weights = vec![0.0; grid.len()];
+        weights[load] = -1.0;
+        let mut w = vec![0.0; n];
+        submodel.subtract(&weights, &mut w);
         let angle = std::f64::consts::TAU * tooth as f64 / 18.0;
         let (s, c) = angle.sin_cos();
         let mut full = vec![0.0; n];
