@@ -6,7 +6,7 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::reborrow::{Reborrow, ReborrowMut};
 use faer::sparse::linalg::cholesky::SymbolicCholeskyRaw;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
-use faer::{Accum, Conj, Mat, MatMut, Par};
+use faer::{Accum, ColRef, Conj, Mat, MatMut, Par};
 use rayon::prelude::*;
 
 use crate::factor::{Factor, SOLVE_COLUMNS};
@@ -122,10 +122,8 @@ fn lower_solve_block(
             let node = l.supernode(s);
             let (start, size) = (node.start() - first, node.val().ncols());
             let mut own = x.rb_mut().subrows_mut(start, size);
-            if own
-                .col_iter()
-                .all(|column| column.iter().all(|value| *value == 0.0))
-            {
+            let is_zero = |column: ColRef<'_, f64>| column.iter().all(|value| *value == 0.0);
+            if own.rb().col_iter().all(is_zero) {
                 return false;
             }
             let (diagonal, rest) = node.val().split_at_row(size);
