@@ -106,6 +106,8 @@ impl Venv {
                     "--quiet",
                     "--no-input",
                     "--disable-pip-version-check",
+                    // Python compiles what is imported, a small part of it.
+                    "--no-compile",
                 ])
                 // Wheels only: a source build would need tools that nobody asked for.
                 .args(["--require-hashes", "--only-binary=:all:", "-r"])

@@ -144,10 +144,9 @@ fn an_imported_gearbox_of_reduced_gears_runs() {
         );
         let output = desk.path("result.h5");
         succeeds(&["run", argument(&scene), "-o", argument(&output)]);
-        // Webs tilt, and the teeth carry towards one end of the face: one bearing of a shaft carries more than statics
-        // say of a load in the middle, the other less. The shipped gearbox of reduced gears has helix corrections
-        // against it.
-        bearings_carry_what_statics_say(&SystemResult::open(&output).unwrap(), 0.12);
+        // The file's helix corrections are made for thin webs, and its wheels are solid: the teeth carry towards one end
+        // of the face, so that one bearing of a shaft carries more than statics say, the other less. 4.6 % were seen.
+        bearings_carry_what_statics_say(&SystemResult::open(&output).unwrap(), 0.05);
     }
 }
 

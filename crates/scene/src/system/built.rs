@@ -80,6 +80,9 @@ pub struct BuiltMesh {
     /// Frequency of the mesh at the start \[Hz\]: teeth of gear 1 times its speed about its axis against the line of
     /// centres.
     pub frequency_hz: f64,
+    /// The highest frequency of the mesh \[Hz\] at the speeds of the start and those to which motions go in a run in
+    /// time.
+    pub highest_hz: f64,
     /// Speeds of gear 1 and gear 2 about their z at the start \[rad/s\].
     pub speeds_rad_per_s: [f64; 2],
     /// The stage at a glance; none of bevel pairs.
@@ -90,6 +93,21 @@ pub struct BuiltMesh {
 }
 
 impl BuiltMesh {
+    /// How often teeth come into mesh, for a line of a plan.
+    pub(crate) fn frequency_in_words(&self) -> String {
+        let at_start = self.frequency_hz;
+        if at_start > 0.0 {
+            format!("mesh frequency at the start {at_start:.3} Hz")
+        } else if self.highest_hz > 0.0 {
+            format!(
+                "at rest at the start, mesh frequency up to {:.3} Hz at the speeds that motions reach",
+                self.highest_hz
+            )
+        } else {
+            "at rest at the start".to_owned()
+        }
+    }
+
     /// u: teeth of gear 2 over those of gear 1, negative with a ring.
     #[must_use]
     pub fn ratio(&self) -> f64 {

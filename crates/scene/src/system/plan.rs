@@ -87,13 +87,13 @@ impl SystemPlan {
         for mesh in &built.meshes {
             let [z1, z2] = mesh.teeth;
             lines.push(format!(
-                "mesh       {}: `{}`, {} z {z1} with {} z {z2}, ratio {:.6}, mesh frequency at the start {:.3} Hz",
+                "mesh       {}: `{}`, {} z {z1} with {} z {z2}, ratio {:.6}, {}",
                 mesh.name,
                 mesh.model,
                 mesh.gears[0],
                 mesh.gears[1],
                 mesh.ratio(),
-                mesh.frequency_hz
+                mesh.frequency_in_words()
             ));
             let stage = mesh.stage.as_ref().map(StageSummary::words);
             lines.extend(stage.map(|words| format!("stage      {}: {words}", mesh.name)));

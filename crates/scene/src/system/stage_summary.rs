@@ -100,15 +100,18 @@ impl StageSummary {
     #[must_use]
     pub fn words(&self) -> String {
         let [tangential, radial, axial] = self.forces_of_1_nm_n;
+        let pitch_line = match self.pitch_line_speed_m_per_s {
+            0.0 => String::new(),
+            speed => format!("pitch line {speed:.3} m/s at the start, "),
+        };
         format!(
-            "ratio {:.6}, eps_alpha {:.3}, eps_beta {:.3}, c' {:.3} and c_gamma {:.3} N/(mm um) after ISO 6336-1 method B, pitch line {:.3} m/s at the \
-             start, sliding up to {:.1} % of it; 1 N m on gear 1: {tangential:.2} N tangential, {radial:.2} N radial, {axial:.2} N axial",
+            "ratio {:.6}, eps_alpha {:.3}, eps_beta {:.3}, c' {:.3} and c_gamma {:.3} N/(mm um) after ISO 6336-1 method B, \
+             {pitch_line}sliding up to {:.1} % of the pitch line's speed; 1 N m on gear 1: {tangential:.2} N tangential, {radial:.2} N radial, {axial:.2} N axial",
             self.ratio,
             self.contact_ratio,
             self.overlap_ratio,
             self.single_stiffness_n_per_m2 / N_PER_MM_UM,
             self.mesh_stiffness_n_per_m2 / N_PER_MM_UM,
-            self.pitch_line_speed_m_per_s,
             100.0 * self.largest_sliding
         )
     }

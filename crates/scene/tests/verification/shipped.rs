@@ -39,6 +39,13 @@ fn plans_say_what_is_computed_and_what_is_not() {
                 "25000 steps",
             ],
         ),
+        (
+            "dynamics_17_25.toml",
+            // 17 teeth at 500 rpm.
+            vec![
+                "at rest at the start, mesh frequency up to 141.667 Hz at the speeds that motions reach",
+            ],
+        ),
     ] {
         let SceneFile::System(scene) = SceneFile::read(&fe_models().join(name)).unwrap() else {
             panic!("{name} is a multibody scene");

@@ -319,7 +319,10 @@ impl LoadedSystem {
         }
         let gauges = self.gauges(&bodies, &meshes)?;
         let ratings = ratings::build(&self.scene, &bodies, &meshes, &gauges)?;
-        let built_meshes = meshes.iter().map(|mesh| describe(mesh, &bodies)).collect();
+        let in_time = self.scene.run.simulated_s().is_some();
+        let built_meshes = (meshes.iter())
+            .map(|mesh| describe(mesh, &bodies, in_time.then_some(&fastest)))
+            .collect();
         let mut groups = Groups::new(&tables.body, document, &bodies, (&meshes, seated))?;
         let mut left: Vec<Vec<MeshOfGroup>> = groups.meshes.iter().map(|_| Vec::new()).collect();
         for (mesh, group) in meshes.into_iter().zip(&groups.of_mesh) {
@@ -483,14 +486,17 @@ impl LoadedSystem {
     }
 }
 
-fn describe(mesh: &PreparedMesh, bodies: &Bodies) -> BuiltMesh {
+fn describe(mesh: &PreparedMesh, bodies: &Bodies, fastest: Option<&Bodies>) -> BuiltMesh {
+    let frequency_hz = mesh_frequency::frequency_hz(mesh, bodies);
+    let later = fastest.map_or(0.0, |fastest| mesh_frequency::frequency_hz(mesh, fastest));
     BuiltMesh {
         name: mesh.name.clone(),
         gears: mesh.bodies.map(|body| bodies.list[body].body.name.clone()),
         teeth: mesh.teeth,
         base_radii_m: mesh.base_radii_m,
         model: mesh.model.name(),
-        frequency_hz: mesh_frequency::frequency_hz(mesh, bodies),
+        frequency_hz,
+        highest_hz: later.max(frequency_hz),
         speeds_rad_per_s: (mesh.bodies).map(|b| bodies.list[b].body.angular_velocity_rad_per_s.z),
         stage: mesh.stage.map(|stage| StageSummary {
             pitch_line_speed_m_per_s: stage.pitch_radius_1_m
