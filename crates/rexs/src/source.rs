@@ -13,6 +13,10 @@ use std::collections::{BTreeSet, HashMap};
 /// What an infinite stiffness is read as, in the unit of the file: far above what stands for rigid.
 const RIGID: f64 = 1e30;
 
+/// Longer lengths and farther places are slips \[m\]: whole numbers count micrometres along a shaft, and ten
+/// kilometres are below what they hold.
+const LONGEST_M: f64 = 1e4;
+
 /// A model and the list of what became of it.
 #[derive(Debug)]
 pub struct Source<'a> {
@@ -161,6 +165,22 @@ impl<'a> Source<'a> {
         })
     }
 
+    /// The value, unless it is a length that no machine has.
+    fn no_longer_than_machines(
+        &self,
+        component: &Component,
+        a: &Attribute,
+        value: f64,
+        unit: Unit,
+    ) -> Result<f64, RexsError> {
+        if unit.dimension == units::Dimension::Length && value.abs() * unit.si > LONGEST_M {
+            let found = format!("{value:e} {}", unit.name);
+            let allowed = format!("allowed is up to {:e} {}", LONGEST_M / unit.si, unit.name);
+            return Err(self.wrong(component, a, found, allowed));
+        }
+        Ok(value)
+    }
+
     /// A number in a unit; none where the attribute is missing or empty.
     ///
     /// # Errors
@@ -222,6 +242,7 @@ impl<'a> Source<'a> {
             }
         };
         let value = self.parsed(component, a, text)? * self.factor(component, a, unit, standard)?;
+        let value = self.no_longer_than_machines(component, a, value, unit)?;
         self.take(
             component,
             format!("{id} {text} {}", a.unit).trim().to_owned(),
@@ -270,7 +291,10 @@ impl<'a> Source<'a> {
         let factor = self.factor(component, a, unit, unit)?;
         let values: Result<Vec<f64>, _> = split
             .iter()
-            .map(|t| Ok(self.parsed(component, a, t)? * factor))
+            .map(|t| {
+                let value = self.parsed(component, a, t)? * factor;
+                self.no_longer_than_machines(component, a, value, unit)
+            })
             .collect();
         self.take(
             component,

@@ -1,10 +1,11 @@
-//! Text files: gears, scenes, studies, S-N tables, tables of numbers, records.
+//! Text files: gears, scenes, studies, S-N tables, tables of numbers, records, gearboxes in REXS.
 
 use crate::common::root;
 use crate::{fuzz, mutation};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_report::ReferenceRecord;
+use gearmesh_rexs::{Meshes, Running, import_to_run};
 use gearmesh_scene::rating::sn_curve;
 use gearmesh_scene::study::{Study, StudyScenes};
 use gearmesh_scene::system_run::RunJob;
@@ -143,6 +144,53 @@ fn records() {
         if let Ok(record) = ReferenceRecord::read(desk.path()) {
             for column in &record.columns {
                 let _ = record.series(column);
+            }
+        }
+    });
+}
+
+/// A shaft with a gear as REXS in JSON.
+const REXSJ: &str = r#"{"model": {"version": "1.4", "relations": [
+  {"id": 1, "type": "assembly", "refs": [{"id": 1, "role": "assembly"}, {"id": 2, "role": "part"}]},
+  {"id": 2, "type": "assembly", "refs": [{"id": 2, "role": "assembly"}, {"id": 3, "role": "part"}]},
+  {"id": 3, "type": "assembly", "refs": [{"id": 2, "role": "assembly"}, {"id": 4, "role": "part"}]}],
+ "components": [{"id": 1, "type": "gear_unit", "attributes": []},
+  {"id": 2, "type": "shaft", "name": "input", "attributes": [{"id": "u_axis_vector", "unit": "mm", "floating_point_array": [1.0, 0.0, 0.0]}]},
+  {"id": 3, "type": "shaft_section", "attributes": [
+   {"id": "length", "unit": "mm", "floating_point": 60.0},
+   {"id": "outer_diameter_begin", "unit": "mm", "floating_point": 30.0},
+   {"id": "outer_diameter_end", "unit": "mm", "floating_point": 30.0}]},
+  {"id": 4, "type": "cylindrical_gear", "attributes": [
+   {"id": "number_of_teeth", "unit": "none", "integer": 17},
+   {"id": "normal_module", "unit": "mm", "floating_point": 2.0},
+   {"id": "face_width", "unit": "mm", "floating_point": 24.0},
+   {"id": "u_coordinate_on_shaft", "unit": "mm", "floating_point": 30.0}]}]}}"#;
+
+/// Imported, at rest and in time; the files that an import writes are answered as any others.
+#[test]
+fn rexs() {
+    let of = |file: &str| std::fs::read_to_string(root().join(file)).unwrap();
+    let corpus = [
+        of("fe_models/gearbox_three_stage.rexs"),
+        of("crates/cli/tests/scene_commands/idler_on_bearing.rexs"),
+        REXSJ.to_owned(),
+    ];
+    fuzz_text("rexs", 150, &corpus, |text| {
+        for running in [Running::AtRest, Running::InTime] {
+            let bytes = text.as_bytes().to_vec();
+            let Ok(import) = import_to_run(bytes, "case", Meshes::Iso6336, running) else {
+                continue;
+            };
+            let desk = tempfile::tempdir().unwrap();
+            for file in &import.files {
+                std::fs::write(desk.path().join(&file.name), &file.text).unwrap();
+            }
+            for scene in import
+                .files
+                .iter()
+                .filter(|f| import.scenes.contains(&f.name))
+            {
+                scene_is_answered(&scene.text, desk.path());
             }
         }
     });

@@ -108,6 +108,10 @@ fn numbers_and_units() {
         &[&at, "pinion 17", "`furlong`", "allowed are mm, m"],
     );
     refused(
+        &change("id=\"normal_module\" unit=\"m\">1e300<"),
+        &[&at, "pinion 17", "1e303 mm", "allowed is up to 1e7 mm"],
+    );
+    refused(
         &change("id=\"normal_module\" unit=\"kg\">2<"),
         &["normal_module", "`kg`"],
     );
