@@ -2,8 +2,8 @@
 //!
 //! The number of operations is known exactly from the pattern ([`crate::SymbolicFactor::flops`]); how many of them this
 //! machine does in a second is measured once, on a dense matrix of the size of a large supernode, whose rate the sparse
-//! factorisation of a large solid reaches: 0.7 to 1.3 times what was expected for bodies of 1.7e11 to 6.5e11 operations
-//! (two threads beside other work, 2026-11-27). It is an estimate for the person who waits, never an input of a result.
+//! factorisation of a large solid comes near: 6.5e11 operations took 13 s where 20 s were expected (two threads beside
+//! other work, 2026-11-27). It is an estimate for the person who waits, never an input of a result.
 
 use faer::linalg::solvers::Llt;
 use faer::{Mat, Side};

@@ -54,8 +54,8 @@ impl ShapeTable {
     /// Of each point the volume (m³) that it stands for, weight × Jacobian determinant, and the shape functions there.
     ///
     /// # Errors
-    /// [`ElementError::JacobianNotPositive`], and [`ElementError::NodeCount`] where the coordinates (m) are not those of
-    /// the kind.
+    /// [`ElementError::JacobianNotPositive`], and [`ElementError::NodeCount`] where the coordinates (m) are not those
+    /// of the kind.
     pub fn volumes(
         &self,
         coordinates: &[[f64; 3]],

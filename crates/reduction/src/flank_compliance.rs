@@ -177,7 +177,11 @@ pub(crate) fn asymmetry(
     for i in 0..size {
         for j in 0..=i {
             let (a, b) = (rows[i * row_length + j], rows[j * row_length + i]);
-            worst = worst.max((a - b).abs());
+            let difference = (a - b).abs();
+            if difference.is_nan() {
+                return f64::NAN;
+            }
+            worst = worst.max(difference);
             largest = largest.max(a.abs());
         }
     }

@@ -17,6 +17,14 @@ const RIGID: f64 = 1e30;
 /// kilometres are below what they hold.
 const LONGEST_M: f64 = 1e4;
 
+/// The largest magnitude that a value of this unit may have, in that unit.
+fn largest(unit: Unit) -> f64 {
+    match unit.dimension {
+        units::Dimension::Length => LONGEST_M / unit.si,
+        _ => f64::INFINITY,
+    }
+}
+
 /// A model and the list of what became of it.
 #[derive(Debug)]
 pub struct Source<'a> {
@@ -165,17 +173,18 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// The value, unless it is a length that no machine has.
-    fn no_longer_than_machines(
+    /// The value, unless its magnitude is above `most`, in the same unit.
+    fn up_to(
         &self,
         component: &Component,
         a: &Attribute,
         value: f64,
         unit: Unit,
+        most: f64,
     ) -> Result<f64, RexsError> {
-        if unit.dimension == units::Dimension::Length && value.abs() * unit.si > LONGEST_M {
+        if value.abs() > most {
             let found = format!("{value:e} {}", unit.name);
-            let allowed = format!("allowed is up to {:e} {}", LONGEST_M / unit.si, unit.name);
+            let allowed = format!("allowed is up to {most:e} {}", unit.name);
             return Err(self.wrong(component, a, found, allowed));
         }
         Ok(value)
@@ -206,17 +215,10 @@ impl<'a> Source<'a> {
         most: f64,
     ) -> Result<Option<f64>, RexsError> {
         let value = self.number(component, id, unit)?;
-        match component
-            .attribute(id)
-            .filter(|_| value.is_some_and(|v| v.abs() > most))
-        {
-            Some(a) => {
-                let found = format!("{:e} {}", value.unwrap_or_default(), unit.name);
-                let allowed = format!("allowed is up to {most:e} {}", unit.name);
-                Err(self.wrong(component, a, found, allowed))
-            }
-            None => Ok(value),
-        }
+        let given = component.attribute(id).zip(value);
+        given
+            .map(|(a, value)| self.up_to(component, a, value, unit, most))
+            .transpose()
     }
 
     /// A number whose unit is `standard` in the schema.
@@ -242,7 +244,7 @@ impl<'a> Source<'a> {
             }
         };
         let value = self.parsed(component, a, text)? * self.factor(component, a, unit, standard)?;
-        let value = self.no_longer_than_machines(component, a, value, unit)?;
+        let value = self.up_to(component, a, value, unit, largest(unit))?;
         self.take(
             component,
             format!("{id} {text} {}", a.unit).trim().to_owned(),
@@ -293,7 +295,7 @@ impl<'a> Source<'a> {
             .iter()
             .map(|t| {
                 let value = self.parsed(component, a, t)? * factor;
-                self.no_longer_than_machines(component, a, value, unit)
+                self.up_to(component, a, value, unit, largest(unit))
             })
             .collect();
         self.take(

@@ -36,7 +36,8 @@ fn both_ways_agree(
     };
     assert_eq!(effort(&cyclic, "factorisations"), factorisations);
     assert_eq!(effort(&whole, "factorisations"), 1);
-    // One per load of a sector's teeth, two sums of patterns, two of rows, and the gauges; the same with and without symmetry.
+    // One per load of a sector's teeth, two sums of patterns, two of rows, and the gauges; the same with and without
+    // symmetry.
     let loads = 18 / sectors * 2 * whole.grid.len();
     for model in [&cyclic, &whole] {
         assert_eq!(effort(model, "right-hand sides"), loads + 2 + 2 + 2);

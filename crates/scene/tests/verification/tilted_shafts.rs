@@ -77,3 +77,55 @@ fn a_tilted_shaft_without_resistance_has_an_equilibrium() {
         assert!((force[0] / 300.0 - 1.0).abs() < 1e-6, "{force:?}");
     }
 }
+
+/// Pushed along its axis on cylindrical rollers alone, the shaft leaves them: no equilibrium was found, after seconds.
+#[test]
+fn what_only_cylindrical_rollers_support_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let rollers = "name = \"rollers\"\nkind = \"cylindrical-roller\"\nrollers = 12\nroller_diameter_mm = 5.0\nroller_length_mm = 5.0\n\
+                   pitch_diameter_mm = 40.0\nradial_clearance_um = 5.0\n";
+    fs::write(folder.path().join("rollers.toml"), rollers).unwrap();
+    fs::write(folder.path().join("balls.toml"), BALLS).unwrap();
+    let shaft = r#"title = "a shaft on rollers"
+[[body]]
+name = "disc"
+mass_kg = 1.0
+inertia_kg_m2 = [1e-3, 1e-3, 1e-3]
+[[shaft]]
+name = "shaft"
+stations_mm = [0.0, 100.0, 200.0]
+origin_mm = [0.0, 0.0, 0.0]
+outer_diameters_mm = [30.0, 30.0]
+density_kg_per_m3 = 7850.0
+model = { kind = "beam", young_GPa = 206.0, poisson = 0.3 }
+seat = [{ station = 1, body = "disc" }]
+[[bearing]]
+name = "left"
+body_2 = "shaft/0"
+axis = [0, 0, 1]
+model = { kind = "quasi-static", file = "rollers.toml" }
+[[bearing]]
+name = "right"
+body_2 = "shaft/2"
+axis = [0, 0, 1]
+model = { kind = "quasi-static", file = "LAST" }
+[[load]]
+name = "push"
+body = "disc"
+force_N = 500.0
+along = [0.6, 0.0, 0.8]
+[run]
+kind = "static"
+"#;
+    let built = |last: &str| {
+        load(&changed(shaft, "LAST", last), folder.path())
+            .unwrap()
+            .build()
+    };
+    assert!(built("balls.toml").is_ok());
+    let message = built("rollers.toml").map(|_| ()).unwrap_err().to_string();
+    assert!(
+        message.contains("nothing else holds `disc` there"),
+        "{message}"
+    );
+}

@@ -1,15 +1,12 @@
 //! Whether the tables of a scene fit each other: names, flexibilities, outputs.
 
-use gearmesh_bearings::definition::BearingGeometry;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
 use super::LoadedSystem;
-use super::bearings::rolling_bearing;
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;
 use super::parts::Parts;
-use crate::system::built::BuiltPart;
 use crate::system::names;
 use crate::system::tables::body::Flexibility;
 use crate::system::tables::mesh_model::MeshKind;
@@ -77,59 +74,6 @@ impl LoadedSystem {
             return Err(keys.error("flexibility", problem));
         }
         Ok(())
-    }
-
-    /// Cylindrical rollers hold nothing along their axis, and the teeth of a planet do not either: along the pin their
-    /// forces balance wherever it stands. With nothing else it drifts there as soon as its bearing tilts, and no
-    /// equilibrium is found.
-    pub(super) fn refuse_loose_planets(&self, parts: &Parts) -> Result<(), InputError> {
-        let document = &self.scene.document;
-        for planet in self.scene.sets.iter().flat_map(|set| &set.planets) {
-            let is_on = |part: &&BuiltPart| part.bodies.contains(planet);
-            let forces = parts.elements.iter().filter(|part| part.kind != "load");
-            let holding = parts.joints.iter().chain(forces).filter(is_on);
-            if let Some(number) = self.only_cylindrical(holding)? {
-                let problem = format!(
-                    "cylindrical rollers hold nothing along their axis, and nothing else holds `{planet}` there; write support = \"floating\" for the \
-                     planets, which does, or give them a bearing that carries along the axis, too"
-                );
-                let key = format!("bearing.{number}");
-                return Err(TableKeys::new(document, &key).error("model", problem));
-            }
-        }
-        Ok(())
-    }
-
-    /// One of these parts, by its place among the `[[bearing]]`s, where all of them have cylindrical rollers.
-    fn only_cylindrical<'p>(
-        &self,
-        parts: impl Iterator<Item = &'p BuiltPart>,
-    ) -> Result<Option<usize>, InputError> {
-        let mut found = None;
-        for part in parts {
-            let mut bearings = self.scene.tables.bearing.iter();
-            found = bearings.position(|table| table.name == part.name);
-            match found {
-                Some(number) if self.is_cylindrical(number)? => {}
-                _ => return Ok(None),
-            }
-        }
-        Ok(found)
-    }
-
-    /// Whether a `[[bearing]]` has cylindrical rollers.
-    fn is_cylindrical(&self, number: usize) -> Result<bool, InputError> {
-        let Some(file) = self.scene.tables.bearing[number].model.file() else {
-            return Ok(false);
-        };
-        let key = format!("bearing.{number}");
-        let keys = TableKeys::new(&self.scene.document, &key);
-        let found = rolling_bearing::definition("model.file", file, &self.scene.folder, &keys)?;
-        let rollers = match &found.geometry {
-            BearingGeometry::Roller(rollers) => rollers,
-            BearingGeometry::Ball(_) => return Ok(false),
-        };
-        Ok(rollers.taper.is_none() && rollers.barrel.is_none())
     }
 
     /// Names in `[output]` must exist.

@@ -11,10 +11,12 @@
 //! | a start in equilibrium where balls move | `start_at_rest.rs` |
 //! | bearings that are linear about an operating point | `operating_point.rs` |
 //! | how often teeth come into mesh, and whether steps follow it | `mesh_frequency.rs` |
+//! | what a plan says of a mesh | `described_mesh.rs` |
 //! | speeds that contradict a joint, stiffnesses that no run resolves | `stated_speeds.rs`, `stiffness.rs` |
 //! | joints and motions, loads and springs, bearings | `joints.rs`, `elements.rs`, `bearings/` |
 //! | which meshes are solved together | `coupled.rs` |
 //! | whether the tables fit each other | `consistency.rs` |
+//! | what only cylindrical rollers support | `loose_along_axis.rs` |
 //! | gears that overlap, loads that drive | `overlaps.rs`, `load_powers.rs` |
 //! | what is judged after the run | `ratings.rs` |
 
@@ -26,12 +28,14 @@ mod carriers;
 mod consistency;
 mod coupled;
 mod cut_into_shaft;
+mod described_mesh;
 mod elements;
 mod gear_mesh;
 mod gears;
 mod gears_in_motion;
 mod joints;
 mod load_powers;
+mod loose_along_axis;
 mod lump;
 mod mesh_effects;
 mod mesh_frequency;
@@ -75,10 +79,9 @@ use self::parts::Parts;
 use self::shafts::PlacedShaft;
 use self::start_at_rest::start_in_equilibrium;
 use self::start_speeds::Holds;
-use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
+use super::built::{BuiltBody, BuiltGauge, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
-use super::stage_summary::StageSummary;
 use super::tables::body::BoreHold;
 use super::tables::function::Sources;
 use super::tables::mesh_model::MeshKind;
@@ -315,13 +318,13 @@ impl LoadedSystem {
             &mut parts,
         )?;
         if seeks_rest {
-            self.refuse_loose_planets(&parts)?;
+            self.refuse_loose_along_axis(&bodies, &meshes, &parts)?;
         }
         let gauges = self.gauges(&bodies, &meshes)?;
         let ratings = ratings::build(&self.scene, &bodies, &meshes, &gauges)?;
         let in_time = self.scene.run.simulated_s().is_some();
         let built_meshes = (meshes.iter())
-            .map(|mesh| describe(mesh, &bodies, in_time.then_some(&fastest)))
+            .map(|mesh| mesh.describe(&bodies, in_time.then_some(&fastest)))
             .collect();
         let mut groups = Groups::new(&tables.body, document, &bodies, (&meshes, seated))?;
         let mut left: Vec<Vec<MeshOfGroup>> = groups.meshes.iter().map(|_| Vec::new()).collect();
@@ -483,26 +486,5 @@ impl LoadedSystem {
                 gravity[0], gravity[1], gravity[2]
             )),
         );
-    }
-}
-
-fn describe(mesh: &PreparedMesh, bodies: &Bodies, fastest: Option<&Bodies>) -> BuiltMesh {
-    let frequency_hz = mesh_frequency::frequency_hz(mesh, bodies);
-    let later = fastest.map_or(0.0, |fastest| mesh_frequency::frequency_hz(mesh, fastest));
-    BuiltMesh {
-        name: mesh.name.clone(),
-        gears: mesh.bodies.map(|body| bodies.list[body].body.name.clone()),
-        teeth: mesh.teeth,
-        base_radii_m: mesh.base_radii_m,
-        model: mesh.model.name(),
-        frequency_hz,
-        highest_hz: later.max(frequency_hz),
-        speeds_rad_per_s: (mesh.bodies).map(|b| bodies.list[b].body.angular_velocity_rad_per_s.z),
-        stage: mesh.stage.map(|stage| StageSummary {
-            pitch_line_speed_m_per_s: stage.pitch_radius_1_m
-                * mesh_frequency::spin_rad_per_s(mesh, bodies).abs(),
-            ..stage
-        }),
-        flank_corners_m: mesh.flank_corners_m.clone(),
     }
 }

@@ -1,0 +1,34 @@
+//! What is known of a mesh once its gears have places and speeds.
+
+use super::bodies::Bodies;
+use super::gear_mesh::PreparedMesh;
+use super::mesh_frequency::{frequency_hz, spin_rad_per_s};
+use crate::system::built::BuiltMesh;
+use crate::system::stage_summary::StageSummary;
+
+impl PreparedMesh {
+    /// The mesh for plans and results; `fastest`: its bodies at the highest speeds of a run in time.
+    pub(super) fn describe(&self, bodies: &Bodies, fastest: Option<&Bodies>) -> BuiltMesh {
+        let at_start_hz = frequency_hz(self, bodies);
+        let later_hz = fastest.map_or(0.0, |fastest| frequency_hz(self, fastest));
+        let of = |body: usize| &bodies.list[body].body;
+        BuiltMesh {
+            name: self.name.clone(),
+            gears: self.bodies.map(|body| of(body).name.clone()),
+            teeth: self.teeth,
+            base_radii_m: self.base_radii_m,
+            model: self.model.name(),
+            frequency_hz: at_start_hz,
+            highest_hz: later_hz.max(at_start_hz),
+            speeds_rad_per_s: self
+                .bodies
+                .map(|body| of(body).angular_velocity_rad_per_s.z),
+            stage: self.stage.map(|stage| StageSummary {
+                pitch_line_speed_m_per_s: stage.pitch_radius_1_m
+                    * spin_rad_per_s(self, bodies).abs(),
+                ..stage
+            }),
+            flank_corners_m: self.flank_corners_m.clone(),
+        }
+    }
+}
