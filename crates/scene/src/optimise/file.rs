@@ -2,7 +2,6 @@
 
 use gearmesh_geometry::given;
 use gearmesh_geometry::input::TableKeys;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::InputError;
@@ -10,7 +9,7 @@ use gearmesh_geometry::input::InputDocument;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::study::{NormalTable, OperationTable, UniformTable};
+use crate::study::{NormalTable, OperationTable, UniformTable, demand_each_once};
 use crate::system::label_problem;
 use crate::system_run::MOST_RESULT_BYTES;
 
@@ -180,7 +179,9 @@ impl Optimisation {
                 }
             }
         }
-        demand_each_once(&document, &tables.variable)?;
+        let variables = tables.variable.iter();
+        let varied = variables.map(|variable| (variable.name.as_str(), variable.keys.as_slice()));
+        demand_each_once(&document, "variable", varied, false)?;
         for (i, variable) in tables.variable.iter().enumerate() {
             keys_of(&document, &format!("variable.{i}"), &variable.keys)?;
             let ordered = variable.from.is_finite() && variable.to.is_finite();
@@ -277,32 +278,6 @@ impl Optimisation {
         }
         self.tables.scatter_samples.unwrap_or(8)
     }
-}
-
-/// Two variables with one name cannot be told apart in the tables; of two that set one key, one would be without effect.
-fn demand_each_once(
-    document: &InputDocument,
-    variables: &[VariableTable],
-) -> Result<(), InputError> {
-    let (mut names, mut keys) = (BTreeMap::new(), BTreeMap::new());
-    for (i, variable) in variables.iter().enumerate() {
-        if let Some(first) = names.insert(&variable.name, i) {
-            let problem = format!(
-                "`{}` is the name of variable.{first}, too; names must differ",
-                variable.name
-            );
-            return Err(document.error(&format!("variable.{i}.name"), problem));
-        }
-        for key in &variable.keys {
-            if let Some(first) = keys.insert(key, i) {
-                let problem = format!(
-                    "`{key}` is set by variable.{first} already; a key belongs to one variable"
-                );
-                return Err(document.error(&format!("variable.{i}.keys"), problem));
-            }
-        }
-    }
-    Ok(())
 }
 
 fn keys_of(document: &InputDocument, at: &str, keys: &[String]) -> Result<(), InputError> {

@@ -43,7 +43,8 @@ impl MisalignmentFrom {
             return Ok(());
         }
         let problem = format!(
-            "found {torques_nm:?} with pair.misalignment_from, whose axes are those of one equilibrium; allowed is the torque of that              equilibrium alone: write a scene for each torque, each with the `point` of its own equilibrium"
+            "found {torques_nm:?} with pair.misalignment_from, whose axes are those of one equilibrium; allowed is the torque of that equilibrium \
+             alone: write a scene for each torque, each with the `point` of its own equilibrium"
         );
         Err(document.error("run.torques_Nm", problem))
     }

@@ -3,7 +3,7 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | what the file says | [`Study`] | `study_file.rs` |
-//! | which values make which cases | [`Design`], [`Case`] | `design.rs`, `scatter.rs` |
+//! | which values make which cases | [`Design`], [`Case`] | `design.rs`, `scatter.rs`, `varied_once.rs` |
 //! | what is computed | [`Subject`] | `subject.rs`, `bearing_operation.rs` |
 //! | the scene of a case | [`BaseScene`] | `varied_scene.rs`, `changed_file.rs` |
 //! | cases, their results and figures | [`run_study`] | `cases.rs`, `system_cases.rs`, `rest_cases.rs` |
@@ -31,6 +31,7 @@ mod study_file;
 mod subject;
 mod system_cases;
 mod table;
+mod varied_once;
 mod varied_scene;
 
 pub use bearing_operation::{BearingOperation, OperationTable};
@@ -52,4 +53,5 @@ pub use scatter::{NormalTable, SpacedTable, UniformTable};
 pub use study_file::{ParameterTable, Study, StudyTables};
 pub use subject::{BearingSubject, SeriesOver, Subject};
 pub(crate) use system_cases::result_size;
+pub(crate) use varied_once::demand_each_once;
 pub use varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};

@@ -13,6 +13,7 @@ use super::bearing_operation::OperationTable;
 use super::design::{self, Case, Design};
 use super::figure::Wanted;
 use super::scatter::{NormalTable, SpacedTable, UniformTable};
+use super::varied_once::demand_each_once;
 use crate::system::label_problem;
 use crate::system_run::MOST_RESULT_BYTES;
 
@@ -186,14 +187,11 @@ impl Study {
                 "is empty; name at least one column of the result",
             ));
         }
-        let mut names: Vec<&str> = Vec::new();
+        let varied = (tables.parameter.iter()).map(|one| (one.name.as_str(), one.keys.as_slice()));
+        let at_a_time = tables.design == Design::OneAtATime;
+        demand_each_once(&document, "parameter", varied, at_a_time)?;
         for (i, parameter) in tables.parameter.iter().enumerate() {
             let at = |key: &str| format!("parameter.{i}.{key}");
-            if names.contains(&parameter.name.as_str()) {
-                let problem = format!("`{}` is there twice; names must differ", parameter.name);
-                return Err(document.error(&at("name"), problem));
-            }
-            names.push(&parameter.name);
             if let Some(problem) = label_problem(&parameter.name) {
                 return Err(document.error(&at("name"), problem));
             }
@@ -303,7 +301,14 @@ mod tests {
         );
         let twice = "[[parameter]]\nname = 'b'\nkeys = ['k']\nvalues = [1]\n";
         let complaint = study(twice).unwrap_err().to_string();
-        assert!(complaint.contains("`b` is there twice"), "{complaint}");
+        let told = "parameter.2.name: `b` is the name of parameter.0, too; names must differ";
+        assert!(complaint.contains(told), "{complaint}");
+        // One at a time each sets the key in cases of its own.
+        let shared = "[[parameter]]\nname = 'c'\nkeys = ['m']\nvalues = [1]\n";
+        assert!(study(shared).is_ok());
+        let complaint = study(&format!("design = 'grid'\n{shared}")).unwrap_err();
+        let told = "parameter.2.keys: `m` is set by parameter.0 already";
+        assert!(complaint.to_string().contains(told), "{complaint}");
         let long = "x".repeat(65_536);
         let long = format!("[[parameter]]\nname = '{long}'\nkeys = ['k']\nvalues = [1]\n");
         let complaint = study(&long).unwrap_err().to_string();

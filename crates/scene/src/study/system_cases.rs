@@ -317,13 +317,21 @@ fn of_rows(result: &SystemResult, one: &Wanted, from_s: f64) -> Result<Selected,
     let values = &values.map_err(say)?[first..];
     if let Some(Figure::Line(hz)) = one.figure() {
         let interval_s = result.interval_s().map_err(say)?;
-        if values.len() < 8 || 2.0 * hz * interval_s > 1.0 {
+        let band = if result.has_low_pass(&one.column) {
+            result.spectrum_band()
+        } else {
+            1.0
+        };
+        let end_hz = (1e6 * 0.5 * band / interval_s).round() / 1e6;
+        if values.len() < 8 || hz > end_hz {
             return Err(format!(
-                "{}: the rows are {interval_s} s apart, {} of them; their spectrum ends at {} Hz",
+                "{}: the rows are {interval_s} s apart, {} of them; their spectrum is right up to {end_hz} Hz",
                 one.name(),
-                values.len(),
-                0.5 / interval_s
+                values.len()
             ));
+        }
+        if let Some(problem) = result.folded_in_words(&one.column) {
+            return Err(problem);
         }
         return Ok(Selected {
             column: one.name(),

@@ -227,6 +227,19 @@ impl SystemResult {
         (share > FOLDED_SHARE && share.is_finite()).then_some(share)
     }
 
+    /// What [`Self::folded_share`] means for spectra of a column, and what to do about it.
+    #[must_use]
+    pub fn folded_in_words(&self, name: &str) -> Option<String> {
+        let share = self.folded_share(name)?;
+        let interval_s = self.interval_s().ok()?;
+        Some(format!(
+            "`{name}` is written every {interval_s} s: {:.2} % of its RMS value vibrates faster than {} Hz and stands at false places in its \
+             spectra; lower output.interval_s of the scene",
+            100.0 * share,
+            0.5 / interval_s
+        ))
+    }
+
     /// Opens a result.
     ///
     /// # Errors

@@ -23,7 +23,7 @@ pub struct ColumnSummary {
     pub unit: String,
     /// Mean, deviation, extremes.
     pub figures: Figures,
-    /// Frequency of the strongest line \[Hz\]; none where nothing varies.
+    /// Frequency of the strongest line \[Hz\]; none where nothing varies, or rows are too far apart for it.
     pub dominant_hz: Option<f64>,
 }
 
@@ -99,7 +99,8 @@ impl SystemResult {
             if !wanted(&column.name) {
                 continue;
             }
-            let dominant_hz = if varies && !is_progressive(&column.name) {
+            let folds = self.folded_share(&column.name).is_some();
+            let dominant_hz = if varies && !folds && !is_progressive(&column.name) {
                 let values = self.read_for_spectrum(&column.name)?;
                 let first = (self.statistics_from_s / interval_s).round() as usize;
                 dominant_hz(&values[first.min(values.len() - 1)..], interval_s)

@@ -425,6 +425,10 @@ fn misalignment_is_taken_from_a_gearbox() {
     let several = loaded_under(&[50.0, 100.0], &from).unwrap_err().to_string();
     let complaint = "run.torques_Nm: found [50.0, 100.0] with pair.misalignment_from";
     assert!(several.contains(complaint), "{several}");
+    assert!(
+        several.contains("of that equilibrium alone: write a scene for each torque"),
+        "{several}"
+    );
     assert_eq!(taken.scene.notes.len(), 1, "{:?}", taken.scene.notes);
     let other = loaded_with(150.0, &from).unwrap();
     let note = other.scene.notes.last().unwrap();

@@ -248,6 +248,37 @@ fn a_line_of_the_spectrum_is_a_column() {
     assert!(told.contains("line-10"), "{told}");
 }
 
+/// Rows every 10 ms hold filtered columns up to 40 Hz; rows every 0.25 s are too far apart for a column of 3.2 Hz that
+/// is not filtered.
+#[test]
+fn a_line_that_rows_cannot_tell_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (interval, column, told) in [
+        (
+            "1e-2",
+            "elements/spring/force_world_x_N:line-45Hz",
+            "their spectrum is right up to 40 Hz",
+        ),
+        (
+            "0.25",
+            "bodies/block/velocity_x_m_per_s:line-1Hz",
+            "vibrates faster than 2 Hz and stands at false places",
+        ),
+    ] {
+        let run = format!(
+            "kind = \"transient\"\nend_s = 20.0\n[solver]\nstep_s = 2e-3\n[output]\ninterval_s = {interval}"
+        );
+        let text = oscillator(&run).replace("damping_N_s_per_mm = 0.004\n", "");
+        std::fs::write(folder.path().join("scene.toml"), text).unwrap();
+        let text = format!(
+            "scene = \"scene.toml\"\ncolumns = [\"{column}\"]\n[[parameter]]\nname = \"mass\"\nkeys = [\"body.0.mass_kg\"]\nvalues = [1.0]\n"
+        );
+        let (outcome, _) = studied(folder.path(), &text).unwrap();
+        let failure = outcome.cases[0].figures.as_ref().unwrap_err();
+        assert!(failure.contains(told), "{failure}");
+    }
+}
+
 /// More preload deflects less and presses more: the front of both goes from one bound to the other.
 #[test]
 fn a_bearing_has_a_front_of_deflection_against_pressure() {

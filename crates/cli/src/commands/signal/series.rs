@@ -88,15 +88,10 @@ impl Series {
             Form::Instants => read(&a.column)?,
             Form::LowPass => result.read_for_spectrum(&a.column).map_err(Failure::work)?,
         };
-        if let (Form::LowPass, Some(share)) = (form, result.folded_share(&a.column)) {
-            console::warning(format!(
-                "`{}` is written every {} s: {:.2} % of its RMS value vibrates faster than {} Hz and stands at false places in its spectra; \
-                 lower output.interval_s of the scene",
-                a.column,
-                1.0 / rate,
-                100.0 * share,
-                0.5 * rate
-            ));
+        if form == Form::LowPass
+            && let Some(warning) = result.folded_in_words(&a.column)
+        {
+            console::warning(warning);
         }
         let mut range = range(a, values.len(), rate)?;
         let shaft_rad = match shaft {
