@@ -337,7 +337,7 @@ fn text(gearbox: &Gearbox) -> String {
 }
 
 /// How far the centre of a line load that changes evenly along the face lies from its middle (mm).
-fn centre_mm(k_h_beta: f64, face_mm: f64) -> f64 {
+pub fn centre_mm(k_h_beta: f64, face_mm: f64) -> f64 {
     if k_h_beta <= 2.0 {
         (k_h_beta - 1.0) * face_mm / 6.0
     } else {
