@@ -4,7 +4,7 @@ use gearmesh_scene::accuracy::{Accuracy, EffectFound, Goal, Tried, words};
 
 use crate::column_words::words_and_unit;
 use crate::page::{Align, Axis, Page, PointSeries, ScatterChart, Section, Table, Text};
-use crate::{short, short_beside};
+use crate::short;
 
 /// A goal in words.
 #[must_use]
@@ -119,9 +119,12 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
     page.footer(format!("by gearmesh {}", env!("CARGO_PKG_VERSION")))
 }
 
-/// A logarithmic axis has no zero: the reference, and what has no error against it, are not drawn.
+/// Errors that are no more than rounding, as a share.
+const ROUNDING: f64 = 1e-9;
+
+/// A logarithmic axis has no zero: the reference, and what differs from it by rounding only, are not drawn.
 fn is_drawn(one: &Tried) -> bool {
-    one.error() > 0.0
+    one.error() > ROUNDING
 }
 
 /// Settings that no other one beats in error and time, by time.
@@ -160,7 +163,11 @@ impl Times {
 
 /// An error or a change in per cent; what is rounding of the whole is none.
 fn percent(share: f64) -> String {
-    short_beside(100.0 * share, 100.0)
+    short(if share.abs() > ROUNDING {
+        100.0 * share
+    } else {
+        0.0
+    })
 }
 
 /// Counts are whole numbers.

@@ -13,14 +13,12 @@ pub fn short(value: f64) -> String {
     }
 }
 
-/// What is smaller than this share of the amounts beside it is rounding.
-const ROUNDING: f64 = 1e-9;
-
-/// The same beside an amount of its kind: 0 where it is only rounding of that one, as the sideways displacement of a
-/// ring under a load along its axis.
+/// The same beside an amount of its kind: 0 where the four digits of that one do not reach it, as the sideways
+/// displacement of a ring under a load along its axis.
 #[must_use]
 pub fn short_beside(value: f64, amount: f64) -> String {
-    short(match value.abs() <= ROUNDING * amount.abs() {
+    const FOUR_DIGITS: f64 = 5e-5;
+    short(match value.abs() < FOUR_DIGITS * amount.abs() {
         true => 0.0,
         false => value,
     })
@@ -51,7 +49,7 @@ mod tests {
         assert_eq!(short(-0.012_345_6), "-0.01235");
         assert_eq!(short(3.2e-9), "3.200e-9");
         assert_eq!(short_beside(3.672e-12, 87.93), "0");
-        assert_eq!(short_beside(3.672e-7, 87.93), "3.672e-7");
+        assert_eq!(short_beside(3.672e-2, 87.93), "0.03672");
         let (factor, unit) = usual_unit("Pa", 2.157_765e7);
         assert_eq!(
             (short(factor * 2.157_765e7), unit),

@@ -35,9 +35,10 @@ pub(super) fn legend<'a>(entries: impl Iterator<Item = (usize, &'a str)>, told: 
 }
 
 /// About how wide a text of a drawing is in the drawing's own units, at the size that it has on a small screen (14
-/// units, page.css); 0.62 of it is the mean width of digits and small letters in the widest of the style's fonts.
+/// units, page.css), as shares of it in the widest of the style's fonts: digits and small letters 0.64, the minus 0.84.
 pub(super) fn text_width(text: &str) -> f64 {
-    14.0 * 0.62 * text.chars().count() as f64
+    let share = |letter| if letter == '−' { 0.84 } else { 0.64 };
+    14.0 * text.chars().map(share).sum::<f64>()
 }
 
 /// Colours of the page's style, from `--c0` on.

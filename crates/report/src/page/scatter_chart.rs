@@ -243,7 +243,7 @@ impl ScatterChart {
             widths.fold(0.0, f64::max)
         };
         // The title of the ordinate, its numbers; half of the last number of the abscissa.
-        let left = 26.0 + widest(&ticks[1]);
+        let left = 30.0 + widest(&ticks[1]);
         let right = SIZE[0] - (0.5 * widest(&ticks[0]) + 4.0).max(10.0);
         let bottom = SIZE[1] - BELOW;
         let x = |value: f64| left + (right - left) * scales[0].share(value);

@@ -1,0 +1,101 @@
+"""Pages of every kind in a real browser, on a wide and a narrow screen and as printed: nothing sticks out, nothing overlaps."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import gearmesh as gm
+import studio_page
+
+pytestmark = pytest.mark.skipif(studio_page.chromium() is None, reason="no Chromium: `cargo xtask prepare` names the package")
+
+BEARING = "fe_models/bearing_9_balls.toml"
+STUDY = """design = "grid"
+columns = ["displacement_y_um", "pressure_inner_largest_MPa", "life_L10_Mrev"]
+[[parameter]]
+name = "load N"
+keys = ["operation.load_N.1"]
+values = [-500.0, -1000.0, -1500.0]
+[[parameter]]
+name = "thrust N"
+keys = ["operation.load_N.2"]
+values = [100.0, 400.0]
+"""
+OPTIMISATION = """trials = 20
+searches = 1
+[[variable]]
+name = "thrust N"
+keys = ["operation.load_N.2"]
+from = 50.0
+to = 400.0
+[[objective]]
+name = "pressure MPa"
+term = [{ column = "pressure_inner_largest_MPa" }]
+[[objective]]
+name = "moves um, sideways"
+term = [{ column = "displacement_x_um" }]
+"""
+KINDS = ["pair", "drive", "static", "bearing", "tca", "study", "optimise", "accuracy"]
+
+# Letters of drawings that lie on other letters or outside their drawing, by more than the white around them.
+COLLISIONS = """[...document.querySelectorAll('figure svg')].flatMap((svg) => {
+    const within = svg.getBoundingClientRect();
+    const words = [...svg.querySelectorAll('text')].filter((one) => one.textContent.trim());
+    const boxes = words.map((one) => one.getBoundingClientRect());
+    const wide = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left);
+    const high = (a, b) => Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+    const found = [];
+    words.forEach((one, i) => {
+        if (boxes[i].left < within.left - 2 || boxes[i].right > within.right + 2) found.push(`${one.textContent} sticks out`);
+        words.slice(i + 1).forEach((other, j) => {
+            const [a, b] = [boxes[i], boxes[i + 1 + j]];
+            if (wide(a, b) > 3 && high(a, b) > 5) found.push(`${one.textContent} on ${other.textContent}`);
+        });
+    });
+    return found;
+})"""
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """The page of each kind."""
+    folder = tmp_path_factory.mktemp("pages")
+    at = {kind: folder / f"{kind}.html" for kind in KINDS}
+    coarse = dict(flank_mm=2.0, fillet_mm=1.0, body_mm=6.0, plane_strain=True)
+    pinion = gm.Gear("pinion", module_mm=3, teeth=23, face_width_mm=20, bore_diameter_mm=25, material=gm.STEEL, mesh=coarse)
+    wheel = pinion.but(name="wheel", teeth=40, bore_diameter_mm=40)
+    models = [gear.reduce(folder / f"{gear.name}.h5", error_estimate=False, progress=False) for gear in (pinion, wheel)]
+    pair = gm.Pair(*models, centre_distance_mm=94.6, torques_Nm=[50, 100, 200])
+    pair.write(folder / "pair.toml")
+    # The models have no gauges.
+    (folder / "drive.toml").write_text(Path("fe_models/first_pair/drive.toml").read_text().split("[[gauge]]")[0])
+    for name, scene in [("pair", folder / "pair.toml"), ("drive", folder / "drive.toml"), ("static", "fe_models/gearbox_three_stage.toml")]:
+        gm.program("run", str(scene), "-o", str(folder / f"{name}.h5"))
+        gm.program("report", str(folder / f"{name}.h5"), "-o", str(at[name]))
+    gm.program("bearing", BEARING, "--load-N", "0,-1000,100", "--report", str(at["bearing"]))
+    gm.program("tca", "fe_models/bevel_13_35_loaded.toml", "--report", str(at["tca"]))
+    gm.program("accuracy", str(folder / "pair.toml"), "--columns", "te_peak_to_peak_um,k_h_beta", "-o", str(at["accuracy"]))
+    head = f'title = "A bearing"\nscene = {json.dumps(str(Path(BEARING).absolute()))}\noperation = {{ load_N = [0.0, -1000.0, 100.0] }}\n'
+    for kind, text in [("study", STUDY), ("optimise", OPTIMISATION)]:
+        (folder / f"{kind}.toml").write_text(head + text)
+        gm.program(kind, str(folder / f"{kind}.toml"), "-o", str(folder / kind))
+        at[kind] = folder / kind / f"{kind}.html"
+    return at
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with studio_page.browser() as browser:
+        yield browser
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("width, medium", [(1280, "screen"), (390, "screen"), (794, "print")])
+def test_a_page_fits(browser, pages, kind, width, medium):
+    it = studio_page.Page(browser, pages[kind].as_uri(), width=width)
+    it.page.emulate_media(media=medium)
+    it.page.wait_for_timeout(200)
+    assert it.complaints == []
+    assert it.page.evaluate("document.documentElement.scrollWidth") <= width
+    assert it.page.evaluate(COLLISIONS) == []
