@@ -142,8 +142,26 @@ def test_what_is_wrong_is_told_before_a_worker_is_asked(few, tmp_path):
 
 def test_a_scheduler_that_is_not_there_is_told(few, tmp_path, monkeypatch):
     monkeypatch.setattr(cluster, "CONNECT_S", 0.5)
-    with pytest.raises(gm.InputError, match="nothing answers at 'tcp://127.0.0.1:1'"):
+    with pytest.raises(gm.InputError, match="no scheduler answers at 'tcp://127.0.0.1:1'"):
         gm.study(few[0], tmp_path / "out", client="tcp://127.0.0.1:1")
+
+
+@pytest.mark.parametrize("content", ["garbage", "[]", "{}", '{"address": 3}'])
+def test_a_file_that_is_no_scheduler_file_is_told(few, tmp_path, monkeypatch, content):
+    monkeypatch.setattr(cluster, "CONNECT_S", 0.5)
+    file = tmp_path / "scheduler.json"
+    file.write_text(content)
+    with pytest.raises(gm.InputError, match="--scheduler: .*scheduler.json.*give the address of a running dask scheduler"):
+        gm.study(few[0], tmp_path / "out", client=str(file))
+
+
+def test_a_link_is_not_replaced_by_what_a_worker_sends(tmp_path):
+    target, link = tmp_path / "mine.txt", tmp_path / "case.h5"
+    target.write_text("mine")
+    link.symlink_to(target)
+    with pytest.raises(gm.InputError, match="case.h5 is a symbolic link"):
+        cluster_worker.store(link, b"theirs")
+    assert link.is_symlink() and target.read_text() == "mine"
 
 
 class Processes:

@@ -3,6 +3,7 @@
 import json
 import pickle
 import shutil
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -294,11 +295,14 @@ def test_complaints_about_tables_name_the_path_of_the_key(pair):
     assert (caught.value.key, caught.value.file, caught.value.line) == ("pair.centre_distance_mm", "", None)
 
 
-def test_two_gears_of_one_hand_are_refused_before_they_are_reduced(pinion):
+def test_gears_of_the_wrong_hand_are_refused_before_they_are_reduced(pinion):
     helical = pinion.but(helix_angle_deg=15.0, hand="right", mesh=None)
     other = helical.but(name="wheel", teeth=40)
-    with pytest.raises(gm.InputError, match="tooth.hand is 'right', as gear_1's"):
-        gm.Pair(helical, other, centre_distance_mm=97.0, torques_Nm=50)
+    # As `Gear` has it, but for what only a ring's blank needs.
+    ring = SimpleNamespace(tables={"tooth": {"teeth": -60, "hand": "left"}})
+    for mate, complaint in [(other, "'right', gear_1's 'right': gears on parallel axes have opposite hands"), (ring, "have the same hand")]:
+        with pytest.raises(gm.InputError, match=complaint):
+            gm.Pair(helical, mate, centre_distance_mm=97.0, torques_Nm=50)
     with pytest.raises(TypeError, match="is not reduced yet"):
         gm.Pair(helical, other.but(hand="left"), centre_distance_mm=97.0, torques_Nm=50)
 

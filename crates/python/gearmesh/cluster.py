@@ -198,10 +198,10 @@ class _Connection:
                 client = Client(scheduler_file=address, timeout=timeout_s, set_as_default=False)
             else:
                 client = Client(address, timeout=timeout_s, set_as_default=False)
-        except (OSError, ValueError, TypeError, KeyError, AttributeError) as cause:
-            # The last three: a file that is no scheduler file.
+        except (OSError, ValueError, TypeError, KeyError, AttributeError, AssertionError) as cause:
+            # All but the first: a file that is no scheduler file.
             raise _native.InputError(
-                f"--scheduler: nothing answers at {address!r} ({cause}); give the address of a running dask scheduler, as "
+                f"--scheduler: no scheduler answers at {address!r} ({str(cause) or 'it names none'}); give the address of a running dask scheduler, as "
                 "tcp://HOST:8786, its scheduler file, or local"
             ) from cause
         self._own.append(client)

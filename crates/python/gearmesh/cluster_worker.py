@@ -43,7 +43,9 @@ received: list[str] = []
 
 
 def store(path: Path, content: bytes) -> None:
-    """Writes a file whole or not at all."""
+    """Writes a file whole or not at all; a link of its name is refused, as by every command."""
+    if path.is_symlink():
+        raise _native.InputError(f"{path} is a symbolic link, and nothing is written through links; name the file itself")
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
     beside.write_bytes(content)

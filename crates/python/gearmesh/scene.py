@@ -181,18 +181,20 @@ def _functions_named(value: Any) -> Iterator[str]:
             yield from _functions_named(item)
 
 
-def refuse_one_hand(gear_1: Any, gear_2: Any) -> None:
-    """Two helical gears of one hand do not mesh on parallel axes: said before minutes go into reducing them."""
+def refuse_wrong_hand(gear_1: Any, gear_2: Any) -> None:
+    """Helical gears on parallel axes have opposite hands, a ring and its planet equal ones: said before minutes go into reducing them."""
 
-    def hand(gear: Any) -> str | None:
+    def tooth(gear: Any) -> dict[str, Any]:
         tables = getattr(gear, "tables", None)
-        return tables.get("tooth", {}).get("hand") if isinstance(tables, dict) else None
+        return tables.get("tooth", {}) if isinstance(tables, dict) else {}
 
-    first, second = hand(gear_1), hand(gear_2)
-    if first is not None and first == second:
-        raise _native.InputError(
-            f"gear_2: tooth.hand is {second!r}, as gear_1's: gears on parallel axes have opposite hands; change one of them"
-        )
+    teeth = [tooth(gear) for gear in (gear_1, gear_2)]
+    first, second = (of.get("hand") for of in teeth)
+    with_ring = any(of.get("teeth", 1) < 0 for of in teeth)
+    if first is not None and second is not None and (first == second) != with_ring:
+        found = f"gear_2: tooth.hand is {second!r}, gear_1's {first!r}"
+        rule = "a ring and the gear in it have the same hand" if with_ring else "gears on parallel axes have opposite hands"
+        raise _native.InputError(f"{found}: {rule}; change one of them")
 
 
 class Pair(Scene):
@@ -223,7 +225,7 @@ class Pair(Scene):
         gear_2_flanks: Tables | None = None,
         **tables: Any,
     ) -> None:
-        refuse_one_hand(gear_1, gear_2)
+        refuse_wrong_hand(gear_1, gear_2)
         for place, gear in enumerate((gear_1, gear_2), 1):
             if callable(getattr(gear, "reduce", None)):
                 raise TypeError(f"gear_{place}: a Gear is not reduced yet; give its model, gear_{place}.reduce()")
