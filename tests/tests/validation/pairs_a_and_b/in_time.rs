@@ -12,8 +12,8 @@ use std::fmt::Write;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// Pitches that are looked at: tooth 0 of gear 2 passes in the middle of them, half a turn from the start.
-const PITCHES: [usize; 2] = [26, 31];
+/// Pitches that are looked at: tooth 0 of gear 2 passes in the middle of them.
+const PITCHES: [usize; 2] = [2, 7];
 
 /// Equilibria in a pitch: they miss of the swing what the square of a step leaves beside a peak, less than 0.1 %.
 const EQUILIBRIA: usize = 200;
@@ -23,12 +23,20 @@ const GAUGES: [&str; 2] = ["t0_tension", "t0_compression"];
 
 /// Swings of the transmission error and of the gauges [m, µε] in a run of a scene in time, or as equilibria.
 fn swings(name: &str, moves: bool) -> [f64; 3] {
-    let text = document(name, &[("\"line-of-action\"", "\"extended\"")]).text;
+    // Gear 1 stands where tooth 0, on gear 2's x axis at the start, comes after 4.5 pitches.
+    let passes_rad = 4.5 * std::f64::consts::TAU / TEETH as f64;
+    let [x, y] = [passes_rad.cos(), passes_rad.sin()].map(|part| -150.0 * part);
+    let place = format!("[{x}, {y}, 0.0]");
+    let changes = [
+        ("\"line-of-action\"", "\"extended\""),
+        ("[150.0, 0.0, 0.0]", &place),
+    ];
+    let text = document(name, &changes).text;
     let text = text.split("# One revolution is one").next().unwrap();
     let (_, bodies) = text.split_once("[[body]]").unwrap();
     let run = if moves {
         // A pitch takes 0.105 s.
-        "kind = \"transient\"\nend_s = 3.4\n[solver]\nstep_s = 2e-4\nstart = \"equilibrium\"\n[output]\ninterval_s = 2e-4".to_owned()
+        "kind = \"transient\"\nend_s = 0.75\n[solver]\nstep_s = 2e-4\nstart = \"equilibrium\"\n[output]\ninterval_s = 2e-4".to_owned()
     } else {
         let mut run = "kind = \"static\"\nmotion = \"motion of axis 1\"\nangles_deg = [".to_owned();
         let pitch_deg = 360.0 / TEETH as f64;
