@@ -38,7 +38,7 @@ term = [{ column = "displacement_x_um" }]
 """
 KINDS = ["pair", "drive", "static", "bearing", "tca", "study", "optimise", "accuracy"]
 
-# Letters of drawings that lie on other letters or outside their drawing, by more than the white around them.
+# Letters of drawings that stick out of them, or stand less than a pixel from other letters.
 COLLISIONS = """[...document.querySelectorAll('figure svg')].flatMap((svg) => {
     const within = svg.getBoundingClientRect();
     const words = [...svg.querySelectorAll('text')].filter((one) => one.textContent.trim());
@@ -50,7 +50,7 @@ COLLISIONS = """[...document.querySelectorAll('figure svg')].flatMap((svg) => {
         if (boxes[i].left < within.left - 2 || boxes[i].right > within.right + 2) found.push(`${one.textContent} sticks out`);
         words.slice(i + 1).forEach((other, j) => {
             const [a, b] = [boxes[i], boxes[i + 1 + j]];
-            if (wide(a, b) > 3 && high(a, b) > 5) found.push(`${one.textContent} on ${other.textContent}`);
+            if (wide(a, b) > -1 && high(a, b) > 5) found.push(`${one.textContent} on ${other.textContent}`);
         });
     });
     return found;
