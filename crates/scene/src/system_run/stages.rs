@@ -16,6 +16,7 @@ use super::recorder::{body_column, element_column};
 use super::result::SystemResult;
 use super::result_kind::ResultKind;
 use super::run_record::RunRecord;
+use super::summary::without_rounding;
 use crate::pair::warnings::excessive_pressure;
 use crate::rating::RatingResult;
 
@@ -327,8 +328,9 @@ impl SystemResult {
             ResultKind::Transient => {
                 let times = self.rows.read("time_s")?;
                 let half = times.len() / 2;
-                let [from, to] = [times.get(half), times.last()].map(|t| t.copied().unwrap_or(0.0));
-                let over = format!("mean over the second half of the run, {from:.6} to {to:.6} s");
+                let [from, to] = [times.get(half), times.last()]
+                    .map(|t| without_rounding(t.copied().unwrap_or(0.0)));
+                let over = format!("mean over the second half of the run, {from} to {to} s");
                 Ok((over, Span::Rows((half..times.len()).collect())))
             }
             ResultKind::Static => {
@@ -362,9 +364,8 @@ impl SystemResult {
         let windows = 0..sweep.windows.len().min(sweep.figures.len());
         let most = windows.max_by(|a, b| load(a).total_cmp(&load(b)));
         most.map_or_else(none, |window| {
-            let rpm = sweep.windows[window].speed_rad_per_s * 60.0 / TAU;
-            let over =
-                format!("mean over the window of {rpm:.6} 1/min, where the meshes carry most");
+            let rpm = without_rounding(sweep.windows[window].speed_rad_per_s * 60.0 / TAU);
+            let over = format!("mean over the window of {rpm} 1/min, where the meshes carry most");
             (over, Span::Window(window))
         })
     }

@@ -27,6 +27,11 @@ pub struct ColumnSummary {
     pub dominant_hz: Option<f64>,
 }
 
+/// A time or a speed as people write it: what sums of steps leave behind the ninth decimal goes.
+pub(super) fn without_rounding(value: f64) -> f64 {
+    (1e9 * value).round() / 1e9
+}
+
 impl SystemResult {
     /// Distance of the rows of a transient result \[s\].
     ///
@@ -49,8 +54,7 @@ impl SystemResult {
             1 => "all rows".to_owned(),
             samples => format!("{samples} samples a row"),
         };
-        let from_s = (1e9 * self.statistics_from_s).round() / 1e9;
-        let end_s = (1e9 * end_s).round() / 1e9;
+        let [from_s, end_s] = [self.statistics_from_s, end_s].map(without_rounding);
         format!("figures from {from_s} s to {end_s} s, of {samples}")
     }
 
