@@ -33,6 +33,13 @@ const MOST_STEPS: usize = 200;
 /// Most proximal steps down the potential energy.
 const MOST_PROXIMAL_STEPS: usize = 200;
 
+/// A ring that has come this share of the pitch radius from its start is on its way out: no play is so large.
+const FARTHEST: f64 = 0.1;
+
+/// Where a spring half as stiff lets the ring go farther by more than this factor, so often one after the other, the
+/// ring slides under a load that nothing takes up.
+const SLIDES: (f64, usize) = (1.7, 3);
+
 /// Springs that hold the ring to a place; about x and y by the pitch radius' square.
 pub(crate) struct Anchor {
     at: Vector5<f64>,
@@ -108,7 +115,8 @@ impl QuasiStaticBearing {
     /// To rest down the potential energy, where Newton's method alone stays behind an edge of it.
     ///
     /// One proximal step after the other: each ends where the ring would rest if springs held it to where it stood. Energy falls in every step, and
-    /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it.
+    /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it; it is
+    /// not tried while the ring slides. A ring that slides out of the bearing ends the search.
     /// `failure` is what the search without springs ended with; elements begin at their `places`, if given, and leave
     /// them where they end.
     pub(crate) fn settle(
@@ -127,9 +135,11 @@ impl QuasiStaticBearing {
         if size == 0.0 {
             return Err(failure);
         }
+        let farthest_m = FARTHEST * self.rows[0].pitch_radius_m();
         let mut pose = start;
         // So stiff that the load moves the ring by a micrometre.
         let mut spring = size / 1e-6;
+        let (mut last_m, mut slides) = (f64::INFINITY, 0);
         for _ in 0..MOST_PROXIMAL_STEPS {
             let anchor = Anchor {
                 at: pose.to_five(),
@@ -138,10 +148,21 @@ impl QuasiStaticBearing {
             let mut tried = places.as_deref().cloned();
             match self.iterate(pose, load, operation, (Some(&anchor), tried.as_mut())) {
                 Ok(next) => {
+                    let moved_m = (next.centre_m - pose.centre_m).norm();
+                    let goes_on = moved_m > SLIDES.0 * last_m;
+                    slides = if goes_on { slides + 1 } else { 0 };
+                    last_m = moved_m;
                     pose = next;
                     spring *= 0.5;
+                    if (pose.centre_m - start.centre_m).norm() > farthest_m {
+                        break;
+                    }
                     let mut ends = tried.clone();
-                    let found = self.iterate(pose, load, operation, (None, ends.as_mut()));
+                    let found = if slides < SLIDES.1 {
+                        self.iterate(pose, load, operation, (None, ends.as_mut()))
+                    } else {
+                        Err(failure.clone())
+                    };
                     let kept = if found.is_ok() { &ends } else { &tried };
                     if let (Some(places), Some(kept)) = (&mut places, kept) {
                         places.take_from(kept);

@@ -241,6 +241,26 @@ fn unpressed_rollers_press_the_outer_race() {
     }
 }
 
+/// Under a radial load a single row of tapered rollers needs thrust: with too little the ring slides out. Two minutes
+/// went by before that was said (a fuzzed file).
+#[test]
+fn too_little_thrust_on_tapered_rollers_is_refused() {
+    let row = bearing(TAPERED);
+    let still = Operation::default();
+    rests(&row, free([0.0, -1000.0, 500.0], [0.0; 2]), &still);
+    for thrust_n in [50.0, -200.0, -2000.0] {
+        let load = free([0.0, -1000.0, thrust_n], [0.0; 2]);
+        let held = AppliedBearingLoad {
+            tilt: TiltCondition::Held([0.0; 2]),
+            ..load
+        };
+        for load in [load, held] {
+            let error = row.equilibrium(&load, &still).unwrap_err().to_string();
+            assert!(error.contains("an axial load towards +z"), "{error}");
+        }
+    }
+}
+
 /// Rollers and races of a tapered bearing have one apex on its axis.
 #[test]
 fn tapered_rollers_and_races_share_an_apex() {

@@ -6,6 +6,7 @@
 
 pub mod doors;
 
+use gearmesh_bevel::Flank;
 use serde_json::Value;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -328,4 +329,24 @@ pub fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter()
         .zip(b)
         .fold(0.0, |worst, (x, y)| (x - y).abs().max(worst))
+}
+
+/// A grid of points of a flank, as a machine lists them.
+pub fn points_of_flank(flank: &Flank, size: [usize; 2]) -> String {
+    let blank = &flank.blank;
+    let mut text = "sector,height,x_mm,y_mm,z_mm,nx,ny,nz\n".to_owned();
+    for i in 0..size[0] {
+        let cone = blank.inner_cone_m() + blank.face_width_m * i as f64 / (size[0] - 1) as f64;
+        let bottom = flank.place(&flank.bottom(cone).unwrap().point.r)[1];
+        for k in 0..size[1] {
+            let share = k as f64 / (size[1] - 1) as f64;
+            let height = bottom + (blank.addendum_m(cone) - bottom) * share;
+            let p = flank.locate(cone, height).unwrap().point;
+            let place: Vec<String> = (1e3 * p.r).iter().map(|x| format!("{x:.4}")).collect();
+            let normal: Vec<String> = p.n.iter().map(|x| format!("{x:.6}")).collect();
+            let [place, normal] = [place, normal].map(|list| list.join(","));
+            text.push_str(&format!("{},{},{place},{normal}\n", i + 1, k + 1));
+        }
+    }
+    text
 }

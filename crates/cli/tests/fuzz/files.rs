@@ -15,7 +15,12 @@ use std::path::Path;
 const WHEEL: &str = include_str!("../../../../tests/support/wheel.toml");
 
 /// Shipped files of a kind.
-fn shipped(kind: InputKind) -> Vec<String> {
+pub fn shipped(kind: InputKind) -> Vec<String> {
+    shipped_texts(|document| InputKind::of(document).unwrap() == kind)
+}
+
+/// Shipped files that `wanted` accepts.
+pub fn shipped_texts(wanted: impl Fn(&InputDocument) -> bool) -> Vec<String> {
     let mut paths: Vec<_> = std::fs::read_dir(root().join("fe_models"))
         .unwrap()
         .map(|entry| entry.unwrap().path())
@@ -25,16 +30,16 @@ fn shipped(kind: InputKind) -> Vec<String> {
     let texts = paths
         .iter()
         .map(|path| std::fs::read_to_string(path).unwrap());
-    texts
-        .filter(|text| InputKind::of(&document(text)).unwrap() == kind)
-        .collect()
+    texts.filter(|text| wanted(&document(text))).collect()
 }
 
-fn document(text: &str) -> InputDocument {
+/// A text in a file of no name.
+pub fn document(text: &str) -> InputDocument {
     InputDocument::new("case.toml", text)
 }
 
-fn fuzz_text(target: &str, usual: u64, corpus: &[String], read: impl Fn(&str)) {
+/// Texts with faults; `read` is given those that are texts.
+pub fn fuzz_text(target: &str, usual: u64, corpus: &[String], read: impl Fn(&str)) {
     assert!(!corpus.is_empty());
     let make = |random: &mut fastrand::Rng| mutation::text(corpus, random).into_bytes();
     fuzz(target, usual, make, |case| {
@@ -64,7 +69,7 @@ fn gear_files() {
 }
 
 /// Read, loaded with the gears that it names, built, and made a run.
-fn scene_is_answered(text: &str, folder: &Path) {
+pub fn scene_is_answered(text: &str, folder: &Path) {
     let Ok(SceneFile::System(scene)) = SceneFile::from_document(document(text), folder) else {
         return;
     };

@@ -21,6 +21,7 @@ mod mutation;
 mod numbers;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;
+mod parts;
 mod results;
 mod trees;
 

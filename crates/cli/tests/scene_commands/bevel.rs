@@ -1,10 +1,10 @@
 //! `gearmesh bevel` and `gearmesh tca`.
 
-use gearmesh_bevel::{Flank, PairFile};
+use gearmesh_bevel::PairFile;
 use gearmesh_scene::SceneResult;
 
 use crate::common::doors::one_table_at_all_doors;
-use crate::common::{Desk, argument, changed, gearmesh, refused, succeeds};
+use crate::common::{Desk, argument, changed, gearmesh, points_of_flank, refused, succeeds};
 
 pub fn shipped(name: &str) -> String {
     format!("{}/../../fe_models/{name}", env!("CARGO_MANIFEST_DIR"))
@@ -127,26 +127,6 @@ fn a_pair_file_with_loads_is_analysed_under_them() {
     }
 }
 
-/// A grid of points of a flank, as a machine lists them.
-fn points(flank: &Flank, size: [usize; 2]) -> String {
-    let blank = &flank.blank;
-    let mut text = "sector,height,x_mm,y_mm,z_mm,nx,ny,nz\n".to_owned();
-    for i in 0..size[0] {
-        let cone = blank.inner_cone_m() + blank.face_width_m * i as f64 / (size[0] - 1) as f64;
-        let bottom = flank.place(&flank.bottom(cone).unwrap().point.r)[1];
-        for k in 0..size[1] {
-            let share = k as f64 / (size[1] - 1) as f64;
-            let height = bottom + (blank.addendum_m(cone) - bottom) * share;
-            let p = flank.locate(cone, height).unwrap().point;
-            let place: Vec<String> = (1e3 * p.r).iter().map(|x| format!("{x:.4}")).collect();
-            let normal: Vec<String> = p.n.iter().map(|x| format!("{x:.6}")).collect();
-            let [place, normal] = [place, normal].map(|list| list.join(","));
-            text.push_str(&format!("{},{},{place},{normal}\n", i + 1, k + 1));
-        }
-    }
-    text
-}
-
 /// Contact analysis of a flank from points says how well it fits and what that is beside the transmission error: in
 /// print, in the page, in JSON. Tables with other separators are told apart.
 #[test]
@@ -155,7 +135,10 @@ fn contact_of_points_says_what_they_are_worth() {
     let shipped = shipped("bevel_13_35.toml");
     let design = PairFile::read(shipped.as_ref()).unwrap().design().unwrap();
     for flank in &design.teeth[1].flanks {
-        desk.file(&format!("{}.csv", flank.side.word()), points(flank, [9, 5]));
+        desk.file(
+            &format!("{}.csv", flank.side.word()),
+            points_of_flank(flank, [9, 5]),
+        );
     }
     let text = std::fs::read_to_string(&shipped).unwrap();
     let settings =
