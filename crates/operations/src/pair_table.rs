@@ -17,6 +17,9 @@ pub fn table(result: &SceneResult) -> Vec<String> {
     lines.extend(table.iter().skip(1).map(|line| format!("{line}{mark}")));
     lines.push(result.means_over());
     lines.push(format!("errors: {}", result.errors_in_words()));
+    if let Ok(Some(stage)) = result.stage() {
+        lines.push(format!("stage: {}", stage.words()));
+    }
     lines.push(format!(
         "contact {:.3} s ({:.1} us a position), strain {:.3} s",
         result.seconds[0],

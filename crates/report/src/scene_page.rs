@@ -176,6 +176,9 @@ fn overview(r: &SceneResult) -> Section {
         page::capital(&r.means_over()),
         r.errors_in_words()
     )));
+    if let Ok(Some(stage)) = r.stage() {
+        section = section.push(Text::paragraph(format!("Stage: {}.", stage.words())));
+    }
     for (number, words) in [1, 2].into_iter().zip(&r.microgeometry) {
         // Results of older programs do not say.
         if !words.is_empty() {

@@ -31,6 +31,29 @@ fn run_balances_the_torque() {
 }
 
 /// `--accuracy`: the figures are those of the lines that are printed to paste; a goal out of reach is a warning.
+/// The stage of a pair in print, on the page and in JSON is that of a drive with the same gears.
+#[test]
+fn the_stage_of_a_pair_is_that_of_a_drive() {
+    let desk = Desk::new();
+    let (result, figures) = run_scene(&desk, "");
+    let stage = &figures["stage"];
+    assert!(number(&stage["contact_ratio"]) > 1.0, "{stage}");
+    let drive = desk.file("drive.toml", hybrid_scene());
+    let planned = succeeds(&["plan", argument(&drive)]).stdout;
+    let words = |text: &str| {
+        let line = text.lines().find(|line| line.starts_with("stage")).unwrap();
+        let from = line.find("ratio").unwrap();
+        line[from..line.find(" after ISO").unwrap()].to_owned()
+    };
+    let scene = desk.path("scene.toml");
+    let printed = succeeds(&["run", argument(&scene), "-o", argument(&result)]).stdout;
+    assert_eq!(words(&printed), words(&planned));
+    let page = desk.path("page.html");
+    succeeds(&["report", argument(&result), "-o", argument(&page)]);
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(page.contains("Stage: ratio") && !page.contains("eps_alpha"));
+}
+
 #[test]
 fn a_run_within_a_goal_is_that_of_the_setting_it_names() {
     let desk = Desk::new();

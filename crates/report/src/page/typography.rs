@@ -4,9 +4,11 @@
 use super::markup::escape;
 
 /// Symbols as programs write them: letter and index.
-const SYMBOLS: [(&str, &str, &str); 10] = [
+const SYMBOLS: [(&str, &str, &str); 12] = [
     ("ε_α", "ε", "α"),
     ("ε_β", "ε", "β"),
+    ("eps_alpha", "ε", "α"),
+    ("eps_beta", "ε", "β"),
     ("c_γ", "c", "γ"),
     ("K_Hbeta", "K", "Hβ"),
     ("K_Halpha", "K", "Hα"),

@@ -7,12 +7,19 @@
 use std::path::Path;
 
 use gearmesh_contact::ContactZone;
-use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::{GearDefinition, GearPair, InputError, Misalignment};
 
 use super::bevel_result::BevelFigures;
 use super::result::SceneResult;
 use super::scene_file::Scene;
+use crate::system::StageSummary;
+
+/// Width over which the faces overlap \[m\].
+fn overlap_width_m(gears: [&GearDefinition; 2], scene: &Scene) -> f64 {
+    let widths = gears.map(|gear| gear.tooth.face_width_m);
+    ContactZone::new(widths, scene.axial_offset_m).width_m
+}
 
 /// Figures of one torque.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,13 +82,42 @@ impl SceneResult {
         if let Some(bevel) = &self.bevel {
             return Ok(bevel.face_widths_m[0].min(bevel.face_widths_m[1]));
         }
-        let mut widths = [0.0; 2];
-        for (width, gear) in widths.iter_mut().zip(&self.gears) {
-            *width = gear.definition_in("the result")?.tooth.face_width_m;
+        Ok(overlap_width_m(self.definitions()?, &self.scene()?))
+    }
+
+    /// The stage at a glance: what follows from teeth and centre distance; none of bevel pairs.
+    ///
+    /// # Errors
+    /// As of [`Self::overlap_width_m`].
+    pub fn stage(&self) -> Result<Option<StageSummary>, InputError> {
+        if self.bevel.is_some() {
+            return Ok(None);
         }
-        let scene = InputDocument::new("scene in result", &self.scene_toml);
-        let offset_m = Scene::from_document(scene, Path::new("."))?.axial_offset_m;
-        Ok(ContactZone::new(widths, offset_m).width_m)
+        let (gears, scene) = (self.definitions()?, self.scene()?);
+        let width_m = overlap_width_m(gears, &scene);
+        let [first, second] = gears.map(|gear| gear.profile.clone());
+        let pair = GearPair::new(
+            first,
+            second,
+            scene.centre_distance_m,
+            Misalignment::default(),
+        );
+        let pair = pair.map_err(|e| scene.document.error("pair", e))?;
+        Ok(Some(StageSummary::new(&pair, gears, width_m)))
+    }
+
+    fn definitions(&self) -> Result<[&GearDefinition; 2], InputError> {
+        let [first, second] = &self.gears;
+        Ok([
+            first.definition_in("the result")?,
+            second.definition_in("the result")?,
+        ])
+    }
+
+    /// The scene inside the result.
+    fn scene(&self) -> Result<Scene, InputError> {
+        let document = InputDocument::new("scene in result", &self.scene_toml);
+        Scene::from_document(document, Path::new("."))
     }
 
     /// The figures of a torque.

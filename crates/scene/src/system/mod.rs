@@ -5,13 +5,14 @@
 //! | read and check the file | [`SystemScene`] | `scene.rs`, `tables/` |
 //! | read the gears that it names | [`LoadedSystem`] | `assembly/gears.rs` |
 //! | a multibody system with the names of its parts | [`BuiltSystem`] | `built.rs`, `assembly/` |
-//! | a stage of gears at a glance | [`StageSummary`] | `stage_summary.rs` |
+//! | a stage of gears at a glance | [`StageSummary`] | `stage_summary.rs`, `iso_stiffness.rs` |
 //! | what will be computed | [`SystemPlan`] | `plan.rs` |
 
 pub mod assembly;
 pub mod built;
 mod complaint;
 pub mod host_functions;
+mod iso_stiffness;
 pub(crate) mod names;
 mod other_run_kind;
 pub mod plan;

@@ -1,12 +1,11 @@
 //! A stage of cylindrical gears at a glance: what follows from its teeth, its centre distance and its speed at the
 //! start.
 
-use gearmesh_geometry::GearPair;
+use gearmesh_geometry::{GearDefinition, GearPair};
 use gearmesh_model::{Fields, FileError, Record};
 use serde::Serialize;
 
-/// N/(mm·µm) in SI, N/m².
-const N_PER_MM_UM: f64 = 1e9;
+use super::iso_stiffness::{N_PER_MM_UM, REFERENCE_LINE_LOAD_N_PER_M, iso_stiffness};
 
 /// Figures of a stage, whatever the model of its mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -71,8 +70,8 @@ impl Record for StageSummary {
 }
 
 impl StageSummary {
-    /// The figures of a pair over a common width \[m\], with c′ and c_γα \[N/m²\]; no speed yet.
-    pub(super) fn new(pair: &GearPair, width_m: f64, stiffness_n_per_m2: [f64; 2]) -> Self {
+    /// The figures of a pair over a common width \[m\], its stiffness that of ISO 6336-1; no speed yet.
+    pub(crate) fn new(pair: &GearPair, gears: [&GearDefinition; 2], width_m: f64) -> Self {
         let (first, second) = (&pair.gear_1, &pair.gear_2);
         let alpha = pair.working_pressure_angle_rad;
         let pitch_radius_1_m = first.base_radius_m / alpha.cos();
@@ -81,14 +80,14 @@ impl StageSummary {
         // On the working pitch cylinder the helix rises as on the base cylinder.
         let helix = (pair.base_helix_angle_rad().tan() / alpha.cos()).abs();
         let tangential = 1.0 / pitch_radius_1_m;
-        let [single, mesh] = stiffness_n_per_m2;
+        let stiffness = iso_stiffness(gears, REFERENCE_LINE_LOAD_N_PER_M);
         Self {
             ratio: (second.teeth as f64 / first.teeth as f64)
                 .copysign(pair.circles().sense(0) * pair.circles().sense(1)),
             contact_ratio: pair.contact_ratio(),
             overlap_ratio: pair.overlap_ratio(width_m),
-            single_stiffness_n_per_m2: single,
-            mesh_stiffness_n_per_m2: mesh,
+            single_stiffness_n_per_m2: N_PER_MM_UM * stiffness.single(),
+            mesh_stiffness_n_per_m2: stiffness.mesh_n_per_m2(pair.contact_ratio()),
             pitch_radius_1_m,
             largest_sliding: sliding[0].max(sliding[1]) / pitch_radius_1_m,
             forces_of_1_nm_n: [tangential, tangential * alpha.tan(), tangential * helix],

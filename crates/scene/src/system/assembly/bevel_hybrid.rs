@@ -8,7 +8,7 @@ use gearmesh_model::{ReducedGear, read_reduced_gear};
 
 use super::bevel_mesh::{SceneBevel, material};
 use super::bodies::Bodies;
-use super::mesh_model::REFERENCE_LINE_LOAD_N_PER_M;
+use crate::system::iso_stiffness::REFERENCE_LINE_LOAD_N_PER_M;
 use crate::system::tables::mesh_model::{HybridTable, MeshModel};
 
 /// Slices where neither the scene nor models say how many.

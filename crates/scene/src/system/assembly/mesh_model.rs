@@ -16,14 +16,11 @@ use gearmesh_geometry::{Flank, GearDefinition, GearPair, InputError};
 use gearmesh_model::ReducedGear;
 
 use super::gears::Gear;
+use crate::system::iso_stiffness::REFERENCE_LINE_LOAD_N_PER_M;
 use crate::system::tables::gear_mesh::{GearMeshTable, PathWord, TeethTable, TouchingFlanks};
 use crate::system::tables::mesh_model::{
     AnalyticTable, DampingTable, HertzTable, HybridTable, MeshKind, MeshModel,
 };
-
-/// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene
-/// does not state.
-pub(super) const REFERENCE_LINE_LOAD_N_PER_M: f64 = 1e5;
 
 /// A table with all that its models are made from.
 pub(super) struct SceneMesh<'a> {

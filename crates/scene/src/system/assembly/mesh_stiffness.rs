@@ -5,18 +5,15 @@ use gearmesh_geometry::given;
 use std::path::Path;
 
 use gearmesh_contact::SliceLayout;
-use gearmesh_drivetrain::models::iso6336::blank_factor;
-use gearmesh_drivetrain::{DrivetrainError, Impact, MeshSpring, PowerStiffness, SingleStiffness};
+use gearmesh_drivetrain::{DrivetrainError, Impact, MeshSpring, PowerStiffness};
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{Flank, GearDefinition, InputError};
 
-use super::mesh_model::{REFERENCE_LINE_LOAD_N_PER_M, SceneMesh};
+use super::mesh_model::SceneMesh;
+use crate::system::iso_stiffness::{N_PER_MM_UM, REFERENCE_LINE_LOAD_N_PER_M, iso_stiffness};
 use crate::system::stage_summary::StageSummary;
 use crate::system::tables::mesh_model::{ImpactTable, Iso6336Table, MeshModel};
 use crate::system::tables::{MM, UM};
-
-/// N/(mm·µm) in SI, N/m².
-const N_PER_MM_UM: f64 = 1e9;
 
 /// K in N/mm^e and e of `impact` as a scene states them.
 pub(super) fn stated_impact(
@@ -96,7 +93,7 @@ impl SceneMesh<'_> {
             (Some(stiffness), None) => Ok((N_PER_MM_UM * stiffness, "as stated".to_owned())),
             (None, line_load) => {
                 let line_load = line_load.map_or(REFERENCE_LINE_LOAD_N_PER_M, |q| *q / MM);
-                let single = self.iso_stiffness(line_load);
+                let single = iso_stiffness(self.definitions(), line_load);
                 let mesh = single.mesh_n_per_m2(self.pair.contact_ratio());
                 let how = format!(
                     "after ISO 6336-1 method B, single stiffness c' {:.3}",
@@ -140,55 +137,13 @@ impl SceneMesh<'_> {
         }
     }
 
-    /// The single stiffness after ISO 6336-1 method B; the pinion is the gear with fewer teeth, the softer blank
-    /// counts. A ring has infinitely many teeth in its formula (ISO 6336-1:2006, clause 9).
-    fn iso_stiffness(&self, line_load_n_per_m: f64) -> SingleStiffness {
-        let [mut pinion, mut wheel] = self.gears.map(|gear| &gear.definition);
-        if pinion.profile.teeth > wheel.profile.teeth {
-            std::mem::swap(&mut pinion, &mut wheel);
-        }
-        let blanks = [pinion, wheel].map(|gear| {
-            gear.blank.web().map_or(1.0, |web| {
-                let rim =
-                    (gear.profile.root_radius_m - web.rim_inner_radius_m) / gear.tooth.module_m;
-                blank_factor(web.thickness_m / gear.tooth.face_width_m, rim)
-            })
-        });
-        let [e1, e2] = [pinion.material.young_pa, wheel.material.young_pa];
-        // Of a ring's cutter no dedendum is stated; that of the teeth it makes.
-        let dedendum = |gear: &GearDefinition| {
-            let (tooth, profile) = (&gear.tooth, &gear.profile);
-            match profile.internal {
-                true => {
-                    let below_m = profile.root_radius_m - profile.reference_radius_m;
-                    below_m / tooth.module_m + tooth.profile_shift
-                }
-                false => tooth.dedendum,
-            }
-        };
-        SingleStiffness {
-            virtual_teeth: [pinion, wheel].map(|gear| match gear.profile.internal {
-                true => f64::INFINITY,
-                false => gear.profile.virtual_teeth(),
-            }),
-            profile_shifts: [pinion, wheel].map(|gear| gear.tooth.profile_shift),
-            helix_angle_rad: pinion.tooth.helix_angle_rad.abs(),
-            rack_dedendum: 0.5 * (dedendum(pinion) + dedendum(wheel)),
-            rack_pressure_angle_rad: pinion.tooth.pressure_angle_rad,
-            blank_factor: blanks[0].min(blanks[1]),
-            young_pa: 2.0 * e1 * e2 / (e1 + e2),
-            line_load_n_per_m,
-        }
-    }
-
     /// The stage at a glance, its stiffness that of ISO 6336-1 whatever the model.
     pub(super) fn stage(&self) -> StageSummary {
-        let single = self.iso_stiffness(REFERENCE_LINE_LOAD_N_PER_M);
-        let stiffness = [
-            N_PER_MM_UM * single.single(),
-            single.mesh_n_per_m2(self.pair.contact_ratio()),
-        ];
-        StageSummary::new(self.pair, self.zone_width_m(), stiffness)
+        StageSummary::new(self.pair, self.definitions(), self.zone_width_m())
+    }
+
+    fn definitions(&self) -> [&GearDefinition; 2] {
+        self.gears.map(|gear| &gear.definition)
     }
 
     /// What stiffness the mesh has, for plan and result; nothing for models that have none of their own.
