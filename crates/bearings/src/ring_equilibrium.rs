@@ -326,7 +326,7 @@ impl QuasiStaticBearing {
         Err(BearingError::NoEquilibrium {
             unbalanced_n: r.norm(),
             iterations: MOST_STEPS,
-            hint: hint(&applied, arm),
+            hint: hint(&applied, arm, operation),
         })
     }
 }
@@ -335,10 +335,13 @@ impl QuasiStaticBearing {
 const SMALL_LOAD_N: f64 = 1e-3;
 
 /// What to do about a load without equilibrium.
-fn hint(applied: &Vector5<f64>, arm_m: f64) -> &'static str {
+fn hint(applied: &Vector5<f64>, arm_m: f64, operation: &Operation) -> &'static str {
     let size = applied.fixed_rows::<3>(0).norm() + applied.fixed_rows::<2>(3).norm() / arm_m;
     if size < SMALL_LOAD_N {
         return "So small a load is lost in the rounding of the elements' places: give 0 or at least 0.001 N.";
+    }
+    if operation.is_turning() {
+        return "Without speed there is one: the speed is beyond what the bearing can do; take less of it, or give more thrust.";
     }
     "A single row that carries axial loads one way needs an axial load towards +z, a preload or a second row; a moment needs something that resists it."
 }

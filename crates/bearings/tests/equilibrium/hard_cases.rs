@@ -332,3 +332,108 @@ fn balls_are_found_from_no_load_to_heavy_load_at_all_speeds() {
         }
     }
 }
+
+/// 3 balls, 20 and 200 on one circle: with the same thrust a ball each stands as the others do, and the ring goes as
+/// far.
+#[test]
+fn three_and_two_hundred_balls_stand_alike() {
+    let axial_m = |balls: usize| {
+        let text = format!(
+            "name = \"drawn\"\nkind = \"angular-contact\"\nballs = {balls}\nball_diameter_mm = 6.0\npitch_diameter_mm = 480.0\n\
+             inner_conformity = 0.52\nouter_conformity = 0.53\ncontact_angle_deg = 30.0\n"
+        );
+        let bearing = bearing(&text);
+        let pose = rest(&bearing, [0.0, 0.0, 40.0 * balls as f64], FREE, 0.0);
+        let sideways = pose.centre_m.xy().norm();
+        assert!(sideways < 1e-9 * pose.centre_m.z, "{sideways}");
+        pose.centre_m.z
+    };
+    let few = axial_m(3);
+    for balls in [20, 200] {
+        close(axial_m(balls), few, 1e-9);
+    }
+}
+
+/// Up to a million revolutions a minute, d_m n = 39·10⁶ mm/min, where tonnes of centrifugal force press the balls into
+/// the outer race: as long as the ring reaches them it is in equilibrium, then the ball that is lost is named.
+#[test]
+fn up_to_a_million_revolutions_a_minute() {
+    let bearing = bearing(B6205);
+    let load = AppliedBearingLoad {
+        force_n: [0.0, -500.0, 300.0],
+        tilt: HELD,
+    };
+    let mut fastest_rpm = 0.0;
+    for rpm in [1e4, 3e4, 1e5, 2e5, 5e5, 1e6] {
+        match bearing.equilibrium(&load, &at_rpm(rpm)) {
+            Ok(pose) => {
+                let (ring, loads) = bearing.loads(&pose, &at_rpm(rpm)).unwrap();
+                close(ring.load[1], 500.0, 1e-6);
+                for ball in &loads.elements[0] {
+                    assert!(ball.outer_load_n > 0.9 * ball.centrifugal_n, "{ball:?}");
+                }
+                fastest_rpm = rpm;
+            }
+            Err(error) => {
+                let error = error.to_string();
+                assert!(error.contains("the speed is beyond what"), "{error}");
+                println!("none at {rpm} 1/min: {error}");
+            }
+        }
+    }
+    println!("in equilibrium up to {fastest_rpm} 1/min");
+    assert!(fastest_rpm >= 1e5);
+}
+
+/// From balls pressed in by 20 µm to a play of 200 µm: the ring sinks by half the play and what the contacts deflect,
+/// less where all balls carry.
+#[test]
+fn from_interference_to_much_play() {
+    let mut before_m = 0.0;
+    for clearance_um in [-20.0, -5.0, 0.0, 5.0, 20.0, 60.0, 200.0] {
+        let text = format!("{B6205}radial_clearance_um = {clearance_um:?}\n");
+        let bearing = bearing(&text);
+        let pose = rest(&bearing, [0.0, -500.0, 0.0], HELD, 0.0);
+        let sunk_m = -pose.centre_m.y;
+        let (ring, loads) = bearing.loads(&pose, &at_rpm(0.0)).unwrap();
+        close(ring.load[1], 500.0, 1e-9);
+        assert!(sunk_m > before_m, "{clearance_um} um: {sunk_m}");
+        before_m = sunk_m;
+        let carrying = (loads.elements[0].iter())
+            .filter(|ball| ball.inner_load_n > 0.0)
+            .count();
+        println!(
+            "{clearance_um} um: sinks by {:.2} um, {carrying} balls carry",
+            1e6 * sunk_m
+        );
+        if clearance_um < -10.0 {
+            assert_eq!(carrying, 9);
+        } else if clearance_um > 0.0 {
+            // No ball that carries is farther than half a spacing from the line of the load.
+            let farthest_um = 0.5 * clearance_um / 20_f64.to_radians().cos();
+            let sunk_um = 1e6 * sunk_m;
+            assert!((0.5 * clearance_um..farthest_um + 15.0).contains(&sunk_um));
+        }
+    }
+}
+
+/// As far as a ring can be tilted: a little less than the refusal names has an equilibrium, a little more has none.
+#[test]
+fn tilted_to_the_edge_of_what_there_is() {
+    let pair = bearing(PAIR);
+    let tilted = |mrad: f64| {
+        let load = AppliedBearingLoad {
+            force_n: [0.0, 0.0, 2000.0],
+            tilt: TiltCondition::Held([1e-3 * mrad, 0.0]),
+        };
+        pair.equilibrium(&load, &at_rpm(0.0))
+    };
+    let BearingError::TiltedBeyondGroove { found_mrad, .. } = tilted(20.0).unwrap_err() else {
+        panic!("another reason");
+    };
+    println!("found up to {found_mrad:.3} mrad");
+    let pose = tilted(0.999 * found_mrad).unwrap();
+    let ring = pair.evaluate(&pose, &at_rpm(0.0)).unwrap();
+    close(-ring.load[2], 2000.0, 1e-8);
+    assert!(tilted(1.01 * found_mrad).is_err());
+}
