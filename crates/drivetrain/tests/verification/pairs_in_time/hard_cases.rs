@@ -465,3 +465,36 @@ fn steps_over_a_factor_of_thirty() {
         assert!(nearer(2) && nearer(3), "{name} {found:?}");
     }
 }
+
+/// A run that is stopped in the middle of an impact and resumed ends with the same bits.
+#[test]
+fn a_run_resumed_in_an_impact_gives_the_same_bits() {
+    let pair = spur_pair();
+    let scene = Scene {
+        te_m: 20e-6,
+        ..Scene::new(&pair).driven_at(0.0).loaded_by(30.0)
+    };
+    let law = PowerStiffness::n_per_mm_e(1e6, 1.5).unwrap();
+    let params = Params::fixed(1e-6);
+    let system = || scene.system(power_law(&pair, law));
+    let go_on = |simulation: &mut Simulation, end_s: f64| {
+        simulation
+            .run(end_s, |_| std::ops::ControlFlow::Continue(()))
+            .unwrap();
+    };
+    let force = 30.0 / pair.gear_2.base_radius_m;
+    let fall_s = (2.0 * 20e-6 * scene.mass_2_kg() / force).sqrt();
+    let (samples, _) = record(system(), params, 1.5 * fall_s);
+    let deepest = (samples.iter())
+        .max_by(|a, b| a.right_n.total_cmp(&b.right_n))
+        .unwrap();
+    assert!(deepest.right_n > 2.0 * force, "{}", deepest.right_n);
+    let (middle_s, end_s) = (deepest.time_s, 2.0 * fall_s);
+    let mut whole = Simulation::new(system(), params).unwrap();
+    go_on(&mut whole, middle_s);
+    let checkpoint = whole.checkpoint();
+    go_on(&mut whole, end_s);
+    let mut second = Simulation::resume(system(), params, &checkpoint).unwrap();
+    go_on(&mut second, end_s);
+    assert_eq!(second.checkpoint(), whole.checkpoint());
+}
