@@ -5,6 +5,8 @@
 //! out of its bearings, spur teeth leave it where it is. What is loose drifts as soon as a bearing tilts or a load has
 //! a part along the axis, and no equilibrium is found.
 
+use std::collections::HashMap;
+
 use gearmesh_bearings::definition::BearingGeometry;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
@@ -17,6 +19,17 @@ use super::parts::Parts;
 use crate::system::built::BuiltPart;
 use crate::system::tables::mesh_model::MeshKind;
 
+/// What holds a piece along its axis.
+#[derive(Debug, Clone, Copy, Default)]
+struct Support {
+    /// A bearing with cylindrical rollers, by its place among the `[[bearing]]`s.
+    cylindrical: Option<usize>,
+    /// Something that carries along the axis, too.
+    carries: bool,
+    /// Meshes whose teeth push along the axis.
+    pushing_meshes: usize,
+}
+
 impl LoadedSystem {
     /// Refuses bodies that only cylindrical rollers support, where an equilibrium is sought.
     pub(super) fn refuse_loose_along_axis(
@@ -25,60 +38,50 @@ impl LoadedSystem {
         meshes: &[PreparedMesh],
         parts: &Parts,
     ) -> Result<(), InputError> {
-        let is_planet = |name: &str| {
-            let planets = self.scene.sets.iter().flat_map(|set| &set.planets);
-            planets.into_iter().any(|planet| planet == name)
-        };
-        let pushes = |mesh: &&PreparedMesh| {
-            mesh.model != MeshKind::Kinematic
-                && mesh.stage.is_none_or(|stage| stage.overlap_ratio > 0.0)
-        };
-        for whole in in_one_piece(bodies, parts) {
-            let name = whole[0];
-            let is_on_it = |mesh: &&PreparedMesh| {
-                let mut gears = mesh.bodies.iter().map(|&body| bodies.name(Some(body)));
-                gears.any(|gear| whole.contains(&gear))
+        let pieces = Pieces::new(bodies, parts);
+        let mut supports = vec![Support::default(); bodies.list.len()];
+        for mesh in meshes.iter().filter(|mesh| pushes(mesh)) {
+            for piece in distinct(mesh.bodies.map(|body| pieces.of_body[body])) {
+                supports[piece].pushing_meshes += 1;
+            }
+        }
+        let bearings = self.scene.tables.bearing.iter().enumerate();
+        let numbers: HashMap<&str, usize> = bearings
+            .map(|(number, table)| (table.name.as_str(), number))
+            .collect();
+        for part in parts.joints.iter().chain(&parts.elements) {
+            let bearing = numbers.get(part.name.as_str());
+            let cylindrical = match bearing {
+                Some(&number) if self.is_cylindrical(number)? => Some(number),
+                _ => None,
             };
-            let advice = if is_planet(name) {
+            for piece in pieces.left_by(part) {
+                let support = &mut supports[piece];
+                support.carries |= cylindrical.is_none() && part.kind != "torsion spring";
+                support.cylindrical = support.cylindrical.or(cylindrical);
+            }
+        }
+        for (placed, &piece) in bodies.list.iter().zip(&pieces.of_body) {
+            let support = supports[piece];
+            let (Some(number), false) = (support.cylindrical, support.carries) else {
+                continue;
+            };
+            let name = &placed.body.name;
+            let mut planets = self.scene.sets.iter().flat_map(|set| &set.planets);
+            let advice = if planets.any(|planet| planet == name) {
                 "write support = \"floating\" for the planets, which does, or give them a bearing that carries along the axis, too"
-            } else if meshes.iter().filter(pushes).filter(is_on_it).count() < 2 {
+            } else if support.pushing_meshes < 2 {
                 "give it a bearing that carries along the axis, too (balls, tapered rollers), or hold it by a spring or a joint"
             } else {
                 continue;
             };
-            let leaves = |part: &&BuiltPart| {
-                let on_it = |body: &String| whole.contains(&body.as_str());
-                part.kind != "torsion spring"
-                    && part.bodies.iter().any(on_it)
-                    && !part.bodies.iter().all(on_it)
-            };
-            let holding = parts.joints.iter().chain(&parts.elements).filter(leaves);
-            if let Some(number) = self.only_cylindrical(holding)? {
-                let problem = format!(
-                    "cylindrical rollers hold nothing along their axis, and nothing else holds `{name}` there; {advice}"
-                );
-                let key = format!("bearing.{number}");
-                return Err(TableKeys::new(&self.scene.document, &key).error("model", problem));
-            }
+            let problem = format!(
+                "cylindrical rollers hold nothing along their axis, and nothing else holds `{name}` there; {advice}"
+            );
+            let key = format!("bearing.{number}");
+            return Err(TableKeys::new(&self.scene.document, &key).error("model", problem));
         }
         Ok(())
-    }
-
-    /// One of these parts, by its place among the `[[bearing]]`s, where all of them have cylindrical rollers.
-    fn only_cylindrical<'p>(
-        &self,
-        parts: impl Iterator<Item = &'p BuiltPart>,
-    ) -> Result<Option<usize>, InputError> {
-        let mut found = None;
-        for part in parts {
-            let mut bearings = self.scene.tables.bearing.iter();
-            found = bearings.position(|table| table.name == part.name);
-            match found {
-                Some(number) if self.is_cylindrical(number)? => {}
-                _ => return Ok(None),
-            }
-        }
-        Ok(found)
     }
 
     /// Whether a `[[bearing]]` has cylindrical rollers.
@@ -97,25 +100,68 @@ impl LoadedSystem {
     }
 }
 
-/// Names of the bodies that beams and fixed joints hold together, each set in the order of the scene.
-fn in_one_piece<'b>(bodies: &'b Bodies, parts: &Parts) -> Vec<Vec<&'b str>> {
-    let mut wholes: Vec<Vec<&str>> = (bodies.list.iter())
-        .map(|placed| vec![placed.body.name.as_str()])
-        .collect();
-    let ties = parts.joints.iter().chain(&parts.elements);
-    for part in ties.filter(|part| ["beam", "fixed"].contains(&part.kind)) {
-        let place = |body: &String| {
-            wholes
-                .iter()
-                .position(|whole| whole.contains(&body.as_str()))
-        };
-        let [Some(a), Some(b)] = [0, 1].map(|end| place(&part.bodies[end])) else {
-            continue;
-        };
-        if a != b {
-            let moved = wholes.remove(a.max(b));
-            wholes[a.min(b)].extend(moved);
+/// Whether the teeth of a mesh push along the axis.
+fn pushes(mesh: &PreparedMesh) -> bool {
+    let helical = mesh.stage.is_none_or(|stage| stage.overlap_ratio > 0.0);
+    mesh.model != MeshKind::Kinematic && helical
+}
+
+/// Each of two once.
+fn distinct([first, second]: [usize; 2]) -> impl Iterator<Item = usize> {
+    let other = (second != first).then_some(second);
+    std::iter::once(first).chain(other)
+}
+
+/// Bodies that beams and fixed joints hold together.
+struct Pieces<'b> {
+    /// Numbers of the bodies by name.
+    numbers: HashMap<&'b str, usize>,
+    /// The piece of each body: the number of one of its bodies.
+    of_body: Vec<usize>,
+}
+
+impl<'b> Pieces<'b> {
+    fn new(bodies: &'b Bodies, parts: &Parts) -> Self {
+        let names = bodies.list.iter().enumerate();
+        let numbers: HashMap<&str, usize> = names
+            .map(|(number, placed)| (placed.body.name.as_str(), number))
+            .collect();
+        // A tree for each piece: of each body another one of its piece, of its root itself.
+        let mut above: Vec<usize> = (0..bodies.list.len()).collect();
+        let ties = parts.joints.iter().chain(&parts.elements);
+        for part in ties.filter(|part| ["beam", "fixed"].contains(&part.kind)) {
+            let mut ends = part.bodies.iter().map(|name| numbers.get(name.as_str()));
+            if let (Some(Some(&a)), Some(Some(&b))) = (ends.next(), ends.next()) {
+                let (a, b) = (root(&mut above, a), root(&mut above, b));
+                above[a.max(b)] = a.min(b);
+            }
         }
+        let of_body = (0..above.len())
+            .map(|body| root(&mut above, body))
+            .collect();
+        Self { numbers, of_body }
     }
-    wholes
+
+    /// The pieces that a part holds to something else, the ground included.
+    fn left_by(&self, part: &BuiltPart) -> Vec<usize> {
+        let piece = |name: &String| {
+            self.numbers
+                .get(name.as_str())
+                .map(|body| self.of_body[*body])
+        };
+        let pieces: Vec<Option<usize>> = part.bodies.iter().map(piece).collect();
+        if pieces.windows(2).all(|two| two[0] == two[1]) {
+            return Vec::new();
+        }
+        pieces.into_iter().flatten().collect()
+    }
+}
+
+/// The root of a body's tree; on the way each body is put below the one after the next.
+fn root(above: &mut [usize], mut body: usize) -> usize {
+    while above[body] != body {
+        above[body] = above[above[body]];
+        body = above[body];
+    }
+    body
 }
