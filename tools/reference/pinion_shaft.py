@@ -1,11 +1,12 @@
-"""A pinion that is one with its shaft between a clamp and a bearing: deflections of one flank and the bearing's force, in one elastic body.
+"""Pinions that are one with their shafts between a clamp and a bearing: deflections of one flank and the bearing's force, in one elastic body.
 
-z 17, m 3 mm, x 0.2, 20 deg, addendum 1, dedendum 1.25, rack tip radius 0.38, face 30 mm; the shaft goes on 40 mm at the back face with a diameter of
-32 mm, 50 mm at the front face with 30 mm, and fills the core. The front end is clamped; the mean of the back end is held across the axis. Loads of
+x 0.2, 20 deg, addendum 1, dedendum 1.25, rack tip radius 0.38, face 30 mm; teeth, module and shafts of the case. The shaft goes on at both faces and
+fills the core. The front end is clamped; the mean of the back end is held across the axis. Loads of
 1 N along the normal on the right flank of one tooth, spread by hats: over the roll angle about the middle of the flank, over z about five
 even stations. E 210 GPa, nu 0.3. Hexahedra with 27 nodes (scikit-fem) on the extruded section; a mesh with longer elements gives the error estimate.
 
-    python pinion_shaft.py ../../reference/pinion_shaft
+    python pinion_shaft.py ../../reference/pinion_shaft usual
+    python pinion_shaft.py ../../reference/pinion_shaft_slim slim
 """
 
 import sys
@@ -23,7 +24,14 @@ from tooth import Tooth
 
 E_MPA, NU = 210e3, 0.3
 LAMBDA, MU = E_MPA * NU / ((1 + NU) * (1 - 2 * NU)), E_MPA / (2 * (1 + NU))
-WIDTH, SHAFT, STUB = 30.0, [16.0, 15.0], [40.0, 50.0]  # mm; back, front
+WIDTH = 30.0  # mm
+# Teeth, module, and of the shaft at the back and the front face radius and length beyond it (mm); elements on the loaded tooth and elsewhere, layers
+# along the face and each stub, of the coarse and the fine mesh.
+CASES = {
+    "slim": (17, 3.0, [11.0, 12.0], [40.0, 50.0], [(1.4, 5.0, 4, 4), (1.0, 4.0, 6, 5)]),
+    "usual": (17, 3.0, [16.0, 15.0], [40.0, 50.0], [(1.4, 5.0, 4, 4), (1.0, 4.0, 6, 5)]),
+}
+TEETH, MODULE, SHAFT, STUB, SIZES = CASES[sys.argv[2] if len(sys.argv) > 2 else "usual"]
 STATIONS = np.linspace(-WIDTH / 2, WIDTH / 2, 5)
 
 
@@ -168,14 +176,14 @@ def answers(t, *sizes):
 
 
 def main(folder):
-    t = Tooth(z=17, m=3.0, x=0.2)
-    coarse = answers(t, 1.4, 5.0, 4, 4)
-    fine = answers(t, 1.0, 4.0, 6, 5)
+    t = Tooth(z=TEETH, m=MODULE, x=0.2)
+    coarse, fine = (answers(t, *sizes) for sizes in SIZES)
     own = np.sqrt(np.diag(fine[0]))
     left = np.abs(fine[0] - coarse[0]) / np.outer(own, own)
     force = np.linalg.norm(fine[1] - coarse[1], axis=1) / np.linalg.norm(fine[1], axis=1)
     print(fine, coarse, left, force, sep="\n")
     folder = Path(folder)
+    folder.mkdir(exist_ok=True)
     with open(folder / "data.csv", "w") as out:
         names = [f"deflection_at_{z:g}_mm_nm_per_N" for z in STATIONS]
         out.write(",".join(["load_at_mm", *names, "bearing_x_N_per_N", "bearing_y_N_per_N"]) + "\n")
@@ -185,4 +193,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main(sys.argv[1])

@@ -18,7 +18,7 @@ pub(super) fn geometry(
 ) -> Result<(RollerGeometry, Arrangement), InputError> {
     let rollers = Elements::rollers(file, keys)?;
     let (diameter, pitch) = (rollers.diameter_mm, rollers.pitch_mm);
-    let length = roller_length_mm(file, keys)?;
+    let length = roller_length_mm(file, keys, diameter)?;
     let angle = contact_angle_rad(file, keys, [3.0, 45.0])?;
     // Rows must not meet in the middle plane.
     let most_length = (pitch - diameter * angle.cos()) * angle.tan() / angle.cos();

@@ -73,14 +73,25 @@ impl Elements {
     }
 }
 
-/// Length of rollers \[mm\].
+/// Lengths of rollers over their diameter: thinner ones are discs, longer ones wires.
+const SLENDERNESS: [f64; 2] = [0.1, 100.0];
+
+/// Length of rollers of a diameter \[mm\].
 pub(super) fn roller_length_mm(
     file: &BearingFile,
     keys: &TableKeys<'_>,
+    diameter_mm: f64,
 ) -> Result<f64, InputError> {
     let needed_by = format!("kind = \"{}\"", file.kind.word());
-    let length = keys.needed("roller_length_mm", file.roller_length_mm, &needed_by)?;
-    Ok(*length)
+    let length = *keys.needed("roller_length_mm", file.roller_length_mm, &needed_by)?;
+    let [least, most] = SLENDERNESS.map(|share| share * diameter_mm);
+    keys.require(
+        "roller_length_mm",
+        length,
+        (least..=most).contains(&length),
+        &format!("{least:.4} to {most:.4}, a tenth to a hundred times the rollers' diameter"),
+    )?;
+    Ok(length)
 }
 
 /// Number of laminae.

@@ -15,7 +15,7 @@ pub(super) fn geometry(
 ) -> Result<RollerGeometry, InputError> {
     let rollers = Elements::rollers(file, keys)?;
     let (diameter, pitch) = (rollers.diameter_mm, rollers.pitch_mm);
-    let length = roller_length_mm(file, keys)?;
+    let length = roller_length_mm(file, keys, diameter)?;
     let taper = (file.kind == Kind::TaperedRoller)
         .then(|| taper(file, keys, (diameter, length, pitch)))
         .transpose()?;

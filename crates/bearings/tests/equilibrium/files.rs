@@ -217,6 +217,21 @@ fn other_types_are_checked() {
             "{found}"
         );
     }
+    // A fuzzed disc of 1e-11 mm took minutes.
+    for length in ["1e-11", "800.0"] {
+        refused(
+            TAPERED,
+            (
+                "roller_length_mm = 10.5",
+                &format!("roller_length_mm = {length}"),
+            ),
+            &[
+                "roller_length_mm",
+                "0.7200 to 720.0000",
+                "a tenth to a hundred times",
+            ],
+        );
+    }
     refused(
         THRUST,
         ("balls = 14", "balls = 14\ncontact_angle_deg = 90.0"),
