@@ -25,8 +25,8 @@ from tooth import Tooth
 E_MPA, NU = 210e3, 0.3
 LAMBDA, MU = E_MPA * NU / ((1 + NU) * (1 - 2 * NU)), E_MPA / (2 * (1 + NU))
 WIDTH = 30.0  # mm
-# Teeth, module, and of the shaft at the back and the front face radius and length beyond it (mm); elements on the loaded tooth and elsewhere, layers
-# along the face and each stub, of the coarse and the fine mesh.
+# Teeth, module, and of the shaft at the back and the front face radius and length beyond it (mm).
+# Of the coarse and the fine mesh: elements on the loaded tooth and elsewhere, layers along the face and each stub.
 CASES = {
     "slim": (17, 3.0, [11.0, 12.0], [40.0, 50.0], [(1.4, 5.0, 4, 4), (1.0, 4.0, 6, 5)]),
     "usual": (17, 3.0, [16.0, 15.0], [40.0, 50.0], [(1.4, 5.0, 4, 4), (1.0, 4.0, 6, 5)]),

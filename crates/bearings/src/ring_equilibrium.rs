@@ -36,8 +36,8 @@ const MOST_PROXIMAL_STEPS: usize = 200;
 /// A ring that has come this share of the pitch radius from its start is on its way out: no play is so large.
 const FARTHEST: f64 = 0.1;
 
-/// Where a spring half as stiff lets the ring go farther by more than this factor, so often one after the other, the
-/// ring slides under a load that nothing takes up.
+/// Where a spring half as stiff lets the ring go farther by more than this factor (twice as far where nothing takes up
+/// the load), so often one after the other, the ring slides.
 const SLIDES: (f64, usize) = (1.7, 3);
 
 /// Springs that hold the ring to a place; about x and y by the pitch radius' square.
@@ -115,8 +115,8 @@ impl QuasiStaticBearing {
     /// To rest down the potential energy, where Newton's method alone stays behind an edge of it.
     ///
     /// One proximal step after the other: each ends where the ring would rest if springs held it to where it stood. Energy falls in every step, and
-    /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it; it is
-    /// not tried while the ring slides. A ring that slides out of the bearing ends the search.
+    /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it; it
+    /// is not tried while the ring slides. A ring that slides out of the bearing ends the search.
     /// `failure` is what the search without springs ended with; elements begin at their `places`, if given, and leave
     /// them where they end.
     pub(crate) fn settle(

@@ -147,7 +147,8 @@ fn an_imported_gearbox_of_reduced_gears_runs() {
     }
 }
 
-/// The imported scene at rest at 60 angles of the motor, over a pitch of the last stage, which is some ten of the first.
+/// The imported scene at rest at 60 angles of the motor, over a pitch of the last stage, which is some ten of the
+/// first.
 fn over_a_pitch(scene: &str) -> String {
     let (start, bodies) = (
         scene.find("[run]").unwrap(),

@@ -50,12 +50,17 @@ impl LoadedSystem {
             .map(|(number, table)| (table.name.as_str(), number))
             .collect();
         for part in parts.joints.iter().chain(&parts.elements) {
+            let left = pieces.left_by(part);
+            // No bearing's file is read for what is held already.
+            if left.iter().all(|&piece| supports[piece].carries) {
+                continue;
+            }
             let bearing = numbers.get(part.name.as_str());
             let cylindrical = match bearing {
                 Some(&number) if self.is_cylindrical(number)? => Some(number),
                 _ => None,
             };
-            for piece in pieces.left_by(part) {
+            for piece in left {
                 let support = &mut supports[piece];
                 support.carries |= cylindrical.is_none() && part.kind != "torsion spring";
                 support.cylindrical = support.cylindrical.or(cylindrical);
