@@ -33,6 +33,10 @@ const MOST_STEPS: usize = 200;
 /// Most proximal steps down the potential energy.
 const MOST_PROXIMAL_STEPS: usize = 200;
 
+/// Most places on the way down the potential energy at which an element finds no equilibrium, each of them a long
+/// search: twice as many as any bearing of the tests meets that comes to rest.
+const MOST_LOST_PLACES: usize = 600;
+
 /// A ring that has come this share of the pitch radius from its start is on its way out: no play is so large.
 const FARTHEST: f64 = 0.1;
 
@@ -100,7 +104,7 @@ impl QuasiStaticBearing {
             ..*operation
         };
         let start = self.first_guess(load);
-        let pose = match self.iterate(start, load, &resting, (None, None)) {
+        let pose = match self.iterate(start, load, &resting, (None, None, &mut 0)) {
             Ok(found) => found,
             Err(error) => self
                 .settle(start, load, &resting, (error, None))
@@ -139,14 +143,19 @@ impl QuasiStaticBearing {
         let mut pose = start;
         // So stiff that the load moves the ring by a micrometre.
         let mut spring = size / 1e-6;
-        let (mut last_m, mut slides) = (f64::INFINITY, 0);
+        let (mut last_m, mut slides, mut lost) = (f64::INFINITY, 0, 0);
         for _ in 0..MOST_PROXIMAL_STEPS {
             let anchor = Anchor {
                 at: pose.to_five(),
                 spring_n_per_m: spring,
             };
             let mut tried = places.as_deref().cloned();
-            match self.iterate(pose, load, operation, (Some(&anchor), tried.as_mut())) {
+            match self.iterate(
+                pose,
+                load,
+                operation,
+                (Some(&anchor), tried.as_mut(), &mut lost),
+            ) {
                 Ok(next) => {
                     let moved_m = (next.centre_m - pose.centre_m).norm();
                     let goes_on = moved_m > SLIDES.0 * last_m;
@@ -159,7 +168,7 @@ impl QuasiStaticBearing {
                     }
                     let mut ends = tried.clone();
                     let found = if slides < SLIDES.1 {
-                        self.iterate(pose, load, operation, (None, ends.as_mut()))
+                        self.iterate(pose, load, operation, (None, ends.as_mut(), &mut lost))
                     } else {
                         Err(failure.clone())
                     };
@@ -173,7 +182,7 @@ impl QuasiStaticBearing {
                 }
                 Err(_) => spring *= 10.0,
             }
-            if spring > size / 1e-12 {
+            if spring > size / 1e-12 || lost > MOST_LOST_PLACES {
                 break;
             }
         }
@@ -214,7 +223,7 @@ impl QuasiStaticBearing {
         start: RingPose,
         load: &AppliedBearingLoad,
         operation: &Operation,
-        (anchor, places): (Option<&Anchor>, Option<&mut ElementPlaces>),
+        (anchor, places, lost): (Option<&Anchor>, Option<&mut ElementPlaces>, &mut usize),
     ) -> Result<RingPose, BearingError> {
         let arm = self.rows[0].pitch_radius_m();
         let scale = Vector5::new(1.0, 1.0, 1.0, arm, arm);
@@ -299,6 +308,7 @@ impl QuasiStaticBearing {
             let factor = (100e-6 / length).min(1.0);
             let next = pose.moved(&(step * factor).component_div(&scale));
             let found = evaluate(&next, &known);
+            *lost += usize::from(found.is_err());
             match found {
                 Ok((found, places)) if residual(&next, &found).norm() < size => {
                     (pose, ring) = (next, found);

@@ -91,7 +91,12 @@ impl QuasiStaticBearing {
         (load, operation, share): (&AppliedBearingLoad, &Operation, f64),
     ) -> Result<Stand, BearingError> {
         let mut places = before.places.clone();
-        let pose = self.iterate(before.pose, load, operation, (None, Some(&mut places)))?;
+        let pose = self.iterate(
+            before.pose,
+            load,
+            operation,
+            (None, Some(&mut places), &mut 0),
+        )?;
         self.at(before, (pose, places), operation, share)
     }
 

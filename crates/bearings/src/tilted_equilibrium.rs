@@ -44,7 +44,7 @@ impl QuasiStaticBearing {
             ..*load
         };
         let rest = |start: RingPose, load: &AppliedBearingLoad| {
-            (self.iterate(start, load, resting, (None, None)))
+            (self.iterate(start, load, resting, (None, None, &mut 0)))
                 .or_else(|error| self.settle(start, load, resting, (error, None)))
         };
         let straight = tilted_by(0.0);

@@ -32,7 +32,7 @@ pub(super) fn geometry(
     })
 }
 
-/// Where the file names none.
+/// Where the file names none: a choice, docs/theory/rolling_bearings.md says what it decides.
 const END_RADIUS_RATIO: f64 = 0.95;
 
 /// Share of the large end's radius at which the rib touches, where the file names none.
