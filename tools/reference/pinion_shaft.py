@@ -7,6 +7,7 @@ even stations. E 210 GPa, nu 0.3. Hexahedra with 27 nodes (scikit-fem) on the ex
 
     python pinion_shaft.py ../../reference/pinion_shaft usual
     python pinion_shaft.py ../../reference/pinion_shaft_slim slim
+    python pinion_shaft.py ../../reference/pinion_shaft_thick thick
 """
 
 import sys
@@ -30,6 +31,7 @@ WIDTH = 30.0  # mm
 CASES = {
     "slim": (17, 3.0, [11.0, 12.0], [40.0, 50.0], [(1.4, 5.0, 4, 4), (1.0, 4.0, 6, 5)]),
     "usual": (17, 3.0, [16.0, 15.0], [40.0, 50.0], [(1.4, 5.0, 4, 4), (1.0, 4.0, 6, 5)]),
+    "thick": (34, 2.0, [28.5, 27.0], [80.0, 100.0], [(0.95, 5.0, 4, 5), (0.7, 4.0, 6, 7)]),
 }
 TEETH, MODULE, SHAFT, STUB, SIZES = CASES[sys.argv[2] if len(sys.argv) > 2 else "usual"]
 STATIONS = np.linspace(-WIDTH / 2, WIDTH / 2, 5)

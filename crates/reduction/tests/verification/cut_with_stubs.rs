@@ -261,12 +261,13 @@ fn a_pinion_between_beams_deflects_as_one_with_its_shaft() {
 
 /// Deflections under loads at five places along the face (nm/N) and force of the bearing (N/N):
 /// tools/reference/pinion_shaft.py.
-const INDEPENDENT: [&str; 2] = [
+const INDEPENDENT: [&str; 3] = [
     include_str!("../../../../reference/pinion_shaft_slim/data.csv"),
     include_str!("../../../../reference/pinion_shaft/data.csv"),
+    include_str!("../../../../reference/pinion_shaft_thick/data.csv"),
 ];
 
-/// The first two against finite elements that share no mesh, no element and no assembly with these.
+/// All three against finite elements that share no mesh, no element and no assembly with these.
 #[test]
 fn pinions_between_beams_deflect_as_an_independent_program_says() {
     for (case, independent) in CASES.iter().zip(INDEPENDENT) {
