@@ -100,6 +100,8 @@ impl MeshSize {
             let inside = circles.iter().position(|(radius, _)| *radius < deep);
             let at = inside.unwrap_or(circles.len());
             circles.insert(at, (deep, circles[at - 1].1));
+            // Between two circles of one radius there is nothing.
+            circles.dedup_by(|inner, outer| inner.0 >= outer.0);
         }
         let below = if circles[0].1 { web } else { all };
         size.circle_nodes = teeth * column(ring, below);

@@ -118,6 +118,9 @@ impl ReductionChecks {
     /// The same of other teeth, C_hub: the largest at the next two on either side and the opposite one.
     pub const OTHER_TEETH_ERROR: &str = "mesh error of the deflection, other teeth";
 
+    /// The same of a tooth while it and the next one carry the same load, as in contact.
+    pub const BOTH_TEETH_ERROR: &str = "mesh error of the deflection, next tooth loaded, too";
+
     /// A further check by its name.
     pub fn further(&self, name: &str) -> Option<f64> {
         let found = self.further.iter().find(|(known, _)| known == name);

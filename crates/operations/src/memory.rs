@@ -30,11 +30,23 @@ pub fn free_bytes() -> Option<f64> {
     }
 }
 
+/// Time of a job \[s\].
+pub(crate) type Duration = fn(&MemoryEstimate) -> f64;
+
+/// A rough time, as part of a list.
+fn time_in_words(seconds: f64) -> String {
+    match seconds {
+        short if short < 20.0 => format!(", {:.0} s", short.max(1.0)),
+        some if some < 90.0 => format!(", {:.0} s", 5.0 * (some / 5.0).round()),
+        long => format!(", {:.0} min", long / 60.0),
+    }
+}
+
 /// Tells what a job on a gear will take; with `even_if_short` not an error where less is free.
 pub(crate) fn demand(
     gear: &GearDefinition,
     file: &str,
-    job: OfflineJob,
+    (job, duration): (OfflineJob, Option<Duration>),
     even_if_short: bool,
     watch: &Watch<'_>,
 ) -> Result<(), Failure> {
@@ -43,10 +55,11 @@ pub(crate) fn demand(
     };
     let free = free_bytes();
     let size = format!(
-        "about {} nodes, {} degrees of freedom, {:.1} GB of memory",
+        "about {} nodes, {} degrees of freedom, {:.1} GB of memory{}",
         rounded(estimate.size.nodes),
         rounded(3.0 * estimate.size.nodes),
-        estimate.bytes / GIGA
+        estimate.bytes / GIGA,
+        duration.map_or_else(String::new, |of| time_in_words(of(&estimate)))
     );
     match free {
         Some(free) if estimate.bytes > free && !even_if_short => {

@@ -85,7 +85,13 @@ pub fn mesh(a: &MeshRequest, watch: &Watch<'_>) -> Result<Meshed, Failure> {
             note_element(gear, watch);
             note_sound(gear, "nodes and elements are", watch);
             let even_if_short = a.even_if_memory_is_short;
-            memory::demand(gear, &read.file, OfflineJob::Mesh, even_if_short, watch)?;
+            memory::demand(
+                gear,
+                &read.file,
+                (OfflineJob::Mesh, None),
+                even_if_short,
+                watch,
+            )?;
             let mesh = GearMesh::new(gear, &watch.python()?).map_err(ReductionError::from)?;
             model_of(gear, &mesh)?;
             export_mesh(gear, &mesh, MeshFields::default(), file, watch)?;

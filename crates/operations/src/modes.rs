@@ -69,7 +69,13 @@ pub fn modes(a: &ModesRequest, watch: &Watch<'_>) -> Result<FoundModes, Failure>
     let density = gear.material.density_kg_per_m3;
     let density = density.ok_or(ReductionError::NoDensity)?;
     let even_if_short = a.even_if_memory_is_short;
-    memory::demand(&gear, &file, OfflineJob::Modes(range), even_if_short, watch)?;
+    memory::demand(
+        &gear,
+        &file,
+        (OfflineJob::Modes(range), None),
+        even_if_short,
+        watch,
+    )?;
     let python = watch.python()?;
     let mut shapes = MeshFields::default();
     let (body, rigid, modes) = watch.offline(&gear.name, |told| {

@@ -47,7 +47,14 @@ pub fn reduce(of: &GearFile, how: Reduction, watch: &Watch<'_>) -> Result<Reduce
             None => {
                 note_element(gear, watch);
                 let even_if_short = how.even_if_memory_is_short;
-                memory::demand(gear, &of.file, OfflineJob::Reduction, even_if_short, watch)?;
+                // How long natural modes take is not estimated.
+                let duration: Option<memory::Duration> = match (gear.modes, how.estimate_error) {
+                    (Some(_), _) => None,
+                    (None, true) => Some(|estimate| estimate.reduction_seconds(true)),
+                    (None, false) => Some(|estimate| estimate.reduction_seconds(false)),
+                };
+                let job = (OfflineJob::Reduction, duration);
+                memory::demand(gear, &of.file, job, even_if_short, watch)?;
                 Ok(reduced(gear, how.estimate_error, watch)?.0)
             }
         },
@@ -185,6 +192,7 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
     for name in [
         ReductionChecks::LOADED_TOOTH_ERROR,
         ReductionChecks::OTHER_TEETH_ERROR,
+        ReductionChecks::BOTH_TEETH_ERROR,
     ] {
         if model.checks.further(name).is_none() {
             lines.push(format!("{name}: {}", mesh_error(None)));

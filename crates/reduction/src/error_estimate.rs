@@ -52,6 +52,8 @@ pub struct ErrorEstimate {
     /// Of C_hub at the same place of other teeth, the next two on either side and the opposite one: the root of the sum
     /// of the squares, over that of their deflections. A tooth that hardly moves counts little: no contact feels it.
     pub other_teeth: f64,
+    /// Of the deflection of tooth 0 while it and the next one carry the same load.
+    pub both_teeth: f64,
     /// Of each gauge's reading for loads on its own tooth.
     pub gauges: Vec<f64>,
 }
@@ -62,6 +64,7 @@ impl ErrorEstimate {
         for (name, error) in [
             (ReductionChecks::LOADED_TOOTH_ERROR, self.loaded_tooth),
             (ReductionChecks::OTHER_TEETH_ERROR, self.other_teeth),
+            (ReductionChecks::BOTH_TEETH_ERROR, self.both_teeth),
         ] {
             further.push((name.to_string(), error));
         }
@@ -270,6 +273,9 @@ impl CoarserMeshes {
         ErrorEstimate {
             loaded_tooth: error(DEFLECTION, &|figures| vec![figures.deflections[0]]),
             other_teeth: error(DEFLECTION, &|figures| figures.deflections[1..].to_vec()),
+            both_teeth: error(DEFLECTION, &|figures| {
+                vec![figures.deflections[0] + figures.deflections[1]]
+            }),
             gauges: (0..reduced.gauges.len())
                 .map(|k| error(GAUGE, &|figures| figures.gauges[k].clone()))
                 .collect(),

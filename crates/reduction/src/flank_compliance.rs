@@ -99,8 +99,10 @@ pub(crate) fn flank_compliance<M: RepeatedMesh + ToothParts>(
     progress.stage("checking");
     let known = c_rows.len() / (row_length * normals.len());
     let symmetry = asymmetry(&c_rows, known, flanks.len(), teeth, count);
-    let rows_by_fields = rows_by_fields(body, &normals, &c_rows, row_length);
-    let left_out = patterns.as_ref().map_or(0.0, |(_, left_out)| *left_out);
+    let by_fields = rows_by_fields(body, &normals, &c_rows, row_length);
+    // What each entry lacks may add up in a sum of all rows.
+    let left_out = by_fields.entries_in_sum * patterns.as_ref().map_or(0.0, |(_, left)| *left);
+    let rows_by_fields = by_fields.off;
     let pattern_identity = pattern_identity(
         body,
         &submodels[0],
@@ -210,18 +212,27 @@ fn sums_of(loads: &[&SparseVector]) -> Vec<SparseVector> {
     (0..SUMS).map(sum).collect()
 }
 
+/// Sums of all rows of C_hub beside readings of solved fields.
+struct RowsByFields {
+    /// Largest difference, relative to the largest value.
+    off: f64,
+    /// The largest entry in every row of a sum, over the largest value.
+    entries_in_sum: f64,
+}
+
 /// Largest difference, relative to the largest value, between sums of all rows of C_hub and what all teeth read of the
 /// solved fields of the same sums of loads. By repetition C_hub is made of products of half solves, symmetric by
 /// construction: this goes the other way, out to every tooth again.
-pub(crate) fn rows_by_fields(
+fn rows_by_fields(
     body: &GearBody<impl RepeatedMesh>,
     normals: &[&SparseVector],
     c_rows: &[f64],
     row_length: usize,
-) -> f64 {
+) -> RowsByFields {
     let loads = sums_of(normals);
     let loads: Vec<&SparseVector> = loads.iter().collect();
-    let (mut worst, mut largest): (f64, f64) = (0.0, 0.0);
+    let entry = c_rows.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+    let (mut worst, mut largest, mut weights): (f64, f64, f64) = (0.0, 0.0, 0.0);
     for (k, reading) in body.readings(&loads, normals, &Silent).iter().enumerate() {
         let mut sum = vec![0.0; row_length];
         for (row, weight) in c_rows
@@ -232,12 +243,16 @@ pub(crate) fn rows_by_fields(
                 *sum += weight * c;
             }
         }
+        weights = weights.max(weights_of_sum(normals.len(), k).iter().sum());
         for (a, b) in sum.iter().zip(reading) {
             worst = worst.max((a - b).abs());
             largest = largest.max(a.abs());
         }
     }
-    worst / largest
+    RowsByFields {
+        off: worst / largest,
+        entries_in_sum: weights * entry / largest,
+    }
 }
 
 /// ‖ΨᵀKΨ − C_g‖ / ‖C_g‖ over sums of all patterns of tooth 0's first flank, with K applied to them.

@@ -75,6 +75,7 @@ mod separating_circle;
 pub mod shaft_faces;
 mod single_sector;
 pub mod skin;
+mod time_estimate;
 mod tooth_frame;
 pub mod tooth_submodel;
 pub mod tooth_substructure;

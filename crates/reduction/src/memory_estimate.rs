@@ -24,6 +24,7 @@ use gearmesh_mesh::MeshSize;
 
 use crate::mode_count::modes_up_to;
 use crate::sector_condensation::MOST_ON_CIRCLE;
+use crate::time_estimate::Work;
 
 /// Bytes a node before and after the checks: mesh, model and graph; stiffness of the parts, mass, full fields.
 const BYTES_A_NODE: [f64; 2] = [600.0, 2400.0];
@@ -61,6 +62,8 @@ pub struct MemoryEstimate {
     pub bytes: f64,
     /// The part of it that the natural modes take \[byte\].
     pub modes_bytes: f64,
+    /// What of it costs time.
+    pub(crate) work: Work,
     /// Natural modes that are wanted; up to a frequency, an estimate of how many there are.
     pub modes: f64,
     /// The key of `[mesh]` whose length is the smallest share of its default, and that share.
@@ -68,6 +71,12 @@ pub struct MemoryEstimate {
 }
 
 impl MemoryEstimate {
+    /// Time of a reduction on this machine \[s\]: within a third or so of what gears with a web or a rim take.
+    #[must_use]
+    pub fn reduction_seconds(&self, estimate_error: bool) -> f64 {
+        self.work.seconds(estimate_error)
+    }
+
     /// Estimates a job; none for a gear that was meshed elsewhere.
     pub fn new(gear: &GearDefinition, job: OfflineJob) -> Option<Self> {
         let size = MeshSize::estimate(gear)?;
@@ -89,6 +98,7 @@ impl MemoryEstimate {
         Some(Self {
             size,
             bytes: bytes + modes_bytes,
+            work: Work::new(gear, &size, sector_factor(gear, &size)),
             modes_bytes,
             modes,
             shortest: shortest(gear),
@@ -150,6 +160,20 @@ fn reduction_bytes(gear: &GearDefinition, size: &MeshSize) -> f64 {
     } else {
         SINGLE_SECTOR * most
     }
+}
+
+/// Numbers in the largest factor.
+fn sector_factor(gear: &GearDefinition, size: &MeshSize) -> f64 {
+    let (teeth, sectors) = (gear.tooth.teeth as f64, gear.sectors() as f64);
+    if is_whole(gear) {
+        return factor_bytes(size.nodes) / REAL;
+    }
+    let (own, circle) = (teeth / sectors, 3.0 * size.circle_nodes);
+    if own == teeth && circle <= MOST_ON_CIRCLE as f64 {
+        return factor_bytes(size.body_nodes) / REAL + circle.powi(2);
+    }
+    let nodes = size.body_nodes + own * (size.foot_nodes - size.side_nodes);
+    factor_bytes(nodes) / REAL + own * (3.0 * size.foot_nodes).powi(2)
 }
 
 fn modes_bytes(gear: &GearDefinition, size: &MeshSize, count: f64) -> f64 {

@@ -105,6 +105,11 @@ fn check_against(name: &str, gear: &str, mesh: &str, of_quadratic: &str) {
     ] {
         rows.push([stated(&default, stated_as), error(teeth)]);
     }
+    let both = |deflections: &[f64]| [deflections[0] + deflections[1]];
+    rows.push([
+        stated(&default, ReductionChecks::BOTH_TEETH_ERROR),
+        relative_error(&both(&found), &both(&expected)),
+    ]);
     for [stated, found] in &rows {
         println!(
             "{name}: stated {:.2} %, found {:.2} %",

@@ -290,6 +290,18 @@ fn the_size_of_a_mesh_is_known_before_it_is_made() {
     }
 }
 
+/// Holes so near to the rim that the teeth are condensed down to the rim's own circle: nothing lies between the two.
+#[test]
+fn the_size_is_known_where_the_teeth_end_at_the_rim() {
+    let text = "name = \"rim\"\n[tooth]\nteeth = 29\nmodule_mm = 4\nface_width_mm = 25\n[blank]\nkind = \"thin-rim\"\nbore_diameter_mm = 20.5\n\
+        hub_diameter_mm = 33.8\nrim_inner_diameter_mm = 72.91\nweb_thickness_mm = 13.1\n[blank.holes]\ncount = 7\n\
+        pitch_circle_diameter_mm = 53.4\ndiameter_mm = 13.7\nphase_deg = 7.5\n[material]\nyoung_GPa = 206.0\npoisson = 0.3\n";
+    let gear = GearDefinition::from_document(&InputDocument::new("rim.toml", text)).unwrap();
+    let size = gearmesh_mesh::MeshSize::estimate(&gear).unwrap();
+    // 236 thousand are made.
+    assert!((size.nodes / 236e3 - 1.0).abs() < 0.3, "{size:?}");
+}
+
 /// Lengths by default, with which gmsh finds no good quads beside the first circle that would end the cells of the
 /// teeth. The hub is paved in rows: wherever its circles are, they have the same nodes.
 #[test]

@@ -4,7 +4,7 @@ use crate::small_gears::{self, COARSE, body, difference, reduced, without_symmet
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_reduction::{ReductionOptions, Silent, reduce};
+use gearmesh_reduction::{MemoryEstimate, OfflineJob, ReductionOptions, Silent, reduce};
 use std::panic::catch_unwind;
 use std::time::Instant;
 
@@ -304,6 +304,11 @@ fn outcome(text: &str, python: &PythonEnvironment) -> Result<Outcome, String> {
         Ok(gear) => gear,
         Err(error) => return Ok(Outcome::RefusedByKey(error.to_string())),
     };
+    if let Some(estimate) = MemoryEstimate::new(&gear, OfflineJob::Reduction)
+        && !(estimate.bytes > 0.0 && estimate.bytes.is_finite())
+    {
+        return Err(format!("{} bytes of memory are announced", estimate.bytes));
+    }
     match reduce(&gear, python, options, &Silent) {
         Ok((model, _)) => {
             // The first load's deflection at itself.

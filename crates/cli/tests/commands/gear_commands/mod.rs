@@ -259,6 +259,7 @@ fn modes_are_sorted_paired_and_drawn() {
     for what in [
         "mesh error of the deflection, loaded tooth: not estimated",
         "mesh error of the deflection, other teeth: not estimated",
+        "mesh error of the deflection, next tooth loaded, too: not estimated",
         "mesh error not estimated",
     ] {
         assert!(text.contains(what), "`{what}` is not in {text}");
@@ -369,7 +370,7 @@ fn reduce_prints_the_figures_of_its_checks() {
             figures["nodes"].as_u64().unwrap(),
         );
         assert!(dofs < 3 * nodes && dofs > 2 * nodes, "{figures}");
-        for teeth in ["loaded tooth", "other teeth"] {
+        for teeth in ["loaded tooth", "other teeth", "next tooth loaded, too"] {
             let error =
                 number(&figures["further"][format!("mesh error of the deflection, {teeth}")]);
             assert!(error > 0.0 && error < 0.1, "{figures}");
