@@ -60,6 +60,7 @@ pub fn accuracy(a: &AccuracyRequest, watch: &Watch<'_>) -> Result<Accuracy, Fail
     drop(task);
     watch.go_on()?;
     let found = found?;
+    watch.yielding(found.yielding.as_ref());
     if let Some(path) = &a.output {
         let scene = a.scene.display().to_string();
         page_file::write(&accuracy_page(&scene, &found), path, watch)?;

@@ -40,6 +40,7 @@ pub fn optimise(
     let found = seek(&problem, scratch.path(), watch.stop, &progress);
     drop(task);
     let found = found?;
+    watch.yielding(found.yielding.as_ref());
     std::fs::create_dir_all(folder).map_err(|cause| {
         Failure::work(format!(
             "cannot make the folder {}: {cause}",

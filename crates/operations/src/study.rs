@@ -5,10 +5,8 @@ use crate::page_file;
 use crate::reduce::reduced_for_study;
 use crate::watch::Watch;
 use gearmesh_report::study_page::study_page;
-use gearmesh_scene::pair::warnings::excessive_pressure;
-use gearmesh_scene::study::{
-    SelectedValue, Study, StudyOptions, StudyOutcome, gather_study, run_study,
-};
+use gearmesh_scene::pair::warnings::yielding;
+use gearmesh_scene::study::{Study, StudyOptions, StudyOutcome, gather_study, run_study};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -62,26 +60,10 @@ fn conclude(
 ) -> Result<(), Failure> {
     let page = study_page(study, &outcome.cases);
     page_file::write(&page, &folder.join("study.html"), watch)?;
-    let figures = outcome.cases.iter().flat_map(|case| {
-        let columns = case.figures.iter().flatten();
-        columns.map(move |one| (format!("{}, {}", case.case.name(), one.column), one))
+    let pressures = outcome.cases.iter().filter_map(|case| {
+        let (column, pa) = case.yielding.as_ref()?;
+        Some((format!("{}, {column}", case.case.name()), *pa))
     });
-    let pressures = figures.filter_map(|(name, one)| {
-        let to_pa = match one.unit.as_str() {
-            "Pa" => 1.0,
-            "MPa" => 1e6,
-            _ => return None,
-        };
-        let largest = match &one.value {
-            SelectedValue::Single(value) => *value,
-            SelectedValue::Series(figures) => figures.largest,
-        };
-        one.column
-            .contains("pressure")
-            .then_some((name, to_pa * largest))
-    });
-    excessive_pressure(pressures)
-        .into_iter()
-        .for_each(|words| watch.warning(words));
+    watch.yielding(yielding(pressures).as_ref());
     Ok(())
 }

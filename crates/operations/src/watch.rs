@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use gearmesh_geometry::InputError;
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_reduction::Progress;
+use gearmesh_scene::pair::warnings::{ColumnPressure, yielding_in_words};
 
 use crate::failure::{Failure, NOTHING_WRITTEN};
 
@@ -87,6 +88,13 @@ impl Watch<'_> {
     /// Says what a user should know.
     pub fn warning(&self, text: impl std::fmt::Display) {
         self.listener.warning(&text.to_string());
+    }
+
+    /// The column with the largest pressure, where steel yields under it.
+    pub fn yielding(&self, column: Option<&ColumnPressure>) {
+        column
+            .into_iter()
+            .for_each(|one| self.warning(yielding_in_words(one)));
     }
 
     /// Numbers that look like those of another unit.

@@ -294,6 +294,7 @@ mod tests {
         let trial = |a: f64, b: f64| Trial {
             values: vec![a],
             objectives: vec![a, b],
+            yielding: None,
         };
         let near = |at: f64| (0..50).map(move |k| at + 1e-5 * f64::from(k));
         let front: Vec<Trial> = [0.0, 0.5, 1.0]

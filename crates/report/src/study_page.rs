@@ -378,6 +378,7 @@ fn against_each_other(cases: &[CaseResult], columns: &[Column]) -> Option<Sectio
                     let trial = Trial {
                         values: vec![k as f64, x, y],
                         objectives: vec![first.badness(x), second.badness(y)],
+                        yielding: None,
                     };
                     Some((k, trial))
                 })

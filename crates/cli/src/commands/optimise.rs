@@ -67,7 +67,9 @@ fn table(problem: &Optimisation, found: &Optimum) -> Vec<String> {
         } else {
             k * (count - 1) / (shown - 1)
         };
-        let Trial { values, objectives } = &found.front[place];
+        let Trial {
+            values, objectives, ..
+        } = &found.front[place];
         lines.push(row(values
             .iter()
             .chain(objectives)

@@ -326,10 +326,8 @@ fn another_table_under_the_same_name_is_another_case() {
     assert_eq!(third, second);
 }
 
-/// Elements and element lengths are one more knob of `accuracy`, each rung a reduction that is kept: of gears in plane strain, which take a moment.
-#[test]
-fn accuracy_varies_the_meshes_of_gears_and_keeps_them() {
-    let desk = Desk::new();
+/// A gear in plane strain, reduced in a moment.
+fn plane_gear(desk: &Desk) -> std::path::PathBuf {
     let gear = desk.file(
         "gear.toml",
         changed(
@@ -340,11 +338,51 @@ fn accuracy_varies_the_meshes_of_gears_and_keeps_them() {
     );
     let model = desk.path("gear.h5");
     succeeds(&["reduce", argument(&gear), "-o", argument(&model)]);
-    let scene = desk.file(
-        "pair.toml",
-        "title = \"pair\"\n[pair]\ngear_1 = \"gear.h5\"\ngear_2 = \"gear.h5\"\ncentre_distance_mm = 54.7\n[mesh.model]\nkind = \"hybrid\"\n\
-         [mesh.teeth]\npath = \"line-of-action\"\n[run]\ntorques_Nm = [60.0]\npitches = 1\npoints_per_pitch = 8\n",
+    model
+}
+
+/// A pair of these gears.
+const PLANE_PAIR: &str = "title = \"pair\"\n[pair]\ngear_1 = \"gear.h5\"\ngear_2 = \"gear.h5\"\ncentre_distance_mm = 54.7\n[mesh.model]\n\
+     kind = \"hybrid\"\n[mesh.teeth]\npath = \"line-of-action\"\n[run]\ntorques_Nm = [60.0]\npitches = 1\npoints_per_pitch = 8\n";
+
+/// Pressures under which steel yields are warned of also where nobody asks for pressures.
+#[test]
+fn pressures_that_no_steel_carries_are_warned_of_by_whatever_runs_a_scene_often() {
+    let desk = Desk::new();
+    plane_gear(&desk);
+    let scene = desk.file("pair.toml", PLANE_PAIR);
+    let study = desk.file(
+        "study.toml",
+        "title = \"t\"\nscene = \"pair.toml\"\ncolumns = [\"te_mean_um\"]\n[[parameter]]\nname = \"shift\"\n\
+         keys = [\"pair.centre_distance_mm\"]\nvalues = [54.75]\n",
     );
+    let search = desk.file(
+        "search.toml",
+        "title = \"t\"\nscene = \"pair.toml\"\ntrials = 20\n[[variable]]\nname = \"distance\"\nkeys = [\"pair.centre_distance_mm\"]\n\
+         from = 54.7\nto = 54.8\n[[objective]]\nname = \"te\"\nterm = [{ column = \"te_peak_to_peak_um\" }]\n",
+    );
+    let out = ["studied", "sought"].map(|name| desk.path(name));
+    let commands = [
+        vec!["study", argument(&study), "-o", argument(&out[0])],
+        vec!["optimise", argument(&search), "-o", argument(&out[1])],
+        vec!["accuracy", argument(&scene), "--columns", "te_mean_um"],
+    ];
+    for (torque, is_warned) in [("60.0", false), ("60000.0", true)] {
+        desk.file("pair.toml", changed(PLANE_PAIR, "60.0", torque));
+        for words in &commands {
+            let told = succeeds(words).stderr;
+            let warned = told.contains("GPa") && told.contains("pressure reaches");
+            assert_eq!(warned, is_warned, "{words:?} at {torque} N m: {told}");
+        }
+    }
+}
+
+/// Elements and element lengths are one more knob of `accuracy`, each rung a reduction that is kept: of gears in plane strain, which take a moment.
+#[test]
+fn accuracy_varies_the_meshes_of_gears_and_keeps_them() {
+    let desk = Desk::new();
+    plane_gear(&desk);
+    let scene = desk.file("pair.toml", PLANE_PAIR);
     let kept = desk.path("kept");
     std::fs::create_dir(&kept).unwrap();
     let words = ["accuracy", argument(&scene), "--columns", "te_mean_um"];

@@ -13,10 +13,11 @@ use super::element_knob;
 use super::knobs::{Knob, Rung, case_of_rung, of_bevel, of_pair};
 use super::system_knobs::of_system;
 use crate::model_shelf::ModelShelf;
+use crate::pair::warnings::ColumnPressure;
 use crate::study::{
-    BaseScene, Case, Effort, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, Setting,
-    StudyError, StudyOptions, Subject, VaryError, Wanted, evaluate, known_columns, make_files,
-    number,
+    BaseScene, Case, Effort, Evaluated, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch,
+    Setting, StudyError, StudyOptions, Subject, VaryError, Wanted, evaluate, known_columns,
+    make_files, number,
 };
 
 /// Runs of a setting at most.
@@ -84,6 +85,8 @@ pub struct Measured {
     pub effort: Effort,
     /// The figures, column by column; of a gear pair each torque's.
     pub values: Vec<f64>,
+    /// The column with the largest pressure, where steel yields under it; also where it is not judged.
+    pub yielding: Option<ColumnPressure>,
     /// Wall time of reducing the gears that it needs and the scene does not name \[s\], once, also where they were kept
     /// from before.
     pub reduction_s: f64,
@@ -279,7 +282,11 @@ impl<'a> Bench<'a> {
         let subject = self.subject(case, &mut files)?;
         let reduction_s = self.make(files)?;
         let wanted = (&self.options.wanted[..], self.options.from_s);
-        let (selected, effort) = evaluate(subject, wanted, &self.rest, &self.scratch)?;
+        let Evaluated {
+            selected,
+            effort,
+            yielding,
+        } = evaluate(subject, wanted, &self.rest, &self.scratch)?;
         let columns = self.options.wanted.len();
         let of_column = |k: usize| selected.iter().skip(k).step_by(columns).map(number);
         let values: Vec<f64> = (0..columns).flat_map(of_column).collect();
@@ -293,6 +300,7 @@ impl<'a> Bench<'a> {
         Ok(Measured {
             effort,
             values,
+            yielding,
             reduction_s,
         })
     }

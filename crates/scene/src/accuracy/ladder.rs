@@ -10,6 +10,7 @@ use super::doubt;
 use super::effects::Effect;
 use super::knobs::{Knob, case_of};
 use super::paste::to_paste;
+use crate::pair::warnings::ColumnPressure;
 use crate::study::{Case, Effort, StudyError};
 
 /// Combinations that are run after the knobs by themselves.
@@ -100,6 +101,8 @@ pub struct Accuracy {
     /// Of a chaotic run how far each column spreads over runs that begin next to each other, relative to their mean,
     /// which is the reference; else empty.
     pub spread: Vec<f64>,
+    /// The reference's column with the largest pressure, where steel yields under it; also where it is not judged.
+    pub yielding: Option<ColumnPressure>,
     /// Goals of which no setting can be said to be within them, for the reference itself may be further off.
     pub open: Vec<Goal>,
 }
@@ -140,6 +143,7 @@ pub fn accuracy(
         time: bench.time(),
         knobs,
         spread,
+        yielding: reference.yielding.clone(),
         open: Vec::new(),
     };
     let mut singles = Vec::new();
@@ -434,6 +438,7 @@ mod tests {
             effects: Vec::new(),
             time: JudgedTime::Wall,
             spread: Vec::new(),
+            yielding: None,
             open: Vec::new(),
         };
         assert_eq!(foretold_front(&found, &[1, 1]), [vec![0, 0]]);

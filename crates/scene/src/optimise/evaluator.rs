@@ -9,6 +9,7 @@ use gearmesh_model::write_text;
 use rayon::prelude::*;
 
 use super::file::{Judged, Optimisation};
+use crate::pair::warnings::{ColumnPressure, yielding};
 use crate::study::{
     BaseScene, Case, Design, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, Setting,
     StudyError, Subject, VaryError, Wanted, evaluate, is_without_load, known_columns, number,
@@ -24,10 +25,15 @@ pub struct Trial {
     pub values: Vec<f64>,
     /// The objectives.
     pub objectives: Vec<f64>,
+    /// The column with the largest pressure, where steel yields under it; also where no objective asks for it.
+    pub yielding: Option<ColumnPressure>,
 }
 
 /// A term, looked up: place of its column among those that are wanted, place of its torque (all of them where none), weight.
 type Term = (usize, Option<usize>, f64);
+
+/// The wanted columns, a row for each torque, and the column under whose pressure steel yields.
+type Rows = (Vec<Vec<f64>>, Option<ColumnPressure>);
 
 /// Tells what choices of the variables are worth. Threads may share it.
 #[derive(Debug)]
@@ -174,12 +180,9 @@ impl<'a> Evaluator<'a> {
     /// The objectives of a choice; none where one of its pairs cannot be computed.
     #[must_use]
     pub fn objectives_of(&self, values: &[f64]) -> Option<Vec<f64>> {
-        match self.judged_objectives(values) {
-            Ok(objectives) => {
-                let trial = Trial {
-                    values: values.to_vec(),
-                    objectives: objectives.clone(),
-                };
+        match self.judged(values) {
+            Ok(trial) => {
+                let objectives = trial.objectives.clone();
                 let mut tried = self.tried.lock().unwrap_or_else(PoisonError::into_inner);
                 tried.push(trial);
                 Some(objectives)
@@ -194,16 +197,23 @@ impl<'a> Evaluator<'a> {
 
     /// The objectives of the scene as it is, under the same scatter; none where it cannot be computed.
     #[must_use]
-    pub fn as_it_is(&self) -> Option<Vec<f64>> {
+    pub fn as_it_is(&self) -> Option<Trial> {
         // Without values no key is set but by scatter.
-        self.judged_objectives(&[]).ok()
+        self.judged(&[]).ok()
     }
 
-    fn judged_objectives(&self, values: &[f64]) -> Result<Vec<f64>, String> {
-        let each: Vec<Vec<f64>> = (0..self.samples.len())
-            .into_par_iter()
-            .map(|sample| Ok(self.added_up(&self.rows(values, sample)?)))
-            .collect::<Result<_, String>>()?;
+    fn judged(&self, values: &[f64]) -> Result<Trial, String> {
+        let of_sample = |sample: usize| {
+            let (rows, yielding) = self.rows(values, sample)?;
+            Ok((self.added_up(&rows), yielding))
+        };
+        let (each, pressures): (Vec<Vec<f64>>, Vec<Option<ColumnPressure>>) =
+            (0..self.samples.len())
+                .into_par_iter()
+                .map(of_sample)
+                .collect::<Result<Vec<_>, String>>()?
+                .into_iter()
+                .unzip();
         let judged = |k: usize| {
             let own = each.iter().map(|sample| sample[k]);
             match self.judged {
@@ -211,7 +221,11 @@ impl<'a> Evaluator<'a> {
                 Judged::Worst => own.fold(f64::NEG_INFINITY, f64::max),
             }
         };
-        Ok((0..self.terms.len()).map(judged).collect())
+        Ok(Trial {
+            values: values.to_vec(),
+            objectives: (0..self.terms.len()).map(judged).collect(),
+            yielding: yielding(pressures.into_iter().flatten()),
+        })
     }
 
     /// All choices that were tried, in an order that does not depend on the threads.
@@ -257,7 +271,7 @@ impl<'a> Evaluator<'a> {
             .collect()
     }
 
-    fn rows(&self, values: &[f64], sample: usize) -> Result<Vec<Vec<f64>>, String> {
+    fn rows(&self, values: &[f64], sample: usize) -> Result<Rows, String> {
         let subject = match self.scene(values, sample) {
             Ok(subject) => subject,
             Err(VaryError::Scene(error)) => return Err(error.to_string()),
@@ -265,9 +279,10 @@ impl<'a> Evaluator<'a> {
         };
         let wanted = (&self.wanted[..], self.from_s);
         let found = evaluate(subject, wanted, &self.rest, &self.scratch);
-        let (selected, _) = found.map_err(|error| error.to_string())?;
-        let rows = selected.chunks(self.wanted.len());
-        Ok(rows.map(|row| row.iter().map(number).collect()).collect())
+        let found = found.map_err(|error| error.to_string())?;
+        let rows = found.selected.chunks(self.wanted.len());
+        let rows = rows.map(|row| row.iter().map(number).collect());
+        Ok((rows.collect(), found.yielding))
     }
 
     /// The scene of a choice, as a sample of the workshop has it.

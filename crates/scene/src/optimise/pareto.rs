@@ -42,6 +42,7 @@ mod tests {
                 .map(|k| Trial {
                     values: vec![f64::from(k)],
                     objectives: (0..objectives).map(|_| f64::from(rng.u32(0..20))).collect(),
+                    yielding: None,
                 })
                 .collect();
             let beats = |a: &Trial, b: &Trial| {

@@ -16,6 +16,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::evaluator::{Evaluator, Trial};
 use super::file::Optimisation;
 use super::pareto::front;
+use crate::pair::warnings::{ColumnPressure, yielding};
 use crate::study::{Scratch, StudyError};
 
 /// What a choice costs that cannot be computed: more than any other, and a number that a simplex can average.
@@ -36,6 +37,8 @@ pub struct Optimum {
     pub front: Vec<Trial>,
     /// All trials.
     pub tried: Vec<Trial>,
+    /// Of the front and the scene as it is, the column with the largest pressure, where steel yields under it.
+    pub yielding: Option<ColumnPressure>,
     /// Stopped on demand: the front of what was tried until then.
     pub stopped: bool,
 }
@@ -147,9 +150,13 @@ pub fn optimise(
         progress(number + 1, all);
     }
     let tried = evaluator.tried();
+    let front = front(&tried);
     Ok(Optimum {
-        before,
-        front: front(&tried),
+        before: before.as_ref().map(|trial| trial.objectives.clone()),
+        yielding: yielding(
+            (front.iter().chain(&before)).filter_map(|trial| trial.yielding.clone()),
+        ),
+        front,
         tried,
         stopped,
     })

@@ -8,7 +8,7 @@ use super::bevel_result::BevelRest;
 use super::contact_places::PatchPlace;
 use super::position::Measures;
 use super::result::SceneResult;
-use super::run::{RunError, absolute};
+use super::run::{RunError, absolute, te_mesh_error};
 use crate::model_shelf::{ModelShelf, ShelvedModel};
 use crate::periods::Coverage;
 use gearmesh_bevel::pair_file::{BevelFile, LoadRequest};
@@ -247,6 +247,7 @@ impl LoadedBevel {
         result.gears = gears.unwrap_or_else(|| [none(), none()]);
         result.model_files = self.model_files.clone();
         result.pitches = run_pitches;
+        result.te_mesh_error = self.members().map_or(0.0, te_mesh_error);
         result.contact_coverage = Coverage::of_contact(1, run_pitches);
         result.bevel = Some(BevelRest {
             teeth: file.blank.data.teeth,

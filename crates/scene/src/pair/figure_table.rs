@@ -113,11 +113,12 @@ fn of_bevel(figures: &PairFigures, of: impl Fn(&BevelFigures) -> f64) -> f64 {
 pub type FigureError = fn(&FigureErrors) -> Option<f64>;
 
 /// Estimated errors of figures: name in files, and the share.
-pub const FIGURE_ERRORS: [(&str, FigureError); 5] = [
+pub const FIGURE_ERRORS: [(&str, FigureError); 6] = [
     ("positions_te_peak_to_peak", |e| e.te_positions),
     ("positions_pressure", |e| e.pressure_positions),
     ("positions_k_h_beta", |e| e.k_h_beta_positions),
     ("slices_k_h_beta", |e| e.slices),
+    ("mesh_te_mean", |e| e.mesh_te),
     ("mesh_strain", |e| e.mesh_strain),
 ];
 

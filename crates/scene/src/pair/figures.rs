@@ -69,6 +69,9 @@ pub struct FigureErrors {
     pub k_h_beta_positions: Option<f64>,
     /// Of K_Hβ, by the slices; none with fewer than three.
     pub slices: Option<f64>,
+    /// Of the mean transmission error, by the meshes of both gears: at most what teeth deflect by less or more, for the
+    /// contact deforms, too.
+    pub mesh_te: Option<f64>,
     /// Of strain, by the mesh: the gauge with the largest estimate.
     pub mesh_strain: Option<f64>,
 }
@@ -220,12 +223,17 @@ impl SceneResult {
         let slices = largest(|e| e.slices).map_or("slices not estimated".to_owned(), |error| {
             format!("slices {} of K_Hbeta", percent(error))
         });
-        let mesh = largest(|e| e.mesh_strain).map_or("mesh not estimated".to_owned(), |error| {
-            format!(
-                "mesh {} of the strain, of the rest not estimated",
-                percent(error)
-            )
-        });
+        let mesh = [
+            (largest(|e| e.mesh_te), "mean TE"),
+            (largest(|e| e.mesh_strain), "strain"),
+        ];
+        let mesh: Vec<String> = (mesh.into_iter())
+            .filter_map(|(error, of)| Some(format!("{} of the {of}", percent(error?))))
+            .collect();
+        let mesh = match mesh.is_empty() {
+            true => "mesh not estimated".to_owned(),
+            false => format!("mesh {}", mesh.join(", ")),
+        };
         format!("{positions}; {slices}; {mesh}")
     }
 
@@ -239,6 +247,7 @@ impl SceneResult {
             pressure_positions: self.between.pressure_error.get(torque).copied(),
             k_h_beta_positions: self.between.k_h_beta_error.get(torque).copied(),
             slices: self.slice_error(torque),
+            mesh_te: (self.te_mesh_error > 0.0).then_some(self.te_mesh_error),
             mesh_strain: gauges.reduce(f64::max),
         }
     }

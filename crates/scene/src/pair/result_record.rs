@@ -221,6 +221,11 @@ impl SceneResult {
         f.counts("iterations", &mut self.iterations, &[t], what)?;
         let what = "largest relative residual of the contact problem";
         f.numbers("residual", &mut self.residual, &[t], "1", what)?;
+        // Older programs did not store it.
+        if f.has("te_mesh_error") {
+            let what = "estimated relative error of the mesh in the deflection of teeth, zero where it was not estimated";
+            f.number("te_mesh_error", &mut self.te_mesh_error, "1", what)?;
+        }
         let what = "largest relative error of the torque balance";
         f.numbers("torque_balance", &mut self.torque_balance, &[t], "1", what)
     }

@@ -18,7 +18,7 @@ use gearmesh_contact::{
 use gearmesh_drivetrain::DrivetrainError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
-use gearmesh_model::{FileError, ReducedGear, ReducedGearError};
+use gearmesh_model::{FileError, ReducedGear, ReducedGearError, ReductionChecks};
 use gearmesh_recovery::{GaugeReader, LoadedSlice};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -399,6 +399,7 @@ fn solve(
         microgeometry: loaded.microgeometry.clone(),
         contact_coverage: coverage,
         proposal: loaded.proposal(&loaded.gauges),
+        te_mesh_error: te_mesh_error(loaded.models.each_ref().map(|model| &**model)),
         places: Some(ContactPlaces::new(loaded, &angles, curves.slots)),
         warnings: slips.chain(curves.warnings).collect(),
         ..curves
@@ -408,6 +409,16 @@ fn solve(
     result.seconds = [contact_seconds, clock.elapsed().as_secs_f64()];
     result.ratings = judged(&loaded.ratings, &result);
     Ok(result)
+}
+
+/// Estimated relative error of the meshes in the deflection of teeth, the larger one of both gears; zero where it was
+/// not estimated.
+pub(super) fn te_mesh_error(models: [&ReducedGear; 2]) -> f64 {
+    let name = ReductionChecks::BOTH_TEETH_ERROR;
+    match models.map(|model| model.checks.further(name)) {
+        [Some(first), Some(second)] => first.max(second),
+        _ => 0.0,
+    }
 }
 
 /// A file's place, so that a result can be used from any folder.

@@ -8,19 +8,25 @@ pub const ELASTIC_SHARE: f64 = 0.02;
 /// Young's modulus of steel \[Pa\]: columns of pressure do not say whose it is.
 const STEEL_PA: f64 = 206e9;
 
-/// A sentence about the column with the largest pressure, where steel yields under it. `columns`: names and largest
-/// pressures \[Pa\].
-pub fn excessive_pressure(columns: impl Iterator<Item = (String, f64)>) -> Option<String> {
-    let limit_pa = ELASTIC_SHARE * STEEL_PA;
-    let too_large = columns.filter(|(_, pa)| *pa > limit_pa);
-    let (name, pa) = too_large.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some(format!(
+/// Name of a column and its largest pressure \[Pa\].
+pub type ColumnPressure = (String, f64);
+
+/// The column with the largest pressure, where steel yields under it.
+pub fn yielding(columns: impl Iterator<Item = ColumnPressure>) -> Option<ColumnPressure> {
+    let too_large = columns.filter(|(_, pa)| *pa > ELASTIC_SHARE * STEEL_PA);
+    too_large.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// A sentence about a column under whose pressure steel yields.
+#[must_use]
+pub fn yielding_in_words((name, pa): &ColumnPressure) -> String {
+    format!(
         "{name}: the pressure reaches {:.2} GPa; above {} % of Young's modulus, {:.2} GPa for steel, the material yields, and the elastic contact \
          computed here no longer holds",
         1e-9 * pa,
         100.0 * ELASTIC_SHARE,
-        1e-9 * limit_pa
-    ))
+        1e-9 * ELASTIC_SHARE * STEEL_PA
+    )
 }
 
 /// Assumptions that a load can break.

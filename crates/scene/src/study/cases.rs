@@ -18,8 +18,9 @@ use super::system_cases;
 use super::table::table;
 use super::varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};
 use crate::pair::RunError;
+use crate::pair::warnings::ColumnPressure;
 use crate::system::SystemScene;
-use crate::system_run::{Figures, SystemRunError, demand_result_size};
+use crate::system_run::{Figures, SystemResult, SystemRunError, demand_result_size};
 
 /// Why a study could not be run.
 #[derive(Debug, thiserror::Error)]
@@ -116,6 +117,8 @@ pub struct CaseResult {
     pub file: Option<PathBuf>,
     /// The study's columns, or why there are none: a case that fails does not end the study.
     pub figures: Result<Vec<Selected>, String>,
+    /// The column with the largest pressure, where steel yields under it; also where the study does not ask for it.
+    pub yielding: Option<ColumnPressure>,
 }
 
 /// A study that was run.
@@ -340,15 +343,19 @@ pub(super) fn finished(
     let stopped = outcomes.iter().any(|outcome| matches!(outcome, Ok(None)));
     let mut results = Vec::with_capacity(cases.len());
     for (case, place) in cases.into_iter().zip(scene_of) {
-        let (file, figures) = match &outcomes[*place] {
+        let (file, figures, yielding) = match &outcomes[*place] {
             Ok(None) => continue,
-            Ok(Some((file, found))) => (Some(file.clone()), found.clone()),
-            Err(error) => (None, Err(error.to_string())),
+            Ok(Some((file, found))) => {
+                let Found { figures, yielding } = found.clone();
+                (Some(file.clone()), figures, yielding)
+            }
+            Err(error) => (None, Err(error.to_string()), None),
         };
         results.push(CaseResult {
             case,
             file,
             figures,
+            yielding,
         });
     }
     if !stopped {
@@ -365,8 +372,14 @@ pub(super) fn finished(
 /// What became of the scenes: file and columns; none where the study was stopped before.
 type Outcomes = Vec<Result<Option<(PathBuf, Found)>, StudyError>>;
 
-/// The study's columns, or why a result does not give them.
-pub(super) type Found = Result<Vec<Selected>, String>;
+/// What a study takes from the result of a case.
+#[derive(Clone)]
+pub(super) struct Found {
+    /// The study's columns, or why the result does not give them.
+    pub figures: Result<Vec<Selected>, String>,
+    /// The column with the largest pressure, where steel yields under it; also where the study does not ask for it.
+    pub yielding: Option<ColumnPressure>,
+}
 
 /// Runs a case unless it is there already; none if it was stopped.
 fn run_case(
@@ -378,19 +391,19 @@ fn run_case(
     if options.stop.load(Ordering::Relaxed) {
         return Ok(None);
     }
-    let wanted = study.wanted();
     match subject {
         Subject::System(scene) => {
             let scene: SystemScene = *scene;
             let file = system_cases::run_case(scene, options.folder, options.stop)?;
-            Ok(file.map(|file| {
-                let found = system_cases::selected(&wanted, study.tables.from_s, &file);
-                (file, found)
-            }))
+            let Some(file) = file else {
+                return Ok(None);
+            };
+            let found = system_cases::found(study, &SystemResult::open(&file)?);
+            Ok(Some((file, found)))
         }
         subject => {
             let (file, figures) = rest.figures_in(&subject, options.folder)?;
-            Ok(Some((file, figures.selected(&wanted))))
+            Ok(Some((file, figures.found(study))))
         }
     }
 }

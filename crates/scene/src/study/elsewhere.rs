@@ -191,7 +191,7 @@ pub fn gather_study(
                 let identity = rest.identity(scene)?;
                 let name = RestCases::file_name(&identity);
                 let found = RestCases::stored(&folder.join(&name), &identity);
-                (name, found.map(|figures| figures.selected(&study.wanted())))
+                (name, found.map(|figures| figures.found(study)))
             }
         };
         match (found, failures.get(&name)) {

@@ -11,6 +11,7 @@ use super::figure::Wanted;
 use super::rest_cases::RestCases;
 use super::subject::Subject;
 use super::system_cases;
+use crate::pair::warnings::{ColumnPressure, yielding};
 use crate::system::SystemScene;
 use crate::system_run::{Outcome, RunJob, RunOptions, SystemResult, run};
 
@@ -88,7 +89,17 @@ impl<'a> Scratch<'a> {
     }
 }
 
-/// The columns of a scene, row by row (of a pair one for each torque), from a time on \[s\], and what they took.
+/// What a scene gives, and what that took.
+pub(crate) struct Evaluated {
+    /// The columns, row by row (of a pair one for each torque).
+    pub selected: Vec<Selected>,
+    /// What they took.
+    pub effort: Effort,
+    /// The column with the largest pressure, where steel yields under it; also where it was not asked for.
+    pub yielding: Option<ColumnPressure>,
+}
+
+/// The columns of a scene from a time on \[s\].
 ///
 /// # Errors
 /// [`StudyError`] for what cannot be loaded or computed, for columns that are not there, and on a stop.
@@ -97,13 +108,17 @@ pub(crate) fn evaluate(
     (wanted, from_s): (&[Wanted], f64),
     rest: &RestCases,
     scratch: &Scratch<'_>,
-) -> Result<(Vec<Selected>, Effort), StudyError> {
+) -> Result<Evaluated, StudyError> {
     let unread = |problem: String| StudyError::Column(problem);
     match subject {
         Subject::System(scene) => of_system(*scene, (wanted, from_s), scratch),
         subject => {
             let (figures, effort) = rest.figures(&subject)?;
-            Ok((figures.selected(wanted).map_err(unread)?, effort))
+            Ok(Evaluated {
+                selected: figures.selected(wanted).map_err(unread)?,
+                effort,
+                yielding: figures.yielding(),
+            })
         }
     }
 }
@@ -112,7 +127,7 @@ fn of_system(
     scene: SystemScene,
     (wanted, from_s): (&[Wanted], f64),
     scratch: &Scratch<'_>,
-) -> Result<(Vec<Selected>, Effort), StudyError> {
+) -> Result<Evaluated, StudyError> {
     let job = RunJob::from_scene(scene.load()?)?;
     let states = job.system.degrees_of_freedom() as f64;
     let number = scratch.runs.fetch_add(1, Ordering::Relaxed);
@@ -130,15 +145,21 @@ fn of_system(
     if outcome == Outcome::Stopped {
         return Err(StudyError::Stopped);
     }
-    let found = system_cases::selected(wanted, from_s, &file);
-    let record = SystemResult::open(&file)?.record;
+    let result = SystemResult::open(&file)?;
+    let found = system_cases::selected(wanted, from_s, &result);
+    let yielding = yielding(result.pressures()?.into_iter());
+    let record = result.record;
     // What is left of a failed removal is the caller's folder, which goes as a whole.
     let _ = std::fs::remove_file(&file);
     effort.states = states;
     if let Some(record) = record {
         (effort.calls, effort.iterations) = (record.evaluations, record.iterations);
     }
-    Ok((found.map_err(StudyError::Column)?, effort))
+    Ok(Evaluated {
+        selected: found.map_err(StudyError::Column)?,
+        effort,
+        yielding,
+    })
 }
 
 /// The number of a column; of a series its mean.

@@ -44,7 +44,7 @@ pub use design::{Case, Design, Setting};
 pub(crate) use design::{probabilities, seeded};
 pub use elsewhere::{CaseRunner, SentCase, StudyCases, gather_study};
 pub use evaluate::{Effort, Scratch};
-pub(crate) use evaluate::{evaluate, number};
+pub(crate) use evaluate::{Evaluated, evaluate, number};
 pub use figure::{Figure, FigureKinds, Wanted};
 pub(crate) use loaded_columns::is_without_load;
 pub use pair_columns::{PairColumns, RestColumn};

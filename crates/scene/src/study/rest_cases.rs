@@ -7,15 +7,17 @@ use std::sync::{Mutex, PoisonError};
 
 use gearmesh_model::{FileError, bytes_digest, file_digest, write_text};
 
-use super::cases::{Selected, SelectedValue, StudyError};
+use super::cases::{Found, Selected, SelectedValue, StudyError};
 use super::evaluate::{Clock, Effort};
 use super::figure::Wanted;
 use super::loaded_columns;
 use super::pair_columns::{PairColumns, RestColumn, columns, place, unit_of};
 use super::rest_columns;
+use super::study_file::Study;
 use super::subject::Subject;
 use crate::model_shelf::ModelShelf;
 use crate::named_files_and_theirs;
+use crate::pair::warnings::{ColumnPressure, yielding};
 use crate::pair::{LoadedScene, RunError, Scene, load_from, run};
 
 /// Digits of the digest in a file's name.
@@ -56,6 +58,24 @@ impl RestFigures {
             places.iter().map(one).collect::<Vec<_>>()
         };
         Ok((0..self.rows()).flat_map(of_row).collect())
+    }
+
+    /// What a study takes from them.
+    pub(super) fn found(&self, study: &Study) -> Found {
+        Found {
+            figures: self.selected(&study.wanted()),
+            yielding: self.yielding(),
+        }
+    }
+
+    /// The column with the largest pressure, where steel yields under it.
+    pub fn yielding(&self) -> Option<ColumnPressure> {
+        let of_pressure =
+            |one: &&RestColumn| one.name.contains("pressure") && unit_of(&one.name) == "MPa";
+        yielding(self.columns.iter().filter(of_pressure).map(|one| {
+            let largest_mpa = one.values.iter().copied().fold(0.0, f64::max);
+            (one.name.clone(), 1e6 * largest_mpa)
+        }))
     }
 
     /// Numbers of a column.

@@ -7,11 +7,12 @@ use std::time::Duration;
 
 use gearmesh_model::FileError;
 
-use super::cases::{Selected, SelectedValue, StudyError};
+use super::cases::{Found, Selected, SelectedValue, StudyError};
 use super::elsewhere::SentCase;
 use super::figure::{Figure, FigureKinds, RATINGS, SETS, Wanted, line_amplitude, resonance};
 use super::study_file::Study;
 use super::subject::Subject;
+use crate::pair::warnings::yielding;
 use crate::rating::figure_names;
 use crate::system::{SystemScene, unknown};
 use crate::system_run::{
@@ -120,14 +121,9 @@ pub(super) fn is_there(file: &Path, identity: &str) -> bool {
 }
 
 /// The study's columns of a case; none where its file is not there.
-pub(super) fn stored(
-    study: &Study,
-    file: &Path,
-    identity: &str,
-) -> Option<Result<Vec<Selected>, String>> {
+pub(super) fn stored(study: &Study, file: &Path, identity: &str) -> Option<Found> {
     let result = SystemResult::open(file).ok()?;
-    let wanted = study.wanted();
-    (result.head.identity() == identity).then(|| selected_of(&wanted, study.tables.from_s, &result))
+    (result.head.identity() == identity).then(|| found(study, &result))
 }
 
 /// What tells the result of a scene from others.
@@ -179,16 +175,17 @@ fn run_into(job: RunJob, file: &Path, stop: &AtomicBool) -> Result<bool, StudyEr
     Ok(run(job, &options)? == Outcome::Finished)
 }
 
-/// Figures of columns of a result, from a time on \[s\], or what keeps them from being read.
-pub(super) fn selected(
-    wanted: &[Wanted],
-    from_s: f64,
-    file: &Path,
-) -> Result<Vec<Selected>, String> {
-    selected_of(wanted, from_s, &SystemResult::open(file).map_err(say)?)
+/// What a study takes from a result.
+pub(super) fn found(study: &Study, result: &SystemResult) -> Found {
+    let wanted = study.wanted();
+    Found {
+        figures: selected(&wanted, study.tables.from_s, result),
+        yielding: (result.pressures().ok()).and_then(|columns| yielding(columns.into_iter())),
+    }
 }
 
-fn selected_of(
+/// Figures of columns of a result, from a time on \[s\], or what keeps them from being read.
+pub(super) fn selected(
     wanted: &[Wanted],
     from_s: f64,
     result: &SystemResult,

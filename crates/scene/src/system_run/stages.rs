@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use gearmesh_model::FileError;
+use gearmesh_model::{Column, FileError};
 
 use super::column_statistics::Figures;
 use super::job::MeshRecord;
@@ -17,7 +17,7 @@ use super::result::SystemResult;
 use super::result_kind::ResultKind;
 use super::run_record::RunRecord;
 use super::summary::without_rounding;
-use crate::pair::warnings::excessive_pressure;
+use crate::pair::warnings::{ColumnPressure, yielding, yielding_in_words};
 use crate::rating::RatingResult;
 
 /// N/(mm·µm) in SI, N/m².
@@ -254,23 +254,32 @@ impl SystemResult {
             .iter()
             .flat_map(RatingResult::reported)
             .collect();
-        let mut pressures = Vec::new();
-        for (i, column) in self.rows.columns().iter().enumerate() {
-            if column.unit == "Pa" && column.name.contains("pressure") {
-                let largest = match self.statistics.get(i) {
-                    Some(figures) => figures.largest,
-                    None => Figures::of(&self.rows.read(&column.name)?).largest,
-                };
-                pressures.push((column.name.clone(), largest));
-            }
-        }
-        found.extend(excessive_pressure(pressures.into_iter()));
+        let yielding = yielding(self.pressures()?.into_iter());
+        found.extend(yielding.as_ref().map(yielding_in_words));
         found.extend(self.record.as_ref().and_then(repeated_steps));
         // Open meshes of natural frequencies are among the notes.
         if self.kind != ResultKind::Eigen {
             found.extend(self.stages()?.iter().flat_map(StageTable::warnings));
         }
         Ok(found)
+    }
+
+    /// Columns of pressure and the largest value of each \[Pa\].
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn pressures(&self) -> Result<Vec<ColumnPressure>, FileError> {
+        let columns = self.rows.columns().iter().enumerate();
+        let of_pressure =
+            columns.filter(|(_, one)| one.unit == "Pa" && one.name.contains("pressure"));
+        let largest = |(i, column): (usize, &Column)| {
+            let largest = match self.statistics.get(i) {
+                Some(figures) => figures.largest,
+                None => Figures::of(&self.rows.read(&column.name)?).largest,
+            };
+            Ok((column.name.clone(), largest))
+        };
+        of_pressure.map(largest).collect()
     }
 
     /// The stages: means over the second half of a run in time, over the equilibria of the largest load factor, over

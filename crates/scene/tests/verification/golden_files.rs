@@ -134,6 +134,7 @@ fn pair_result(version: u32) -> SceneResult {
         iterations: vec![30, 31],
         residual: vec![1e-14, 2e-14],
         torque_balance: vec![1e-13, 2e-13],
+        te_mesh_error: 0.0,
         between: Default::default(),
         bevel: None,
         strain: vec![StrainSeries {

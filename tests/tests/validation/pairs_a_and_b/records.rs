@@ -1,7 +1,6 @@
 //! Pairs A and B against their records.
 
 use super::{amplitude, pair, root, swing};
-use gearmesh_model::{ReducedGear, ReductionChecks};
 use gearmesh_report::scene_comparison::compare_scene;
 use gearmesh_report::{Quantity, ReferenceRecord, SeriesComparison};
 use gearmesh_scene::SceneResult;
@@ -11,11 +10,6 @@ const RECORD_POINTS: usize = 48;
 
 /// What the project asks of the demo's gears: root strain within this of the record.
 const STRAIN_WITHIN: f64 = 0.01;
-
-fn stated(model: &ReducedGear) -> f64 {
-    let of = |name| model.checks.further(name).unwrap();
-    of(ReductionChecks::LOADED_TOOTH_ERROR).max(of(ReductionChecks::OTHER_TEETH_ERROR))
-}
 
 /// Transmission error of one torque. What the mesh gets wrong is a share of the elastic part: that bounds its mean, its
 /// swing and each of its orders. To them comes the record's uncertainty; an order has at most half of the swing's, times 4/π
@@ -97,10 +91,12 @@ fn strain(it: &SeriesComparison, gauge: &str, stated: f64) {
 }
 
 fn against_its_record(name: &str, gauges: usize) {
-    let (loaded, result) = pair(name, &[]);
+    let (_, result) = pair(name, &[]);
     assert_eq!(result.points_per_pitch(), RECORD_POINTS);
     let record = ReferenceRecord::read(&root().join("reference").join(name)).unwrap();
-    let share = stated(&loaded.models[0]).max(stated(&loaded.models[1]));
+    // What the line `errors:` of the result states.
+    let share = result.te_mesh_error;
+    assert!(share > 0.0);
     let comparisons = compare_scene(&result, &record).unwrap();
     // Every torque, the transmission error and every gauge.
     assert_eq!(comparisons.len(), 6 * (1 + gauges));
@@ -139,4 +135,37 @@ fn pair_b_is_its_record() {
 fn pairs_with_friction_are_their_records() {
     against_its_record("pair_a_friction", 2);
     against_its_record("pair_b_friction", 4);
+}
+
+/// With half and with twice the positions of the records the swing of the transmission error and the largest pressure
+/// are the same: positions between the even ones see the change of pairs, of which 24 a pitch alone miss a twelfth.
+#[test]
+#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
+fn few_positions_see_what_many_see() {
+    let [few, many] = [24, 96].map(|points| {
+        let (even, stated) = (format!("= {points} "), format!("= {RECORD_POINTS} "));
+        let (_, result) = pair(
+            "pair_a",
+            &[
+                ("[50.0, 100.0, 150.0, 200.0, 250.0, 300.0]", "[300.0]"),
+                (&stated, &even),
+            ],
+        );
+        assert_eq!(result.points_per_pitch(), points);
+        let figures = result.figures(0);
+        let of_even = swing(result.curve(&result.te_m, 0));
+        println!(
+            "{points} a pitch: {:.4e} m, {of_even:.4e} m by even positions, {:.4e} Pa, {}",
+            figures.te_peak_to_peak_m,
+            figures.pressure_largest_pa,
+            result.errors_in_words()
+        );
+        (figures, of_even)
+    });
+    let same = |few: f64, many: f64| (few / many - 1.0).abs() < 0.002;
+    let swings = [few, many].map(|(figures, _)| figures.te_peak_to_peak_m);
+    assert!(same(swings[0], swings[1]), "{swings:?}");
+    assert!(few.1 < 0.95 * swings[0], "{} {}", few.1, swings[0]);
+    let pressures = [few, many].map(|(figures, _)| figures.pressure_largest_pa);
+    assert!(same(pressures[0], pressures[1]), "{pressures:?}");
 }
