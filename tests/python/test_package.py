@@ -172,6 +172,12 @@ def test_a_relief_needs_no_further_reduction(models, result):
     assert (te <= result["te_m"][1] + 1e-9).all()
 
 
+def test_flanks_of_an_unusual_size_are_warned_of(models):
+    for flanks, key in [(dict(tip_relief_um=0.02, tip_relief_start_diameter_mm=72), "tip_relief_um"), (dict(lead_crowning_um=0.004), "lead_crowning_um")]:
+        pair = gm.Pair(*models, centre_distance_mm=94.6, torques_Nm=100, points_per_pitch=12, gear_1_flanks=flanks)
+        assert any(f"{key}: " in text and "is unusual" in text for text in pair.run().warnings), key
+
+
 def test_what_is_no_model_and_no_number_is_told(pinion, models):
     with pytest.raises(TypeError, match="gear_2: a Gear is not reduced yet"):
         gm.Pair(models[0], pinion, centre_distance_mm=94.6, torques_Nm=[50])

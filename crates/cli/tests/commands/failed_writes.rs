@@ -14,7 +14,11 @@ const OLD: &[u8] = b"the old file";
 
 /// Runs the program with files limited to 4 blocks of 512 or 1024 bytes; `signal` says what happens at the limit.
 fn with_short_files(signal: &str, arguments: &[&str]) -> Answer {
-    let limited = format!("{signal} ulimit -f 4; exec \"$0\" \"$@\"");
+    with_files_of(4, signal, arguments)
+}
+
+fn with_files_of(blocks: usize, signal: &str, arguments: &[&str]) -> Answer {
+    let limited = format!("{signal} ulimit -f {blocks}; exec \"$0\" \"$@\"");
     let program = env!("CARGO_BIN_EXE_gearmesh");
     Command::new("sh")
         .args(["-c", &limited, program])
@@ -195,4 +199,43 @@ fn an_interrupted_reduction_leaves_nothing() {
     refused(&answer, 130, &["interrupted"]);
     assert!(outputs.names().is_empty(), "{:?}", outputs.names());
     assert!(scratch.names().is_empty(), "{:?}", scratch.names());
+}
+
+/// A multibody run that finds the disk full keeps its last checkpoint and the rows before it. The same command goes on
+/// from there and ends with the rows of a run that nothing stopped.
+#[test]
+fn a_run_goes_on_where_the_disk_was_full() {
+    let desk = Desk::new();
+    let scene = include_str!("../../../../tests/support/wheel.toml");
+    let scene = desk.file(
+        "scene.toml",
+        changed(scene, "interval_s = 1e-2", "interval_s = 1e-4"),
+    );
+    let [whole, cut] = ["whole.h5", "cut.h5"].map(|name| desk.path(name));
+    succeeds(&["run", argument(&scene), "-o", argument(&whole)]);
+    let words = ["run", argument(&scene), "-o", argument(&cut)];
+    // A checkpoint after each step: the rows' file is the first that becomes too long.
+    let words = [&words[..], &["--checkpoint-s", "1e-9"]].concat();
+    refused(
+        &with_files_of(500, "trap '' XFSZ;", &words),
+        1,
+        &["cut.h5.part/rows.log", "too large"],
+    );
+    assert!(!cut.exists());
+    assert!(desk.path("cut.h5.part/checkpoint.h5").is_file());
+    let told = succeeds(&words).stderr;
+    assert!(told.contains("goes on from the checkpoint at"), "{told}");
+    let table = |result: &PathBuf| {
+        let csv = result.with_extension("csv");
+        succeeds(&["export", argument(result), "-o", argument(&csv)]);
+        std::fs::read_to_string(csv).unwrap()
+    };
+    assert_eq!(table(&cut), table(&whole));
+    assert_eq!(
+        desk.names()
+            .iter()
+            .filter(|name| name.contains("part"))
+            .count(),
+        0
+    );
 }

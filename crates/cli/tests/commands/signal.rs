@@ -310,3 +310,38 @@ fn what_cannot_be_analysed_is_told() {
         &["`eigen`", "`transient`"],
     );
 }
+
+/// Every line that docs/results.md shows, word for word, on the result of the scene that it names, in longer steps.
+#[test]
+fn the_lines_that_the_documentation_shows_run() {
+    let desk = Desk::new();
+    let models = common::root().join("fe_models");
+    let text = std::fs::read_to_string(models.join("dynamics_25_30.toml")).unwrap();
+    for gear in ["pinion_25_m2.toml", "wheel_30_m2.toml"] {
+        std::fs::copy(models.join(gear), desk.path(gear)).unwrap();
+    }
+    let scene = desk.file(
+        "scene.toml",
+        changed(&text, "step_s = 2e-6", "step_s = 1e-5"),
+    );
+    std::fs::create_dir(desk.path("out")).unwrap();
+    let result = desk.path("out/25_30.h5");
+    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+    let page = std::fs::read_to_string(common::root().join("docs/results.md")).unwrap();
+    let lines = page
+        .lines()
+        .filter_map(|line| line.strip_prefix("gearmesh "));
+    let lines: Vec<&str> = lines.filter(|line| line.contains("out/25_30.h5")).collect();
+    assert!(lines.len() >= 4, "{lines:?}");
+    for line in lines {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let mut program = common::program(&words);
+        program.current_dir(desk.path(""));
+        let answer = common::ends(program, std::time::Duration::from_secs(60));
+        assert_eq!(answer.code, Some(0), "{line}: {}", answer.stderr);
+        assert!(!answer.stdout.is_empty(), "{line}");
+        if let Some(output) = words.iter().position(|word| *word == "-o") {
+            assert!(desk.path(words[output + 1]).is_file(), "{line}");
+        }
+    }
+}

@@ -94,4 +94,15 @@ fn every_command_among_traps_and_links() {
     // The rows of a run that is not finished.
     let part = Path::new("o.h5.part/rows.log");
     writes_through_no_link(&bench, "run wheel.toml -o o.h5", part, 0);
+    tidy(bench.folder(), &before);
+    // The same of a study's case.
+    let words = "study study.toml -o out";
+    bench.run(words);
+    let made = files(bench.folder());
+    let case = made
+        .iter()
+        .find(|path| path.starts_with("out") && path.extension().is_some_and(|end| end == "h5"));
+    let part = case.unwrap().with_extension("h5.part").join("rows.log");
+    tidy(bench.folder(), &before);
+    writes_through_no_link(&bench, words, &part, 1);
 }
