@@ -5,10 +5,12 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::assembly::{Assembly, AssemblyError};
 use crate::blank::PairBlank;
+use crate::contact_path::ContactKind;
 use crate::contact_point::{Mesh, Touch};
 use crate::flank::{Flank, Located};
 use crate::hand::FlankSide;
 use crate::pair_design::PairDesign;
+use crate::tca::{TcaRequest, tooth_contact};
 
 /// Settings of the testing machine for one place of the contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,6 +37,8 @@ pub enum VhCause {
     PinionEnds,
     /// The gear's lead has no maximum there any more: the contact is no mean contact.
     NoMaximum,
+    /// At its place it is none: an edge of a flank touches first.
+    EdgeFirst,
     /// No errors of assembly that bring it farther were found.
     NoneFound,
     /// The errors exceed what an assembly may have.
@@ -63,6 +67,7 @@ impl VhStop {
         let why = match self.cause {
             VhCause::PinionEnds => "there the contact leaves the pinion's flank".to_owned(),
             VhCause::NoMaximum => "farther on the gear's lead has no maximum there".to_owned(),
+            VhCause::EdgeFirst => "there an edge touches first".to_owned(),
             VhCause::NoneFound => "farther on no such errors were found".to_owned(),
             VhCause::TooLarge => format!(
                 "farther on the errors exceed {MOST_SHARE} of the mean cone distance or {:.0} mrad",
@@ -209,9 +214,27 @@ impl Way<'_> {
                 }
             }
         }
+        if !self.is_on_path(&x) {
+            return stop(goal, &x, VhCause::EdgeFirst);
+        }
         Ok(VhSetting {
             place_m: goal,
             error: self.error(&x),
+        })
+    }
+
+    /// Whether the path of contact of that assembly, which knows the edges, goes over the flanks at this turn.
+    fn is_on_path(&self, x: &Unknowns) -> bool {
+        let request = TcaRequest {
+            error: self.base.plus(&self.error(x)),
+            map: [1, 1],
+            ..TcaRequest::default()
+        };
+        let step_rad =
+            std::f64::consts::TAU / (self.blank.data.teeth[0] * request.per_pitch) as f64;
+        tooth_contact(self.flanks, self.blank, &request).is_ok_and(|found| {
+            let mut flanks = found.path.iter().filter(|p| p.kind == ContactKind::Flanks);
+            flanks.any(|p| (p.pinion_turn_rad - x[2]).abs() <= step_rad)
         })
     }
 
