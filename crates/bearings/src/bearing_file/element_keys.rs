@@ -10,6 +10,9 @@ use super::{BearingFile, UM};
 /// Laminae where the file names none.
 pub(super) const LAMINAE: usize = 40;
 
+/// A row has at least this share of the rollers that go round: fewer carry no ring of that size.
+const LEAST_OF_ROLLERS: f64 = 0.1;
+
 /// Balls and rollers may be too large for their rings by this share of their diameter: for balls of 8 mm 80 um,
 /// several times what tight fits take away.
 const MOST_INTERFERENCE: f64 = 0.01;
@@ -29,18 +32,20 @@ impl Elements {
     /// Balls as the file states them.
     pub fn balls(file: &BearingFile, keys: &TableKeys<'_>) -> Result<Self, InputError> {
         let names = ["ball", "balls", "ball_diameter_mm"];
-        Self::checked(names, (file.balls, file.ball_diameter_mm), file, keys)
+        let stated = (file.balls, file.ball_diameter_mm);
+        Self::checked(names, (stated, 0.0), file, keys)
     }
 
     /// Rollers as the file states them.
     pub fn rollers(file: &BearingFile, keys: &TableKeys<'_>) -> Result<Self, InputError> {
         let names = ["roller", "rollers", "roller_diameter_mm"];
-        Self::checked(names, (file.rollers, file.roller_diameter_mm), file, keys)
+        let stated = (file.rollers, file.roller_diameter_mm);
+        Self::checked(names, (stated, LEAST_OF_ROLLERS), file, keys)
     }
 
     fn checked(
         [word, number_key, diameter_key]: [&str; 3],
-        (number, diameter_mm): (Option<usize>, Option<Bounded<Positive>>),
+        ((number, diameter_mm), least_share): ((Option<usize>, Option<Bounded<Positive>>), f64),
         file: &BearingFile,
         keys: &TableKeys<'_>,
     ) -> Result<Self, InputError> {
@@ -57,12 +62,13 @@ impl Elements {
         )?;
         // Neighbours must not touch.
         let room = (std::f64::consts::PI / (diameter_mm / pitch_mm).asin()).floor();
+        let least = (least_share * room).ceil().max(3.0);
         keys.require(
             number_key,
             number as f64,
-            number >= 3 && number as f64 <= room,
+            (least..=room).contains(&(number as f64)),
             &format!(
-                "3 to {room}, as many {number_key} of {diameter_mm} mm as go round on {pitch_mm} mm"
+                "{least} to {room}, as many {number_key} of {diameter_mm} mm as go round on {pitch_mm} mm"
             ),
         )?;
         Ok(Self {

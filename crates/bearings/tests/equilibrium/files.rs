@@ -187,6 +187,12 @@ fn values_out_of_range_are_answered_with_the_range() {
         ("rollers = 17", "rollers = 17\nrib_height_mm = 9.0"),
         &["rib_height_mm", "large end"],
     );
+    // Found by fuzzing: so few rollers on so large a ring took minutes to be found without equilibrium.
+    refused(
+        TAPERED,
+        ("pitch_diameter_mm = 46.0", "pitch_diameter_mm = 1000.0"),
+        &["rollers", "found 17", "44 to 436"],
+    );
 }
 
 /// Keys of four-point, thrust and spherical roller bearings.
