@@ -35,6 +35,9 @@ pub(super) fn geometry(
 /// Where the file names none: a choice, docs/theory/rolling_bearings.md says what it decides.
 const END_RADIUS_RATIO: f64 = 0.95;
 
+/// Length of a tapered roller over its diameter: shorter ones tip over between the races and the rib.
+const LEAST_LENGTH: f64 = 0.25;
+
 /// Share of the large end's radius at which the rib touches, where the file names none.
 const RIB_SHARE: f64 = 0.2;
 
@@ -61,11 +64,14 @@ fn taper(
     let ratio = diameter / pitch;
     let half_taper = half_taper_of(ratio, angle);
     let apex = 0.5 * pitch / (angle - half_taper).sin();
+    let least = LEAST_LENGTH * diameter;
     keys.require(
         "roller_length_mm",
         length,
-        length < apex,
-        &format!("less than {apex:.3}, the distance of the rollers' middle from their apex"),
+        length >= least && length < apex,
+        &format!(
+            "{least:.3}, a quarter of the rollers' diameter, with less they tip over, to less than {apex:.3}, the distance of their middle from their apex"
+        ),
     )?;
     let large = 0.5 * diameter + 0.5 * length * half_taper.tan();
     let height = file.rib_height_mm.unwrap_or(RIB_SHARE * large);
