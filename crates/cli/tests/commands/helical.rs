@@ -125,12 +125,54 @@ fn both_hands_run_through_the_whole_chain() {
     let plan = succeeds(&["plan", argument(&plain)]).stdout;
     assert!(plan.contains("path `line-of-action`"), "{plan}");
     with_tip_edges(&desk, &a);
+    few_positions_see_what_many_see(&desk);
 
     // Two gears of one hand do not run together.
     let twins = changed(&scene(""), "gear2.h5", "gear1.h5");
     let twins = desk.file("twins.toml", changed(&twins, "[\"tension\"]", "[]"));
     let answer = gearmesh(&["plan", argument(&twins)]);
     refused(&answer, 2, &["opposite hand"]);
+}
+
+/// Positions laid where slices enter and leave: with eight a pitch the swing of the transmission error and the largest
+/// pressure are those of ninety-six, to what the line of errors states of both.
+fn few_positions_see_what_many_see(desk: &Desk) {
+    for path in ["line-of-action", "extended"] {
+        let [few, many] = [8, 96].map(|points| {
+            let text = changed(
+                &scene(&format!("teeth.path = \"{path}\"\n")),
+                "points_per_pitch = 12",
+                &format!("points_per_pitch = {points}"),
+            );
+            let file = desk.file("points.toml", text);
+            let result = desk.path("points.h5");
+            let words = ["run", argument(&file), "-o", argument(&result)];
+            succeeds(&words);
+            SceneResult::read(&result).unwrap().figures(0)
+        });
+        for (few_is, many_is, stated) in [
+            (
+                few.te_peak_to_peak_m,
+                many.te_peak_to_peak_m,
+                [few.errors.te_positions, many.errors.te_positions],
+            ),
+            (
+                few.pressure_largest_pa,
+                many.pressure_largest_pa,
+                [
+                    few.errors.pressure_positions,
+                    many.errors.pressure_positions,
+                ],
+            ),
+        ] {
+            let stated: f64 = stated.map(Option::unwrap).iter().sum();
+            let off = (few_is / many_is - 1.0).abs();
+            assert!(
+                off <= stated + 1e-3 && off < 0.01,
+                "{path}: {few_is} {many_is}, stated {stated}"
+            );
+        }
+    }
 }
 
 /// The same models as bodies on axles: at rest the transmission error of the static contact over the pitch, on the
