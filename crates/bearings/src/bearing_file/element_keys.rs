@@ -10,6 +10,9 @@ use super::{BearingFile, UM};
 /// Laminae where the file names none.
 pub(super) const LAMINAE: usize = 40;
 
+/// Balls or rollers of a row at most: those of the largest slewing bearings are a few hundred.
+const MOST_ELEMENTS: f64 = 1000.0;
+
 /// A row has at least this share of the rollers that go round: fewer carry no ring of that size.
 const LEAST_OF_ROLLERS: f64 = 0.1;
 
@@ -63,14 +66,14 @@ impl Elements {
         // Neighbours must not touch.
         let room = (std::f64::consts::PI / (diameter_mm / pitch_mm).asin()).floor();
         let least = (least_share * room).ceil().max(3.0);
-        keys.require(
-            number_key,
-            number as f64,
-            (least..=room).contains(&(number as f64)),
-            &format!(
+        let allowed = match room <= MOST_ELEMENTS {
+            true => format!(
                 "{least} to {room}, as many {number_key} of {diameter_mm} mm as go round on {pitch_mm} mm"
             ),
-        )?;
+            false => format!("{least} to {MOST_ELEMENTS}"),
+        };
+        let is_within = (least..=room.min(MOST_ELEMENTS)).contains(&(number as f64));
+        keys.require(number_key, number as f64, is_within, &allowed)?;
         Ok(Self {
             number,
             diameter_mm,

@@ -187,7 +187,14 @@ fn values_out_of_range_are_answered_with_the_range() {
         ("rollers = 17", "rollers = 17\nrib_height_mm = 9.0"),
         &["rib_height_mm", "large end"],
     );
-    // Found by fuzzing: so few rollers on so large a ring took minutes to be found without equilibrium.
+    // Found by fuzzing: so many balls ended in an allocation of 128 GB.
+    let grains = B6205.replace("ball_diameter_mm = 7.938", "ball_diameter_mm = 7.938e-10");
+    refused(
+        &grains,
+        ("balls = 9", "balls = 4294967296"),
+        &["balls", "found 4294967296", "3 to 1000"],
+    );
+    // So few rollers on so large a ring took minutes to be found without equilibrium.
     refused(
         TAPERED,
         ("pitch_diameter_mm = 46.0", "pitch_diameter_mm = 1000.0"),
