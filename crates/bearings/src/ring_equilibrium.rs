@@ -33,9 +33,12 @@ const MOST_STEPS: usize = 200;
 /// Most proximal steps down the potential energy.
 const MOST_PROXIMAL_STEPS: usize = 200;
 
-/// Most places on the way down the potential energy at which an element finds no equilibrium: twice as many as any ball
-/// bearing of the tests meets that comes to rest. Roller bearings that do meet none, and each is a long search.
-const MOST_LOST_PLACES: [usize; 2] = [600, 60];
+/// Most places on the way down the potential energy at which a ball or barrel finds no equilibrium: twice as many as
+/// any bearing of the tests meets that comes to rest.
+const MOST_LOST_BALLS: usize = 600;
+
+/// The same of rollers: bearings that come to rest meet none, and each is a long search.
+const MOST_LOST_ROLLERS: usize = 60;
 
 /// A ring that has come this share of the pitch radius from its start is on its way out: no play is so large.
 const FARTHEST: f64 = 0.1;
@@ -120,7 +123,8 @@ impl QuasiStaticBearing {
     ///
     /// One proximal step after the other: each ends where the ring would rest if springs held it to where it stood. Energy falls in every step, and
     /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it; it
-    /// is not tried while the ring slides. A ring that slides out of the bearing ends the search.
+    /// is not tried while the ring slides. A ring that slides out of the bearing ends the search, and so do elements
+    /// that find no place too often.
     /// `failure` is what the search without springs ended with; elements begin at their `places`, if given, and leave
     /// them where they end.
     pub(crate) fn settle(
@@ -140,8 +144,8 @@ impl QuasiStaticBearing {
             return Err(failure);
         }
         let most_lost = match self.rows[0] {
-            Row::Ball(_) | Row::FourPoint(_) | Row::Barrel(_) => MOST_LOST_PLACES[0],
-            Row::Roller(_) => MOST_LOST_PLACES[1],
+            Row::Ball(_) | Row::FourPoint(_) | Row::Barrel(_) => MOST_LOST_BALLS,
+            Row::Roller(_) => MOST_LOST_ROLLERS,
         };
         let farthest_m = FARTHEST * self.rows[0].pitch_radius_m();
         let mut pose = start;

@@ -98,7 +98,7 @@ impl MemoryEstimate {
         Some(Self {
             size,
             bytes: bytes + modes_bytes,
-            work: Work::new(gear, &size, sector_factor(gear, &size)),
+            work: Work::new(gear, &size, largest_factor(gear, &size)),
             modes_bytes,
             modes,
             shortest: shortest(gear),
@@ -111,8 +111,31 @@ fn is_whole(gear: &GearDefinition) -> bool {
     gear.reduction.symmetry == Symmetry::Off || gear.mesh.plane_strain
 }
 
-fn factor_bytes(nodes: f64) -> f64 {
-    REAL * FILL * (3.0 * nodes).powf(4.0 / 3.0)
+/// Numbers in the factor of a meshed solid.
+fn solid_factor(nodes: f64) -> f64 {
+    FILL * (3.0 * nodes).powf(4.0 / 3.0)
+}
+
+/// Whether the teeth are condensed to a circle below them, as a ring.
+fn is_on_circle(gear: &GearDefinition, size: &MeshSize) -> bool {
+    gear.sectors() == 1 && 3.0 * size.circle_nodes <= MOST_ON_CIRCLE as f64
+}
+
+/// Numbers in the largest factor: that of everything, or of a sector with the dense blocks of feet or circle.
+fn largest_factor(gear: &GearDefinition, size: &MeshSize) -> f64 {
+    if gear.mesh.plane_strain {
+        // A cross-section's factor grows with its nodes times their logarithm only, and is small.
+        return FILL * 3.0 * size.nodes;
+    }
+    if is_whole(gear) {
+        return solid_factor(size.nodes);
+    }
+    if is_on_circle(gear, size) {
+        return solid_factor(size.body_nodes) + (3.0 * size.circle_nodes).powi(2);
+    }
+    let own = gear.tooth.teeth as f64 / gear.sectors() as f64;
+    let nodes = size.body_nodes + own * (size.foot_nodes - size.side_nodes);
+    solid_factor(nodes) + own * (3.0 * size.foot_nodes).powi(2)
 }
 
 fn reduction_bytes(gear: &GearDefinition, size: &MeshSize) -> f64 {
@@ -124,56 +147,33 @@ fn reduction_bytes(gear: &GearDefinition, size: &MeshSize) -> f64 {
     let in_full = if own < teeth { own } else { 1.0 };
     let c_hub = C_HUB_COPIES * REAL * in_full * loads * teeth * loads;
     let [early, late] = BYTES_A_NODE.map(|bytes| bytes * size.nodes);
+    let factor = REAL * largest_factor(gear, size);
     if is_whole(gear) {
-        // A cross-section's factor grows with its nodes times their logarithm only, and is small.
-        let power = if gear.mesh.plane_strain {
-            1.0
-        } else {
-            4.0 / 3.0
-        };
-        let factor = REAL * FILL * (3.0 * size.nodes).powf(power);
         return (early + FACTORISATION * factor).max(late + factor + c_hub);
     }
     let foot = 3.0 * size.foot_nodes;
-    let tooth = factor_bytes(size.tooth_nodes) + 3.0 * REAL * foot.powi(2);
-    let circle = 3.0 * size.circle_nodes;
-    if own == teeth && circle <= MOST_ON_CIRCLE as f64 {
+    let tooth = REAL * solid_factor(size.tooth_nodes) + 3.0 * REAL * foot.powi(2);
+    if is_on_circle(gear, size) {
+        let circle = 3.0 * size.circle_nodes;
         let side = 3.0 * size.side_nodes;
         let of_ring = side * (side + circle / teeth);
         let ring = 2.0 * REAL * (0.5 * teeth + 1.0) * of_ring;
         let dense = REAL * circle.powi(2);
-        let sector = factor_bytes(size.body_nodes) + dense;
         // Matrix and permuted copy have rows beside the values of their lower triangles.
-        let at_the_body = early + tooth + ring + 2.0 * dense + FACTORISATION * sector;
+        let at_the_body = early + tooth + ring + 2.0 * dense + FACTORISATION * factor;
         // No tooth passes more shapes on than a part has displacements on the circle.
-        return SINGLE_SECTOR * at_the_body.max(late + tooth + ring + sector + dense + c_hub);
+        return SINGLE_SECTOR * at_the_body.max(late + tooth + ring + factor + dense + c_hub);
     }
     let feet = REAL * own * foot.powi(2);
-    let sector_nodes = size.body_nodes + own * (size.foot_nodes - size.side_nodes);
-    let sector = factor_bytes(sector_nodes) + feet;
     let cut = 3.0 * size.cut_nodes;
     let harmonics = 2.0 * REAL * (0.5 * sectors + 1.0) * cut.powi(2);
-    let at_the_sector = early + tooth + feet + FACTORISATION * sector;
-    let most = at_the_sector.max(late + tooth + sector + harmonics + c_hub);
+    let at_the_sector = early + tooth + feet + FACTORISATION * factor;
+    let most = at_the_sector.max(late + tooth + factor + harmonics + c_hub);
     if own < teeth {
         most
     } else {
         SINGLE_SECTOR * most
     }
-}
-
-/// Numbers in the largest factor.
-fn sector_factor(gear: &GearDefinition, size: &MeshSize) -> f64 {
-    let (teeth, sectors) = (gear.tooth.teeth as f64, gear.sectors() as f64);
-    if is_whole(gear) {
-        return factor_bytes(size.nodes) / REAL;
-    }
-    let (own, circle) = (teeth / sectors, 3.0 * size.circle_nodes);
-    if own == teeth && circle <= MOST_ON_CIRCLE as f64 {
-        return factor_bytes(size.body_nodes) / REAL + circle.powi(2);
-    }
-    let nodes = size.body_nodes + own * (size.foot_nodes - size.side_nodes);
-    factor_bytes(nodes) / REAL + own * (3.0 * size.foot_nodes).powi(2)
 }
 
 fn modes_bytes(gear: &GearDefinition, size: &MeshSize, count: f64) -> f64 {

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! n nodes of the gear, N sectors, c degrees of freedom of a cut, L numbers in the factor of a sector, f degrees of
-//! freedom of a tooth's foot; what the solutions take is in the term of L. The coefficients are fitted to measured times
-//! (docs/theory/reduction.md); s is how much slower this machine makes a product of matrices than that one did.
+//! freedom of a tooth's foot; what the solutions take is in the term of L. The coefficients are fitted to measured
+//! times (docs/theory/reduction.md); s is how much slower this machine makes a product of matrices than that one did.
 
 use std::time::Instant;
 

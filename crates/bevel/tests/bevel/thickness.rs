@@ -4,7 +4,7 @@ use gearmesh_bevel::cut_thickness::{normal_m, settings_of_thickness};
 use gearmesh_bevel::tca::PathPoint;
 use gearmesh_bevel::{
     AssemblyError, BevelError, ContactKind, FlankSide, PairDesign, PairFile, TcaRequest,
-    ThicknessFrom, tooth_contact,
+    ThicknessFrom, VhCause, tooth_contact,
 };
 use gearmesh_geometry::input::InputDocument;
 
@@ -345,6 +345,59 @@ fn the_contact_goes_to_toe_and_heel() {
             }
         }
     }
+}
+
+/// Drawn at random: brought to the toe, the mean contact of this pair is a contact of the surfaces, but the gear's tip
+/// touches first.
+const EDGES_FIRST: &str = r#"title = "drawn"
+[bevel]
+teeth = [27, 66]
+outer_module_mm = 7.586
+face_width_mm = [84.41, 80.39]
+spiral_angle_deg = 22.18
+pressure_angle_deg = 25
+shaft_angle_deg = 90
+pinion_hand = "right"
+taper = "duplex"
+cutter_radius_mm = 260.19
+thickness_shift = 0.038
+backlash_mm = 0.247
+[gear]
+settings = "basic"
+edge_radius_mm = 0.379
+[pinion]
+settings = "local-synthesis"
+edge_radius_mm = 0.379
+path_angle_deg = [75.3, 96.0]
+ellipse_half_length_mm = [28.71, 18.93]
+transmission_curvature = [-0.00600, -0.00242]
+"#;
+
+#[test]
+fn a_place_at_which_an_edge_touches_first_is_not_reached() {
+    let (file, design) = made(EDGES_FIRST).unwrap();
+    let side = FlankSide::Concave;
+    let mean = tooth_contact(design.flanks(side), &file.blank, &TcaRequest::default()).unwrap();
+    let none = AssemblyError::default();
+    let check = design.vh_check(&file.blank, side, (&none, &mean.mean.unwrap()));
+    let [toe, heel] = check.by_offset;
+    assert!(heel.is_ok());
+    let stop = toe.unwrap_err();
+    assert_eq!(stop.cause, VhCause::EdgeFirst);
+    let words = stop.words();
+    assert!(words.ends_with("there an edge touches first"), "{words}");
+    // The contact analysis of that assembly: where the lead is largest a tip touches, by a good millimetre.
+    let request = TcaRequest {
+        error: stop.last.error,
+        ..TcaRequest::default()
+    };
+    let found = tooth_contact(design.flanks(side), &file.blank, &request).unwrap();
+    let flanks = found.path.iter().filter(|p| p.kind == ContactKind::Flanks);
+    let away_m = flanks.map(|p| {
+        let [l, h] = p.places_m[1];
+        (l - stop.last.place_m[0]).hypot(h - stop.last.place_m[1])
+    });
+    assert!(away_m.fold(f64::INFINITY, f64::min) > 1e-3);
 }
 
 /// Nominal grids are tables that pair files read: the same flanks and the same thickness.

@@ -327,7 +327,7 @@ fn another_table_under_the_same_name_is_another_case() {
 }
 
 /// A gear in plane strain, reduced in a moment.
-fn plane_gear(desk: &Desk) -> std::path::PathBuf {
+fn reduce_plane_gear(desk: &Desk) {
     let gear = desk.file(
         "gear.toml",
         changed(
@@ -338,7 +338,6 @@ fn plane_gear(desk: &Desk) -> std::path::PathBuf {
     );
     let model = desk.path("gear.h5");
     succeeds(&["reduce", argument(&gear), "-o", argument(&model)]);
-    model
 }
 
 /// A pair of these gears.
@@ -349,7 +348,7 @@ const PLANE_PAIR: &str = "title = \"pair\"\n[pair]\ngear_1 = \"gear.h5\"\ngear_2
 #[test]
 fn pressures_that_no_steel_carries_are_warned_of_by_whatever_runs_a_scene_often() {
     let desk = Desk::new();
-    plane_gear(&desk);
+    reduce_plane_gear(&desk);
     let scene = desk.file("pair.toml", PLANE_PAIR);
     let study = desk.file(
         "study.toml",
@@ -377,11 +376,12 @@ fn pressures_that_no_steel_carries_are_warned_of_by_whatever_runs_a_scene_often(
     }
 }
 
-/// Elements and element lengths are one more knob of `accuracy`, each rung a reduction that is kept: of gears in plane strain, which take a moment.
+/// Elements and element lengths are one more knob of `accuracy`, each rung a reduction that is kept: of gears in plane
+/// strain, which take a moment.
 #[test]
 fn accuracy_varies_the_meshes_of_gears_and_keeps_them() {
     let desk = Desk::new();
-    plane_gear(&desk);
+    reduce_plane_gear(&desk);
     let scene = desk.file("pair.toml", PLANE_PAIR);
     let kept = desk.path("kept");
     std::fs::create_dir(&kept).unwrap();

@@ -298,7 +298,7 @@ fn the_size_is_known_where_the_teeth_end_at_the_rim() {
         pitch_circle_diameter_mm = 53.4\ndiameter_mm = 13.7\nphase_deg = 7.5\n[material]\nyoung_GPa = 206.0\npoisson = 0.3\n";
     let gear = GearDefinition::from_document(&InputDocument::new("rim.toml", text)).unwrap();
     let size = gearmesh_mesh::MeshSize::estimate(&gear).unwrap();
-    // 236 thousand are made.
+    // 236 thousand are made; a third, as is asked of the memory that follows from them.
     assert!((size.nodes / 236e3 - 1.0).abs() < 0.3, "{size:?}");
 }
 

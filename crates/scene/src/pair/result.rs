@@ -129,8 +129,8 @@ pub struct SceneResult {
     pub residual: Vec<f64>,
     /// Largest relative error of Σ F b = T₂, per torque.
     pub torque_balance: Vec<f64>,
-    /// Estimated relative error of the mesh in the deflection of a tooth while the next one carries, too: the larger one
-    /// of both gears, zero where it was not estimated.
+    /// Estimated relative error of the mesh in the deflection of a tooth while the next one carries, too: the larger
+    /// one of both gears, zero where it was not estimated.
     pub te_mesh_error: f64,
     /// Positions beside the even ones: at events and peaks.
     pub between: BetweenPositions,

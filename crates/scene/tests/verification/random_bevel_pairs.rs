@@ -214,7 +214,8 @@ fn check_vh(
                         let place = flanks[1].place(&flanks[1].point(touch.at[1]).unwrap().r);
                         (place[0] - setting.place_m[0]).hypot(place[1] - setting.place_m[1])
                     };
-                    // The path comes by there (else an edge touches first, and the setting is refused), and the ratio of speeds is that of the teeth.
+                    // The path comes by there (else an edge touches first, and the setting is refused), and the ratio
+                    // of speeds is that of the teeth.
                     let path = there.path.iter().filter(|p| p.kind == ContactKind::Flanks);
                     let nearest = path
                         .map(|p| p.touch)

@@ -162,6 +162,7 @@ fn few_positions_see_what_many_see() {
         );
         (figures, of_even)
     });
+    // Twice what both state of their positions together, 0.05 % each.
     let same = |few: f64, many: f64| (few / many - 1.0).abs() < 0.002;
     let swings = [few, many].map(|(figures, _)| figures.te_peak_to_peak_m);
     assert!(same(swings[0], swings[1]), "{swings:?}");
