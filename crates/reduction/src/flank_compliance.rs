@@ -220,8 +220,9 @@ struct RowsByFields {
     entries_in_sum: f64,
 }
 
-/// Compares sums of all rows of C_hub with what all teeth read of the solved fields of the same sums of loads. By repetition C_hub is made of products of half solves, symmetric by
-/// construction: this goes the other way, out to every tooth again.
+/// Compares sums of all rows of C_hub with what all teeth read of the solved fields of the same sums of loads. By
+/// repetition C_hub is made of products of half solves, symmetric by construction: this goes the other way, out to
+/// every tooth again.
 fn rows_by_fields(
     body: &GearBody<impl RepeatedMesh>,
     normals: &[&SparseVector],
