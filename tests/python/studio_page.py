@@ -5,11 +5,16 @@ import json
 import os
 import shutil
 import subprocess
+import threading
 import time
 from pathlib import Path
 
+import psutil
+
 # Where distributions put it.
 NAMES = ("chromium", "chromium-browser", "google-chrome")
+# So long a server or a browser may take to begin or to end.
+END_S = 60.0
 # WebGL without a graphics card.
 OPTIONS = ["--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--no-sandbox", "--disable-gpu-vsync"]
 
@@ -20,9 +25,10 @@ def chromium():
 
 
 @contextlib.contextmanager
-def server(program, file=None, folder=None):
+def server(program, file=None, folder=None, beside=None):
     """The address of a server of `file`, or of something new in `folder`; it ends with the block."""
     words = [str(Path(program).absolute()), "studio", *([str(file)] if file else []), "--no-open"]
+    words += ["--beside", str(beside)] if beside else []
     with subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         try:
             address = process.stdout.readline().strip()
@@ -31,6 +37,30 @@ def server(program, file=None, folder=None):
             yield address
         finally:
             process.terminate()
+            try:
+                process.wait(END_S)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                raise
+
+
+def kill_browsers():
+    """Kills the browsers that this process has started."""
+    for process in psutil.Process().children(recursive=True):
+        with contextlib.suppress(psutil.Error):
+            if "chrom" in process.name():
+                process.kill()
+
+
+@contextlib.contextmanager
+def killed_after(seconds):
+    """Where the block takes longer, the browsers are killed: Playwright waits for some of its answers without end."""
+    timer = threading.Timer(seconds, kill_browsers)
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 @contextlib.contextmanager
@@ -43,7 +73,8 @@ def browser():
         try:
             yield opened
         finally:
-            opened.close()
+            with killed_after(END_S):
+                opened.close()
 
 
 class Page:

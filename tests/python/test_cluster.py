@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -153,6 +154,52 @@ def test_a_file_that_is_no_scheduler_file_is_told(few, tmp_path, monkeypatch, co
     file.write_text(content)
     with pytest.raises(gm.InputError, match="--scheduler: .*scheduler.json.*give the address of a running dask scheduler"):
         gm.study(few[0], tmp_path / "out", client=str(file))
+
+
+@pytest.mark.parametrize("says", [None, b"HTTP/1.1 400 Bad Request\r\n\r\n"])
+def test_what_listens_and_is_no_scheduler_is_told(few, tmp_path, monkeypatch, says):
+    monkeypatch.setattr(cluster, "CONNECT_S", 0.5)
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+
+        def answer():
+            with contextlib.suppress(OSError):
+                while True:
+                    heard, _ = other.accept()
+                    heard.sendall(says)
+                    heard.close()
+
+        if says:
+            threading.Thread(target=answer, daemon=True).start()
+        address = f"tcp://127.0.0.1:{other.getsockname()[1]}"
+        with pytest.raises(gm.InputError, match="no scheduler answers at"):
+            gm.study(few[0], tmp_path / "out", client=address)
+
+
+def test_a_client_that_fails_is_closed_at_once(monkeypatch):
+    """Not with the garbage, where dask may wait for itself."""
+    made = []
+
+    def failing(self, *_, **keywords):
+        made.append(self)
+        start(self, *_, **keywords)
+
+    def broken(self, *_, **__):
+        raise KeyError("address")
+
+    start = distributed.Client.__init__
+    monkeypatch.setattr(distributed.Client, "__init__", failing)
+    monkeypatch.setattr(distributed.Client, "_start", broken)
+    with pytest.raises(KeyError):
+        cluster._client_of("tcp://127.0.0.1:1", 0.5)
+    assert [client.status for client in made] in (["closed"], ["newly-created"])
+
+
+@pytest.mark.parametrize("wrong", ["nonsense", "tcp://127.0.0.1:port", "tcp://127.0.0.1:99999999"])
+def test_what_is_no_address_is_told(few, tmp_path, wrong):
+    with pytest.raises(gm.InputError, match="no scheduler answers at"):
+        gm.study(few[0], tmp_path / "out", client=wrong)
 
 
 def test_a_link_is_not_replaced_by_what_a_worker_sends(tmp_path):

@@ -71,7 +71,7 @@ def test_a_bearing_shows_its_balls():
 def test_the_studio_opens_and_closes(pair):
     with gm.studio(pair) as opened:
         assert opened.url in opened._repr_html_() and opened.is_open
-        assert b"gearmesh studio" in urllib.request.urlopen(opened.url).read()
+        assert b"gearmesh studio" in urllib.request.urlopen(opened.url, timeout=60).read()
     assert not opened.is_open and "closed" in repr(opened)
     with pytest.raises(urllib.error.URLError):
         urllib.request.urlopen(opened.url, timeout=5)

@@ -84,12 +84,6 @@ def pages(tmp_path_factory):
     return at
 
 
-@pytest.fixture(scope="module")
-def browser():
-    with studio_page.browser() as browser:
-        yield browser
-
-
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("width, medium", [(1280, "screen"), (390, "screen"), (794, "print")])
 def test_a_page_fits(browser, pages, kind, width, medium):

@@ -38,6 +38,8 @@ pub mod mesh;
 mod mesh_axes;
 pub mod mesh_file;
 pub mod modes;
+mod moving_modes;
+mod moving_parts;
 mod moving_system;
 pub mod new_files;
 mod one_or_many;
@@ -75,6 +77,7 @@ mod watch;
 
 pub use answer::Answer;
 pub use failure::{Cause, Failure, Fault};
+pub use moving_modes::MovingModes;
 pub use moving_system::moving_system;
 pub use scratch::Scratch;
 pub use watch::{Listener, Silent, Task, Watch};

@@ -1,13 +1,15 @@
-//! Gears of a multibody result where their bodies are, and the forces on their teeth: for pictures that move.
+//! Gears of a multibody result where their bodies are, shafts and bearings with them, and the forces on the teeth: for
+//! pictures that move.
 
 use std::path::Path;
 
 use gearmesh_report::moving::{GearSurface, Moment};
-use gearmesh_scene::system::MovingShape;
+use gearmesh_scene::system::{MovingGear, MovingShape};
 use gearmesh_scene::system_run::SystemResult;
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
+use crate::moving_parts::PartsInMotion;
 use crate::system_moments::{SystemMoments, WantedMoments, surface};
 use crate::watch::Watch;
 
@@ -15,12 +17,12 @@ use crate::watch::Watch;
 const SECTIONS: usize = 6;
 
 /// Micrometres: finer than a picture.
-fn rounded_mm(x_m: f64) -> f64 {
+pub(crate) fn rounded_mm(x_m: f64) -> f64 {
     (1e6 * x_m).round() / 1e3
 }
 
-/// Surfaces of the gears and at most `most` moments of a stretch, evenly chosen: places, turns, and of each mesh and
-/// gear the force and where it acts.
+/// Surfaces of the gears, the solids beside them, and at most `most` moments of a stretch, evenly chosen: places, turns,
+/// angles of balls, and of each mesh and gear the force and where it acts.
 ///
 /// # Errors
 /// [`Failure`] for a result without gears that move, for files that are not as they were in the run, and once `watch`
@@ -38,7 +40,43 @@ pub fn moving_system(
         scene_folder: None,
     };
     let mut moments = SystemMoments::new(&wanted, result, watch)?;
-    let drawn = moments.gears().iter().map(|gear| match &gear.shape {
+    if moments.gears().is_empty() && moments.parts().parts.is_empty() {
+        return Err(Failure::input(format!(
+            "{}: no body of the scene has a shape that could be drawn",
+            file.display()
+        )));
+    }
+    let surfaces = surfaces(moments.gears())?;
+    let parts = PartsInMotion::new(moments.parts(), result)?;
+    let rows = moments.rows();
+    let count = rows.len().min(most.max(1));
+    let task = watch.listener.begin("moments");
+    let mut frames = Vec::with_capacity(count);
+    for k in 0..count {
+        watch.go_on()?;
+        let row = rows[k * (rows.len() - 1) / (count - 1).max(1)];
+        let mut shown = frame(&moments.moment(row)?, &surfaces);
+        shown["carriers"] = parts.places(row);
+        shown["angles_rad"] = parts.angles_rad(row);
+        frames.push(shown);
+        task.advance(k as f64 + 1.0, count as f64);
+    }
+    Ok(json!({
+        "unit": moments.unit,
+        "bodies": drawn(moments.gears(), &surfaces),
+        "parts": parts.solids(),
+        "elements": parts.elements(),
+        "rows": rows.len(),
+        "frames": frames,
+    }))
+}
+
+/// Surfaces of gears, fine enough for a picture that moves.
+///
+/// # Errors
+/// [`Failure`] of a bevel gear's mesh.
+pub(crate) fn surfaces(gears: &[MovingGear]) -> Result<Vec<GearSurface>, Failure> {
+    let of_gear = |gear: &MovingGear| match &gear.shape {
         MovingShape::Cylindrical(of) if of.tooth.helix_angle_rad == 0.0 => {
             Ok(GearSurface::new(of, &[]))
         }
@@ -48,41 +86,38 @@ pub fn moving_system(
             Ok(GearSurface::new(of, &heights))
         }
         MovingShape::Bevel(_) => surface(gear),
-    });
-    let surfaces = drawn.collect::<Result<Vec<GearSurface>, Failure>>()?;
-    let rows = moments.rows();
-    let count = rows.len().min(most.max(1));
-    let task = watch.listener.begin("moments");
-    let mut frames = Vec::with_capacity(count);
-    for k in 0..count {
-        watch.go_on()?;
-        let row = rows[k * (rows.len() - 1) / (count - 1).max(1)];
-        frames.push(frame(&moments.moment(row)?, &surfaces));
-        task.advance(k as f64 + 1.0, count as f64);
-    }
-    let bodies = moments.gears().iter().zip(&surfaces).map(|(gear, shape)| {
+    };
+    gears.iter().map(of_gear).collect()
+}
+
+/// Names and surfaces of gears.
+pub(crate) fn drawn(gears: &[MovingGear], surfaces: &[GearSurface]) -> Value {
+    let of_gear = |(gear, shape): (&MovingGear, &GearSurface)| {
         let points = shape.points_m.iter().flatten().map(|x| rounded_mm(*x));
         json!({
             "name": gear.body,
             "points_mm": points.collect::<Vec<_>>(),
             "quads": shape.quads.iter().flatten().collect::<Vec<_>>(),
         })
-    });
-    Ok(json!({
-        "unit": moments.unit,
-        "bodies": bodies.collect::<Vec<_>>(),
-        "rows": rows.len(),
-        "frames": frames,
-    }))
+    };
+    gears.iter().zip(surfaces).map(of_gear).collect()
+}
+
+/// Rotation (by rows) and origin of a body.
+pub(crate) fn place(rotation: &[[f64; 3]; 3], origin_m: &[f64; 3]) -> Value {
+    let rotation: Vec<f64> = rotation
+        .iter()
+        .flatten()
+        .map(|x| (1e7 * x).round() / 1e7)
+        .collect();
+    json!({"rotation": rotation, "origin_mm": origin_m.map(rounded_mm)})
 }
 
 /// A moment: of each gear its rotation (by rows) and origin, and the sum of the forces on it with its point of attack,
 /// the mean of the slices' places by their forces.
 fn frame(moment: &Moment, surfaces: &[GearSurface]) -> Value {
-    let places = moment.placements.iter().map(|placed| {
-        let rotation: Vec<f64> = placed.rotation.iter().flatten().copied().collect();
-        json!({"rotation": rotation, "origin_mm": placed.origin_m.map(rounded_mm)})
-    });
+    let places = moment.placements.iter();
+    let places = places.map(|placed| place(&placed.rotation, &placed.origin_m));
     let forces = (0..surfaces.len()).map(|gear| {
         let (mut force_n, mut point_m, mut weight) = ([0.0; 3], [0.0; 3], 0.0);
         for load in moment.loads.iter().filter(|load| load.gear == gear) {

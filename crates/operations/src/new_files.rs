@@ -8,7 +8,7 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::ModelShelf;
 use gearmesh_scene::SceneFile;
 use gearmesh_scene::pair::demand_gears_that_fit;
-use gearmesh_scene::study::{RestCases, Subject};
+use gearmesh_scene::study::{RestCases, RestFigures, Subject};
 use serde_json::{Value, json};
 
 use crate::check::check;
@@ -154,30 +154,31 @@ pub fn look(kind: NewKind, folder: &Path) -> Result<Vec<String>, Failure> {
     Ok(kept.unwrap_or_else(PoisonError::into_inner))
 }
 
-/// What a bearing or a bevel pair comes to at rest: its columns, a number for each torque or a single one.
+/// What a bearing comes to at rest: its columns.
 ///
 /// # Errors
 /// [`Failure`] for what is wrong or not carried.
-pub fn rest_figures(kind: NewKind, folder: &Path) -> Result<Value, Failure> {
+pub fn bearing_figures(kind: NewKind, folder: &Path) -> Result<Value, Failure> {
     let last = kind.files.last().map_or("", |file| file.name);
-    let mut document = InputDocument::read(&folder.join(last))?;
-    if kind.files.contains(&templates::OPERATION) {
-        let operation = InputDocument::read(&folder.join(templates::OPERATION.name))?;
-        let operation = operation.table()?;
-        let table = toml::to_string(&toml::Table::from_iter([(
-            "operation".to_owned(),
-            operation.into(),
-        )]));
-        let table = table.map_err(Failure::input)?;
-        document = InputDocument::new(&document.file, format!("{}\n{table}", document.text));
-    }
+    let bearing = InputDocument::read(&folder.join(last))?;
+    let operation = InputDocument::read(&folder.join(templates::OPERATION.name))?;
+    let operation = operation.table()?;
+    let table = toml::Table::from_iter([("operation".to_owned(), operation.into())]);
+    let table = toml::to_string(&table).map_err(Failure::input)?;
+    let document = InputDocument::new(&bearing.file, format!("{}\n{table}", bearing.text));
     let subject = Subject::from_document(document, folder)?;
     let (found, _) = RestCases::default().figures(&subject)?;
+    Ok(figures_as_json(&found))
+}
+
+/// Columns at rest.
+#[must_use]
+pub fn figures_as_json(found: &RestFigures) -> Value {
     let columns = found.columns.iter().map(|column| {
         let (label, unit) = gearmesh_report::words_and_unit(&column.name);
         json!({"name": column.name, "label": label, "unit": unit, "values": column.values})
     });
-    Ok(json!({"torques_Nm": found.torques_nm, "columns": columns.collect::<Vec<_>>()}))
+    json!({"torques_Nm": found.torques_nm, "columns": columns.collect::<Vec<_>>()})
 }
 
 /// Reduces the gears of a new pair beside their files, as the scene names them.

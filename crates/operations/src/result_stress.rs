@@ -174,6 +174,7 @@ pub fn of_system(
         scene_folder: a.scene_folder.as_deref(),
     };
     let mut moments = SystemMoments::new(&wanted, result, watch)?;
+    moments.demand_gears(wanted.result)?;
     let mut rows = moments.rows();
     if let Some(wanted) = a.at_s {
         let apart = |row: &usize| (moments.at(*row) - wanted).abs();

@@ -9,7 +9,9 @@ use gearmesh_reduction::ReductionError;
 use gearmesh_reduction::bevel::bevel_model;
 use gearmesh_reduction::skin::skin;
 use gearmesh_report::moving::{FlankLoad, GearSurface, Moment, Placement};
-use gearmesh_scene::system::{GearState, GearsInMotion, MovingGear, MovingShape, SystemScene};
+use gearmesh_scene::system::{
+    GearState, GearsInMotion, MovingGear, MovingParts, MovingShape, SystemScene,
+};
 use gearmesh_scene::system_run::{ResultKind, SystemResult, digests_of_named_files};
 use std::path::{Path, PathBuf};
 
@@ -63,19 +65,7 @@ impl SystemMoments {
                 "{shown}: --from-s and --to-s are for runs in time; this result is `static`, leave them out"
             )));
         }
-        let folder = scene_folder(a, result)?;
-        let document = InputDocument::new(
-            format!("scene inside {shown}"),
-            result.head.scene_toml.clone(),
-        );
-        let gears = SystemScene::from_document(document, &folder)?
-            .load()?
-            .gears_in_motion()?;
-        if gears.gears.is_empty() {
-            return Err(Failure::input(format!(
-                "{shown}: no body of the scene is a cylindrical gear or has a reduced bevel gear (bevel_models)"
-            )));
-        }
+        let gears = machine_of(a, result)?;
         for mesh in &gears.without_forces {
             watch.note(format!("no forces on the teeth of {mesh}"));
         }
@@ -113,9 +103,28 @@ impl SystemMoments {
         })
     }
 
+    /// Refuses a machine without gears.
+    ///
+    /// # Errors
+    /// [`Failure`] naming the result.
+    pub fn demand_gears(&self, file: &Path) -> Result<(), Failure> {
+        if self.gears.gears.is_empty() {
+            return Err(Failure::input(format!(
+                "{}: no body of the scene is a cylindrical gear or has a reduced bevel gear (bevel_models)",
+                file.display()
+            )));
+        }
+        Ok(())
+    }
+
     /// Gears, in the order in which a moment numbers them.
     pub fn gears(&self) -> &[MovingGear] {
         &self.gears.gears
+    }
+
+    /// What is drawn beside the gears.
+    pub fn parts(&self) -> &MovingParts {
+        &self.gears.parts
     }
 
     /// What a row is of what the series runs over.
@@ -161,6 +170,20 @@ impl SystemMoments {
             von_mises_pa: Vec::new(),
         })
     }
+}
+
+/// The machine of a result: its gears, what is drawn beside them, its meshes.
+///
+/// # Errors
+/// [`Failure`] for files that are not as they were in the run.
+pub fn machine_of(a: &WantedMoments<'_>, result: &SystemResult) -> Result<GearsInMotion, Failure> {
+    let folder = scene_folder(a, result)?;
+    let document = InputDocument::new(
+        format!("scene inside {}", a.result.display()),
+        result.head.scene_toml.clone(),
+    );
+    let scene = SystemScene::from_document(document, &folder)?;
+    Ok(scene.load()?.gears_in_motion()?)
 }
 
 /// A gear as it is drawn without stress.

@@ -15,6 +15,7 @@ import logging
 import os
 import socket
 import sys
+import threading
 import time
 import uuid
 from pathlib import Path
@@ -190,18 +191,15 @@ class _Connection:
         return self
 
     def _connect(self, timeout_s: float) -> Client:
-        from distributed import Client
-
-        address = str(self._address)
+        given = str(self._address)
         try:
-            if Path(address).is_file():
-                client = Client(scheduler_file=address, timeout=timeout_s, set_as_default=False)
-            else:
-                client = Client(address, timeout=timeout_s, set_as_default=False)
-        except (OSError, ValueError, TypeError, KeyError, AttributeError, AssertionError) as cause:
-            # All but the first: a file that is no scheduler file.
+            address = _address_of(given)
+            _await_answer(address, timeout_s)
+            client = _client_of(address, timeout_s)
+        except Exception as cause:
+            # Whatever dask makes of what is no scheduler: out of memory, where the first bytes are read as a length.
             raise _native.InputError(
-                f"--scheduler: no scheduler answers at {address!r} ({str(cause) or 'it names none'}); give the address of a running dask scheduler, as "
+                f"--scheduler: no scheduler answers at {given!r} ({str(cause) or type(cause).__name__}); give the address of a running dask scheduler, as "
                 "tcp://HOST:8786, its scheduler file, or local"
             ) from cause
         self._own.append(client)
@@ -275,12 +273,72 @@ class _Connection:
         self._logger.setLevel(self._level)
 
 
+def _address_of(given: str) -> str:
+    """The scheduler's address: as given, or as its scheduler file names it."""
+    if not Path(given).is_file():
+        return given
+    try:
+        address = json.loads(Path(given).read_text(encoding="utf-8"))["address"]
+    except (ValueError, TypeError, KeyError):
+        address = None
+    if not isinstance(address, str):
+        raise ValueError("it names none")
+    return address
+
+
+def _host_and_port(address: str) -> tuple[str, int]:
+    host, port = address.rsplit("://", 1)[-1].rsplit(":", 1)
+    return host.strip("[]"), int(port)
+
+
+def _await_answer(address: str, timeout_s: float) -> None:
+    """Waits until something listens there. OSError where nothing does in time, ValueError for what is no address."""
+    place = _host_and_port(address)
+    give_up = time.monotonic() + timeout_s
+    while True:
+        try:
+            with socket.create_connection(place, timeout=timeout_s):
+                return
+        except OSError:
+            if time.monotonic() > give_up:
+                raise
+            time.sleep(0.1)
+
+
+def _client_of(address: str, timeout_s: float) -> Client:
+    """A client of the scheduler there. OSError where what listens there says nothing, other errors as dask raises them.
+
+    One that fails is closed here: dask would close it with the garbage, maybe while it holds the lock of its loops to start
+    another client, and would wait for itself without end. One that hears nothing at all waits on, on its thread.
+    """
+    from distributed import Client
+
+    client = Client.__new__(Client)
+    failed: list[BaseException] = []
+
+    def begin() -> None:
+        try:
+            client.__init__(address, timeout=timeout_s, set_as_default=False)
+        except BaseException as error:
+            with contextlib.suppress(Exception):
+                client.close(timeout=2)
+            failed.append(error)
+
+    beginning = threading.Thread(target=begin, daemon=True, name="gearmesh connects")
+    beginning.start()
+    beginning.join(2.0 * timeout_s + 2.0)
+    if beginning.is_alive():
+        raise OSError("what listens there says nothing")
+    if failed:
+        raise failed[0]
+    return client
+
+
 def _answers(client: Client) -> bool:
     """Whether the scheduler is still there."""
     scheduler = client.scheduler
     try:
-        host, port = str(scheduler.address if scheduler else "").rsplit("://", 1)[-1].rsplit(":", 1)
-        with socket.create_connection((host.strip("[]"), int(port)), timeout=5.0):
+        with socket.create_connection(_host_and_port(str(scheduler.address if scheduler else "")), timeout=5.0):
             return client.status == "running"
     except (OSError, ValueError):
         # No address of a host: a scheduler inside this process, which is there.

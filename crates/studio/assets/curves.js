@@ -12,8 +12,9 @@ export class Chart {
   #plot = null;
   #shape = "";
 
-  constructor(place, { title, x, y, height = 190, moved = null, bars = false, zoomed = null }) {
-    Object.assign(this, { title, x, y, height, moved, bars, zoomed });
+  /** `moved(place)` hears of the cursor; `linked`: charts of one key share it. */
+  constructor(place, { title, x, y, height = 190, moved = null, linked = moved && KEY, bars = false, zoomed = null }) {
+    Object.assign(this, { title, x, y, height, moved, linked, bars, zoomed });
     this.figure = document.createElement("figure");
     const caption = document.createElement("figcaption");
     this.unit = document.createElement("span");
@@ -58,11 +59,12 @@ export class Chart {
       dash: one.dash ?? [],
       width: one.width ?? 1.6,
       points: { show: false },
+      spanGaps: one.spanGaps ?? false,
       value: (_, value) => short(value),
       ...(this.bars ? { paths: uPlot.paths.bars({ size: [0.8 / series.length, 14] }), fill: one.colour ?? curveColour(k) } : {}),
     }));
     const cursor = { drag: { x: this.zoomed !== null, y: false, setScale: false }, points: { size: 7 } };
-    if (this.moved) cursor.sync = { key: KEY, setSeries: false };
+    if (this.linked) cursor.sync = { key: this.linked, setSeries: false };
     return {
       width: Math.max(this.box.clientWidth, 200),
       height: this.height,
@@ -87,7 +89,7 @@ export class Chart {
   }
 
   #mark(plot) {
-    if (this.mark === undefined || !this.moved) return;
+    if (this.mark === undefined || !this.linked) return;
     const at = plot.valToPos(this.mark, "x", true);
     const { left, top, width, height } = plot.bbox;
     if (at < left || at > left + width) return;
@@ -148,14 +150,31 @@ export function lineLoads(answer, torque, angle) {
   return lines;
 }
 
-/** Curves that share an abscissa: gaps where one has no value. */
-function joined(lines) {
-  const all = [...new Set(lines.flatMap((line) => line.z))].sort((a, b) => a - b);
-  const at = new Map(all.map((z, k) => [z, k]));
-  const series = lines.map(({ label, z, values }, k) => {
+/** Curves over one abscissa, with gaps where one has no value unless it spans them. Several values at one place stay. */
+export function joined(lines) {
+  // A place counts as often as the curve that has it most often.
+  const counts = new Map();
+  for (const { z } of lines) {
+    const own = new Map();
+    for (const place of z) own.set(place, (own.get(place) ?? 0) + 1);
+    for (const [place, count] of own) counts.set(place, Math.max(counts.get(place) ?? 0, count));
+  }
+  const places = [...counts.keys()].sort((a, b) => a - b);
+  const all = [];
+  const at = new Map();
+  for (const place of places) {
+    at.set(place, all.length);
+    for (let k = 0; k < counts.get(place); k++) all.push(place);
+  }
+  const series = lines.map(({ label, z, values, colour, dash, spanGaps }, k) => {
     const own = Array(all.length).fill(null);
-    z.forEach((place, j) => (own[at.get(place)] = values[j]));
-    return { label, values: own, dash: DASHES[k % DASHES.length] };
+    const used = new Map();
+    z.forEach((place, j) => {
+      const nth = used.get(place) ?? 0;
+      used.set(place, nth + 1);
+      own[at.get(place) + nth] = values[j];
+    });
+    return { label, values: own, colour, dash: dash ?? DASHES[k % DASHES.length], spanGaps };
   });
   return [all, series];
 }

@@ -5,10 +5,10 @@ import { Form } from "./form.js";
 import { Job } from "./job.js";
 import { element } from "./dom.js";
 import { byId, fail, say } from "./said.js";
-import { showBevel, showColumnsTable, showImport } from "./outcome.js";
+import { Bevel, showColumnsTable, showImport } from "./outcome.js";
 
-/** Milliseconds without a key after which files are looked at. */
-const PAUSE = 250;
+/** Milliseconds without a change after which files are looked at. */
+const PAUSE = 60;
 
 /** One text of a kind: what the form sets is set in it, what is typed in it is read by the form. */
 class Texts {
@@ -61,12 +61,14 @@ class Texts {
 }
 
 export async function showNew() {
-  const { kinds, folder } = await ask("/api/new");
+  const { kinds, folder, begun } = await ask("/api/new");
   byId("begin").hidden = false;
   byId("tools").hidden = true;
   byId("file").textContent = "Something new";
   byId("where").textContent = `Files are written into a new folder in ${folder}.`;
-  let [texts, form, shown, looking] = [null, null, null, null];
+  let [texts, form, shown, looking, bevel] = [null, null, null, null, null];
+  const looks = [];
+  globalThis.gearmeshLooks = looks;
   const job = new Job((words) => {
     say(words);
     byId("stop").hidden = false;
@@ -86,11 +88,16 @@ export async function showNew() {
 
   async function look() {
     try {
-      const { warnings, figures } = await ask("/api/new", texts.body);
+      const begun = performance.now();
+      const found = await ask("/api/new", texts.body);
+      const { warnings, columns } = found;
       fail(null);
       byId("run").disabled = false;
       say(warnings.length > 0 ? warnings.join("  ") : "Nothing is wrong with these files.");
-      if (figures) showColumnsTable(byId("outcome"), figures);
+      if (texts.kind.name === "bevel-pair") (bevel ??= new Bevel(byId("outcome"))).show(found);
+      else if (columns) showColumnsTable(byId("outcome"), columns);
+      // For the bench: until the browser has painted it.
+      requestAnimationFrame(() => setTimeout(() => looks.push(performance.now() - begun)));
     } catch (problem) {
       if (problem.kind === "overtaken") return;
       byId("run").disabled = true;
@@ -105,9 +112,10 @@ export async function showNew() {
     looking = setTimeout(look, PAUSE);
   }
 
-  function begin(kind) {
+  /** `look`: at the files as they are; without, something is changed in them next. */
+  function begin(kind, look = true) {
     texts = new Texts(kind, changed);
-    shown = null;
+    [shown, bevel] = [null, null];
     byId("outcome").replaceChildren();
     byId("begun").hidden = false;
     byId("run").hidden = kind.name === "bearing";
@@ -121,7 +129,8 @@ export async function showNew() {
       });
       return tab;
     }));
-    changed();
+    if (look) changed();
+    else draw();
   }
 
   async function work(path, body, show) {
@@ -172,8 +181,14 @@ export async function showNew() {
       if (result.opens) location.reload();
       else {
         say(`The files are in ${result.folder}.`);
-        showBevel(byId("outcome"), result);
+        (bevel ??= new Bevel(byId("outcome"))).show(result);
       }
     }));
-  say("Choose what to begin. Every field has a value that runs at once; the text beside the fields is the file itself.");
+  if (begun) {
+    const kind = kinds.find(({ name }) => name === begun.kind);
+    for (const file of kind.files) file.text = begun.files[file.name] ?? file.text;
+    begin(kind, false);
+    // Fields as the text has them.
+    texts.type(texts.file.text);
+  } else say("Choose what to begin. Every field has a value that runs at once; the text beside the fields is the file itself.");
 }

@@ -22,22 +22,28 @@ export function showColumnsTable(place, { torques_Nm, columns }) {
   place.replaceChildren(table(heads, rows));
 }
 
-/** A bevel pair: its transmission error without load, that and its pressures under each torque, and its columns. */
-export function showBevel(place, { tca, columns, load, lines }) {
-  showColumnsTable(place, columns);
-  const curves = element("div");
-  place.prepend(curves);
-  const free = new Chart(curves, { title: "Transmission error without load", x: "pinion angle °", y: "µrad of the gear" });
-  free.show(tca.path.map((one) => one.pinion_deg), [{ label: "this pair of teeth", values: tca.path.map((one) => one.error_urad), dash: [] }]);
-  if (load) {
-    const angles = load.angle_deg.length;
-    const curve = (values, k) => values.slice(k * angles, (k + 1) * angles);
-    const series = (values) => load.torques_Nm.map((torque, k) => ({ label: `${short(torque)} N·m`, values: curve(values, k), dash: [[], [6, 3], [2, 2]][k % 3] }));
-    const error = new Chart(curves, { title: "Transmission error", x: "pinion angle °", y: "µm, under torques on the gear" });
-    error.show(load.angle_deg, [...series(load.te_um), { label: "no load", values: load.unloaded_um, dash: [1, 3] }]);
-    new Chart(curves, { title: "Largest pressure", x: "pinion angle °", y: "MPa" }).show(load.angle_deg, series(load.pressure_largest_MPa));
+/** A bevel pair: its transmission error and pressure under each torque, its columns; once it was run, also what `gearmesh tca` finds. */
+export class Bevel {
+  constructor(place) {
+    [this.place, this.curves, this.figures] = [place, element("div"), element("div")];
+    const chart = (title, y) => new Chart(this.curves, { title, x: "pinion angle °", y });
+    this.error = chart("Transmission error", "µm, under torques on the gear");
+    this.pressure = chart("Largest pressure", "MPa");
+    this.free = chart("Transmission error without load", "µrad of the gear");
   }
-  place.append(element("details", {}, element("summary", {}, "As gearmesh tca prints it"), element("pre", {}, lines.join("\n"))));
+
+  show({ tca, columns, load, lines }) {
+    if (this.curves.parentElement !== this.place) this.place.replaceChildren(this.curves, this.figures);
+    const path = tca?.path ?? [];
+    this.free.show(path.map((one) => one.pinion_deg), path.length > 0 ? [{ label: "this pair of teeth", values: path.map((one) => one.error_urad), dash: [] }] : []);
+    const angles = load?.angle_deg ?? [];
+    const curve = (values, k) => values.slice(k * angles.length, (k + 1) * angles.length);
+    const series = (values) => (load?.torques_Nm ?? []).map((torque, k) => ({ label: `${short(torque)} N·m`, values: curve(values, k), dash: [[], [6, 3], [2, 2]][k % 3] }));
+    this.error.show(angles, load ? [...series(load.te_um), { label: "no load", values: load.unloaded_um, dash: [1, 3] }] : []);
+    this.pressure.show(angles, series(load?.pressure_largest_MPa));
+    showColumnsTable(this.figures, columns);
+    if (lines) this.figures.append(element("details", {}, element("summary", {}, "As gearmesh tca prints it"), element("pre", {}, lines.join("\n"))));
+  }
 }
 
 /** A gearbox: what its shafts, bearings and meshes carry at rest, and what became of the file. */

@@ -15,7 +15,7 @@ export class View3d {
     const lamp = new THREE.DirectionalLight(0xffffff, 2.2);
     lamp.position.set(-0.4, 0.7, 1);
     this.scene.add(lamp);
-    // `size`: what has to fit into the width; none before something is drawn.
+    // `size`: what has to fit into the width, `high` into the height; none before something is drawn.
     this.view = { turn: -0.5, tilt: 0.45, zoom: 1, target: new THREE.Vector3() };
     this.#controls();
     new ResizeObserver(() => this.draw()).observe(canvas);
@@ -36,10 +36,10 @@ export class View3d {
     if (width === 0 || !this.view.size) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    const { turn, tilt, target, size, zoom } = this.view;
+    const { turn, tilt, target, size, high = 0.45 * size, zoom } = this.view;
     const half = Math.tan((0.5 * this.camera.fov * Math.PI) / 180) * Math.min(1, this.camera.aspect);
     const wide = this.camera.aspect > 1 ? size / this.camera.aspect : size;
-    const distance = (0.56 * Math.max(wide, 0.45 * size)) / half / zoom;
+    const distance = (0.56 * Math.max(wide, high)) / half / zoom;
     const along = new THREE.Vector3(Math.sin(turn) * Math.cos(tilt), Math.sin(tilt), Math.cos(turn) * Math.cos(tilt));
     this.camera.position.copy(target).addScaledVector(along, distance);
     this.camera.near = distance / 100;

@@ -32,7 +32,7 @@ macro_rules! own {
     };
 }
 
-const OWN: [Asset; 25] = own!(
+const OWN: [Asset; 27] = own!(
     "index.html" PAGE,
     "studio.css" STYLE,
     "icon.svg" PICTURE,
@@ -51,6 +51,8 @@ const OWN: [Asset; 25] = own!(
     "scene3d.js" SCRIPT,
     "view3d.js" SCRIPT,
     "motion.js" SCRIPT,
+    "mechanism.js" SCRIPT,
+    "modes.js" SCRIPT,
     "orbit.js" SCRIPT,
     "waterfall.js" SCRIPT,
     "flank.js" SCRIPT,

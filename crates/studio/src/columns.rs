@@ -9,7 +9,7 @@ use gearmesh_operations::{Watch, moving_system};
 use gearmesh_report::min_max;
 use gearmesh_report::words_and_unit;
 use gearmesh_scene::system_run::{SystemResult, rank};
-use gearmesh_signal::{Window, amplitude_spectrum};
+use gearmesh_signal::{Band, SeriesError, Spectrum, Window, amplitude_spectrum, envelope};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -26,6 +26,9 @@ const MOST_TOGETHER: usize = 20_000;
 
 /// Moments of a picture that moves.
 const MOST_MOMENTS: usize = 150;
+
+/// Edges of an envelope's band, as a share of its width; as in `gearmesh signal envelope`.
+const EDGE: f64 = 0.1;
 
 /// A stretch of a result whose gears are drawn.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -45,6 +48,7 @@ pub struct ColumnsSession {
     names: Vec<String>,
     axis: Vec<f64>,
     axis_name: String,
+    beside: Option<Box<ColumnsSession>>,
 }
 
 /// Which curves.
@@ -54,12 +58,40 @@ pub struct CurvesAsked {
     columns: Vec<String>,
     from: Option<f64>,
     to: Option<f64>,
-    /// Amplitudes over frequency in the place of values over time.
     #[serde(default)]
-    spectrum: bool,
-    /// Whole rows, evenly chosen, in the place of least and largest values: those of two columns are none of one row.
+    shown: Shown,
+    /// Band of an envelope \[Hz\].
+    #[serde(rename = "band_Hz")]
+    band_hz: Option<[f64; 2]>,
+    /// Those of the result beside this one.
     #[serde(default)]
-    together: bool,
+    beside: bool,
+}
+
+/// What is drawn of a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Shown {
+    /// Values over time, by least and largest ones.
+    #[default]
+    Curves,
+    /// Amplitudes over frequency.
+    Spectrum,
+    /// Amplitudes of the envelope of a band over frequency.
+    Envelope,
+    /// Whole rows, evenly chosen: least and largest values of two columns are none of one row.
+    Together,
+}
+
+/// The spectrum of values, or of the envelope of a band of them.
+fn lines(values: &[f64], rate: f64, band: Option<Band>) -> Result<Spectrum, SeriesError> {
+    match band {
+        None => amplitude_spectrum(values, rate, Window::Hann),
+        Some(band) => {
+            let found = envelope(values, rate, band)?;
+            amplitude_spectrum(&found.envelope, rate, Window::Hann)
+        }
+    }
 }
 
 impl ColumnsSession {
@@ -69,7 +101,7 @@ impl ColumnsSession {
     /// [`Problem::Input`] for a result without rows.
     pub fn new(file: &Path, result: SystemResult) -> Result<Self, Problem> {
         let columns = result.rows.columns();
-        let Some(first) = columns.first().filter(|_| result.rows.rows() > 1) else {
+        let Some(first) = columns.first().filter(|_| result.rows.rows() > 0) else {
             let problem = format!(
                 "{}: a {} result has no rows to draw; `gearmesh report` shows it",
                 result.head.title, result.kind
@@ -82,7 +114,9 @@ impl ColumnsSession {
         shown.sort_by_key(|column| rank(&column.name));
         let listed = shown.iter().map(|column| {
             let (label, _) = words_and_unit(&column.name);
-            json!({"name": column.name, "label": label, "unit": column.unit, "help": column.description})
+            // A pure number has none to show.
+            let unit = if column.unit == "1" { "" } else { &column.unit };
+            json!({"name": column.name, "label": label, "unit": unit, "help": column.description})
         });
         let (label, unit) = words_and_unit(&axis_name);
         let description = json!({
@@ -92,14 +126,47 @@ impl ColumnsSession {
             "axis": {"name": axis_name, "label": label, "unit": unit},
             "columns": listed.collect::<Vec<_>>(),
         });
-        Ok(Self {
+        let band = result.spectrum_band();
+        let mut session = Self {
             file: file.to_owned(),
             names: columns.iter().map(|column| column.name.clone()).collect(),
             result: Mutex::new(result),
             description,
             axis,
             axis_name,
-        })
+            beside: None,
+        };
+        let highest = session.rate(&session.axis).map(|rate| 0.5 * rate * band);
+        session.description["highest_Hz"] = json!(highest.ok());
+        Ok(session)
+    }
+
+    /// The session with another result beside it, which must run over the same quantity.
+    ///
+    /// # Errors
+    /// [`Problem::Input`] where it runs over something else.
+    pub fn with_beside(mut self, other: Self) -> Result<Self, Problem> {
+        if other.axis_name != self.axis_name {
+            return Err(Problem::Input(format!(
+                "--beside {}: runs over `{}`, the result over `{}`; allowed are two of one kind",
+                other.file.display(),
+                other.axis_name,
+                self.axis_name
+            )));
+        }
+        let name = |path: &Path| {
+            let name = path.file_name().unwrap_or(path.as_os_str());
+            name.to_string_lossy().into_owned()
+        };
+        self.description["file"] = json!(name(&self.file));
+        self.description["beside"] = json!({
+            "title": other.description["title"],
+            "file": name(&other.file),
+            "rows": other.description["rows"],
+            "columns": other.names,
+        });
+        self.beside = Some(Box::new(other));
+        Ok(self)
     }
 
     /// The columns, those first that a reader asks for first.
@@ -125,8 +192,16 @@ impl ColumnsSession {
     /// Curves, or their spectra.
     ///
     /// # Errors
-    /// [`Problem::Input`] for a column that is not there and for rows without a spectrum.
+    /// [`Problem::Input`] for a column that is not there, for rows without a spectrum, and where no result stands beside.
     pub fn curves(&self, asked: &CurvesAsked) -> Result<Value, Problem> {
+        if asked.beside {
+            let other = self.beside.as_ref().ok_or(Problem::Absent)?;
+            let own = CurvesAsked {
+                beside: false,
+                ..asked.clone()
+            };
+            return other.curves(&own);
+        }
         if asked.columns.len() > MOST_COLUMNS {
             let found = asked.columns.len();
             return Err(Problem::Input(format!(
@@ -140,51 +215,62 @@ impl ColumnsSession {
         let rows = self.stretch([asked.from, asked.to]);
         let result = self.locked()?;
         let x = &self.axis[rows.clone()];
-        if asked.spectrum {
-            let rate = self.rate(x)?;
-            let spectrum_of = |name: &String| -> Result<(f64, Vec<f64>), Problem> {
-                let values = result.read_for_spectrum(name)?;
-                let found = amplitude_spectrum(&values[rows.clone()], rate, Window::Hann);
-                let found = found.map_err(|error| Problem::Input(format!("{name}: {error}")))?;
-                let lines =
-                    ((found.highest() * result.spectrum_band()) / found.line_spacing) as usize;
-                Ok((
-                    found.line_spacing,
-                    found.values.into_iter().take(lines + 1).collect(),
-                ))
-            };
-            let spectra = asked
-                .columns
-                .iter()
-                .map(spectrum_of)
-                .collect::<Result<Vec<_>, Problem>>()?;
-            let lines = spectra.first().map_or(0, |(_, values)| values.len());
-            let spacing = spectra.first().map_or(0.0, |(spacing, _)| *spacing);
-            let x: Vec<f64> = (0..lines).map(|line| spacing * line as f64).collect();
-            let curves: Vec<Vec<f64>> = spectra
-                .iter()
-                .map(|(_, values)| min_max::values(values))
-                .collect();
-            return Ok(json!({"x": min_max::abscissas(&x), "curves": curves, "rows": rows.len()}));
-        }
         let every = rows.len().div_ceil(MOST_TOGETHER).max(1);
-        if asked.together {
-            let read = |name: &String| -> Result<Vec<f64>, Problem> {
-                let values = result.rows.read_rows(name, rows.clone())?;
-                Ok(values.into_iter().step_by(every).collect())
-            };
-            let curves = asked.columns.iter().map(read);
-            let curves = curves.collect::<Result<Vec<_>, Problem>>()?;
-            let x: Vec<f64> = x.iter().copied().step_by(every).collect();
-            return Ok(json!({"x": x, "curves": curves, "rows": rows.len(), "every": every}));
-        }
-        let read = |name: &String| Ok(min_max::values(&result.rows.read_rows(name, rows.clone())?));
-        let curves = asked
-            .columns
-            .iter()
-            .map(read)
-            .collect::<Result<Vec<_>, Problem>>()?;
-        Ok(json!({"x": min_max::abscissas(x), "curves": curves, "rows": rows.len()}))
+        let read = |name: &String| -> Result<Vec<f64>, Problem> {
+            let values = result.rows.read_rows(name, rows.clone())?;
+            Ok(match asked.shown {
+                Shown::Together => values.into_iter().step_by(every).collect(),
+                _ => min_max::values(&values),
+            })
+        };
+        let (x, curves) = match asked.shown {
+            Shown::Spectrum | Shown::Envelope => {
+                let band = match (asked.shown, asked.band_hz) {
+                    (Shown::Envelope, Some([low, high])) => Some(Band {
+                        low,
+                        high,
+                        edge: EDGE * (high - low).max(0.0),
+                    }),
+                    (Shown::Envelope, None) => {
+                        return Err(Problem::Input("an envelope needs band_Hz".to_owned()));
+                    }
+                    _ => None,
+                };
+                let rate = self.rate(x)?;
+                let mut found = Vec::new();
+                for name in &asked.columns {
+                    let values = &result.read_for_spectrum(name)?[rows.clone()];
+                    let of = lines(values, rate, band);
+                    let of = of.map_err(|error| Problem::Input(format!("{name}: {error}")))?;
+                    let highest = of.highest() * result.spectrum_band();
+                    let count = (highest / of.line_spacing) as usize + 1;
+                    found.push((of.line_spacing, of.values, count));
+                }
+                let (spacing, count) =
+                    found.first().map_or((0.0, 0), |(spacing, values, count)| {
+                        (*spacing, (*count).min(values.len()))
+                    });
+                let x: Vec<f64> = (0..count).map(|line| spacing * line as f64).collect();
+                let curves = found
+                    .iter()
+                    .map(|(_, values, _)| min_max::values(&values[..count]));
+                (min_max::abscissas(&x), curves.collect())
+            }
+            Shown::Together => {
+                let x = x.iter().copied().step_by(every).collect();
+                let curves: Result<Vec<_>, Problem> = asked.columns.iter().map(read).collect();
+                (x, curves?)
+            }
+            Shown::Curves => {
+                let curves: Result<Vec<_>, Problem> = asked.columns.iter().map(read).collect();
+                (min_max::abscissas(x), curves?)
+            }
+        };
+        let every = match asked.shown {
+            Shown::Together => every,
+            _ => 1,
+        };
+        Ok(json!({"x": x, "curves": curves, "rows": rows.len(), "every": every}))
     }
 
     pub(crate) fn locked(&self) -> Result<MutexGuard<'_, SystemResult>, Problem> {

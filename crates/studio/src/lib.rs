@@ -10,6 +10,7 @@ mod form_walk;
 mod guard;
 mod job;
 mod latest;
+mod modes;
 mod opened;
 mod pair;
 mod problem;

@@ -2,9 +2,12 @@
 
 use std::path::Path;
 
+use gearmesh_scene::system_run::ResultKind;
 use gearmesh_scene::{ResultFile, SceneFile};
 
+use crate::beginning::{NewFiles, begun_bevel};
 use crate::columns::ColumnsSession;
+use crate::modes::ModesSession;
 use crate::pair::PairSession;
 use crate::problem::Problem;
 
@@ -15,8 +18,10 @@ pub enum Opened {
     Pair(Box<PairSession>),
     /// The result of a multibody scene.
     Columns(Box<ColumnsSession>),
-    /// Nothing yet: what is made new is opened next.
-    New,
+    /// Natural modes of a multibody scene.
+    Modes(Box<ModesSession>),
+    /// Something new, or begun already: what is made of it is opened next.
+    New(Option<Box<NewFiles>>),
 }
 
 impl Opened {
@@ -39,6 +44,9 @@ impl Opened {
                 ResultFile::Pair(result) => {
                     Ok(Self::Pair(Box::new(PairSession::of_result(path, &result)?)))
                 }
+                ResultFile::System(result) if result.kind == ResultKind::Eigen => {
+                    Ok(Self::Modes(Box::new(ModesSession::new(path, *result)?)))
+                }
                 ResultFile::System(result) => {
                     Ok(Self::Columns(Box::new(ColumnsSession::new(path, *result)?)))
                 }
@@ -46,11 +54,25 @@ impl Opened {
         }
         match SceneFile::read(path)? {
             SceneFile::Pair(_) => Ok(Self::Pair(Box::new(PairSession::read(path)?))),
-            SceneFile::Bevel(_) => Err(Problem::Input(format!(
-                "{shown}: is a bevel pair; `gearmesh tca {shown} --report page.html` shows its contact, `gearmesh run` what it is under load"
-            ))),
+            SceneFile::Bevel(_) => Ok(Self::New(Some(Box::new(begun_bevel(path)?)))),
             SceneFile::System(_) => Err(Problem::Input(format!(
                 "{shown}: is a multibody scene, which runs for minutes; run it with `gearmesh run {shown} -o result.h5` and open the result"
+            ))),
+        }
+    }
+
+    /// The result of a multibody scene with another one beside it.
+    ///
+    /// # Errors
+    /// As [`Opened::named`] of either, and for results that have no columns in common.
+    pub fn beside(self, other: &Path) -> Result<Self, Problem> {
+        match (self, Self::named(other)?) {
+            (Self::Columns(first), Self::Columns(second)) => {
+                Ok(Self::Columns(Box::new(first.with_beside(*second)?)))
+            }
+            _ => Err(Problem::Input(format!(
+                "--beside {}: allowed are two results of multibody scenes in time or at rest; states of a pair are compared by *Pin* on its page",
+                other.display()
             ))),
         }
     }
@@ -60,7 +82,16 @@ impl Opened {
         match self {
             Self::Pair(_) => "pair",
             Self::Columns(_) => "columns",
-            Self::New => "new",
+            Self::Modes(_) => "modes",
+            Self::New(_) => "new",
+        }
+    }
+
+    /// What is begun already.
+    pub fn begun(&self) -> Option<&NewFiles> {
+        match self {
+            Self::New(begun) => begun.as_deref(),
+            Self::Pair(_) | Self::Columns(_) | Self::Modes(_) => None,
         }
     }
 
@@ -71,18 +102,29 @@ impl Opened {
     pub fn pair(&self) -> Result<&PairSession, Problem> {
         match self {
             Self::Pair(pair) => Ok(pair),
-            Self::Columns(_) | Self::New => Err(Problem::Absent),
+            Self::Columns(_) | Self::Modes(_) | Self::New(_) => Err(Problem::Absent),
+        }
+    }
+
+    /// The modes.
+    ///
+    /// # Errors
+    /// [`Problem::Absent`] where it is something else.
+    pub fn modes(&self) -> Result<&ModesSession, Problem> {
+        match self {
+            Self::Modes(modes) => Ok(modes),
+            Self::Pair(_) | Self::Columns(_) | Self::New(_) => Err(Problem::Absent),
         }
     }
 
     /// The columns.
     ///
     /// # Errors
-    /// [`Problem::Absent`] where it is a pair.
+    /// [`Problem::Absent`] where it is something else.
     pub fn columns(&self) -> Result<&ColumnsSession, Problem> {
         match self {
             Self::Columns(columns) => Ok(columns),
-            Self::Pair(_) | Self::New => Err(Problem::Absent),
+            Self::Pair(_) | Self::Modes(_) | Self::New(_) => Err(Problem::Absent),
         }
     }
 }

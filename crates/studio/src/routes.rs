@@ -21,6 +21,7 @@ use crate::columns::{CurvesAsked, MomentsAsked};
 use crate::guard::{self, Address};
 use crate::job::Job;
 use crate::latest::Latest;
+use crate::modes::ModeAsked;
 use crate::opened::Opened;
 use crate::pair::Change;
 use crate::problem::Problem;
@@ -78,6 +79,7 @@ pub fn router(studio: Arc<Studio>, address: Arc<Address>) -> Router {
         .route("/columns", get(columns).post(curves))
         .route("/columns/moments", post(moments))
         .route("/columns/waterfall", post(waterfall))
+        .route("/modes", get(modes).post(mode))
         .route("/progress", get(progress))
         .route("/pair/optimise", post(seek))
         .route("/new", get(new).post(look))
@@ -210,6 +212,14 @@ async fn curves(
     Ok(Json(curves.await?))
 }
 
+async fn modes(State(studio): Shared) -> Result<Json<Value>, Problem> {
+    Ok(Json(studio.opened().modes()?.description()))
+}
+
+async fn mode(State(studio): Shared, Body(asked): Body<ModeAsked>) -> Result<Json<Value>, Problem> {
+    Ok(Json(studio.opened().modes()?.frames(&asked)?))
+}
+
 async fn progress(State(studio): Shared) -> Json<Value> {
     Json(json!({"solved": studio.latest.solved()}))
 }
@@ -254,8 +264,8 @@ async fn seek(State(studio): Shared, Body(seek): Body<Seek>) -> Result<Json<Valu
     Ok(Json(studio.job.progress()))
 }
 
-async fn new() -> Json<Value> {
-    Json(beginning::kinds())
+async fn new(State(studio): Shared) -> Json<Value> {
+    Json(beginning::kinds(studio.opened().begun()))
 }
 
 async fn edit(Body(edit): Body<Edit>) -> Result<Json<Value>, Problem> {
@@ -264,7 +274,7 @@ async fn edit(Body(edit): Body<Edit>) -> Result<Json<Value>, Problem> {
 
 /// Bearings are computed while one types: off the loop that answers.
 async fn look(State(studio): Shared, Body(files): Body<NewFiles>) -> Result<Json<Value>, Problem> {
-    let found = (studio.latest).run(move |_| beginning::looked_at(&files));
+    let found = (studio.latest).run(move |watch| beginning::looked_at(&files, &watch.stop));
     Ok(Json(found.await?))
 }
 
@@ -283,7 +293,7 @@ async fn begin(State(studio): Shared, Body(files): Body<NewFiles>) -> Json<Value
 
 /// Leaves what is shown for something new.
 async fn start(State(studio): Shared) -> Json<Value> {
-    studio.open(Opened::New);
+    studio.open(Opened::New(None));
     Json(json!({}))
 }
 

@@ -20,6 +20,7 @@ mod rust_tests;
 mod steps;
 mod system_libs;
 mod venv;
+mod watched;
 mod wheel;
 mod workspace;
 

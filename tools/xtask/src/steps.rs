@@ -12,6 +12,7 @@ use crate::python_module;
 use crate::rust_tests;
 use crate::system_libs;
 use crate::venv::Venv;
+use crate::watched::{self, SILENCE};
 use crate::workspace::Workspace;
 
 /// How much `cargo xtask test` runs.
@@ -82,14 +83,11 @@ fn beside_the_tests(
         command
     };
     let mut python_tests = Command::new(venv.python());
-    python_tests.current_dir(workspace.root()).args([
-        "-m",
-        "pytest",
-        "-q",
-        "-p",
-        "no:cacheprovider",
-        "tests/python",
-    ]);
+    python_tests
+        .current_dir(workspace.root())
+        .args(["-m", "pytest", "-v", "-p", "no:cacheprovider"])
+        // A test that does not end says where each of its threads stands; it is killed later.
+        .args(["-o", "faulthandler_timeout=300", "tests/python"]);
     set_environment(&mut python_tests, venv);
     // Built with the tests.
     python_tests.env("GEARMESH_PROGRAM", program()?);
@@ -244,24 +242,21 @@ pub fn run_checked(command: &mut Command) -> Result<(), XtaskError> {
     })
 }
 
-/// As [`run_checked`]; what the command prints is shown where it fails.
+/// As [`run_checked`]; what the command prints is shown where it fails, and it is killed where it prints nothing for
+/// [`SILENCE`].
 ///
 /// # Errors
 /// As [`run_checked`].
 fn run_silent(command: &mut Command) -> Result<(), XtaskError> {
-    let output = command
-        .stdin(Stdio::null())
-        .output()
+    let ended = watched::run(command, SILENCE, |_| {})
         .map_err(XtaskError::io(|| format!("starting {}", shown(command))))?;
-    if output.status.success() {
+    if ended.status.success() {
         return Ok(());
     }
-    for printed in [&output.stdout, &output.stderr] {
-        say(&String::from_utf8_lossy(printed));
-    }
+    say(&ended.output);
     Err(XtaskError::Failed {
         command: shown(command),
-        status: output.status.to_string(),
+        status: ended.status.to_string(),
     })
 }
 

@@ -9,6 +9,9 @@ pub struct StudioArguments {
     /// Scene of a gear pair (.toml), its result, or the result of a multibody scene (.h5); something new where not
     /// given
     pub file: Option<PathBuf>,
+    /// Another result of a multibody scene, whose curves are drawn beside those of the first one
+    #[arg(long, value_name = "RESULT", requires = "file")]
+    pub beside: Option<PathBuf>,
     /// Print the address only; open it yourself
     #[arg(long)]
     pub no_open: bool,

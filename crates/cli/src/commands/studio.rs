@@ -16,7 +16,11 @@ const OPENERS: [&str; 3] = ["xdg-open", "open", "wslview"];
 pub fn run(arguments: &StudioArguments) -> Result<(), Failure> {
     let opened = match &arguments.file {
         Some(file) => Opened::named(file).map_err(failure)?,
-        None => Opened::New,
+        None => Opened::New(None),
+    };
+    let opened = match &arguments.beside {
+        Some(other) => opened.beside(other).map_err(failure)?,
+        None => opened,
     };
     let demand = interrupt::on_demand();
     let options = ServeOptions {

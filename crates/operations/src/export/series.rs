@@ -35,6 +35,7 @@ pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer, Fail
                 scene_folder: a.scene_folder.as_deref(),
             };
             let mut moments = SystemMoments::new(&wanted, &result, watch)?;
+            moments.demand_gears(wanted.result)?;
             let rows = chosen(moments.rows(), a, watch);
             let unit = moments.unit;
             let gears = moments.gears();

@@ -8,8 +8,8 @@ use super::pair_columns::{PairColumns, RestColumn, columns};
 use super::rest_cases::RestFigures;
 use super::rest_columns;
 use crate::model_shelf::ModelShelf;
-use crate::pair::BevelScene;
 use crate::pair::bevel_result::BevelRest;
+use crate::pair::{BevelScene, SceneResult};
 
 /// Names of all columns of a bevel pair.
 ///
@@ -41,30 +41,54 @@ pub(crate) fn is_without_load(column: &str) -> bool {
         .any(|name| name == column)
 }
 
-/// All columns of a bevel pair. Models are those of the shelf, which reads each once.
-///
-/// # Errors
-/// [`StudyError`] where the flanks cannot be made or do not touch, a model cannot be read or is not that of the pair.
-pub(super) fn figures(subject: &BevelScene, shelf: &ModelShelf) -> Result<RestFigures, StudyError> {
-    let unloaded = rest_columns::of_bevel(subject).map_err(StudyError::Bevel)?;
-    let mut figures = RestFigures {
-        torques_nm: Vec::new(),
-        columns: Vec::new(),
-    };
-    let mut of_load = Vec::new();
-    if subject.file.load.is_some() {
-        let result = subject
-            .load(shelf)?
-            .run(&|_, _| (), &AtomicBool::new(false))?;
-        of_load = columns(&result);
-        figures.torques_nm = result.torque_nm;
+impl RestFigures {
+    /// All columns of a bevel pair, and its result under the torques of its `[load]`, if it has any. Models are those of the
+    /// shelf, which reads each once.
+    ///
+    /// # Errors
+    /// [`StudyError`] where the flanks cannot be made or do not touch, a model cannot be read or is not that of the pair, and
+    /// once `stop` is set.
+    pub fn solved_bevel(
+        subject: &BevelScene,
+        shelf: &ModelShelf,
+        stop: &AtomicBool,
+    ) -> Result<(Self, Option<SceneResult>), StudyError> {
+        let load = || -> Result<Option<SceneResult>, StudyError> {
+            if subject.file.load.is_none() {
+                return Ok(None);
+            }
+            Ok(Some(subject.load(shelf)?.run(&|_, _| (), stop)?))
+        };
+        let (unloaded, result) = rayon::join(|| rest_columns::of_bevel(subject), load);
+        let result = result?;
+        let figures = Self::of_columns(unloaded.map_err(StudyError::Bevel)?, result.as_ref());
+        Ok((figures, result))
     }
-    let rows = figures.torques_nm.len().max(1);
-    let without = rest_columns::bevel_names().into_iter().zip(unloaded);
-    let without = without.map(|(name, value)| RestColumn {
-        name,
-        values: vec![value; rows],
-    });
-    figures.columns = without.chain(of_load).collect();
-    Ok(figures)
+
+    /// All columns of a bevel pair whose torques, if it has any, are solved.
+    ///
+    /// # Errors
+    /// [`StudyError`] where the flanks cannot be made or do not touch.
+    pub fn of_bevel(
+        subject: &BevelScene,
+        result: Option<&SceneResult>,
+    ) -> Result<Self, StudyError> {
+        let unloaded = rest_columns::of_bevel(subject).map_err(StudyError::Bevel)?;
+        Ok(Self::of_columns(unloaded, result))
+    }
+
+    fn of_columns(unloaded: Vec<f64>, result: Option<&SceneResult>) -> Self {
+        let torques_nm = result.map_or_else(Vec::new, |result| result.torque_nm.clone());
+        let rows = torques_nm.len().max(1);
+        let without = rest_columns::bevel_names().into_iter().zip(unloaded);
+        let without = without.map(|(name, value)| RestColumn {
+            name,
+            values: vec![value; rows],
+        });
+        let of_load = result.map_or_else(Vec::new, columns);
+        Self {
+            columns: without.chain(of_load).collect(),
+            torques_nm,
+        }
+    }
 }

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 
 use gearmesh_model::{FileError, bytes_digest, file_digest, write_text};
@@ -218,7 +219,8 @@ impl RestCases {
                 Ok((figures, effort))
             }
             Subject::Bevel(pair) => {
-                let figures = loaded_columns::figures(pair, &self.shelf)?;
+                let going = AtomicBool::new(false);
+                let (figures, _) = RestFigures::solved_bevel(pair, &self.shelf, &going)?;
                 Ok((figures, clock.effort()))
             }
             Subject::Bearing(bearing) => {

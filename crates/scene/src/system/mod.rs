@@ -22,7 +22,8 @@ mod stage_summary;
 pub mod tables;
 
 pub use assembly::{
-    GearState, GearsInMotion, LoadedSystem, MovingGear, MovingShape, SliceLoad, Variation,
+    BodyAtStart, GearState, GearsInMotion, LoadedSystem, MovingElements, MovingGear, MovingPart,
+    MovingParts, MovingShape, PartKind, PartShape, SliceLoad, Variation,
 };
 pub(crate) use assembly::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 pub use built::{

@@ -1,7 +1,6 @@
 //! A part of a test program: tests that run one after another in one process.
 
-use std::io::{BufRead, BufReader};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 use crate::console::readable;
@@ -9,6 +8,7 @@ use crate::error::XtaskError;
 use crate::rust_tests::binaries::Binary;
 use crate::steps::{Extent, shown};
 use crate::venv::Venv;
+use crate::watched::{self, Ended, SILENCE};
 
 /// How long a program takes, and whether it is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -132,10 +132,7 @@ impl Part {
             .args(["--include-ignored", "--test-threads=1", "--exact"])
             .args(&self.tests)
             .current_dir(&self.binary.folder)
-            .env("CARGO_MANIFEST_DIR", &self.binary.folder)
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
+            .env("CARGO_MANIFEST_DIR", &self.binary.folder);
         if let Some((name, value)) = self.shows_output {
             command.arg("--show-output").env(name, value);
         }
@@ -146,38 +143,17 @@ impl Part {
                 command.env(threads, "1");
             }
         }
-        let program = self.binary.program.display();
-        let failed = |source| XtaskError::Io {
-            action: format!("running {program}"),
-            source,
-        };
-        let mut child = command.spawn().map_err(failed)?;
-        // What goes to stderr past the harness (a child's message, an abort) is rare: read beside, shown after the
-        // rest.
-        let stderr = child.stderr.take();
-        let beside = std::thread::spawn(move || {
-            let lines = stderr.map(|pipe| BufReader::new(pipe).lines());
-            let lines = lines.into_iter().flatten().map_while(Result::ok);
-            lines.map(|line| line + "\n").collect::<String>()
-        });
-        let mut output = String::new();
         let mut times = Vec::new();
         let mut last = Instant::now();
-        if let Some(stdout) = child.stdout.take() {
-            let mut reader = BufReader::new(stdout);
-            let mut line = Vec::new();
-            while reader.read_until(b'\n', &mut line).map_err(failed)? > 0 {
-                let text = String::from_utf8_lossy(&line);
-                if let Some((name, _)) = ended(&text) {
-                    times.push((name.to_owned(), last.elapsed()));
-                    last = Instant::now();
-                }
-                output.push_str(&text);
-                line.clear();
+        let hear = |line: &str| {
+            if let Some((name, _)) = ended(line) {
+                times.push((name.to_owned(), last.elapsed()));
+                last = Instant::now();
             }
-        }
-        let status = child.wait().map_err(failed)?;
-        output.push_str(&beside.join().unwrap_or_default());
+        };
+        let program = self.binary.program.display();
+        let Ended { status, mut output } = watched::run(&mut command, SILENCE, hear)
+            .map_err(XtaskError::io(|| format!("running {program}")))?;
         if !status.success() {
             output.push_str(&format!("{status}\n"));
         }

@@ -47,7 +47,7 @@ fn everything_begins_with_sound_files() {
     let found = studio
         .post("/api/new", &json!({"kind": "bearing", "files": bearing}))
         .json();
-    let columns = found["figures"]["columns"].as_array().unwrap();
+    let columns = found["columns"]["columns"].as_array().unwrap();
     let column = |name: &str| {
         let found = columns.iter().find(|one| one["name"] == name);
         number(&found.unwrap_or_else(|| panic!("no {name} in {columns:?}"))["values"][0])

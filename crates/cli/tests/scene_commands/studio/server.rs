@@ -37,6 +37,18 @@ impl Studio {
         Self::started(&["studio", argument(file), "--no-open"], Path::new("."))
     }
 
+    /// Of a result with another one beside it.
+    pub fn open_beside(file: &Path, other: &Path) -> Self {
+        let words = [
+            "studio",
+            argument(file),
+            "--beside",
+            argument(other),
+            "--no-open",
+        ];
+        Self::started(&words, Path::new("."))
+    }
+
     /// Of nothing yet; what is made lies in a folder.
     pub fn new_in(folder: &Path) -> Self {
         Self::started(&["studio", "--no-open"], folder)

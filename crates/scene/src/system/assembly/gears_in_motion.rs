@@ -12,7 +12,10 @@ use super::LoadedSystem;
 use super::gear_mesh::PreparedMesh;
 use super::gears::BodyGear;
 use super::parts::Parts;
+use super::parts_in_motion::{MovingParts, moving_parts};
 use super::shafts::PlacedShaft;
+use super::start::settle_phases;
+use crate::system_run::body_column;
 
 /// A body that is a gear. The frame of the body is that of the gear: z along the axis, tooth 0 on +x, the origin at mid-face or, of a bevel gear, in
 /// the pitch apex.
@@ -65,7 +68,7 @@ impl GearState {
         let units = ["m", "rad", "m_per_s", "rad_per_s"];
         std::array::from_fn(|k| {
             let axis = ["x", "y", "z"][k % 3];
-            format!("bodies/{body}/{}{axis}_{}", names[k / 3], units[k / 3])
+            body_column(body, &format!("{}{axis}_{}", names[k / 3], units[k / 3]))
         })
     }
 
@@ -146,6 +149,8 @@ pub struct GearsInMotion {
     pub gears: Vec<MovingGear>,
     /// Meshes whose forces are not known from the places of the bodies alone, and why.
     pub without_forces: Vec<String>,
+    /// What is drawn beside the gears.
+    pub parts: MovingParts,
     meshes: Vec<MovingMesh>,
 }
 
@@ -158,8 +163,10 @@ impl LoadedSystem {
         let tables = &self.scene.tables;
         let files = (&self.scene.document, self.scene.folder.as_path());
         let mut bodies = self.bodies()?;
+        let mut shafts = Vec::new();
         for (i, table) in tables.shaft.iter().enumerate() {
-            PlacedShaft::new(table, (files.0, format!("shaft.{i}")), &mut bodies)?;
+            let at = (files.0, format!("shaft.{i}"));
+            shafts.push(PlacedShaft::new(table, at, &mut bodies)?);
         }
         let mut places = vec![None; bodies.list.len()];
         let mut gears = Vec::new();
@@ -177,10 +184,18 @@ impl LoadedSystem {
                 shape,
             });
         }
-        let (mut meshes, mut without_forces) = (Vec::new(), Vec::new());
-        for (i, table) in tables.gear_mesh.iter().enumerate() {
+        let prepare = |(i, table)| {
             let key = format!("gear_mesh.{i}");
-            let prepared = PreparedMesh::new(table, files, key, &bodies, &mut Parts::default())?;
+            PreparedMesh::new(table, files, key, &bodies, &mut Parts::default())
+        };
+        let prepared = tables.gear_mesh.iter().enumerate().map(prepare);
+        let prepared = prepared.collect::<Result<Vec<PreparedMesh>, InputError>>()?;
+        let mut turned = bodies.clone();
+        let at = (files.0, self.seeks_rest());
+        settle_phases(&mut turned, &prepared, at, &mut Vec::new())?;
+        let parts = moving_parts(tables, files, &shafts, &mut turned)?;
+        let (mut meshes, mut without_forces) = (Vec::new(), Vec::new());
+        for prepared in prepared {
             let drawn = match &prepared.models {
                 Some(models) => [0, 1].map(|k: usize| {
                     let body = &bodies.list[prepared.bodies[k]].body.name;
@@ -215,6 +230,7 @@ impl LoadedSystem {
         Ok(GearsInMotion {
             gears,
             without_forces,
+            parts,
             meshes,
         })
     }

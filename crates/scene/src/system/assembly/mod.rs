@@ -46,6 +46,7 @@ mod operating_point;
 mod overlaps;
 mod pair_stiffness;
 mod parts;
+mod parts_in_motion;
 mod ratings;
 mod shafts;
 mod start;
@@ -59,6 +60,9 @@ pub(super) use self::bearings::cages::PlacedCage;
 pub(super) use self::bearings::tangent::TangentSeat;
 pub use gears_in_motion::{GearState, GearsInMotion, MovingGear, MovingShape, SliceLoad};
 pub(crate) use mesh_frequency::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
+pub use parts_in_motion::{
+    BodyAtStart, MovingElements, MovingPart, MovingParts, PartKind, PartShape,
+};
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -173,7 +177,7 @@ impl LoadedSystem {
     /// # Errors
     /// As [`LoadedSystem::build`].
     pub fn build_varied(&self, variation: &Variation) -> Result<BuiltSystem, InputError> {
-        let at_rest = matches!(self.scene.run, Run::Static { .. } | Run::Eigen { .. });
+        let at_rest = self.is_at_rest();
         let (tangents, notes) = operating_point::tangents(self, variation)?;
         let mut built = self.assemble(variation, at_rest, &tangents)?;
         built.notes.extend(notes);
@@ -182,6 +186,16 @@ impl LoadedSystem {
             start_in_equilibrium(&mut built, resting).map_err(|e| self.scene.complaint(&e))?;
         }
         Ok(built)
+    }
+
+    /// Whether its run has no time.
+    fn is_at_rest(&self) -> bool {
+        matches!(self.scene.run, Run::Static { .. } | Run::Eigen { .. })
+    }
+
+    /// Whether an equilibrium is sought before anything moves.
+    fn seeks_rest(&self) -> bool {
+        self.is_at_rest() || self.scene.solver.start == Start::Equilibrium
     }
 
     /// Whether the scene has bearings whose balls move.
@@ -265,7 +279,7 @@ impl LoadedSystem {
             .find(is_varied)
             .and_then(PlacedMotion::spin_at_start);
         stated_speeds::check(&tables.body, &bodies, &joints, document)?;
-        let seeks_rest = at_rest || self.scene.solver.start == Start::Equilibrium;
+        let seeks_rest = self.seeks_rest();
         let at = (document, seeks_rest);
         start::settle_phases(&mut bodies, &meshes, at, &mut parts.notes)?;
         overlaps::note(&bodies, &mut parts.notes);

@@ -29,6 +29,8 @@ pub(super) struct PlacedShaft {
     /// Ends of each section from the station before it \[m\].
     spans_m: Vec<[f64; 2]>,
     sections: Vec<BeamSection>,
+    /// Inner and outer radius of each section \[m\].
+    radii_m: Vec<[f64; 2]>,
     /// Body of each station; the shaft's one body for a rigid shaft.
     pub stations: Vec<usize>,
     /// Bodies that are fixed on a rigid shaft, with their stations.
@@ -42,6 +44,29 @@ impl PlacedShaft {
             .iter()
             .copied()
             .chain(self.seated.iter().map(|(body, _)| *body))
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The halves of all sections: body that carries it, frame in its middle, radii and length \[m\].
+    pub(super) fn half_sections(&self) -> impl Iterator<Item = (usize, Frame, [f64; 2], f64)> + '_ {
+        let of_section = move |number: usize| {
+            let [from, to] = self.spans_m[number];
+            let half = 0.5 * (to - from);
+            [0.25, 0.75].map(|share| {
+                let along = Vector3::new(0.0, 0.0, from + share * (to - from));
+                let end = usize::from(share > 0.5);
+                let station = self.stations.get(number + end).unwrap_or(&self.stations[0]);
+                let frame = Frame {
+                    origin_m: self.points_m[number] + self.axes * along,
+                    axes: self.axes,
+                };
+                (*station, frame, self.radii_m[number], half)
+            })
+        };
+        (0..self.spans_m.len()).flat_map(of_section)
     }
 
     /// Adds the shaft's bodies to the list and puts the seated ones in their places.
@@ -162,6 +187,7 @@ impl PlacedShaft {
             points_m,
             spans_m,
             sections: sections(table.model, &radii),
+            radii_m: radii,
             stations,
             seated,
             key,

@@ -18,7 +18,7 @@ fn ring(bearing: &str) -> String {
 }
 
 /// The bearing as it sits: on its outer ring's body where it has one.
-pub(super) fn seated(table: &BearingTable) -> Cow<'_, BearingTable> {
+pub(in crate::system::assembly) fn seated(table: &BearingTable) -> Cow<'_, BearingTable> {
     if table.housing.is_none() {
         return Cow::Borrowed(table);
     }

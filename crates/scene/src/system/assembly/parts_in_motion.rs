@@ -1,0 +1,374 @@
+//! What of a machine is drawn beside its gears: sections of shafts, bearings with their balls or rollers, cages, and the
+//! bodies of which nothing but the inertia is known.
+
+use std::path::Path;
+
+use gearmesh_bearings::{ElementOutline, QuasiStaticBearing};
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::bearings::{cages, housing, rolling_bearing};
+use super::bodies::{Bodies, Frame};
+use super::shafts::PlacedShaft;
+use crate::system::scene::SystemTables;
+use crate::system::tables::bearing::{BearingModel, BearingTable};
+use crate::system_run::{body_column, element_column};
+
+/// Half the height of a ring's shoulder from the pitch circle, and how far the ring goes, as shares of a ball's diameter.
+const RING: [f64; 2] = [0.2, 0.85];
+/// Width of a ring over that of its balls or rollers.
+const RING_WIDTH: f64 = 1.15;
+/// A bearing of which no ball is known, over the radius of its shaft: outside of the ring, and width.
+const PLAIN_RING: [f64; 2] = [1.5, 0.8];
+/// A cage's height and width over the diameter of its balls.
+const CAGE: [f64; 2] = [0.3, 0.9];
+
+/// A solid that a body carries.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MovingPart {
+    /// Whose it is: a shaft, a bearing, a body.
+    pub owner: String,
+    /// What it is.
+    pub kind: PartKind,
+    /// Body whose columns place it; none: it stands in the world.
+    pub body: Option<String>,
+    /// Middle in the body's frame \[m\].
+    pub middle_m: [f64; 3],
+    /// Axes in the body's frame, columns of the rotation by rows.
+    pub axes: [[f64; 3]; 3],
+    /// Its extent.
+    pub shape: PartShape,
+}
+
+/// What a part is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PartKind {
+    /// A section of a shaft, or a half of one.
+    Shaft,
+    /// A ring of a bearing.
+    Ring,
+    /// A cage.
+    Cage,
+    /// A body without a shape, drawn by its inertia.
+    Body,
+}
+
+impl PartKind {
+    /// Its word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shaft => "shaft",
+            Self::Ring => "ring",
+            Self::Cage => "cage",
+            Self::Body => "body",
+        }
+    }
+}
+
+/// How a part extends about its middle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PartShape {
+    /// A tube about z \[m\].
+    Tube {
+        /// Inner and outer radius.
+        radii_m: [f64; 2],
+        /// Length.
+        length_m: f64,
+    },
+    /// The box of even density with the body's mass and moments of inertia: edges \[m\].
+    Box([f64; 3]),
+}
+
+/// The balls or rollers of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MovingElements {
+    /// Bearing.
+    pub bearing: String,
+    /// Body of the outer ring, in whose frame they go round; none: the world.
+    pub outer: Option<String>,
+    /// Middle of the bearing in that frame \[m\].
+    pub middle_m: [f64; 3],
+    /// Axes of the bearing in that frame, columns of the rotation by rows.
+    pub axes: [[f64; 3]; 3],
+    /// How many.
+    pub count: usize,
+    /// Size and circle.
+    pub outline: ElementOutline,
+    /// Columns of their angles where they move by themselves \[rad\].
+    pub angle_columns: Vec<String>,
+    /// Columns of the turns of outer and inner ring's bodies, with the sense of the bearing's axis: by pure rolling elsewhere.
+    pub turns: [Option<(String, f64)>; 2],
+}
+
+/// Where a body stands at the start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyAtStart {
+    /// Body.
+    pub name: String,
+    /// Its reference point, world \[m\].
+    pub position_m: [f64; 3],
+    /// World from body axes, by rows.
+    pub rotation: [[f64; 3]; 3],
+    /// Modes of its own.
+    pub modes: usize,
+}
+
+/// Everything that is drawn.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MovingParts {
+    /// All bodies.
+    pub bodies: Vec<BodyAtStart>,
+    /// Solids.
+    pub parts: Vec<MovingPart>,
+    /// Balls and rollers.
+    pub elements: Vec<MovingElements>,
+}
+
+/// The parts of a scene whose bodies stand as at the start, gears turned as their meshes turn them.
+pub(super) fn moving_parts(
+    tables: &SystemTables,
+    files: (&InputDocument, &Path),
+    shafts: &[PlacedShaft],
+    bodies: &mut Bodies,
+) -> Result<MovingParts, InputError> {
+    // Bodies that the scene states or its shafts make; what bearings bring comes after them.
+    let stated = bodies.list.len();
+    housing::place(&tables.bearing, files.0, bodies)?;
+    let cages = cages::place(&tables.bearing, files, bodies)?;
+    let starts = bodies.list.iter().map(|placed| BodyAtStart {
+        name: placed.body.name.clone(),
+        position_m: placed.body.position_m.into(),
+        rotation: rows(placed.body.orientation),
+        modes: placed.body.mode_count(),
+    });
+    let mut found = MovingParts {
+        bodies: starts.collect(),
+        ..MovingParts::default()
+    };
+    let mut is_drawn = vec![false; stated];
+    for shaft in shafts {
+        for (station, frame, radii_m, length_m) in shaft.half_sections() {
+            is_drawn[station] = true;
+            let shape = PartShape::Tube { radii_m, length_m };
+            let part = part(
+                bodies,
+                (shaft.name(), PartKind::Shaft),
+                Some(station),
+                &frame,
+                shape,
+            );
+            found.parts.push(part);
+        }
+    }
+    for (number, table) in tables.bearing.iter().enumerate() {
+        let key = format!("bearing.{number}");
+        let keys = TableKeys::new(files.0, &key);
+        let seated = housing::seated(table);
+        let at = bearing(&seated, &keys, bodies)?;
+        let rows = match &table.model {
+            BearingModel::Rigid(_) | BearingModel::Linear(_) => Vec::new(),
+            BearingModel::QuasiStatic(_) | BearingModel::Dynamic(_) => {
+                let file = table.model.file().unwrap_or_default();
+                let read = rolling_bearing::definition("model.file", file, files.1, &keys)?;
+                let made = QuasiStaticBearing::new(&read).map_err(|e| keys.error("model", e))?;
+                made.rows
+                    .iter()
+                    .map(|row| (row.elements(), row.outline()))
+                    .collect()
+            }
+        };
+        if rows.is_empty() {
+            found
+                .parts
+                .extend(plain_ring(&table.name, &at, shafts, bodies));
+            continue;
+        }
+        let mut before = 0;
+        for (row, &(count, outline)) in rows.iter().enumerate() {
+            let frame = at.raised(outline.middle_z_m);
+            let width_m = RING_WIDTH * outline.length_m.unwrap_or(outline.diameter_m);
+            for (end, sense) in [(0, 1.0), (1, -1.0)] {
+                let mut radii_m =
+                    RING.map(|share| outline.pitch_radius_m + sense * share * outline.diameter_m);
+                radii_m.sort_by(f64::total_cmp);
+                let shape = PartShape::Tube {
+                    radii_m: radii_m.map(|radius| radius.max(0.0)),
+                    length_m: width_m,
+                };
+                let ring = (&*table.name, PartKind::Ring);
+                found
+                    .parts
+                    .push(part(bodies, ring, at.ends[end], &frame, shape));
+            }
+            if let Some(cage) = cages
+                .iter()
+                .find(|cage| cage.bearing == number && cage.row == row)
+            {
+                let [height, width] = CAGE.map(|share| share * outline.diameter_m);
+                let half = [-0.5, 0.5].map(|share| outline.pitch_radius_m + share * height);
+                let shape = PartShape::Tube {
+                    radii_m: half,
+                    length_m: width,
+                };
+                let kind = (bodies.name(Some(cage.body)), PartKind::Cage);
+                let own = bodies.frame(Some(cage.body));
+                found
+                    .parts
+                    .push(part(bodies, kind, Some(cage.body), &own, shape));
+            }
+            found
+                .elements
+                .push(elements(table, &at, bodies, (before, count), outline));
+            before += count;
+        }
+    }
+    for (number, is_drawn) in is_drawn.into_iter().enumerate() {
+        let placed = &bodies.list[number];
+        if is_drawn || placed.gear.is_some() {
+            continue;
+        }
+        let body = &placed.body;
+        let [x, y, z] = std::array::from_fn(|k| body.inertia_kg_m2[(k, k)]);
+        // m (b² + c²)/12 = I_x and so on round.
+        let edge = |square: f64| (6.0 * square.max(0.0) / body.mass_kg).sqrt();
+        let shape = PartShape::Box([edge(y + z - x), edge(z + x - y), edge(x + y - z)]);
+        let frame = bodies.frame(Some(number));
+        let at = Frame {
+            origin_m: frame.origin_m + frame.axes * body.center_of_mass_m,
+            axes: frame.axes,
+        };
+        let part = part(
+            bodies,
+            (&body.name, PartKind::Body),
+            Some(number),
+            &at,
+            shape,
+        );
+        found.parts.push(part);
+    }
+    Ok(found)
+}
+
+/// Where a bearing is, and between which bodies.
+struct Seat {
+    ends: [Option<usize>; 2],
+    frame: Frame,
+}
+
+impl Seat {
+    fn raised(&self, by_m: f64) -> Frame {
+        Frame {
+            origin_m: self.frame.origin_m + self.frame.axes * Vector3::new(0.0, 0.0, by_m),
+            axes: self.frame.axes,
+        }
+    }
+}
+
+fn bearing(
+    table: &BearingTable,
+    keys: &TableKeys<'_>,
+    bodies: &Bodies,
+) -> Result<Seat, InputError> {
+    let ends = bodies.find_pair(keys, table.body_1.as_deref(), &table.body_2)?;
+    let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
+    Ok(Seat { ends, frame })
+}
+
+/// Place and axes of a frame, seen from a body.
+fn seen(bodies: &Bodies, body: Option<usize>, frame: &Frame) -> ([f64; 3], [[f64; 3]; 3]) {
+    let own = bodies.frame(body);
+    let back = own.axes.inverse();
+    let middle = back * (frame.origin_m - own.origin_m);
+    (middle.into(), rows(back * frame.axes))
+}
+
+fn rows(axes: UnitQuaternion<f64>) -> [[f64; 3]; 3] {
+    let matrix = axes.to_rotation_matrix();
+    std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
+}
+
+fn part(
+    bodies: &Bodies,
+    (owner, kind): (&str, PartKind),
+    body: Option<usize>,
+    frame: &Frame,
+    shape: PartShape,
+) -> MovingPart {
+    let (middle_m, axes) = seen(bodies, body, frame);
+    MovingPart {
+        owner: owner.to_owned(),
+        kind,
+        body: body.map(|_| bodies.name(body).to_owned()),
+        middle_m,
+        axes,
+        shape,
+    }
+}
+
+/// The ring of a bearing without balls: about the shaft, or in the bore of the gear, that it carries.
+fn plain_ring(
+    name: &str,
+    at: &Seat,
+    shafts: &[PlacedShaft],
+    bodies: &Bodies,
+) -> Option<MovingPart> {
+    let body = at.ends[1]?;
+    let along = |frame: &Frame| (frame.origin_m - at.frame.origin_m).norm();
+    let sections = shafts.iter().flat_map(PlacedShaft::half_sections);
+    let own = sections.filter(|(station, ..)| *station == body);
+    let nearest = own.min_by(|(_, a, ..), (_, b, ..)| along(a).total_cmp(&along(b)));
+    let bore = || {
+        Some(
+            bodies.list[body]
+                .cylindrical()?
+                .definition
+                .blank
+                .bore_radius_m(),
+        )
+    };
+    let radius_m = nearest.map(|(_, _, radii, _)| radii[1]).or_else(bore)?;
+    let [outside, width] = PLAIN_RING.map(|share| share * radius_m);
+    let shape = PartShape::Tube {
+        radii_m: [radius_m, outside],
+        length_m: width,
+    };
+    Some(part(
+        bodies,
+        (name, PartKind::Ring),
+        at.ends[0],
+        &at.frame,
+        shape,
+    ))
+}
+
+fn elements(
+    table: &BearingTable,
+    at: &Seat,
+    bodies: &Bodies,
+    (before, count): (usize, usize),
+    outline: ElementOutline,
+) -> MovingElements {
+    let (middle_m, axes) = seen(bodies, at.ends[0], &at.frame);
+    let is_recorded = matches!(&table.model, BearingModel::Dynamic(model) if model.ball_loads);
+    let column = |ball| element_column(&table.name, &format!("ball_{ball}_angle_rad"));
+    let turn = |end: Option<usize>| {
+        let axis = bodies.list[end?].axis();
+        let sense = axis.dot(&(at.frame.axes * Vector3::z()));
+        Some((body_column(bodies.name(end), "turn_rad"), sense))
+    };
+    MovingElements {
+        bearing: table.name.clone(),
+        outer: at.ends[0].map(|_| bodies.name(at.ends[0]).to_owned()),
+        middle_m,
+        axes,
+        count,
+        outline,
+        angle_columns: match is_recorded {
+            true => (before + 1..=before + count).map(column).collect(),
+            false => Vec::new(),
+        },
+        turns: at.ends.map(turn),
+    }
+}
