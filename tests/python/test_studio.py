@@ -445,3 +445,19 @@ def test_a_bevel_pair_answers_while_its_fields_change(browser, tmp_path):
         assert shown() == pytest.approx(again, rel=1e-12)
         it.keep("bevel")
         assert it.complaints == []
+
+
+def test_a_scene_of_a_folder_is_run_and_its_result_opens(browser, tmp_path):
+    named_by_whole_paths("gearbox_three_stage.toml", tmp_path)
+    (tmp_path / "notes.txt").write_text("no scene")
+    with studio_page.server(PROGRAM, tmp_path) as address:
+        it = studio_page.Page(browser, address)
+        cards = it.page.locator("#choices button")
+        cards.first.wait_for()
+        assert cards.count() == 1 and "multibody scene" in cards.first.text_content()
+        it.keep("folder")
+        cards.first.click()
+        it.page.locator("#run-scene").click()
+        it.page.wait_for_selector("#plots table", timeout=60_000)
+        assert (tmp_path / "gearbox_three_stage.h5").exists()
+        assert it.complaints == []

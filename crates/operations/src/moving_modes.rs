@@ -192,6 +192,7 @@ impl MovingModes {
                 "forces": vec![Value::Null; self.gears.len()],
                 "carriers": carriers.collect::<Vec<_>>(),
                 "angles_rad": self.parts.angles_rad(0),
+                "element_loads_N": self.parts.loads_n(0),
             })
         });
         Ok(json!({"frames": frames.collect::<Vec<_>>()}))

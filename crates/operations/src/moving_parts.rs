@@ -27,6 +27,8 @@ pub struct PartsInMotion {
     /// `[carrier][column][row]`.
     states: Vec<Vec<Vec<f64>>>,
     angles: Vec<Angles>,
+    /// Of each row of balls or rollers `[element][row]`, where their loads are recorded \[N\].
+    loads_n: Vec<Option<Vec<Vec<f64>>>>,
 }
 
 impl PartsInMotion {
@@ -55,12 +57,20 @@ impl PartsInMotion {
         let states = carriers.iter().map(state).collect::<Result<_, _>>()?;
         let count = result.rows.rows();
         let mut turns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        let recorded = |columns: &[String]| -> Result<Option<Vec<Vec<f64>>>, Failure> {
+            let all = columns.iter().all(|name| names.contains(&&**name));
+            if columns.is_empty() || !all {
+                return Ok(None);
+            }
+            let values = columns.iter().map(|name| read(name));
+            Ok(Some(values.collect::<Result<_, _>>()?))
+        };
         let mut angles = Vec::new();
+        let mut loads_n = Vec::new();
         for row in &parts.elements {
-            let all = (row.angle_columns.iter()).all(|name| names.contains(&&**name));
-            if all && !row.angle_columns.is_empty() {
-                let columns = row.angle_columns.iter().map(|name| read(name));
-                angles.push(Angles::Recorded(columns.collect::<Result<_, _>>()?));
+            loads_n.push(recorded(&row.load_columns)?);
+            if let Some(columns) = recorded(&row.angle_columns)? {
+                angles.push(Angles::Recorded(columns));
                 continue;
             }
             let mut cage = vec![0.0; count];
@@ -87,6 +97,7 @@ impl PartsInMotion {
             carriers,
             states,
             angles,
+            loads_n,
         })
     }
 
@@ -96,6 +107,7 @@ impl PartsInMotion {
             carriers: carriers_of(parts),
             states: Vec::new(),
             angles: vec![Angles::Rolling(vec![0.0]); parts.elements.len()],
+            loads_n: vec![None; parts.elements.len()],
             parts: parts.clone(),
         }
     }
@@ -178,6 +190,19 @@ impl PartsInMotion {
             .iter()
             .zip(&self.angles)
             .map(of_row)
+            .collect()
+    }
+
+    /// Of each row the loads of its balls or rollers at the outer race, null where they are not recorded \[N\].
+    pub fn loads_n(&self, row: usize) -> Value {
+        let of_row = |columns: &Option<Vec<Vec<f64>>>| {
+            let columns = columns.as_ref()?;
+            let loads = columns.iter().map(|column| column[row]);
+            Some(loads.collect::<Vec<f64>>())
+        };
+        self.loads_n
+            .iter()
+            .map(|columns| json!(of_row(columns)))
             .collect()
     }
 

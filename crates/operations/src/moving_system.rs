@@ -58,6 +58,7 @@ pub fn moving_system(
         let mut shown = frame(&moments.moment(row)?, &surfaces);
         shown["carriers"] = parts.places(row);
         shown["angles_rad"] = parts.angles_rad(row);
+        shown["element_loads_N"] = parts.loads_n(row);
         frames.push(shown);
         task.advance(k as f64 + 1.0, count as f64);
     }

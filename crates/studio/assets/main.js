@@ -4,6 +4,7 @@ import { Problem, ask } from "./server.js";
 import { showPair } from "./pair.js";
 import { showColumns } from "./columns.js";
 import { showModes } from "./modes.js";
+import { showFolder, showScene } from "./choice.js";
 import { showNew } from "./new.js";
 import { byId, fail, say } from "./said.js";
 
@@ -31,7 +32,7 @@ byId("new").addEventListener("click", async () => {
 });
 try {
   const { kind } = await ask("/api/session");
-  const show = { pair: showPair, columns: showColumns, modes: showModes, new: showNew };
+  const show = { pair: showPair, columns: showColumns, modes: showModes, scene: showScene, folder: showFolder, new: showNew };
   byId("new").hidden = kind === "new";
   restyle = (await show[kind]()) ?? restyle;
 } catch (problem) {

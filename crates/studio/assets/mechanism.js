@@ -55,6 +55,9 @@ export class Mechanism extends View3d {
     this.drawn = [...this.meshes, ...this.arrows, ...this.solids, ...this.rows];
     for (const mesh of [...this.meshes, ...this.solids]) mesh.matrixAutoUpdate = false;
     this.scene.add(...this.drawn);
+    this.mostLoaded = Math.max(0, ...frames.flatMap(({ element_loads_N }) => element_loads_N.flatMap((one) => one ?? [])));
+    const amounts = frames.flatMap(({ forces }) => forces.map((one) => (one ? Math.hypot(...one.force_N) : 0)));
+    this.most = Math.max(...amounts, 0);
     this.at(0);
     const box = new THREE.Box3();
     // What is drawn by its inertia alone may be larger than the machine.
@@ -66,8 +69,6 @@ export class Mechanism extends View3d {
     box.getCenter(this.view.target);
     const { x, y, z } = box.getSize(new THREE.Vector3());
     [this.view.size, this.view.high] = [Math.hypot(x, y, z), 0.9 * y + 0.45 * z];
-    const amounts = frames.flatMap(({ forces }) => forces.map((one) => (one ? Math.hypot(...one.force_N) : 0)));
-    this.most = Math.max(...amounts, 0);
     this.restyle();
   }
 
@@ -78,7 +79,7 @@ export class Mechanism extends View3d {
   }
 
   at(number) {
-    const { places, forces, carriers, angles_rad } = this.frames[number];
+    const { places, forces, carriers, angles_rad, element_loads_N: loads } = this.frames[number];
     const put = (mesh, matrix) => {
       mesh.matrix.copy(matrix);
       mesh.matrixWorldNeedsUpdate = true;
@@ -95,6 +96,7 @@ export class Mechanism extends View3d {
         row.setMatrixAt(ball, own.premultiply(middle));
       });
       row.instanceMatrix.needsUpdate = true;
+      this.#paint(row, loads[k]);
     });
     this.arrows.forEach((arrow, k) => {
       const force = forces[k];
@@ -109,10 +111,19 @@ export class Mechanism extends View3d {
     this.draw();
   }
 
+  /** Balls or rollers by their loads, the most loaded of all moments in full colour. */
+  #paint(row, loads) {
+    if (!loads || !this.mostLoaded) return;
+    const [free, loaded] = [new THREE.Color(colour("--shaft")), new THREE.Color(colour("--c1"))];
+    loads.forEach((load, ball) => row.setColorAt(ball, free.clone().lerp(loaded, Math.min(load / this.mostLoaded, 1))));
+    row.instanceColor.needsUpdate = true;
+  }
+
   restyle() {
     this.meshes?.forEach((mesh, k) => mesh.material.color.set(colour(`--gear-${(k % 2) + 1}`)));
     this.solids?.forEach((mesh, k) => mesh.material.color.set(colour(LOOK[this.parts[k].kind][0])));
-    this.rows?.forEach((row) => row.material.color.set(colour("--c2")));
+    // A colour of each ball stands on white.
+    this.rows?.forEach((row, k) => row.material.color.set(this.mostLoaded > 0 && this.frames[0].element_loads_N[k] ? "#ffffff" : colour("--c2")));
     this.arrows?.forEach((arrow) => arrow.setColor(colour("--c1")));
     this.draw();
   }

@@ -42,7 +42,9 @@ export class Motion {
       this.#mechanism.show(ended.result);
       byId("moment").max = this.#frames.length - 1;
       byId("moment").parentElement.hidden = this.#frames.length === 1;
-      byId("force-scale").textContent = this.#mechanism.most > 0 ? `longest arrow ${short(this.#mechanism.most)} N` : "no forces on teeth";
+      const { most, mostLoaded } = this.#mechanism;
+      const told = [most > 0 ? `longest arrow ${short(most)} N` : "no forces on teeth", mostLoaded > 0 ? `full colour of a ball or roller ${short(mostLoaded)} N` : ""];
+      byId("force-scale").textContent = told.filter(Boolean).join("; ");
       this.#at(0);
     } catch (problem) {
       fail(problem);

@@ -32,7 +32,7 @@ macro_rules! own {
     };
 }
 
-const OWN: [Asset; 27] = own!(
+const OWN: [Asset; 28] = own!(
     "index.html" PAGE,
     "studio.css" STYLE,
     "icon.svg" PICTURE,
@@ -53,6 +53,7 @@ const OWN: [Asset; 27] = own!(
     "motion.js" SCRIPT,
     "mechanism.js" SCRIPT,
     "modes.js" SCRIPT,
+    "choice.js" SCRIPT,
     "orbit.js" SCRIPT,
     "waterfall.js" SCRIPT,
     "flank.js" SCRIPT,

@@ -3,6 +3,7 @@
 mod answer;
 mod assets;
 mod beginning;
+mod choice;
 mod columns;
 mod form;
 mod form_reach;

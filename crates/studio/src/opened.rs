@@ -6,6 +6,7 @@ use gearmesh_scene::system_run::ResultKind;
 use gearmesh_scene::{ResultFile, SceneFile};
 
 use crate::beginning::{NewFiles, begun_bevel};
+use crate::choice::{FolderSession, SceneSession};
 use crate::columns::ColumnsSession;
 use crate::modes::ModesSession;
 use crate::pair::PairSession;
@@ -20,6 +21,10 @@ pub enum Opened {
     Columns(Box<ColumnsSession>),
     /// Natural modes of a multibody scene.
     Modes(Box<ModesSession>),
+    /// A multibody scene that is run next.
+    Scene(Box<SceneSession>),
+    /// A folder from which something is chosen.
+    Folder(FolderSession),
     /// Something new, or begun already: what is made of it is opened next.
     New(Option<Box<NewFiles>>),
 }
@@ -32,9 +37,7 @@ impl Opened {
     pub fn named(path: &Path) -> Result<Self, Problem> {
         let shown = path.display();
         if path.is_dir() {
-            let problem =
-                format!("{shown}: is a folder; name a pair scene (.toml) or a result (.h5) in it");
-            return Err(Problem::Input(problem));
+            return Ok(Self::Folder(FolderSession::new(path)?));
         }
         if path.extension().is_some_and(|ending| ending == "h5") {
             return match ResultFile::open(path)? {
@@ -55,9 +58,7 @@ impl Opened {
         match SceneFile::read(path)? {
             SceneFile::Pair(_) => Ok(Self::Pair(Box::new(PairSession::read(path)?))),
             SceneFile::Bevel(_) => Ok(Self::New(Some(Box::new(begun_bevel(path)?)))),
-            SceneFile::System(_) => Err(Problem::Input(format!(
-                "{shown}: is a multibody scene, which runs for minutes; run it with `gearmesh run {shown} -o result.h5` and open the result"
-            ))),
+            SceneFile::System(scene) => Ok(Self::Scene(Box::new(SceneSession::new(path, *scene)))),
         }
     }
 
@@ -83,6 +84,8 @@ impl Opened {
             Self::Pair(_) => "pair",
             Self::Columns(_) => "columns",
             Self::Modes(_) => "modes",
+            Self::Scene(_) => "scene",
+            Self::Folder(_) => "folder",
             Self::New(_) => "new",
         }
     }
@@ -91,7 +94,7 @@ impl Opened {
     pub fn begun(&self) -> Option<&NewFiles> {
         match self {
             Self::New(begun) => begun.as_deref(),
-            Self::Pair(_) | Self::Columns(_) | Self::Modes(_) => None,
+            _ => None,
         }
     }
 
@@ -102,7 +105,29 @@ impl Opened {
     pub fn pair(&self) -> Result<&PairSession, Problem> {
         match self {
             Self::Pair(pair) => Ok(pair),
-            Self::Columns(_) | Self::Modes(_) | Self::New(_) => Err(Problem::Absent),
+            _ => Err(Problem::Absent),
+        }
+    }
+
+    /// The scene.
+    ///
+    /// # Errors
+    /// [`Problem::Absent`] where it is something else.
+    pub fn scene(&self) -> Result<&SceneSession, Problem> {
+        match self {
+            Self::Scene(scene) => Ok(scene),
+            _ => Err(Problem::Absent),
+        }
+    }
+
+    /// The folder.
+    ///
+    /// # Errors
+    /// [`Problem::Absent`] where it is something else.
+    pub fn folder(&self) -> Result<&FolderSession, Problem> {
+        match self {
+            Self::Folder(folder) => Ok(folder),
+            _ => Err(Problem::Absent),
         }
     }
 
@@ -113,7 +138,7 @@ impl Opened {
     pub fn modes(&self) -> Result<&ModesSession, Problem> {
         match self {
             Self::Modes(modes) => Ok(modes),
-            Self::Pair(_) | Self::Columns(_) | Self::New(_) => Err(Problem::Absent),
+            _ => Err(Problem::Absent),
         }
     }
 
@@ -124,7 +149,7 @@ impl Opened {
     pub fn columns(&self) -> Result<&ColumnsSession, Problem> {
         match self {
             Self::Columns(columns) => Ok(columns),
-            Self::Pair(_) | Self::Modes(_) | Self::New(_) => Err(Problem::Absent),
+            _ => Err(Problem::Absent),
         }
     }
 }

@@ -17,6 +17,7 @@ use serde_json::{Value, json};
 
 use crate::assets;
 use crate::beginning::{self, Edit, NewFiles};
+use crate::choice::Chosen;
 use crate::columns::{CurvesAsked, MomentsAsked};
 use crate::guard::{self, Address};
 use crate::job::Job;
@@ -79,6 +80,8 @@ pub fn router(studio: Arc<Studio>, address: Arc<Address>) -> Router {
         .route("/columns", get(columns).post(curves))
         .route("/columns/moments", post(moments))
         .route("/columns/waterfall", post(waterfall))
+        .route("/scene", get(scene).post(run))
+        .route("/folder", get(folder).post(choose))
         .route("/modes", get(modes).post(mode))
         .route("/progress", get(progress))
         .route("/pair/optimise", post(seek))
@@ -210,6 +213,36 @@ async fn curves(
     let worker = Arc::clone(&studio);
     let curves = (studio.latest).run(move |_| worker.opened().columns()?.curves(&asked));
     Ok(Json(curves.await?))
+}
+
+async fn scene(State(studio): Shared) -> Result<Json<Value>, Problem> {
+    Ok(Json(studio.opened().scene()?.description()))
+}
+
+/// Runs the scene, and opens its result.
+async fn run(State(studio): Shared) -> Result<Json<Value>, Problem> {
+    let opened = studio.opened();
+    opened.scene()?;
+    let worker = Arc::clone(&studio);
+    let work = move |watch: &Watch<'_>| {
+        let result = opened.scene()?.run(watch)?;
+        worker.open(Opened::named(&result)?);
+        Ok(json!({}))
+    };
+    studio.job.begin("run".to_owned(), work);
+    Ok(Json(studio.job.progress()))
+}
+
+async fn folder(State(studio): Shared) -> Result<Json<Value>, Problem> {
+    Ok(Json(studio.opened().folder()?.description()))
+}
+
+/// Opens a file of the folder.
+async fn choose(State(studio): Shared, Body(chosen): Body<Chosen>) -> Result<Json<Value>, Problem> {
+    let opened = studio.opened();
+    let path = opened.folder()?.chosen(&chosen)?;
+    studio.open(Opened::named(path)?);
+    Ok(Json(json!({})))
 }
 
 async fn modes(State(studio): Shared) -> Result<Json<Value>, Problem> {

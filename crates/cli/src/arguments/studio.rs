@@ -6,8 +6,7 @@ use std::path::PathBuf;
 /// `gearmesh studio`.
 #[derive(Debug, Args)]
 pub struct StudioArguments {
-    /// Scene of a gear pair (.toml), its result, or the result of a multibody scene (.h5); something new where not
-    /// given
+    /// Scene (.toml), result (.h5), or a folder with some; something new where not given
     pub file: Option<PathBuf>,
     /// Another result of a multibody scene, whose curves are drawn beside those of the first one
     #[arg(long, value_name = "RESULT", requires = "file")]

@@ -200,6 +200,10 @@ fn balls_are_drawn_and_two_results_stand_beside_each_other() {
             );
         }
     }
+    // Their loads are those of the outer race.
+    let loads = &shown["frames"][0]["element_loads_N"];
+    let first = file.rows.read("elements/pair/ball_1_outer_N").unwrap()[0];
+    assert_eq!(number(&loads[0][0]), first);
     let cages = shown["parts"].as_array().unwrap().iter();
     assert_eq!(cages.filter(|part| part["kind"] == "cage").count(), 2);
 

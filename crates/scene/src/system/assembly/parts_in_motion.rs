@@ -98,6 +98,8 @@ pub struct MovingElements {
     pub outline: ElementOutline,
     /// Columns of their angles where they move by themselves \[rad\].
     pub angle_columns: Vec<String>,
+    /// Columns of their loads at the outer race, where they are recorded \[N\].
+    pub load_columns: Vec<String>,
     /// Columns of the turns of outer and inner ring's bodies, with the sense of the bearing's axis: by pure rolling elsewhere.
     pub turns: [Option<(String, f64)>; 2],
 }
@@ -351,8 +353,17 @@ fn elements(
     outline: ElementOutline,
 ) -> MovingElements {
     let (middle_m, axes) = seen(bodies, at.ends[0], &at.frame);
-    let is_recorded = matches!(&table.model, BearingModel::Dynamic(model) if model.ball_loads);
-    let column = |ball| element_column(&table.name, &format!("ball_{ball}_angle_rad"));
+    // What they are called in columns, where their angles and where their loads are recorded.
+    let (word, has_angles, has_loads) = match &table.model {
+        BearingModel::Dynamic(model) => ("ball", model.ball_loads, model.ball_loads),
+        BearingModel::QuasiStatic(model) => ("element", false, model.element_loads),
+        BearingModel::Rigid(_) | BearingModel::Linear(_) => ("", false, false),
+    };
+    let columns = |is_there: bool, what: &str| -> Vec<String> {
+        let numbers = (before + 1..=before + count).filter(|_| is_there);
+        let column = |number| element_column(&table.name, &format!("{word}_{number}_{what}"));
+        numbers.map(column).collect()
+    };
     let turn = |end: Option<usize>| {
         let axis = bodies.list[end?].axis();
         let sense = axis.dot(&(at.frame.axes * Vector3::z()));
@@ -365,10 +376,8 @@ fn elements(
         axes,
         count,
         outline,
-        angle_columns: match is_recorded {
-            true => (before + 1..=before + count).map(column).collect(),
-            false => Vec::new(),
-        },
+        angle_columns: columns(has_angles, "angle_rad"),
+        load_columns: columns(has_loads, "outer_N"),
         turns: at.ends.map(turn),
     }
 }
