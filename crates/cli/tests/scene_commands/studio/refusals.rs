@@ -7,7 +7,6 @@ use serde_json::json;
 
 use super::{Studio, pair_scene};
 use crate::common::{Desk, argument, refused};
-use crate::hybrid_scene;
 
 #[test]
 fn what_is_wrong_is_said_in_the_words_of_the_program() {
@@ -73,11 +72,12 @@ fn what_is_wrong_is_said_in_the_words_of_the_program() {
         2,
         &["nothing.toml"],
     );
-    let system = desk.file("system.toml", hybrid_scene());
+    let empty = desk.path("empty");
+    std::fs::create_dir(&empty).unwrap();
     refused(
-        &crate::common::gearmesh(&["studio", argument(&system), "--no-open"]),
+        &crate::common::gearmesh(&["studio", argument(&empty), "--no-open"]),
         2,
-        &["gearmesh run"],
+        &["neither scenes (.toml) nor results (.h5)"],
     );
     let taken = studio.port.to_string();
     let scene = pair_scene(&desk);
