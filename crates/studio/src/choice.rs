@@ -162,7 +162,7 @@ impl SceneSession {
             output: Some(&output),
             ..RunHow::default()
         };
-        run_system(self.scene.load()?, &how, watch)?;
+        run_system(self.scene.clone().load()?, &how, watch)?;
         Ok(output)
     }
 }
