@@ -60,15 +60,16 @@ export class Mechanism extends View3d {
     this.most = Math.max(...amounts, 0);
     this.at(0);
     const box = new THREE.Box3();
-    // What is drawn by its inertia alone may be larger than the machine.
-    const exact = this.solids.filter((_, k) => parts[k].kind !== "body");
-    for (const mesh of [...this.meshes, ...exact]) {
+    // What is drawn by its inertia alone may be larger than the machine: it is left out then.
+    const exact = [...this.meshes, ...this.solids.filter((_, k) => parts[k].kind !== "body")];
+    for (const mesh of exact.length > 0 ? exact : this.solids) {
       mesh.updateMatrixWorld(true);
       box.expandByObject(mesh);
     }
     box.getCenter(this.view.target);
     const { x, y, z } = box.getSize(new THREE.Vector3());
     [this.view.size, this.view.high] = [Math.hypot(x, y, z), 0.9 * y + 0.45 * z];
+    this.solids.forEach((mesh, k) => (mesh.visible = !parts[k].edges_mm || exact.length === 0 || Math.max(...parts[k].edges_mm) < 0.7 * this.view.size));
     this.restyle();
   }
 
