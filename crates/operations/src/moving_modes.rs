@@ -189,7 +189,7 @@ impl MovingModes {
             let carriers = self.parts.carriers().iter().map(|body| placed(body));
             json!({
                 "places": gears.collect::<Vec<_>>(),
-                "forces": vec![Value::Null; self.gears.len()],
+                "forces": [],
                 "carriers": carriers.collect::<Vec<_>>(),
                 "angles_rad": self.parts.angles_rad(0),
                 "element_loads_N": self.parts.loads_n(0),

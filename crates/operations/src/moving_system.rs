@@ -1,6 +1,7 @@
 //! Gears of a multibody result where their bodies are, shafts and bearings with them, and the forces on the teeth: for
 //! pictures that move.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use gearmesh_report::moving::{GearSurface, Moment};
@@ -114,32 +115,44 @@ pub(crate) fn place(rotation: &[[f64; 3]; 3], origin_m: &[f64; 3]) -> Value {
     json!({"rotation": rotation, "origin_mm": origin_m.map(rounded_mm)})
 }
 
-/// A moment: of each gear its rotation (by rows) and origin, and the sum of the forces on it with its point of attack,
-/// the mean of the slices' places by their forces.
+/// The forces of a mesh on a gear.
+#[derive(Debug, Default)]
+struct Sum {
+    weight: f64,
+    force_n: [f64; 3],
+    /// In the gear's axes, times the weight.
+    point_m: [f64; 3],
+}
+
+/// A moment: of each gear its rotation (by rows) and origin, and of each mesh and gear the sum of the forces on the gear with its
+/// point of attack, the mean of the slices' places by their forces.
 fn frame(moment: &Moment, surfaces: &[GearSurface]) -> Value {
     let places = moment.placements.iter();
     let places = places.map(|placed| place(&placed.rotation, &placed.origin_m));
-    let forces = (0..surfaces.len()).map(|gear| {
-        let (mut force_n, mut point_m, mut weight) = ([0.0; 3], [0.0; 3], 0.0);
-        for load in moment.loads.iter().filter(|load| load.gear == gear) {
-            let shape = &surfaces[gear];
-            let tooth = (load.tooth, load.side);
-            let quad = shape.quads[shape.flank_quad(tooth, load.roll_rad, load.height_m)];
-            let amount = load.components_n[0];
-            weight += amount;
-            for k in 0..3 {
-                force_n[k] += load.force_n[k];
-                let own = quad.map(|corner| shape.points_m[corner as usize][k]);
-                point_m[k] += amount * own.iter().sum::<f64>() / 4.0;
-            }
+    // A gear in several meshes has a force in each.
+    let mut sums: BTreeMap<(usize, usize), Sum> = BTreeMap::new();
+    for load in &moment.loads {
+        let shape = &surfaces[load.gear];
+        let tooth = (load.tooth, load.side);
+        let quad = shape.quads[shape.flank_quad(tooth, load.roll_rad, load.height_m)];
+        let amount = load.components_n[0];
+        let sum = sums.entry((load.gear, load.mesh)).or_default();
+        sum.weight += amount;
+        for k in 0..3 {
+            sum.force_n[k] += load.force_n[k];
+            let own = quad.map(|corner| shape.points_m[corner as usize][k]);
+            sum.point_m[k] += amount * own.iter().sum::<f64>() / 4.0;
         }
+    }
+    let loaded = sums.into_iter().filter(|(_, sum)| sum.weight > 0.0);
+    let forces = loaded.map(|((gear, _), sum)| {
         let placed = moment.placements[gear];
-        let own = point_m.map(|x| x / weight);
+        let own = sum.point_m.map(|x| x / sum.weight);
         let point = (0..3).map(|k| {
             let turned: f64 = (0..3).map(|j| placed.rotation[k][j] * own[j]).sum();
             rounded_mm(turned + placed.origin_m[k])
         });
-        (weight > 0.0).then(|| json!({"force_N": force_n, "point_mm": point.collect::<Vec<_>>()}))
+        json!({"force_N": sum.force_n, "point_mm": point.collect::<Vec<_>>()})
     });
     json!({
         "at": moment.at,

@@ -152,6 +152,7 @@ impl SystemMoments {
             origin_m: state.position_m,
         };
         let loads = loads.into_iter().map(|load| FlankLoad {
+            mesh: load.mesh,
             gear: load.gear,
             tooth: load.tooth,
             side: load.side,

@@ -51,6 +51,8 @@ impl Placement {
 /// What presses on a slice of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlankLoad {
+    /// Number of the mesh.
+    pub mesh: usize,
     /// Number of the gear's surface.
     pub gear: usize,
     /// Tooth.

@@ -37,7 +37,8 @@ export class Mechanism extends View3d {
     }
     [this.frames, this.parts, this.elements] = [frames, parts, elements];
     this.meshes = bodies.map((body) => new THREE.Mesh(surface(body), new THREE.MeshStandardMaterial({ flatShading: true, roughness: 0.75, metalness: 0.1, side: THREE.DoubleSide })));
-    this.arrows = bodies.map(() => new THREE.ArrowHelper(new THREE.Vector3(0, 0, 1), new THREE.Vector3(), 1, 0xc2410c));
+    const most = Math.max(0, ...frames.map(({ forces }) => forces.length));
+    this.arrows = Array.from({ length: most }, () => new THREE.ArrowHelper(new THREE.Vector3(0, 0, 1), new THREE.Vector3(), 1, 0xc2410c));
     for (const arrow of this.arrows) {
       // Forces act inside the mesh and are seen through it.
       for (const part of [arrow.line, arrow.cone]) part.material.depthTest = false;
@@ -56,7 +57,7 @@ export class Mechanism extends View3d {
     for (const mesh of [...this.meshes, ...this.solids]) mesh.matrixAutoUpdate = false;
     this.scene.add(...this.drawn);
     this.mostLoaded = Math.max(0, ...frames.flatMap(({ element_loads_N }) => element_loads_N.flatMap((one) => one ?? [])));
-    const amounts = frames.flatMap(({ forces }) => forces.map((one) => (one ? Math.hypot(...one.force_N) : 0)));
+    const amounts = frames.flatMap(({ forces }) => forces.map((one) => Math.hypot(...one.force_N)));
     this.most = Math.max(...amounts, 0);
     this.at(0);
     const box = new THREE.Box3();
@@ -101,7 +102,7 @@ export class Mechanism extends View3d {
     });
     this.arrows.forEach((arrow, k) => {
       const force = forces[k];
-      arrow.visible = force !== null && this.most > 0;
+      arrow.visible = force !== undefined && this.most > 0;
       if (!arrow.visible) return;
       const amount = new THREE.Vector3(...force.force_N);
       const long = 0.25 * this.view.size * (amount.length() / this.most);

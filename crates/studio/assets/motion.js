@@ -55,7 +55,7 @@ export class Motion {
     if (!this.#frames[number]) return;
     byId("moment").value = number;
     const { at } = this.#frames[number];
-    byId("moment-at").textContent = `${short(at)} ${this.unit}`;
+    byId("moment-at").textContent = this.unit === "s" ? `${short(at)} s` : `equilibrium ${short(at)}`;
     this.#mechanism.at(number);
     this.moved(at);
   }

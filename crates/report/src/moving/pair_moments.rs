@@ -82,6 +82,7 @@ pub fn pair_moment(
             let [a, b] = patch.force_components(gear).map(|part| part * forces[at]);
             let own = std::array::from_fn(|k| a * normal[k] + b * tip[k]);
             loads.push(FlankLoad {
+                mesh: 0,
                 gear,
                 tooth: patch.teeth[gear],
                 side,

@@ -114,6 +114,8 @@ impl GearState {
 /// What presses on a slice of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SliceLoad {
+    /// Number of the mesh among those with forces.
+    pub mesh: usize,
     /// Number of the gear among [`GearsInMotion::gears`].
     pub gear: usize,
     /// Tooth.
@@ -260,7 +262,7 @@ impl GearsInMotion {
     /// [`DrivetrainError`] of a mesh.
     pub fn loads(&mut self, states: &[GearState]) -> Result<Vec<SliceLoad>, DrivetrainError> {
         let mut loads = Vec::new();
-        for at in &mut self.meshes {
+        for (mesh, at) in self.meshes.iter_mut().enumerate() {
             let [a, b] = at.seats;
             let pair = MarkerPair { a, b };
             let [first, second] = at.gears.map(|gear| states[gear].motion());
@@ -285,6 +287,7 @@ impl GearsInMotion {
                     for (k, gear) in at.gears.into_iter().enumerate() {
                         let on_gear = if k == 0 { -on_2 } else { on_2 };
                         loads.push(SliceLoad {
+                            mesh,
                             gear,
                             tooth: found.lines[contact.line].teeth[k],
                             side,
