@@ -11,8 +11,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
-use crate::moving_parts::PartsInMotion;
-use crate::moving_system::{drawn, place, surfaces};
+use crate::moving_parts::{PartsInMotion, place};
+use crate::moving_system::{drawn, surfaces};
 use crate::system_moments::{WantedMoments, machine_of};
 
 /// Pictures of a period.

@@ -7,7 +7,21 @@ use gearmesh_scene::system_run::SystemResult;
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
-use crate::moving_system::{place, rounded_mm};
+
+/// Micrometres: finer than a picture.
+pub fn rounded_mm(x_m: f64) -> f64 {
+    (1e6 * x_m).round() / 1e3
+}
+
+/// Rotation (by rows) and origin of a body.
+pub fn place(rotation: &[[f64; 3]; 3], origin_m: &[f64; 3]) -> Value {
+    let rotation: Vec<f64> = rotation
+        .iter()
+        .flatten()
+        .map(|x| (1e7 * x).round() / 1e7)
+        .collect();
+    json!({"rotation": rotation, "origin_mm": origin_m.map(rounded_mm)})
+}
 
 /// How the balls or rollers of a row go round.
 #[derive(Debug, Clone)]

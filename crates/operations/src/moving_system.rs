@@ -10,17 +10,12 @@ use gearmesh_scene::system_run::SystemResult;
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
-use crate::moving_parts::PartsInMotion;
+use crate::moving_parts::{PartsInMotion, place, rounded_mm};
 use crate::system_moments::{SystemMoments, WantedMoments, surface};
 use crate::watch::Watch;
 
 /// Sections of helical teeth over their face; spur ones need their ends only.
 const SECTIONS: usize = 6;
-
-/// Micrometres: finer than a picture.
-pub(crate) fn rounded_mm(x_m: f64) -> f64 {
-    (1e6 * x_m).round() / 1e3
-}
 
 /// Surfaces of the gears, the solids beside them, and at most `most` moments of a stretch, evenly chosen: places, turns,
 /// angles of balls, and of each mesh and gear the force and where it acts.
@@ -103,16 +98,6 @@ pub(crate) fn drawn(gears: &[MovingGear], surfaces: &[GearSurface]) -> Value {
         })
     };
     gears.iter().zip(surfaces).map(of_gear).collect()
-}
-
-/// Rotation (by rows) and origin of a body.
-pub(crate) fn place(rotation: &[[f64; 3]; 3], origin_m: &[f64; 3]) -> Value {
-    let rotation: Vec<f64> = rotation
-        .iter()
-        .flatten()
-        .map(|x| (1e7 * x).round() / 1e7)
-        .collect();
-    json!({"rotation": rotation, "origin_mm": origin_m.map(rounded_mm)})
 }
 
 /// The forces of a mesh on a gear.

@@ -60,8 +60,10 @@ impl RestFigures {
             Ok(Some(subject.load(shelf)?.run(&|_, _| (), stop)?))
         };
         let (unloaded, result) = rayon::join(|| rest_columns::of_bevel(subject), load);
+        // A fault of the assembly is said in the words of the analysis without load.
+        let unloaded = unloaded.map_err(StudyError::Bevel)?;
         let result = result?;
-        let figures = Self::of_columns(unloaded.map_err(StudyError::Bevel)?, result.as_ref());
+        let figures = Self::of_columns(unloaded, result.as_ref());
         Ok((figures, result))
     }
 

@@ -70,8 +70,8 @@ pub const CASES: &[Case] = &[
     ends_well("study study.toml -o out --scheduler local"),
     ends_well("accuracy wheel.toml --columns COLUMN:mean -o o.html"),
     ends_well("optimise optimise.toml -o out"),
-    // It serves pairs and results until Ctrl-C; a multibody scene has to be run first.
-    refuses("studio wheel.toml --no-open"),
+    // It serves scenes and results until Ctrl-C; a study is neither.
+    refuses("studio study.toml --no-open"),
     ends_well("schema scene"),
     ends_well("bearing bearing.toml --load-N 0,0,500 --report o.html"),
     ends_well("bearing-frequencies bearing.toml"),
