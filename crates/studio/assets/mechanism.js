@@ -23,7 +23,7 @@ function tube([inner, outer], length) {
 }
 
 /** What the parts are drawn in, and how much shines through. */
-const LOOK = { shaft: ["--shaft", 1], ring: ["--shaft", 0.3], cage: ["--c1", 0.6], body: ["--faint", 0.15] };
+const LOOK = { shaft: ["--shaft", 1], ring: ["--shaft", 0.3], cage: ["--c2", 0.6], body: ["--faint", 0.15] };
 
 const material = (opacity, flatShading) => new THREE.MeshStandardMaterial({ flatShading, roughness: 0.75, metalness: 0.1, side: THREE.DoubleSide, transparent: opacity < 1, depthWrite: opacity === 1, opacity });
 
