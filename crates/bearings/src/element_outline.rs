@@ -17,8 +17,8 @@ pub struct ElementOutline {
     pub middle_z_m: f64,
     /// Angle of the first ball or roller \[rad\].
     pub first_angle_rad: f64,
-    /// Share of the inner ring's turn against the outer one by which the cage turns: (1 − γ)/2, γ = D cos α/d_m. From pure
-    /// rolling.
+    /// Share of the inner ring's turn against the outer one by which the cage turns by pure rolling: (1 − γ)/2 with
+    /// γ = D cos α/d_m.
     pub cage_share: f64,
 }
 
@@ -26,22 +26,21 @@ impl Row {
     /// Its balls or rollers without load.
     #[must_use]
     pub fn outline(&self) -> ElementOutline {
+        let ball = |diameter_m, middle_z_m, first_rad, free_rad: f64| {
+            (diameter_m, None, 0.0, middle_z_m, first_rad, free_rad.cos())
+        };
         let (diameter_m, length_m, tilt_rad, middle_z_m, first_angle_rad, cosine) = match self {
-            Self::Ball(row) => (
+            Self::Ball(row) => ball(
                 row.ball_diameter_m,
-                None,
-                0.0,
                 row.middle_z_m,
                 row.first_angle_rad,
-                row.free_angle_rad.cos(),
+                row.free_angle_rad,
             ),
-            Self::FourPoint(row) => (
+            Self::FourPoint(row) => ball(
                 row.ball_diameter_m,
-                None,
-                0.0,
                 row.middle_z_m,
                 row.first_angle_rad,
-                row.free_angle_rad.cos(),
+                row.free_angle_rad,
             ),
             Self::Roller(row) => (
                 row.diameter_m,

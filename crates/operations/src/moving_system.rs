@@ -17,11 +17,11 @@ use crate::watch::Watch;
 /// Sections of helical teeth over their face; spur ones need their ends only.
 const SECTIONS: usize = 6;
 
-/// Surfaces of the gears, the solids beside them, and at most `most` moments of a stretch, evenly chosen: places, turns,
-/// angles of balls, and of each mesh and gear the force and where it acts.
+/// Surfaces of the gears, the solids beside them, and at most `most` moments of a stretch, evenly chosen: places,
+/// turns, angles of balls, and of each mesh and gear the force and where it acts.
 ///
 /// # Errors
-/// [`Failure`] for a result without gears that move, for files that are not as they were in the run, and once `watch`
+/// [`Failure`] for a result without anything that could be drawn, for files that are not as they were in the run, and once `watch`
 /// stops it.
 pub fn moving_system(
     (file, result): (&Path, &SystemResult),
@@ -109,8 +109,8 @@ struct Sum {
     point_m: [f64; 3],
 }
 
-/// A moment: of each gear its rotation (by rows) and origin, and of each mesh and gear the sum of the forces on the gear with its
-/// point of attack, the mean of the slices' places by their forces.
+/// A moment: of each gear its rotation (by rows) and origin, and of each mesh and gear the sum of the forces on the gear
+/// with its point of attack, the mean of the slices' places by their forces.
 fn frame(moment: &Moment, surfaces: &[GearSurface]) -> Value {
     let places = moment.placements.iter();
     let places = places.map(|placed| place(&placed.rotation, &placed.origin_m));

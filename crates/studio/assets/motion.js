@@ -1,5 +1,5 @@
-// The gears, shafts and bearings of a multibody result in three dimensions, moment by moment, with the forces on the teeth
-// as arrows.
+// The gears, shafts and bearings of a multibody result in three dimensions, moment by moment, with the forces on the
+// teeth as arrows.
 
 import { short } from "./curves.js";
 import { Job } from "./job.js";

@@ -82,7 +82,8 @@ pub fn edited(edit: &Edit) -> Result<Value, Problem> {
     Ok(json!({"text": text, "fields": Form::of_text(kind, &text)}))
 }
 
-/// What should be known of files, and what is found without waiting for it: all of a bearing, a bevel pair under its torques.
+/// What should be known of files, and what is found without waiting for it: all of a bearing, a bevel pair under its
+/// torques.
 ///
 /// # Errors
 /// [`Problem`] for the first of them that is wrong, and once `stop` is set.

@@ -177,7 +177,7 @@ impl ColumnsSession {
     /// The gears at moments of a stretch, and the forces on their teeth.
     ///
     /// # Errors
-    /// [`Problem`] for a result without gears that move, and once `watch` stops it.
+    /// [`Problem`] for a result without anything that could be drawn, and once `watch` stops it.
     pub fn moments(&self, asked: &MomentsAsked, watch: &Watch<'_>) -> Result<Value, Problem> {
         let result = self.locked()?;
         let stretch = [asked.from, asked.to];
@@ -192,7 +192,8 @@ impl ColumnsSession {
     /// Curves, or their spectra.
     ///
     /// # Errors
-    /// [`Problem::Input`] for a column that is not there, for rows without a spectrum, and where no result stands beside.
+    /// [`Problem::Input`] for a column that is not there and for rows without a spectrum, [`Problem::Absent`] where no
+    /// result stands beside.
     pub fn curves(&self, asked: &CurvesAsked) -> Result<Value, Problem> {
         if asked.beside {
             let other = self.beside.as_ref().ok_or(Problem::Absent)?;

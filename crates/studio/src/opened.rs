@@ -30,7 +30,7 @@ pub enum Opened {
 }
 
 impl Opened {
-    /// Opens a pair scene (`.toml`) or a result (`.h5`).
+    /// Opens a scene (`.toml`), a result (`.h5`) or a folder with some.
     ///
     /// # Errors
     /// [`Problem`] for a file of another kind, and for one that is wrong.
@@ -65,7 +65,7 @@ impl Opened {
     /// The result of a multibody scene with another one beside it.
     ///
     /// # Errors
-    /// As [`Opened::named`] of either, and for results that have no columns in common.
+    /// As [`Opened::named`] of the other one, and for results that run over different quantities.
     pub fn beside(self, other: &Path) -> Result<Self, Problem> {
         match (self, Self::named(other)?) {
             (Self::Columns(first), Self::Columns(second)) => {

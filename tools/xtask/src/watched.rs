@@ -27,8 +27,8 @@ struct Line {
     text: String,
 }
 
-/// Runs a command without standard input. `hear` gets each line of its standard output at once. After `silence` without a
-/// line on either pipe it is killed.
+/// Runs a command without standard input. `hear` gets each line of its standard output at once. After `silence` without
+/// a line on either pipe it is killed.
 ///
 /// # Errors
 /// Those of the system where the program cannot be started or waited for.

@@ -1,5 +1,5 @@
-//! What of a machine is drawn beside its gears: sections of shafts, bearings with their balls or rollers, cages, and the
-//! bodies of which nothing but the inertia is known.
+//! What of a machine is drawn beside its gears: sections of shafts, bearings with their balls or rollers, cages, and
+//! the bodies of which nothing but the inertia is known.
 
 use std::path::Path;
 
@@ -15,7 +15,8 @@ use crate::system::scene::SystemTables;
 use crate::system::tables::bearing::{BearingModel, BearingTable};
 use crate::system_run::{body_column, element_column};
 
-/// Half the height of a ring's shoulder from the pitch circle, and how far the ring goes, as shares of a ball's diameter.
+/// Where a ring begins and ends from the pitch circle, as shares of a ball's diameter: for a picture, files state
+/// neither.
 const RING: [f64; 2] = [0.2, 0.85];
 /// Width of a ring over that of its balls or rollers.
 const RING_WIDTH: f64 = 1.15;
@@ -100,7 +101,8 @@ pub struct MovingElements {
     pub angle_columns: Vec<String>,
     /// Columns of their loads at the outer race, where they are recorded \[N\].
     pub load_columns: Vec<String>,
-    /// Columns of the turns of outer and inner ring's bodies, with the sense of the bearing's axis: by pure rolling elsewhere.
+    /// Columns of the turns of the bodies of outer and inner ring, with the sense of the bearing's axis: for pure
+    /// rolling, where angles are not recorded.
     pub turns: [Option<(String, f64)>; 2],
 }
 
