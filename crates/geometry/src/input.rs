@@ -1,5 +1,6 @@
 //! Reading TOML for people: every complaint names file, line, key, what was found and what is allowed.
 
+mod beside;
 mod bounded;
 mod csv_rows;
 mod derived_tables;
@@ -19,6 +20,7 @@ mod unit_slips;
 mod values;
 mod wording;
 
+pub use beside::Beside;
 pub use bounded::{Bounded, Count, End, NotNegative, Positive, Range, UpTo, Within};
 pub use csv_rows::{CsvRows, separator_hint, shown_field};
 pub use derived_tables::DerivedTable;

@@ -1,14 +1,16 @@
 //! Keys of a bearing that is known by its catalogue line only.
 
-use gearmesh_geometry::InputError;
-use gearmesh_geometry::given;
 use gearmesh_geometry::input::{Bounded, InputDocument, Positive, TableKeys};
+use gearmesh_geometry::{InputError, given};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-use super::ball_keys::{angle_of_clearance, four_point_kind, shoulder_heights_m};
+use super::ball_keys::{Conformity, angle_of_clearance, four_point_kind, shoulder_heights_m};
 use super::barrel_keys::usual_shape;
-use super::element_keys::{Clearances, LAMINAE};
-use super::roller_keys::usual_taper;
-use super::{BearingFile, MM, unused_keys};
+use super::element_keys::Clearances;
+use super::roller_keys::{LAMINAE, usual_taper};
+use super::row_keys::{PreloadKeys, RowKeys};
+use super::{GeneralKeys, Inside, MM};
 use crate::catalogue::{CatalogueLine, CatalogueType, KnownInside};
 use crate::definition::{
     Arrangement, BallBearingKind, BallGeometry, BearingGeometry, RollerGeometry, RollerProfile,
@@ -17,32 +19,60 @@ use crate::definition::{
 use crate::designations;
 use crate::estimate::Estimate;
 
-/// A bearing estimated from its line.
-pub(super) struct FromCatalogue {
-    pub geometry: BearingGeometry,
-    /// Bore and outside diameter \[m\].
-    pub boundary_m: (f64, f64),
-    /// Rows within its rings, where there are several.
-    pub rows: Option<Arrangement>,
-    /// Ratings of one bearing that the line states.
-    pub ratings: StatedRatings,
-    pub estimate: Estimate,
-    pub name: Option<String>,
+/// Keys of a line of a catalogue.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CatalogueKeys {
+    /// A designation such as "6205", "7010 C", "NU 204" or "30206": boundary dimensions by ISO 15 and ISO 355.
+    designation: Option<String>,
+    /// Type, where no designation is given.
+    r#type: Option<CatalogueType>,
+    /// Contact angle without load of angular-contact, four-point and spherical roller bearings; of tapered ones the angle of the outer race.
+    contact_angle_deg: Option<f64>,
+    /// Play across the axis from one side to the other; negative: interference, as fits leave it; 0 where not given.
+    radial_clearance_um: Option<f64>,
+    /// Ball bearings: number of balls in a row, where it is known.
+    balls: Option<usize>,
+    /// Ball bearings: diameter of the balls, where it is known.
+    ball_diameter_mm: Option<Bounded<Positive>>,
+    /// Ball bearings: radius of the inner groove over the ball's diameter, where it is known.
+    inner_conformity: Option<Bounded<Conformity>>,
+    /// Ball bearings: radius of the outer groove over the ball's diameter, where it is known.
+    outer_conformity: Option<Bounded<Conformity>>,
+    /// Ball bearings: heights of the shoulders above the bottoms of the inner and outer groove, where they are known.
+    shoulder_heights_mm: Option<[f64; 2]>,
+    /// Roller bearings: number of rollers in a row, where it is known.
+    rollers: Option<usize>,
+    /// Roller bearings: diameter of the rollers, in their middle, where it is known.
+    roller_diameter_mm: Option<Bounded<Positive>>,
+    /// Roller bearings: length of the rollers that carries, where it is known.
+    roller_length_mm: Option<Bounded<Positive>>,
+    /// Diameter of the circle of the balls' or rollers' middles, where it is known; the middle between bore and outside diameter otherwise.
+    pitch_diameter_mm: Option<Bounded<Positive>>,
+}
+
+/// A line: its own keys, those of its rows and those of all bearings.
+#[derive(Clone, Copy)]
+pub(super) struct Line<'a> {
+    pub general: &'a GeneralKeys,
+    pub rows: &'a RowKeys,
+    pub preload: &'a PreloadKeys,
+    pub own: &'a CatalogueKeys,
 }
 
 /// Finds or reads the line and estimates what is inside.
-pub(super) fn geometry(
-    file: &BearingFile,
+pub(super) fn inside(
+    file: Line<'_>,
     document: &InputDocument,
     keys: &TableKeys<'_>,
     notes: &mut Vec<String>,
-) -> Result<FromCatalogue, InputError> {
-    let (mut line, name) = match &file.designation {
+) -> Result<Inside, InputError> {
+    let (mut line, name) = match &file.own.designation {
         Some(designation) => designated(designation, file, keys, notes)?,
         None => (line(file, keys)?, None),
     };
     read_ratings(file, document, &mut line, name.is_some())?;
-    unused_keys::by_type(file, keys, line.kind)?;
+    refuse_unused(file, keys, line.kind)?;
     line.known = known(file, line.kind);
     if line.kind == CatalogueType::SphericalRoller && line.contact_angle_rad == 0.0 {
         // Rows whose middles stand half the width apart.
@@ -74,16 +104,29 @@ pub(super) fn geometry(
          conformities and clearance are assumed where not given"
             .to_owned(),
     );
-    Ok(FromCatalogue {
+    let stated = file.general.stated_ratings();
+    let (arrangement, ratings) = match rows(file, keys, &line, &estimate, notes)? {
+        Some(rows) => (rows, stated),
+        None => {
+            // The line's ratings are those of one bearing.
+            let of_one = StatedRatings {
+                dynamic_n: line.dynamic_n,
+                static_n: line.static_n,
+                fatigue_n: None,
+            };
+            let arrangement = file.rows.arrangement(keys)?;
+            let bearings = arrangement.rows().len();
+            let ratings = of_one.of_several(bearings, &geometry, stated.fatigue_n);
+            (arrangement, ratings)
+        }
+    };
+    Ok(Inside {
         geometry,
-        boundary_m: (line.bore_m, line.outside_m),
-        rows: rows(file, keys, &line, &estimate, notes)?,
-        ratings: StatedRatings {
-            dynamic_n: line.dynamic_n,
-            static_n: line.static_n,
-            fatigue_n: None,
-        },
-        estimate,
+        arrangement,
+        preload: file.preload.preload(keys)?,
+        ratings,
+        boundary_m: (Some(line.bore_m), Some(line.outside_m)),
+        estimate: Some(estimate),
         name,
     })
 }
@@ -91,7 +134,7 @@ pub(super) fn geometry(
 /// The line of a designation.
 fn designated(
     designation: &str,
-    file: &BearingFile,
+    file: Line<'_>,
     keys: &TableKeys<'_>,
     notes: &mut Vec<String>,
 ) -> Result<(CatalogueLine, Option<String>), InputError> {
@@ -105,12 +148,13 @@ fn designated(
         )
     })?;
     let twice = "is given together with a designation, which says it; remove one of the two";
+    keys.refuse(&given!(file.own; r#type), twice)?;
     keys.refuse(
-        &given!(file; r#type, bore_mm, outside_diameter_mm, width_mm),
+        &given!(file.general; bore_mm, outside_diameter_mm, width_mm),
         twice,
     )?;
     if listed.says_angle {
-        keys.refuse(&given!(file; contact_angle_deg), twice)?;
+        keys.refuse(&given!(file.own; contact_angle_deg), twice)?;
     } else {
         listed.line.contact_angle_rad = contact_angle(file, keys, listed.line.kind)?;
     }
@@ -119,23 +163,23 @@ fn designated(
 }
 
 /// What is known of the inside.
-fn known(file: &BearingFile, kind: CatalogueType) -> KnownInside {
+fn known(file: Line<'_>, kind: CatalogueType) -> KnownInside {
     let (number, diameter) = if kind.has_rollers() {
-        (file.rollers, file.roller_diameter_mm)
+        (file.own.rollers, file.own.roller_diameter_mm)
     } else {
-        (file.balls, file.ball_diameter_mm)
+        (file.own.balls, file.own.ball_diameter_mm)
     };
     KnownInside {
         elements: number,
         diameter_m: diameter.map(|mm| MM * mm),
-        length_m: file.roller_length_mm.map(|mm| MM * mm),
-        pitch_m: file.pitch_diameter_mm.map(|mm| MM * mm),
+        length_m: file.own.roller_length_mm.map(|mm| MM * mm),
+        pitch_m: file.own.pitch_diameter_mm.map(|mm| MM * mm),
     }
 }
 
 /// Rows within one pair of rings.
 fn rows(
-    file: &BearingFile,
+    file: Line<'_>,
     keys: &TableKeys<'_>,
     line: &CatalogueLine,
     estimate: &Estimate,
@@ -151,7 +195,7 @@ fn rows(
     let most_m = line.width_m - estimate.diameter_m;
     // Balls of both rows side by side, were they not staggered.
     let least_m = 0.5 * estimate.diameter_m;
-    let distance_m = match file.row_distance_mm {
+    let distance_m = match file.rows.row_distance_mm {
         Some(mm) => MM * mm,
         None => {
             let distance_m = (0.5 * line.width_m).max(estimate.diameter_m).min(most_m);
@@ -174,11 +218,11 @@ fn rows(
             line.width_m / MM
         ),
     )?;
-    super::arrangement_keys::of_double_row(file, keys, distance_m).map(Some)
+    file.rows.of_double_row(keys, distance_m).map(Some)
 }
 
 fn roller_geometry(
-    file: &BearingFile,
+    file: Line<'_>,
     keys: &TableKeys<'_>,
     line: &CatalogueLine,
     estimate: &Estimate,
@@ -198,7 +242,8 @@ fn roller_geometry(
         diameter_m: estimate.diameter_m,
         length_m: estimate.length_m,
         pitch_diameter_m: estimate.pitch_m,
-        radial_clearance_m: Clearances::of_rollers(size.0).stated_m(file, keys)?,
+        radial_clearance_m: Clearances::of_rollers(size.0)
+            .stated_m(file.own.radial_clearance_um, keys)?,
         taper,
         barrel,
         profile: RollerProfile::Logarithmic {
@@ -209,7 +254,7 @@ fn roller_geometry(
 }
 
 fn ball_geometry(
-    file: &BearingFile,
+    file: Line<'_>,
     keys: &TableKeys<'_>,
     line: &CatalogueLine,
     estimate: &Estimate,
@@ -218,8 +263,8 @@ fn ball_geometry(
         CatalogueType::ThrustBall => [0.54; 2],
         _ => [0.52, 0.53],
     };
-    let inner = file.inner_conformity.map_or(usual[0], f64::from);
-    let outer = file.outer_conformity.map_or(usual[1], f64::from);
+    let inner = file.own.inner_conformity.map_or(usual[0], f64::from);
+    let outer = file.own.outer_conformity.map_or(usual[1], f64::from);
     let (ball_m, distance_m) = (
         estimate.diameter_m,
         (inner + outer - 1.0) * estimate.diameter_m,
@@ -227,12 +272,15 @@ fn ball_geometry(
     let (kind, (free_angle_rad, interference_m)) = match line.kind {
         CatalogueType::DeepGroove => {
             let range = Clearances::of_balls(ball_m, 2.0 * distance_m);
-            let angle = angle_of_clearance(range.stated_m(file, keys)?, distance_m);
+            let angle = angle_of_clearance(
+                range.stated_m(file.own.radial_clearance_um, keys)?,
+                distance_m,
+            );
             (BallBearingKind::DeepGroove, angle)
         }
         CatalogueType::FourPoint => {
             let (sizes, angle) = ((ball_m, distance_m), line.contact_angle_rad);
-            let kind = four_point_kind(file, keys, sizes, angle)?;
+            let kind = four_point_kind(file.own.radial_clearance_um, keys, sizes, angle)?;
             (kind, (angle, 0.0))
         }
         CatalogueType::ThrustBall => (BallBearingKind::Thrust, (std::f64::consts::FRAC_PI_2, 0.0)),
@@ -250,21 +298,25 @@ fn ball_geometry(
         outer_conformity: outer,
         free_angle_rad,
         interference_m,
-        stated_shoulder_heights_m: shoulder_heights_m(file, keys, estimate.diameter_m / MM)?,
+        stated_shoulder_heights_m: shoulder_heights_m(
+            file.own.shoulder_heights_mm,
+            keys,
+            estimate.diameter_m / MM,
+        )?,
     }))
 }
 
 /// The line as the file states it, without ratings.
-fn line(file: &BearingFile, keys: &TableKeys<'_>) -> Result<CatalogueLine, InputError> {
+fn line(file: Line<'_>, keys: &TableKeys<'_>) -> Result<CatalogueLine, InputError> {
     let needed_by = "a catalogue bearing without designation";
-    let kind = keys.needed("type", file.r#type, needed_by)?;
+    let kind = keys.needed("type", file.own.r#type, needed_by)?;
     let size = |key: &str, value: Option<Bounded<Positive>>| {
         let value = keys.needed(key, value, needed_by)?;
         Ok::<_, InputError>(MM * value)
     };
-    let bore_m = size("bore_mm", file.bore_mm)?;
-    let outside_m = size("outside_diameter_mm", file.outside_diameter_mm)?;
-    let width_m = size("width_mm", file.width_mm)?;
+    let bore_m = size("bore_mm", file.general.bore_mm)?;
+    let outside_m = size("outside_diameter_mm", file.general.outside_diameter_mm)?;
+    let width_m = size("width_mm", file.general.width_mm)?;
     keys.require(
         "outside_diameter_mm",
         outside_m / MM,
@@ -285,13 +337,13 @@ fn line(file: &BearingFile, keys: &TableKeys<'_>) -> Result<CatalogueLine, Input
 
 /// Ratings that the file states; they belong to one bearing.
 fn read_ratings(
-    file: &BearingFile,
+    file: Line<'_>,
     document: &InputDocument,
     line: &mut CatalogueLine,
     has_designation: bool,
 ) -> Result<(), InputError> {
     let table = TableKeys::new(document, "ratings");
-    let ratings = file.ratings.clone().unwrap_or_default();
+    let ratings = file.general.ratings.clone().unwrap_or_default();
     for (key, value, place) in [
         ("dynamic_N", ratings.dynamic_N, &mut line.dynamic_n),
         ("static_N", ratings.static_N, &mut line.static_n),
@@ -305,12 +357,12 @@ fn read_ratings(
 }
 
 fn contact_angle(
-    file: &BearingFile,
+    file: Line<'_>,
     keys: &TableKeys<'_>,
     kind: CatalogueType,
 ) -> Result<f64, InputError> {
     let key = "contact_angle_deg";
-    match (kind.angles_deg(), file.contact_angle_deg) {
+    match (kind.angles_deg(), file.own.contact_angle_deg) {
         // Follows from the width where it is not known.
         (Some(_), None) if kind == CatalogueType::SphericalRoller => Ok(0.0),
         (Some([least, most]), angle) => {
@@ -338,4 +390,32 @@ fn contact_angle(
             ),
         )),
     }
+}
+
+/// Keys that the type of a line does not use are errors.
+fn refuse_unused(
+    file: Line<'_>,
+    keys: &TableKeys<'_>,
+    kind: CatalogueType,
+) -> Result<(), InputError> {
+    const BALLS: &str =
+        "deep-groove angular-contact angular-contact-double-row four-point thrust-ball";
+    const WITH_SHOULDERS: &str =
+        "deep-groove angular-contact angular-contact-double-row four-point";
+    const ROLLERS: &str = "cylindrical-roller tapered-roller spherical-roller";
+    // The play of the others is said by their contact angle or preload_um.
+    const WITH_PLAY: &str = "deep-groove four-point cylindrical-roller spherical-roller";
+    const PAIRED: &str =
+        "deep-groove angular-contact angular-contact-double-row cylindrical-roller tapered-roller";
+    let (own, rows) = (file.own, file.rows);
+    let groups: &[(&[(&str, bool)], &str)] = &[
+        (&given!(own; balls, ball_diameter_mm), BALLS),
+        (&given!(own; inner_conformity, outer_conformity), BALLS),
+        (&given!(own; shoulder_heights_mm), WITH_SHOULDERS),
+        (&given!(own; rollers, roller_diameter_mm), ROLLERS),
+        (&given!(own; roller_length_mm), ROLLERS),
+        (&given!(own; radial_clearance_um), WITH_PLAY),
+        (&given!(rows; arrangement, row_distance_mm), PAIRED),
+    ];
+    keys.refuse_unused(("type", kind.word()), groups)
 }

@@ -1,14 +1,11 @@
-//! Keys that balls and rollers share: their number, size and circle, laminae and clearance.
+//! What balls and rollers share: their number, size and circle, and the clearance.
 
 use std::fmt;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{Bounded, Count, Positive, TableKeys};
+use gearmesh_geometry::input::TableKeys;
 
-use super::{BearingFile, UM};
-
-/// Laminae where the file names none.
-pub(super) const LAMINAE: usize = 40;
+use super::UM;
 
 /// Balls or rollers of a row at most: those of the largest slewing bearings are a few hundred.
 const MOST_ELEMENTS: f64 = 1000.0;
@@ -32,30 +29,22 @@ pub(super) struct Elements {
 }
 
 impl Elements {
-    /// Balls as the file states them.
-    pub fn balls(file: &BearingFile, keys: &TableKeys<'_>) -> Result<Self, InputError> {
-        let names = ["ball", "balls", "ball_diameter_mm"];
-        let stated = (file.balls, file.ball_diameter_mm);
-        Self::checked(names, (stated, 0.0), file, keys)
+    /// A number of balls of a diameter on a pitch diameter \[mm\].
+    pub fn balls(stated: (usize, f64, f64), keys: &TableKeys<'_>) -> Result<Self, InputError> {
+        Self::checked(["ball", "balls"], stated, 0.0, keys)
     }
 
-    /// Rollers as the file states them.
-    pub fn rollers(file: &BearingFile, keys: &TableKeys<'_>) -> Result<Self, InputError> {
-        let names = ["roller", "rollers", "roller_diameter_mm"];
-        let stated = (file.rollers, file.roller_diameter_mm);
-        Self::checked(names, (stated, LEAST_OF_ROLLERS), file, keys)
+    /// The same of rollers.
+    pub fn rollers(stated: (usize, f64, f64), keys: &TableKeys<'_>) -> Result<Self, InputError> {
+        Self::checked(["roller", "rollers"], stated, LEAST_OF_ROLLERS, keys)
     }
 
     fn checked(
-        [word, number_key, diameter_key]: [&str; 3],
-        ((number, diameter_mm), least_share): ((Option<usize>, Option<Bounded<Positive>>), f64),
-        file: &BearingFile,
+        [word, number_key]: [&str; 2],
+        (number, diameter_mm, pitch_mm): (usize, f64, f64),
+        least_share: f64,
         keys: &TableKeys<'_>,
     ) -> Result<Self, InputError> {
-        let needed_by = format!("kind = \"{}\"", file.kind.word());
-        let number = keys.needed(number_key, number, &needed_by)?;
-        let diameter_mm = *keys.needed(diameter_key, diameter_mm, &needed_by)?;
-        let pitch_mm = *keys.needed("pitch_diameter_mm", file.pitch_diameter_mm, &needed_by)?;
         let allowed = format!("more than the {word}'s diameter, {diameter_mm}");
         keys.require(
             "pitch_diameter_mm",
@@ -80,51 +69,6 @@ impl Elements {
             pitch_mm,
         })
     }
-}
-
-/// Lengths of rollers over their diameter: thinner ones are discs, longer ones wires.
-const SLENDERNESS: [f64; 2] = [0.1, 100.0];
-
-/// Length of rollers of a diameter \[mm\].
-pub(super) fn roller_length_mm(
-    file: &BearingFile,
-    keys: &TableKeys<'_>,
-    diameter_mm: f64,
-) -> Result<f64, InputError> {
-    let needed_by = format!("kind = \"{}\"", file.kind.word());
-    let length = *keys.needed("roller_length_mm", file.roller_length_mm, &needed_by)?;
-    let [least, most] = SLENDERNESS.map(|share| share * diameter_mm);
-    keys.require(
-        "roller_length_mm",
-        length,
-        (least..=most).contains(&length),
-        &format!("{least:.4} to {most:.4}, a tenth to a hundred times the rollers' diameter"),
-    )?;
-    Ok(length)
-}
-
-/// Number of laminae.
-pub(super) fn laminae(file: &BearingFile) -> usize {
-    file.laminae.map_or(LAMINAE, Count::get)
-}
-
-/// A contact angle within \[deg\], in radians; more than the least one where that is 0.
-pub(super) fn contact_angle_rad(
-    file: &BearingFile,
-    keys: &TableKeys<'_>,
-    [least, most]: [f64; 2],
-) -> Result<f64, InputError> {
-    let key = "contact_angle_deg";
-    let needed_by = format!("kind = \"{}\"", file.kind.word());
-    let degrees = keys.needed(key, file.contact_angle_deg, &needed_by)?;
-    let allowed = if least > 0.0 {
-        format!("{least} to {most}")
-    } else {
-        format!("more than 0 and at most {most}")
-    };
-    let within = degrees > 0.0 && (least..=most).contains(&degrees);
-    keys.require(key, degrees, within, &allowed)?;
-    Ok(degrees.to_radians())
 }
 
 /// Radial clearances that a bearing can have: down to an interference of a hundredth of the diameter of its balls or
@@ -173,8 +117,12 @@ impl Clearances {
     }
 
     /// `radial_clearance_um`, 0 where it is not given, in metres.
-    pub fn stated_m(&self, file: &BearingFile, keys: &TableKeys<'_>) -> Result<f64, InputError> {
-        let um = file.radial_clearance_um.unwrap_or(0.0);
+    pub fn stated_m(
+        &self,
+        stated_um: Option<f64>,
+        keys: &TableKeys<'_>,
+    ) -> Result<f64, InputError> {
+        let um = stated_um.unwrap_or(0.0);
         let clearance_m = UM * um;
         keys.require(
             "radial_clearance_um",

@@ -54,51 +54,36 @@ impl<'a> Page<'a> {
             let _ = write!(self.text, "{about}\n\n");
         }
         self.text += "| key | value | meaning |\n| --- | --- | --- |\n";
+        let variants = variants(found);
+        let shared = shared_keys(&variants);
         let mut inner = Vec::new();
-        for variant in variants(found) {
+        for (number, variant) in variants.into_iter().enumerate() {
             let needed: Vec<&str> = strings(&variant["required"]);
             let Some(keys) = variant["properties"].as_object() else {
                 continue;
             };
-            // The word that tells the kinds apart stands above the keys of its kind.
+            // Before those of the first kind stand the keys that all kinds have; the word that tells the kinds apart
+            // stands above the keys of its kind.
+            let of_all = |key: &str| shared.contains(&key);
             let is_word = |value: &Value| !value["const"].is_null();
-            let (words, others): (Vec<_>, Vec<_>) =
-                keys.iter().partition(|(_, value)| is_word(value));
-            for (key, value) in words.into_iter().chain(others) {
-                let shown = if needed.contains(&key.as_str()) {
-                    format!("**`{key}`**")
-                } else {
-                    format!("`{key}`")
+            let is_first = |(key, _): &(&String, &Value)| number == 0 && of_all(key);
+            let own = || keys.iter().filter(|(key, _)| !of_all(key));
+            let (words, others): (Vec<_>, Vec<_>) = own().partition(|(_, value)| is_word(value));
+            let all = keys.iter().filter(is_first);
+            for (key, value) in all.chain(words).chain(others) {
+                self.row(key, value, (variant, needed.contains(&key.as_str())));
+                let (target, _) = self.resolved(value);
+                let (element, is_list) = match target["items"] {
+                    Value::Null => (target, false),
+                    ref items => (self.resolved(items).0, true),
                 };
-                let (target, name) = self.resolved(value);
-                let meaning = match words_of(value) {
-                    text if text.is_empty() => words_of(target),
-                    text => text,
-                };
-                // The word that tells one kind of table from the others means that kind.
-                let meaning = if meaning.is_empty() {
-                    words_of(variant)
-                } else {
-                    meaning
-                };
-                let kind = self.kind(value, NumberRange::of(key));
-                let _ = writeln!(self.text, "| {shown} | {kind} | {} |", cell(&meaning));
-                let element = match target["items"] {
-                    Value::Null => (target, name, false),
-                    ref items => {
-                        let (target, name) = self.resolved(items);
-                        (target, name, true)
-                    }
-                };
-                if variants(element.0)
-                    .iter()
-                    .any(|v| v["properties"].is_object())
-                {
-                    inner.push((key.clone(), element, value));
+                let mut kinds = self::variants(element).into_iter();
+                if kinds.any(|v| v["properties"].is_object()) {
+                    inner.push((key.clone(), is_list, value));
                 }
             }
         }
-        for (key, (_, _, is_list), value) in inner {
+        for (key, is_list, value) in inner {
             let path = if path.is_empty() {
                 key
             } else {
@@ -113,6 +98,20 @@ impl<'a> Page<'a> {
             let inner = if is_list { &target["items"] } else { value };
             self.table(&title, &path, inner);
         }
+    }
+
+    /// The row of a key.
+    fn row(&mut self, key: &str, value: &'a Value, (variant, is_needed): (&Value, bool)) {
+        let shown = match is_needed {
+            true => format!("**`{key}`**"),
+            false => format!("`{key}`"),
+        };
+        // The word that tells one kind of table from the others means that kind.
+        let meanings = [value, self.resolved(value).0, variant].map(words_of);
+        let meaning = meanings.into_iter().find(|text| !text.is_empty());
+        let kind = self.kind(value, NumberRange::of(key));
+        let meaning = cell(&meaning.unwrap_or_default());
+        let _ = writeln!(self.text, "| {shown} | {kind} | {meaning} |");
     }
 
     /// What a value is, in words; a range where it is narrower than that of all numbers of the unit.
@@ -183,6 +182,25 @@ fn range(schema: &Value, unit: NumberRange) -> String {
 fn variants(schema: &Value) -> Vec<&Value> {
     let several = schema["oneOf"].as_array().or(schema["anyOf"].as_array());
     several.map_or(vec![schema], |list| list.iter().collect())
+}
+
+/// Keys that several kinds of a table all have, with the same meaning.
+fn shared_keys<'a>(variants: &[&'a Value]) -> Vec<&'a str> {
+    let [first, others @ ..] = variants else {
+        return Vec::new();
+    };
+    if others.is_empty() {
+        return Vec::new();
+    }
+    let is_needed = |variant: &Value, key: &str| strings(&variant["required"]).contains(&key);
+    let keys = first["properties"].as_object().into_iter().flatten();
+    let shared = keys.filter(|(key, value)| {
+        others.iter().all(|other| {
+            other["properties"][key.as_str()] == **value
+                && is_needed(other, key) == is_needed(first, key)
+        })
+    });
+    shared.map(|(key, _)| key.as_str()).collect()
 }
 
 fn words_of(schema: &Value) -> String {

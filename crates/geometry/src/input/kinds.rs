@@ -4,8 +4,8 @@
 //! serde reads such tables, too, but forgets where it is as soon as it has seen the tag. Here complaints keep the key.
 
 use serde::de::{
-    DeserializeSeed, Deserializer, EnumAccess, Error, IntoDeserializer, VariantAccess, Visitor,
-    value,
+    DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Error, IntoDeserializer,
+    VariantAccess, Visitor, value,
 };
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -148,9 +148,20 @@ fn unknown_key<T: Kinds>(key: &str, kind: &str, keys: &[&str], known: &[KeysOfKi
     } else {
         format!(
             "`{key}` belongs to {tag} {}, not to \"{kind}\", which knows {}",
-            owners.join(" and "),
+            all_of(&owners),
             expected.join(", ")
         )
+    }
+}
+
+/// Names with "and" before the last.
+fn all_of(names: &[String]) -> String {
+    match names {
+        [others @ .., before, last] => {
+            let others: String = others.iter().map(|name| format!("{name}, ")).collect();
+            format!("{others}{before} and {last}")
+        }
+        _ => names.concat(),
     }
 }
 
@@ -169,7 +180,7 @@ const MARK: char = '\u{1f}';
 const PART: char = '\u{1e}';
 
 /// A complaint about a place below the one that the deserializer is at.
-fn below<E: Error>(path: &[String], message: &str) -> E {
+pub(super) fn below<E: Error>(path: &[String], message: &str) -> E {
     let (deeper, message) = told_below(message);
     let path: Vec<&str> = path.iter().map(String::as_str).chain(deeper).collect();
     E::custom(format!(
@@ -192,6 +203,16 @@ pub(super) fn told_below(message: &str) -> (Vec<&str>, &str) {
 
 /// Name of a kind and its keys.
 type KeysOfKind = (&'static str, Vec<&'static str>);
+
+/// The keys of a structure, as serde knows them.
+pub(super) fn keys_of<T: DeserializeOwned>() -> Vec<&'static str> {
+    let mut keys = Asked::default();
+    let _ = T::deserialize(Question {
+        kind: None,
+        told: &mut keys,
+    });
+    keys.0
+}
 
 /// The kinds with their keys, as serde knows them.
 fn keys_by_kind<T: Kinds>() -> Vec<KeysOfKind> {
