@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
-use hdf5::{File, Group, H5Type, Location};
+use hdf5::{File, Group, H5Type, Location, LocationType};
 
 use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
 use crate::data_tree_file::{OWN_ATTRIBUTES, hdf5_error, missing, wrong_type};
@@ -112,28 +112,20 @@ impl Reader<'_> {
         skip: Option<&str>,
         tree: &mut DataTree,
     ) -> Result<(), FileError> {
-        let local_name = |location: &Location| {
-            location
-                .name()
-                .rsplit('/')
-                .next()
-                .unwrap_or_default()
-                .to_owned()
-        };
-        for dataset in group
-            .datasets()
-            .map_err(hdf5_error(self.path, "list the datasets of"))?
-        {
-            let name = format!("{prefix}{}", local_name(&dataset));
-            self.dataset(&dataset, name, tree)?;
-        }
-        for child in group
-            .groups()
-            .map_err(hdf5_error(self.path, "list the groups of"))?
-        {
-            let local = local_name(&child);
-            if skip != Some(local.as_str()) {
-                self.group(&child, &format!("{prefix}{local}/"), None, tree)?;
+        // By their names: that of an object that is open already libhdf5 looks for in the whole file.
+        let failed = hdf5_error(self.path, "list the contents of");
+        for local in group.member_names().map_err(&failed)? {
+            let name = format!("{prefix}{local}");
+            match group.loc_info_by_name(&local).map_err(&failed)?.loc_type {
+                LocationType::Dataset => {
+                    let dataset = group.dataset(&local).map_err(&failed)?;
+                    self.dataset(&dataset, name, tree)?;
+                }
+                LocationType::Group if skip != Some(local.as_str()) => {
+                    let child = group.group(&local).map_err(&failed)?;
+                    self.group(&child, &format!("{name}/"), None, tree)?;
+                }
+                _ => {}
             }
         }
         Ok(())
