@@ -78,7 +78,8 @@ fn result(text: &str, folder: &Path) -> (SystemResult, Duration) {
     };
     let start = Instant::now();
     run(job, &options).unwrap();
-    (SystemResult::open(&output).unwrap(), start.elapsed())
+    let wall = start.elapsed();
+    (SystemResult::open(&output).unwrap(), wall)
 }
 
 fn print_steps(name: &str, scene: &str, folder: &Path) {
