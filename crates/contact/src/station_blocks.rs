@@ -216,6 +216,77 @@ impl CombinedBlocks<'_> {
     }
 }
 
+/// Σ_ij f_ij T_ij of slices i at one place and j at another, by the four rows of four stations: what the places have
+/// in common is worked out once, in the sum. It is kept in memory that a loop is given: there, and not among its own
+/// variables, the compiler sees four values side by side.
+pub type SummedBlocks = [[f64; SHARES]; SHARES];
+
+impl CombinedBlocks<'_> {
+    /// Adds a multiple of what slice a and slice b have.
+    #[inline(always)]
+    pub fn add_to(&self, sum: &mut SummedBlocks, factor: f64, slices: [usize; 2]) {
+        let rows = self.rows(slices);
+        for (sum, row) in sum.iter_mut().zip(&rows) {
+            add(sum, factor, row);
+        }
+    }
+
+    /// How a sum of compliances changes with the first place and with the second one.
+    #[inline(always)]
+    #[must_use]
+    pub fn rates_of(&self, [first, second, third, fourth]: &SummedBlocks) -> [f64; 2] {
+        let [a, b] = self.places;
+        let rows = [first, second, third, fourth];
+        [
+            dot(&weighted(&rows, a.all_rates()), b.all_shares()),
+            dot(&weighted(&rows, a.all_shares()), b.all_rates()),
+        ]
+    }
+
+    /// What the stations around both places weigh, for [`Self::compliances`].
+    #[inline(always)]
+    #[must_use]
+    pub fn weights(&self) -> [[f64; SHARES]; SHARES] {
+        let [of_a, of_b] = [self.places[0].all_shares(), self.places[1].all_shares()];
+        let mut weights = [[0.0; SHARES]; SHARES];
+        for (row, a) in weights.iter_mut().zip(of_a) {
+            for (weight, b) in row.iter_mut().zip(of_b) {
+                *weight = a * b;
+            }
+        }
+        weights
+    }
+
+    /// C of slice a of the first flank and each of some slices of the second one, in four parts; at most [`LANES`] of
+    /// them.
+    #[inline(always)]
+    pub fn compliances(
+        &self,
+        weights: &[[f64; SHARES]; SHARES],
+        a: usize,
+        slices: &[usize],
+        parts: &mut [[f64; SHARES]; LANES],
+    ) {
+        for (part, b) in parts.iter_mut().zip(slices) {
+            let rows = self.rows([a, *b]);
+            for t in 0..SHARES {
+                part[t] = (weights[0][t] * rows[0][t] + weights[1][t] * rows[1][t])
+                    + (weights[2][t] * rows[2][t] + weights[3][t] * rows[3][t]);
+            }
+        }
+    }
+}
+
+/// Slices whose compliances are worked out side by side.
+pub const LANES: usize = 8;
+
+/// The sum of the four parts of [`CombinedBlocks::compliances`].
+#[inline(always)]
+#[must_use]
+pub fn whole([a, b, c, d]: &[f64; SHARES]) -> f64 {
+    (a + b) + (c + d)
+}
+
 /// Slices that stand beside their own middles along the tooth: Σ_i Σ_j w_i w_j C_ij over those around both places.
 impl CombinedBlocks<'_> {
     /// C.
