@@ -55,12 +55,10 @@ pub fn give(
             continue;
         };
         seated.gear.thickness_allowance_mm += thinner;
-        if let Some(component) = source.model.component(seated.gear.id) {
-            let what = format!(
-                "no backlash at a centre distance of {distance_mm:.4} mm: teeth {:.1} um thinner on the reference circle",
-                1e3 * thinner
-            );
-            source.assume(component, About::Small, what);
-        }
+        let what = format!(
+            "no backlash at a centre distance of {distance_mm:.4} mm: teeth {:.1} um thinner on the reference circle",
+            1e3 * thinner
+        );
+        source.assume_of(seated.gear.id, About::Small, what);
     }
 }

@@ -1,6 +1,7 @@
 //! Bearings: springs in the scene, files for those with a catalogue.
 
 use crate::error::RexsError;
+use crate::in_time::{DAMPING_S, Running};
 use crate::ledger::About;
 use crate::model::Component;
 use crate::source::Source;
@@ -71,6 +72,28 @@ impl Bearing {
             file: None,
         }
     }
+
+    /// The keys of its springs as `model` of the scene, with an axial stiffness \[N/mm\] of its own or none.
+    pub fn linear_model(&self, axial_n_per_mm: f64, running: Running) -> String {
+        let per_mm = ["N_per_mm", "N_s_per_mm"];
+        let per_rad = ["Nm_per_rad", "Nm_s_per_rad"];
+        let mut model = "kind = \"linear\"".to_owned();
+        for (way, stiffness, [unit, damping]) in [
+            ("radial", self.radial_n_per_mm, per_mm),
+            ("axial", axial_n_per_mm, per_mm),
+            ("tilt", self.tilt_nm_per_rad, per_rad),
+        ] {
+            if stiffness == 0.0 && way != "radial" {
+                continue;
+            }
+            model.push_str(&format!(", {way}_stiffness_{unit} = {}", number(stiffness)));
+            if running == Running::InTime {
+                let value = number(DAMPING_S * stiffness);
+                model.push_str(&format!(", {way}_damping_{damping} = {value}"));
+            }
+        }
+        model
+    }
 }
 
 /// Radial stiffness where none is given \[N/mm\]: that of a loaded bearing of medium size.
@@ -114,71 +137,21 @@ pub fn read(
         source.number(component, "u_coordinate_on_shaft_inner_side", MM)?,
         source.number(component, "u_coordinate_on_shaft_outer_side", MM)?,
     ];
-    let stiffness = |id: &str, without: f64| -> Result<f64, RexsError> {
-        let given = source.number(component, id, N_PER_M)?.map(|k| 1e-3 * k);
-        Ok(match given {
-            Some(k) if k >= RIGID_FROM => {
-                source.assume(
-                    component,
-                    About::Small,
-                    format!("{id} of {k:e} N/mm stands for rigid: {RIGID:e} N/mm"),
-                );
-                RIGID
-            }
-            Some(k) if k > 0.0 => k,
-            _ => {
-                let found = given.map_or(format!("no {id} given"), |k| {
-                    format!("{id} is {k:e} N/mm, which no bearing has")
-                });
-                let words = format!("{found}: {without:e} N/mm");
-                source.assume(component, About::Stiffness, words);
-                without
-            }
-        })
-    };
     let carries_radially = source.flag(component, "radial_force_absorption")? != Some(false);
-    let radial_n_per_mm = if carries_radially {
-        stiffness("radial_stiffness", RADIAL)?
-    } else {
-        0.0
+    let radial_n_per_mm = match carries_radially {
+        true => stiffness(source, component, "radial_stiffness", RADIAL)?,
+        false => 0.0,
     };
     let kind = source.text(component, "bearing_type").unwrap_or_default();
-    let axial = match source.text(component, "axial_force_absorption").as_deref() {
-        Some("both_directions") => AxialSupport::Both,
-        Some("positive") => AxialSupport::Positive,
-        Some("negative") => AxialSupport::Negative,
-        Some("no_direction") => AxialSupport::None,
-        other => {
-            let has_stiffness = source
-                .number(component, "axial_stiffness", N_PER_M)?
-                .is_some_and(|k| k > 0.0);
-            let is_free =
-                ["radial_roller_bearing", "radial_needle_roller_bearing"].contains(&kind.as_str());
-            let support = if has_stiffness || (!is_free && kind.contains("bearing")) {
-                AxialSupport::Both
-            } else {
-                AxialSupport::None
-            };
-            let found = other.map_or("not given".to_owned(), |o| format!("`{o}` is not known"));
-            let words = match support {
-                AxialSupport::None => "no axial support",
-                _ => "axial support both ways",
-            };
-            let text = format!("axial_force_absorption {found}: {words}");
-            source.assume(component, About::Support, text);
-            support
-        }
+    let axial = axial_support(source, component, &kind)?;
+    let without = if radial_n_per_mm >= RIGID {
+        RIGID
+    } else {
+        AXIAL
     };
     let axial_n_per_mm = match axial {
         AxialSupport::None => 0.0,
-        _ => stiffness(
-            "axial_stiffness",
-            if radial_n_per_mm >= RIGID {
-                RIGID
-            } else {
-                AXIAL
-            },
-        )?,
+        _ => stiffness(source, component, "axial_stiffness", without)?,
     };
     let tilt = source
         .number(component, "bending_stiffness", NMM_PER_RAD)?
@@ -192,9 +165,7 @@ pub fn read(
             ),
         );
     }
-    let bore_mm = source
-        .number(component, "inner_diameter", MM)?
-        .filter(|d| *d > 0.0);
+    let bore_mm = source.positive(component, "inner_diameter", MM)?;
     Ok(Some(Bearing {
         id: component.id,
         file: catalogue(source, component, &kind, bore_mm, &name, file_name)?,
@@ -207,6 +178,63 @@ pub fn read(
         axial,
         bore_mm,
     }))
+}
+
+/// A stiffness \[N/mm\], bounded, and `without` where it is not given or none that a bearing has.
+fn stiffness(
+    source: &Source<'_>,
+    component: &Component,
+    id: &str,
+    without: f64,
+) -> Result<f64, RexsError> {
+    let given = source.number(component, id, N_PER_M)?.map(|k| 1e-3 * k);
+    Ok(match given {
+        Some(k) if k >= RIGID_FROM => {
+            let words = format!("{id} of {k:e} N/mm stands for rigid: {RIGID:e} N/mm");
+            source.assume(component, About::Small, words);
+            RIGID
+        }
+        Some(k) if k > 0.0 => k,
+        _ => {
+            let found = given.map_or(format!("no {id} given"), |k| {
+                format!("{id} is {k:e} N/mm, which no bearing has")
+            });
+            let words = format!("{found}: {without:e} N/mm");
+            source.assume(component, About::Stiffness, words);
+            without
+        }
+    })
+}
+
+/// Which axial forces it takes, of its stiffness and its type where nothing says so.
+fn axial_support(
+    source: &Source<'_>,
+    component: &Component,
+    kind: &str,
+) -> Result<AxialSupport, RexsError> {
+    Ok(
+        match source.text(component, "axial_force_absorption").as_deref() {
+            Some("both_directions") => AxialSupport::Both,
+            Some("positive") => AxialSupport::Positive,
+            Some("negative") => AxialSupport::Negative,
+            Some("no_direction") => AxialSupport::None,
+            other => {
+                let stiffness = source.number(component, "axial_stiffness", N_PER_M)?;
+                let is_free =
+                    ["radial_roller_bearing", "radial_needle_roller_bearing"].contains(&kind);
+                let holds =
+                    stiffness.is_some_and(|k| k > 0.0) || (!is_free && kind.contains("bearing"));
+                let (support, words) = match holds {
+                    true => (AxialSupport::Both, "axial support both ways"),
+                    false => (AxialSupport::None, "no axial support"),
+                };
+                let found = other.map_or("not given".to_owned(), |o| format!("`{o}` is not known"));
+                let text = format!("axial_force_absorption {found}: {words}");
+                source.assume(component, About::Support, text);
+                support
+            }
+        },
+    )
 }
 
 /// Types of REXS that gearmesh's catalogue bearings have.
@@ -232,9 +260,7 @@ fn catalogue(
     let width = source.number(component, "width", MM)?;
     let dynamic = source.number(component, "radial_dynamic_load_rating", KN)?;
     let rest = source.number(component, "radial_static_load_rating", KN)?;
-    let fatigue = source
-        .number(component, "fatigue_limit_load", KN)?
-        .filter(|c| *c > 0.0);
+    let fatigue = source.positive(component, "fatigue_limit_load", KN)?;
     let designation = source
         .text(component, "catalogue_designation")
         .unwrap_or_default();

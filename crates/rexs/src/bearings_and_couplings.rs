@@ -1,9 +1,11 @@
 //! What stands between two parts: bearings, couplings, brakes, joints of shaft and hub.
 
+use crate::bearing::Bearing;
 use crate::error::RexsError;
 use crate::ledger::About;
 use crate::loose_gears;
-use crate::placement::frame;
+use crate::model::Component;
+use crate::placement::{Frame, frame};
 use crate::power_flow::Link;
 use crate::source::Source;
 use crate::structure::Structure;
@@ -23,6 +25,23 @@ pub fn bearings_and_couplings(
     files: &mut Names,
 ) -> Result<(), RexsError> {
     let shift_index = coupling::shift_index(source)?;
+    bearings(source, structure, train, names, files)?;
+    couplings(source, structure, train, names, shift_index)?;
+    loose_gears::hold_hubs(source, train);
+    for component in source.model.of_kind(&coupling::JOINTS) {
+        let what = "joints of shaft and hub are rigid in the scene";
+        source.leave_out(component, About::Small, what);
+    }
+    Ok(())
+}
+
+fn bearings(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &mut Train,
+    names: &mut Names,
+    files: &mut Names,
+) -> Result<(), RexsError> {
     for component in source.model.of_kind(&bearing::KINDS) {
         let name = names.unique(&component.name, component.id);
         let file = files.unique(&format!("bearing_{}", file_stem(&name)), component.id);
@@ -39,41 +58,7 @@ pub fn bearings_and_couplings(
         {
             continue;
         }
-        let mut on_shaft = false;
-        for side in 0..2 {
-            let Some(shaft) = train.shaft(found.sides[side]) else {
-                let kind = source
-                    .model
-                    .component(found.sides[side])
-                    .map_or("", |c| c.kind.as_str());
-                on_shaft |= kind == "shaft";
-                if !["shaft", "gear_casing", "gear_unit", ""].contains(&kind) {
-                    let what = format!("its part {kind} is not in the scene: taken as the ground");
-                    source.assume(component, About::Support, what);
-                }
-                if kind != "shaft" {
-                    found.u_mm[side] = None;
-                }
-                continue;
-            };
-            if found.u_mm[side].is_none() {
-                let by_vector = own.and_then(|own| Some(shaft.frame?.u_of(own.origin_mm)));
-                let about = by_vector.map_or(About::Place, |_| About::Small);
-                source.assume(
-                    component,
-                    about,
-                    format!(
-                        "no place on {} given: {}",
-                        shaft.name,
-                        by_vector.map_or("u = 0".to_owned(), |u| format!(
-                            "u = {u} mm, from its support vector"
-                        ))
-                    ),
-                );
-                found.u_mm[side] = Some(by_vector.unwrap_or(0.0));
-            }
-        }
-        if on_shaft {
+        if place(source, train, component, own, &mut found) {
             // Shafts of the file that the scene does not have are those of planets.
             let of_planet = found
                 .sides
@@ -88,6 +73,57 @@ pub fn bearings_and_couplings(
             train.bearings.push(found);
         }
     }
+    Ok(())
+}
+
+/// Puts the two sides of a bearing where they stand. Whether one is a shaft of the file that the scene does not have.
+fn place(
+    source: &Source<'_>,
+    train: &Train,
+    component: &Component,
+    own: Option<Frame>,
+    found: &mut Bearing,
+) -> bool {
+    let mut on_shaft = false;
+    for (id, u_mm) in found.sides.into_iter().zip(&mut found.u_mm) {
+        let Some(shaft) = train.shaft(id) else {
+            let part = source.model.component(id);
+            let kind = part.map_or("", |c| c.kind.as_str());
+            on_shaft |= kind == "shaft";
+            if !["shaft", "gear_casing", "gear_unit", ""].contains(&kind) {
+                let what = format!("its part {kind} is not in the scene: taken as the ground");
+                source.assume(component, About::Support, what);
+            }
+            if kind != "shaft" {
+                *u_mm = None;
+            }
+            continue;
+        };
+        if u_mm.is_none() {
+            let by_vector = own.and_then(|own| Some(shaft.frame?.u_of(own.origin_mm)));
+            let (about, found) = match by_vector {
+                Some(u) => (About::Small, format!("u = {u} mm, from its support vector")),
+                None => (About::Place, "u = 0".to_owned()),
+            };
+            let what = format!("no place on {} given: {found}", shaft.name);
+            source.assume(component, about, what);
+            *u_mm = Some(by_vector.unwrap_or(0.0));
+        }
+    }
+    on_shaft
+}
+
+fn couplings(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &mut Train,
+    names: &mut Names,
+    shift_index: i64,
+) -> Result<(), RexsError> {
+    let is_casing = |id: i64| {
+        let component = source.model.component(id);
+        component.is_some_and(|c| c.kind == "gear_casing")
+    };
     for component in source.model.of_kind(&coupling::KINDS) {
         let name = names.unique(&component.name, component.id);
         let Some(mut found) = coupling::read(source, structure, component, name, shift_index)?
@@ -99,15 +135,9 @@ pub fn bearings_and_couplings(
             source.assume(component, About::Stiffness, what);
             continue;
         }
-        let casing = |id: i64| {
-            source
-                .model
-                .component(id)
-                .is_some_and(|c| c.kind == "gear_casing")
-        };
         let [a, b] = found.sides;
         let braked = [(a, b, 0), (b, a, 1)].into_iter();
-        let braked = braked.filter(|&(_, other, _)| casing(other));
+        let braked = braked.filter(|&(_, other, _)| is_casing(other));
         if let Some((shaft, _, side)) = { braked }.find(|&(id, ..)| train.shaft(id).is_some()) {
             let what = "engaged between a shaft and the casing: a brake, which carries the torque that the loads leave over; the shaft stands";
             source.assume(component, About::Nothing, what);
@@ -130,14 +160,6 @@ pub fn bearings_and_couplings(
             ratio: 1.0,
         });
         train.couplings.push(found);
-    }
-    loose_gears::hold_hubs(source, train);
-    for component in source.model.of_kind(&coupling::JOINTS) {
-        source.leave_out(
-            component,
-            About::Small,
-            "joints of shaft and hub are rigid in the scene",
-        );
     }
     Ok(())
 }

@@ -16,10 +16,7 @@ pub fn teeth(source: &Source<'_>, gear: &Component) -> Result<i64, RexsError> {
     let found = source
         .integer(gear, "number_of_teeth")?
         .filter(|z| (3..=2000).contains(z));
-    found.ok_or_else(|| RexsError::Missing {
-        component: gear.words(),
-        what: "number_of_teeth is missing or not 3 to 2000".to_owned(),
-    })
+    found.ok_or_else(|| gear.lacks("number_of_teeth is missing or not 3 to 2000"))
 }
 
 /// What a bevel stage says of its pair; of two values the pinion's first, which has the fewer teeth.
@@ -78,22 +75,18 @@ pub fn read(
     let of_both = |id: &str| -> Result<[Option<f64>; 2], RexsError> {
         Ok([source.number(pinion, id, MM)?, source.number(gear, id, MM)?])
     };
-    let shaft_angle = source.number(stage, "shaft_angle", DEG)?.or(source.number(
-        stage,
-        "rotating_angle_around_pos_u_axis",
-        DEG,
-    )?);
-    let shaft_angle = shaft_angle.map_or(90.0, f64::abs);
+    let none = |why: &str| {
+        source.leave_out(stage, About::Nothing, why);
+        Ok(None)
+    };
+    let shaft_angle = source.number(stage, "shaft_angle", DEG)?;
+    let by_turn = source.number(stage, "rotating_angle_around_pos_u_axis", DEG)?;
+    let shaft_angle = shaft_angle.or(by_turn).map_or(90.0, f64::abs);
     if source
         .number(stage, "hypoid_offset", MM)?
         .is_some_and(|offset| offset.abs() > 1e-6)
     {
-        source.leave_out(
-            stage,
-            About::Nothing,
-            "hypoid offset: gearmesh's bevel pairs have crossing axes; no pair file",
-        );
-        return Ok(None);
+        return none("hypoid offset: gearmesh's bevel pairs have crossing axes; no pair file");
     }
     let outer = match source.number(stage, "outer_transverse_module", MM)? {
         Some(module) => Some(module),
@@ -114,20 +107,10 @@ pub fn read(
     };
     let widths = of_both("face_width")?;
     let [Some(width_1), Some(width_2)] = [widths[0].or(widths[1]), widths[1].or(widths[0])] else {
-        source.leave_out(
-            stage,
-            About::Nothing,
-            "bevel gears without face width: no pair file",
-        );
-        return Ok(None);
+        return none("bevel gears without face width: no pair file");
     };
     let Some(outer) = outer else {
-        source.leave_out(
-            stage,
-            About::Nothing,
-            "neither outer_transverse_module nor outer_pitch_diameter: no pair file",
-        );
-        return Ok(None);
+        return none("neither outer_transverse_module nor outer_pitch_diameter: no pair file");
     };
     let pressure = match source.number(stage, "nominal_design_pressure_angle_on_drive_side", DEG)? {
         Some(angle) => angle,
@@ -195,17 +178,12 @@ pub fn pair_file(
     if is_spiral {
         let hand = if pair.is_right_hand { "right" } else { "left" };
         let mean_cone = pair.mean_cone_distance_mm();
-        let cutter = source
-            .number(stage, "cutter_radius", MM)?
-            .filter(|r| *r > 0.0)
-            .unwrap_or_else(|| {
-                source.assume(
-                    stage,
-                    About::Nothing,
-                    format!("no cutter_radius given: the mean cone distance, {mean_cone:.3} mm"),
-                );
-                mean_cone
-            });
+        let cutter = source.positive(stage, "cutter_radius", MM)?;
+        let cutter = cutter.unwrap_or_else(|| {
+            let what = format!("no cutter_radius given: the mean cone distance, {mean_cone:.3} mm");
+            source.assume(stage, About::Nothing, what);
+            mean_cone
+        });
         text.push_str(&format!(
             "form = \"spiral\"\nspiral_angle_deg = {}\npinion_hand = \"{hand}\"\ncutter_radius_mm = {}\n",
             number(pair.spiral_angle_deg),

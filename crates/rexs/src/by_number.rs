@@ -2,6 +2,7 @@
 
 use crate::effort;
 use std::collections::HashMap;
+use std::hash::Hash;
 use std::ops::{Deref, DerefMut};
 
 /// What has the number of a component.
@@ -54,6 +55,25 @@ impl<T: Numbered> ByNumber<T> {
             self.places.entry(part.id()).or_insert(place);
         }
     }
+}
+
+/// Values by their keys, those of a key in the order in which they come.
+pub fn grouped<K: Eq + Hash, V>(pairs: impl IntoIterator<Item = (K, V)>) -> HashMap<K, Vec<V>> {
+    let mut found: HashMap<K, Vec<V>> = HashMap::new();
+    for (key, value) in pairs {
+        found.entry(key).or_default().push(value);
+    }
+    found
+}
+
+/// The one at the top of a tree of places, each of which names the one above it, itself at the top; the way there is
+/// halved for the next time.
+pub fn topmost(above: &mut [usize], mut i: usize) -> usize {
+    while above[i] != i {
+        above[i] = above[above[i]];
+        i = above[i];
+    }
+    i
 }
 
 impl<T> Deref for ByNumber<T> {

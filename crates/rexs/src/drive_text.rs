@@ -1,12 +1,13 @@
 //! What drives and loads a scene: the spring that holds each train, torques and forces.
 
+use crate::by_number::grouped;
 use crate::in_time::{Running, driven_body};
 use crate::ledger::About;
 use crate::placement::Frame;
 use crate::source::Source;
 use crate::text::{number, numbers, quoted};
 use crate::train::Train;
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// A torque on a shaft about z, at a place along u.
 struct Torque {
@@ -67,12 +68,9 @@ pub fn drive(
         });
     }
     let mut done: HashSet<usize> = HashSet::new();
-    let mut torques_of: BTreeMap<usize, Vec<&Torque>> = BTreeMap::new();
-    for torque in &torques {
-        if let Some(&group) = groups.get(&torque.shaft) {
-            torques_of.entry(group).or_default().push(torque);
-        }
-    }
+    let in_groups = torques.iter();
+    let in_groups = in_groups.filter_map(|torque| Some((*groups.get(&torque.shaft)?, torque)));
+    let torques_of: HashMap<usize, Vec<&Torque>> = grouped(in_groups);
     for shaft in train.shafts.iter() {
         let Some(&group) = groups.get(&shaft.id) else {
             continue;
@@ -89,13 +87,8 @@ pub fn drive(
         let (body, name) = match input {
             Some(t) => (train.shaft(t.shaft).map(|s| s.body(t.u_mm)), t.name.clone()),
             None => {
-                if let Some(component) = source.model.component(shaft.id) {
-                    source.assume(
-                        component,
-                        About::Torque,
-                        "no torque acts on its train: held at its first station",
-                    );
-                }
+                let what = "no torque acts on its train: held at its first station";
+                source.assume_of(shaft.id, About::Torque, what);
                 (Some(shaft.station_body(0)), shaft.name.clone())
             }
         };

@@ -1,31 +1,14 @@
-//! Cylindrical gears: teeth, tool, blank, material.
+//! Cylindrical gears: teeth, tool, blank.
 
 use crate::error::RexsError;
 use crate::ledger::About;
+use crate::material::{Material, material};
 use crate::microgeometry::Microgeometry;
 use crate::model::Component;
 use crate::source::Source;
 use crate::structure::Structure;
 use crate::tooth_thickness::thickness;
-use crate::units::{DEG, KG_PER_DM3, MM, MPA, ONE};
-
-/// Linear elastic material.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Material {
-    /// Young's modulus \[GPa\].
-    pub young_gpa: f64,
-    /// Poisson's ratio.
-    pub poisson: f64,
-    /// Density \[kg/m³\].
-    pub density_kg_per_m3: f64,
-}
-
-/// Steel, where the file says nothing.
-pub const STEEL: Material = Material {
-    young_gpa: 206.0,
-    poisson: 0.3,
-    density_kg_per_m3: 7850.0,
-};
+use crate::units::{DEG, MM, ONE};
 
 /// A cylindrical gear.
 #[derive(Debug, Clone)]
@@ -106,53 +89,6 @@ impl Gear {
     }
 }
 
-/// Larger moduli stand for rigid bodies \[MPa\]: a hundred times that of steel is stiff enough.
-const MOST_MPA: f64 = 2e7;
-
-/// Material of a component, steel where it names none.
-///
-/// # Errors
-/// Those of [`Source`].
-pub fn material(
-    source: &Source<'_>,
-    structure: &Structure,
-    component: &Component,
-) -> Result<Material, RexsError> {
-    let ids = structure.partners(component.id, &["material"]);
-    let Some(found) = ids.first().and_then(|&id| source.model.component(id)) else {
-        source.assume(
-            component,
-            About::Stiffness,
-            "no material given: steel, 206 GPa, 0.3, 7850 kg/m3",
-        );
-        return Ok(STEEL);
-    };
-    let young = source
-        .number(found, "elastic_modulus", MPA)?
-        .filter(|&e| e > 0.0);
-    if let Some(rigid) = young.filter(|&e| e > MOST_MPA) {
-        source.assume(
-            found,
-            About::Small,
-            format!("a modulus of {rigid:e} MPa stands for rigid: {MOST_MPA:e} MPa"),
-        );
-    }
-    let poisson = source
-        .number(found, "poisson_ratio", ONE)?
-        .filter(|v| (0.0..0.5).contains(v));
-    let density = source
-        .number(found, "density", KG_PER_DM3)?
-        .filter(|&d| d > 0.0);
-    if young.is_none() || poisson.is_none() || density.is_none() {
-        source.assume(found, About::Stiffness, "modulus, Poisson's ratio or density not given or not possible: those of steel, 206 GPa, 0.3, 7850 kg/m3");
-    }
-    Ok(Material {
-        young_gpa: young.map_or(STEEL.young_gpa, |e| 1e-3 * e.min(MOST_MPA)),
-        poisson: poisson.unwrap_or(STEEL.poisson),
-        density_kg_per_m3: density.map_or(STEEL.density_kg_per_m3, |d| 1e3 * d),
-    })
-}
-
 /// Reads a gear; its bore and a missing tip diameter come later.
 ///
 /// # Errors
@@ -164,25 +100,21 @@ pub fn read(
     name: String,
     file: String,
 ) -> Result<Gear, RexsError> {
-    let missing = |what: &str| RexsError::Missing {
-        component: component.words(),
-        what: what.to_owned(),
-    };
     let teeth = source
         .integer(component, "number_of_teeth")?
-        .ok_or_else(|| missing("number_of_teeth is missing"))?;
+        .ok_or_else(|| component.lacks("number_of_teeth is missing"))?;
     let internal = component.kind == "ring_gear";
     // Programs write the teeth of rings with and without sign.
     let counted = if internal { teeth.abs() } else { teeth };
     let teeth = u32::try_from(counted)
         .ok()
         .filter(|z| (3..=2000).contains(z))
-        .ok_or_else(|| missing(&format!("number_of_teeth is {teeth}; allowed are 3 to 2000 (of a ring gear say so by its type)")))?;
+        .ok_or_else(|| component.lacks(format!("number_of_teeth is {teeth}; allowed are 3 to 2000 (of a ring gear say so by its type)")))?;
     let helix_deg = source
         .number(component, "helix_angle_reference_diameter", DEG)?
         .unwrap_or(0.0);
     if helix_deg.abs() >= 80.0 {
-        return Err(missing(&format!(
+        return Err(component.lacks(format!(
             "helix_angle_reference_diameter is {helix_deg} deg; allowed is less than 80"
         )));
     }
@@ -192,7 +124,7 @@ pub fn read(
         Some(module) => module,
         None => {
             let transverse = source.number(component, "transverse_module", MM)?;
-            transverse.ok_or_else(|| missing("normal_module is missing"))? * cos
+            transverse.ok_or_else(|| component.lacks("normal_module is missing"))? * cos
         }
     };
     let face_width_mm = source.need(component, "face_width", MM)?;
@@ -201,9 +133,9 @@ pub fn read(
         ("face_width", face_width_mm, 1e5),
     ] {
         if !(1e-3..=most).contains(&value) {
-            return Err(missing(&format!(
-                "{what} is {value} mm; allowed is 0.001 to {most}"
-            )));
+            return Err(
+                component.lacks(format!("{what} is {value} mm; allowed is 0.001 to {most}"))
+            );
         }
     }
     let flanks = structure
@@ -374,13 +306,10 @@ fn limit_tip_radius(
     let (sin, cos) = gear.pressure_angle_deg.to_radians().sin_cos();
     let room = (std::f64::consts::FRAC_PI_4 - gear.dedendum * sin / cos) * cos / (1.0 - sin);
     if room <= 0.0 {
-        return Err(RexsError::Missing {
-            component: subject.words(),
-            what: format!(
-                "a rack of dedendum {} modules and {} deg has no tip left",
-                gear.dedendum, gear.pressure_angle_deg
-            ),
-        });
+        return Err(subject.lacks(format!(
+            "a rack of dedendum {} modules and {} deg has no tip left",
+            gear.dedendum, gear.pressure_angle_deg
+        )));
     }
     // A hair below, so that rounding does not make the tip too narrow.
     let most = (1e4 * room).floor() * 1e-4;
@@ -490,15 +419,10 @@ fn bore(
     structure: &Structure,
     component: &Component,
 ) -> Result<Option<f64>, RexsError> {
-    let mut bore = source
-        .number(component, "inner_diameter", MM)?
-        .filter(|d| *d > 0.0);
+    let mut bore = source.positive(component, "inner_diameter", MM)?;
     for id in structure.partners(component.id, &["gear_body"]) {
         if let Some(body) = source.model.component(id) {
-            bore = source
-                .number(body, "inner_diameter", MM)?
-                .filter(|d| *d > 0.0)
-                .or(bore);
+            bore = source.positive(body, "inner_diameter", MM)?.or(bore);
             if source.has(body, "body_contour_coordinate_u")
                 || source.has(body, "gear_body_web_thickness")
             {

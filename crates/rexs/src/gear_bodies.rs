@@ -49,12 +49,9 @@ pub fn gear_bodies(
             Place::Station => continue,
             Place::Free(shaft) => shaft,
             Place::Beside(shaft, first) => {
-                if let Some(component) = source.model.component(seated.gear.id) {
-                    let what = format!(
-                        "stands at the place of {first} on the same shaft: fixed to it there"
-                    );
-                    source.assume(component, About::Small, what);
-                }
+                let what =
+                    format!("stands at the place of {first} on the same shaft: fixed to it there");
+                source.assume_of(seated.gear.id, About::Small, what);
                 joints.push_str(&format!(
                     "\n[[joint]]\nname = {}\nkind = \"fixed\"\nbody_1 = {}\nbody_2 = {name}\n",
                     quoted(&format!("{} on {first}", seated.gear.name)),

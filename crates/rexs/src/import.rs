@@ -8,7 +8,7 @@ use crate::gear_text::gear_file;
 use crate::in_time::Running;
 use crate::ledger::{About, Ledger};
 use crate::mesh_model::Meshes;
-use crate::model::{LoadCase, Model};
+use crate::model::{Component, LoadCase, Model};
 use crate::scene_text::scene;
 use crate::sheet::Sheet;
 use crate::source::Source;
@@ -129,20 +129,7 @@ pub fn import_to_run(
     let used = RefCell::new(BTreeSet::new());
     let stem = file_stem(stem);
     let cases: Vec<&LoadCase> = model.spectra.iter().flat_map(|s| &s.cases).collect();
-    for (case, component) in cases
-        .iter()
-        .flat_map(|case| case.components.iter().map(move |c| (case, c)))
-        .filter(|(_, c)| model.component(c.id).is_none())
-    {
-        ledger.borrow_mut().leave_out(
-            &format!("load case {}", case.id),
-            About::Lost,
-            format!(
-                "values of component {}, which is not in the file",
-                component.id
-            ),
-        );
-    }
+    list_strangers(&model, &cases, &mut ledger.borrow_mut());
     let mut made = Made {
         with,
         running,
@@ -178,38 +165,16 @@ pub fn import_to_run(
             ),
         }
     }
-    for spectrum in &model.spectra {
-        for component in spectrum
-            .accumulation
-            .iter()
-            .filter(|c| !c.attributes.is_empty())
-        {
-            let words = component.words();
-            ledger.borrow_mut().leave_out(
-                "accumulation of the load spectrum",
-                About::Nothing,
-                format!(
-                    "{} values of {words}: results of the other program",
-                    component.attributes.len()
-                ),
-            );
-        }
-    }
+    list_accumulated(&model, &mut ledger.borrow_mut());
     let source = Source::new(&model, &ledger, &used);
     unjoined::list(&source, &structure);
     if cases.is_empty() {
         source.list_unused();
     }
-    for component in model
-        .components
-        .iter()
-        .filter(|c| !KNOWN.contains(&c.kind.as_str()))
-    {
-        source.leave_out(
-            component,
-            About::Nothing,
-            "components of this type have no counterpart",
-        );
+    let unknown = |c: &&Component| !KNOWN.contains(&c.kind.as_str());
+    for component in model.components.iter().filter(unknown) {
+        let what = "components of this type have no counterpart";
+        source.leave_out(component, About::Nothing, what);
     }
     Ok(Import {
         version: model.version.clone(),
@@ -221,6 +186,30 @@ pub fn import_to_run(
         ledger: ledger.into_inner(),
         visits: effort::visits() - before,
     })
+}
+
+/// Lists what load cases say of components that the file does not have.
+fn list_strangers(model: &Model, cases: &[&LoadCase], ledger: &mut Ledger) {
+    for case in cases {
+        let subject = format!("load case {}", case.id);
+        for id in case.components.iter().map(|c| c.id) {
+            if model.component(id).is_none() {
+                let what = format!("values of component {id}, which is not in the file");
+                ledger.leave_out(&subject, About::Lost, what);
+            }
+        }
+    }
+}
+
+/// Lists the results of the other program over all load cases.
+fn list_accumulated(model: &Model, ledger: &mut Ledger) {
+    for component in model.spectra.iter().flat_map(|s| &s.accumulation) {
+        let (count, words) = (component.attributes.len(), component.words());
+        if count > 0 {
+            let what = format!("{count} values of {words}: results of the other program");
+            ledger.leave_out("accumulation of the load spectrum", About::Nothing, what);
+        }
+    }
 }
 
 fn parse(unpacked: &Unpacked) -> Result<Model, RexsError> {

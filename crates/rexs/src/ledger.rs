@@ -43,6 +43,14 @@ pub enum Weight {
 }
 
 impl About {
+    /// That where what it is about is large, else [`Self::Small`].
+    pub fn by(is_large: bool, large: Self) -> Self {
+        match is_large {
+            true => large,
+            false => Self::Small,
+        }
+    }
+
     /// Its weight, in scenes with these meshes.
     pub fn weight(self, with: Meshes) -> Weight {
         match self {

@@ -9,6 +9,7 @@
 //! loads → gear files, scenes, bearing files, bevel pair files as text ([`mod@import`]). docs/rexs.md says what
 //! becomes of what.
 
+pub mod axial_supports;
 pub mod backlash;
 pub mod bearing;
 pub mod bearings_and_couplings;
@@ -30,6 +31,7 @@ pub mod json;
 pub mod ledger;
 pub mod loads;
 pub mod loose_gears;
+pub mod material;
 pub mod mesh_model;
 pub mod microgeometry;
 pub mod model;
@@ -39,6 +41,7 @@ pub mod planetary_set;
 pub mod power_flow;
 pub mod scene_text;
 pub mod shaft;
+pub mod shaft_sections;
 pub mod sheet;
 pub mod source;
 pub mod structure;
@@ -48,6 +51,7 @@ pub mod tooth_thickness;
 pub mod train;
 pub mod train_finish;
 pub mod train_places;
+pub mod train_power;
 pub mod units;
 pub mod unjoined;
 pub mod versions;

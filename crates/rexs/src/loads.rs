@@ -7,7 +7,7 @@ use crate::source::Source;
 use crate::units::{KG, KG_M2, KW, MM, N, NM};
 
 /// A load on a shaft.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Load {
     /// Component.
     pub id: i64,
@@ -95,13 +95,9 @@ pub fn brake(id: i64, name: String, shaft: i64, u_mm: f64) -> Load {
         name,
         shaft,
         u_mm,
-        torque_nm: None,
-        stated_nm: None,
-        power_w: None,
         transmits: true,
         is_brake: true,
-        force_n: [0.0; 3],
-        moment_nm: [0.0; 2],
+        ..Load::default()
     }
 }
 
@@ -130,10 +126,7 @@ pub fn added_mass(
     let u_mm = source
         .number(component, "u_coordinate_on_shaft", MM)?
         .unwrap_or(0.0);
-    let Some(mass_kg) = source
-        .number(component, "mass_of_component", KG)?
-        .filter(|m| *m > 0.0)
-    else {
+    let Some(mass_kg) = source.positive(component, "mass_of_component", KG)? else {
         source.leave_out(component, About::Nothing, "no mass given");
         return Ok(None);
     };

@@ -9,7 +9,6 @@ use crate::model::Component;
 use crate::source::Source;
 use crate::structure::Structure;
 use crate::train::Train;
-use std::collections::HashMap;
 
 /// Where a gear sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,11 +86,7 @@ pub fn stand_on_hubs(
 
 /// Hubs without bearings are held on their shafts, free about the axis; those with one of them do not tilt on it.
 pub fn hold_hubs(source: &Source<'_>, train: &mut Train) {
-    let mut on: HashMap<i64, Vec<usize>> = HashMap::new();
-    for (i, bearing) in train.bearings.iter().enumerate() {
-        let sides = bearing.sides.into_iter();
-        sides.for_each(|side| on.entry(side).or_default().push(i));
-    }
+    let on = train.bearings_of();
     for i in 0..train.gears.len() {
         let seated = &train.gears[i];
         let (id, mid_mm, name) = (seated.gear.id, seated.mid_mm, seated.gear.name.clone());
@@ -113,13 +108,8 @@ pub fn hold_hubs(source: &Source<'_>, train: &mut Train) {
             }
             _ => "on its bearings there",
         };
-        if let Some(component) = source.model.component(id) {
-            source.assume(
-                component,
-                About::Support,
-                format!("turns loose on {carries}: {words}"),
-            );
-        }
+        let what = format!("turns loose on {carries}: {words}");
+        source.assume_of(id, About::Support, what);
         if is_bare {
             let sides = [carrier, id];
             let name = format!("{name} on {carries}");

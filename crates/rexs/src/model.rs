@@ -1,6 +1,7 @@
 //! A REXS model as written in the file: components with attributes, relations between them, load cases.
 
 use crate::effort;
+use crate::error::RexsError;
 use std::collections::{HashMap, HashSet};
 use std::sync::OnceLock;
 
@@ -49,6 +50,30 @@ impl Component {
     /// An attribute.
     pub fn attribute(&self, id: &str) -> Option<&Attribute> {
         effort::each(self.attributes.iter()).find(|a| a.id == id)
+    }
+
+    /// The error of an attribute that cannot be used.
+    pub fn wrong(
+        &self,
+        attribute: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> RexsError {
+        RexsError::Attribute {
+            line: self.attribute(attribute).and_then(|a| a.line),
+            component: self.words(),
+            attribute: attribute.to_owned(),
+            found: found.into(),
+            allowed: allowed.into(),
+        }
+    }
+
+    /// The error of a component that lacks what a gearbox cannot do without.
+    pub fn lacks(&self, what: impl Into<String>) -> RexsError {
+        RexsError::Missing {
+            component: self.words(),
+            what: what.into(),
+        }
     }
 }
 

@@ -36,6 +36,13 @@ impl Frame {
     pub fn u_of(&self, point: [f64; 3]) -> f64 {
         dot(add(point, self.origin_mm, -1.0), self.axes[0])
     }
+
+    /// Distance of a point from the u axis \[mm\].
+    pub fn from_axis_mm(&self, point: [f64; 3]) -> f64 {
+        let between = add(point, self.origin_mm, -1.0);
+        let along = dot(between, self.axes[0]);
+        (dot(between, between) - along * along).max(0.0).sqrt()
+    }
 }
 
 /// a + s b.
@@ -139,12 +146,9 @@ fn own_frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>
     };
     let u = source.vector(component, "u_axis_vector")?;
     let w = source.vector(component, "w_axis_vector")?;
-    let wrong = |attribute: &str| RexsError::Attribute {
-        line: component.attribute(attribute).and_then(|a| a.line),
-        component: component.words(),
-        attribute: attribute.to_owned(),
-        found: "no direction".to_owned(),
-        allowed: "u and w are vectors that are not zero and not along each other".to_owned(),
+    let wrong = |attribute: &str| {
+        let allowed = "u and w are vectors that are not zero and not along each other";
+        component.wrong(attribute, "no direction", allowed)
     };
     if u.is_none() || w.is_none() {
         source.assume(

@@ -328,13 +328,7 @@ fn torques(
         let Some(own) = train.shaft(shaft) else {
             continue;
         };
-        let [start, end] = own.ends_mm();
-        let along = own.frame.zip(point).map_or(0.0, |(f, p)| f.u_of(p));
-        let u_mm = if start < end {
-            along.clamp(start, end)
-        } else {
-            along
-        };
+        let u_mm = own.nearest_mm(point);
         train.planetary.push(TorqueSeat {
             shaft,
             u_mm,

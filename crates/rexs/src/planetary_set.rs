@@ -2,7 +2,7 @@
 //! shaft, planets on their bearings.
 
 use crate::bearing::{AxialSupport, Bearing, RIGID_TILT};
-use crate::in_time::{DAMPING_S, Running};
+use crate::in_time::Running;
 use crate::ledger::About;
 use crate::mesh_model::{Meshes, mesh_model};
 use crate::model::Component;
@@ -114,14 +114,7 @@ pub fn read(
         let Some(shaft) = train.shaft(id) else {
             continue;
         };
-        let along = shaft.frame.map_or(0.0, |f| f.u_of(middle));
-        let [start, end] = shaft.ends_mm();
-        let u_mm = if start < end {
-            along.clamp(start, end)
-        } else {
-            along
-        };
-        carriers.push((id, u_mm));
+        carriers.push((id, shaft.nearest_mm(Some(middle))));
     }
     // Both halves of a carrier turn as one.
     let halves = carriers.windows(2).map(|pair| [pair[0].0, pair[1].0]);
@@ -165,11 +158,7 @@ fn distance_mm(
     let stage = source.model.component(parts.first_stage);
     let stated = stage.and_then(|s| source.number(s, "center_distance", MM).ok().flatten());
     let stated = stated.map(f64::abs).filter(|d| *d > 0.0);
-    let by_place = planet.map(|frame| {
-        let between = add(frame.origin_mm, sun.origin_mm, -1.0);
-        let along = dot(between, sun.axes[0]);
-        (dot(between, between) - along * along).max(0.0).sqrt()
-    });
+    let by_place = planet.map(|frame| sun.from_axis_mm(frame.origin_mm));
     let by_teeth = || {
         gears
             .iter()
@@ -314,7 +303,12 @@ impl PlanetarySet {
             number(mass),
             numbers(&[across, across, 2.0 * across])
         ));
-        let bearings: Vec<String> = self.bearings.iter().map(|b| bearing(b, running)).collect();
+        let bearings: Vec<String> = (self.bearings.iter())
+            .map(|(z_mm, bearing)| {
+                let model = bearing.linear_model(bearing.axial_n_per_mm, running);
+                format!("{{ z_mm = {}, model = {{ {model} }} }}", number(*z_mm))
+            })
+            .collect();
         let bearings = match bearings.is_empty() {
             true => String::new(),
             false => format!(", bearings = [{}]", bearings.join(", ")),
@@ -336,32 +330,4 @@ impl PlanetarySet {
         }
         text
     }
-}
-
-/// A bearing of a planet as `[[planetary]]` has it.
-fn bearing((z_mm, bearing): &(f64, Bearing), running: Running) -> String {
-    let mut model = "kind = \"linear\"".to_owned();
-    for (way, stiffness, [unit, damping]) in [
-        (
-            "radial",
-            bearing.radial_n_per_mm,
-            ["N_per_mm", "N_s_per_mm"],
-        ),
-        ("axial", bearing.axial_n_per_mm, ["N_per_mm", "N_s_per_mm"]),
-        (
-            "tilt",
-            bearing.tilt_nm_per_rad,
-            ["Nm_per_rad", "Nm_s_per_rad"],
-        ),
-    ] {
-        if stiffness == 0.0 && way != "radial" {
-            continue;
-        }
-        model.push_str(&format!(", {way}_stiffness_{unit} = {}", number(stiffness)));
-        if running == Running::InTime {
-            let value = number(DAMPING_S * stiffness);
-            model.push_str(&format!(", {way}_damping_{damping} = {value}"));
-        }
-    }
-    format!("{{ z_mm = {}, model = {{ {model} }} }}", number(*z_mm))
 }

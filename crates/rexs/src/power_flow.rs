@@ -1,6 +1,7 @@
 //! Speeds and torques through a gear train by the ratios, as by hand: which flanks touch, where the load goes, which
 //! bearing is pushed along its axis.
 
+use crate::by_number::{grouped, topmost};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Two shafts that turn together: ω_b = ratio · ω_a, about their z axes.
@@ -65,22 +66,21 @@ pub fn flow(
         link_nm: vec![None; links.len()],
         ..Flow::default()
     };
+    let both = |(i, link): (usize, &Link)| {
+        let [a, b] = link.shafts;
+        [(a, i)].into_iter().chain((a != b).then_some((b, i)))
+    };
     let mut of = Of {
         seen: HashSet::new(),
         in_tree: vec![false; links.len()],
-        links: HashMap::new(),
-        torques: HashMap::new(),
+        links: grouped(links.iter().enumerate().flat_map(both)),
+        torques: grouped(
+            torques
+                .iter()
+                .enumerate()
+                .map(|(i, torque)| (torque.shaft, i)),
+        ),
     };
-    for (i, link) in links.iter().enumerate() {
-        let [a, b] = link.shafts;
-        of.links.entry(a).or_default().push(i);
-        if a != b {
-            of.links.entry(b).or_default().push(i);
-        }
-    }
-    for (i, torque) in torques.iter().enumerate() {
-        of.torques.entry(torque.shaft).or_default().push(i);
-    }
     // Shafts with a stated speed are roots before others.
     let rooted = shafts.iter().filter(|s| stated_rpm.contains_key(s));
     let roots: Vec<i64> = rooted.chain(shafts).copied().collect();
@@ -217,16 +217,9 @@ fn loops(reached: &[Reached], links: &[Link], closing: &[usize]) -> Vec<bool> {
     // Shafts stand behind those by which they are reached. Of each shaft the next one on the way up whose link is not
     // marked.
     let mut above: Vec<usize> = (0..reached.len()).collect();
-    fn unmarked(above: &mut [usize], mut i: usize) -> usize {
-        while above[i] != i {
-            above[i] = above[above[i]];
-            i = above[i];
-        }
-        i
-    }
     for &i in closing {
         found[i] = true;
-        let [mut a, mut b] = (links[i].shafts).map(|s| unmarked(&mut above, place[&s]));
+        let [mut a, mut b] = (links[i].shafts).map(|s| topmost(&mut above, place[&s]));
         while a != b {
             let lower = if a > b { &mut a } else { &mut b };
             let Some((link, parent)) = reached[*lower].by else {
@@ -234,7 +227,7 @@ fn loops(reached: &[Reached], links: &[Link], closing: &[usize]) -> Vec<bool> {
             };
             found[link] = true;
             above[*lower] = place[&parent];
-            *lower = unmarked(&mut above, *lower);
+            *lower = topmost(&mut above, *lower);
         }
     }
     found

@@ -1,12 +1,12 @@
 //! The text of the scene of a gearbox at rest under its loads.
 
-use crate::bearing::AxialSupport;
-use crate::bevel_loads::{BevelLoad, bevel_loads};
+use crate::axial_supports::axial_supports;
+use crate::bevel_loads::bevel_loads;
+use crate::by_number::{grouped, topmost};
 use crate::drive_text::{Held, drive};
 use crate::error::RexsError;
 use crate::gear_bodies::gear_bodies;
 use crate::in_time::{DAMPING_S, Running, run_tables};
-use crate::ledger::About;
 use crate::mesh_model::{Meshes, mesh_model};
 use crate::placement::Frame;
 use crate::planetary_set;
@@ -48,13 +48,12 @@ pub fn scene(
     // Springs of couplings tell no speed.
     let springs: HashSet<[i64; 2]> = train.couplings.iter().map(|c| c.sides).collect();
     let turning = joined(train, |i| !springs.contains(&train.links[i].shafts));
+    let masses = train.masses.iter().enumerate();
     let mut on_shafts = OnShafts {
         gears: train.gears_of(),
+        masses: grouped(masses.map(|(i, mass)| (mass.shaft, i))),
         ..OnShafts::default()
     };
-    for (i, mass) in train.masses.iter().enumerate() {
-        on_shafts.masses.entry(mass.shaft).or_default().push(i);
-    }
     for shaft in train.shafts.iter().filter(|s| s.hub_on.is_none()) {
         if let Some(&group) = turning.get(&shaft.id) {
             on_shafts.first_of.entry(group).or_insert(shaft.id);
@@ -81,13 +80,6 @@ pub fn scene(
 fn joined(train: &Train, wanted: impl Fn(usize) -> bool) -> BTreeMap<i64, usize> {
     // A tree of shafts for each train, the first one of the file at its root.
     let mut above: Vec<usize> = (0..train.shafts.len()).collect();
-    fn root(above: &mut [usize], mut i: usize) -> usize {
-        while above[i] != i {
-            above[i] = above[above[i]];
-            i = above[i];
-        }
-        i
-    }
     let apart: HashSet<usize> = train.torque_seats().map(|t| t.link.0).collect();
     for (_, link) in train
         .links
@@ -98,11 +90,11 @@ fn joined(train: &Train, wanted: impl Fn(usize) -> bool) -> BTreeMap<i64, usize>
         let [Some(a), Some(b)] = link.shafts.map(|s| train.shafts.place(s)) else {
             continue;
         };
-        let [a, b] = [root(&mut above, a), root(&mut above, b)];
+        let [a, b] = [a, b].map(|i| topmost(&mut above, i));
         above[a.max(b)] = a.min(b);
     }
     let ids = train.shafts.iter().map(|s| s.id).enumerate();
-    ids.map(|(i, id)| (id, root(&mut above, i))).collect()
+    ids.map(|(i, id)| (id, topmost(&mut above, i))).collect()
 }
 
 /// What stands on which shaft.
@@ -195,113 +187,6 @@ fn shaft_table(
     ));
 }
 
-/// Whether each bearing holds its shaft along the axis in this load case. One-way supports do where the load pushes
-/// against them; springs know no one way.
-fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLoad]) -> Vec<bool> {
-    let mut axial_n: BTreeMap<i64, f64> = BTreeMap::new();
-    for load in bevel_loads {
-        *axial_n.entry(load.shaft).or_insert(0.0) += load.axial_n;
-    }
-    let mut is_known = true;
-    for mesh in &train.meshes {
-        let Some(torques) = train.flow.link_nm.get(mesh.link).copied().flatten() else {
-            is_known = false;
-            continue;
-        };
-        for (torque_nm, i) in torques.into_iter().zip(mesh.gears) {
-            let seated = &train.gears[i];
-            // F = T tan β / r at the reference circle, along z: a right hand pushed clockwise by its shaft goes to -z.
-            let radius_m = 0.5e-3 * seated.gear.reference_diameter_mm();
-            let force = torque_nm * seated.gear.helix_deg.to_radians().tan() / radius_m;
-            *axial_n.entry(seated.shaft).or_insert(0.0) += force;
-        }
-    }
-    for set in &train.sets {
-        let Some(torques) = train.flow.link_nm.get(set.link).copied().flatten() else {
-            is_known = false;
-            continue;
-        };
-        // Of all planets together, as of one mesh. A carrier takes none: its planets feel sun and ring alike.
-        let sun = &train.gears[set.sun];
-        let ring = &train.gears[set.ring];
-        for (seated, torque_nm) in [(sun, torques[0]), (ring, torques[1])] {
-            let radius_m = 0.5e-3 * seated.gear.reference_diameter_mm();
-            let force = torque_nm * seated.gear.helix_deg.to_radians().tan() / radius_m;
-            if seated.shaft >= 0 {
-                *axial_n.entry(seated.shaft).or_insert(0.0) += force;
-            }
-        }
-    }
-    // What pushes a loose gear goes on to the shaft that carries it.
-    for (hub, on) in train.shafts.iter().filter_map(|s| Some((s.id, s.hub_on?))) {
-        let pushed = axial_n.get(&hub).copied().unwrap_or(0.0);
-        *axial_n.entry(on).or_insert(0.0) += pushed;
-    }
-    for load in &train.loads {
-        let sign = train.shaft(load.shaft).map_or(1.0, Shaft::sign);
-        *axial_n.entry(load.shaft).or_insert(0.0) += sign * load.force_n[0];
-    }
-    let mut bearings_of: HashMap<i64, Vec<usize>> = HashMap::new();
-    for (i, bearing) in train.bearings.iter().enumerate() {
-        let [a, b] = bearing.sides;
-        bearings_of.entry(a).or_default().push(i);
-        if a != b {
-            bearings_of.entry(b).or_default().push(i);
-        }
-    }
-    let mut holds: Vec<bool> = train
-        .bearings
-        .iter()
-        .map(|b| b.axial == AxialSupport::Both)
-        .collect();
-    for shaft in train.shafts.iter() {
-        let carried = |id: &i64| train.shaft(*id).is_some_and(|s| s.hub_on == Some(shaft.id));
-        let on = bearings_of.get(&shaft.id).into_iter().flatten().copied();
-        let mine: Vec<usize> = on
-            .filter(|&i| !train.bearings[i].sides.iter().any(carried))
-            .collect();
-        let along_u = shaft.sign() * axial_n.get(&shaft.id).copied().unwrap_or(0.0);
-        for &i in &mine {
-            let bearing = &train.bearings[i];
-            // The outer part feels the opposite of what the inner part does.
-            let on_inner = if bearing.sides[0] == shaft.id {
-                along_u
-            } else {
-                -along_u
-            };
-            let is_pushed = match bearing.axial {
-                AxialSupport::Positive => on_inner > 0.0,
-                AxialSupport::Negative => on_inner < 0.0,
-                _ => continue,
-            };
-            holds[i] |= is_pushed;
-            if let Some(component) = source.model.component(bearing.id) {
-                let verb = if is_pushed { "holds" } else { "does not hold" };
-                source.assume(
-                    component,
-                    About::Nothing, format!("supports along u one way only: in this load case ({along_u:.1} N along u from the teeth and loads of {}) it {verb} the shaft", shaft.name),
-                );
-            }
-        }
-        if !mine.is_empty() && !mine.iter().any(|&i| holds[i]) {
-            let one_way = |i: &&usize| train.bearings[**i].axial != AxialSupport::None;
-            let chosen = mine.iter().find(one_way).unwrap_or(&mine[0]);
-            holds[*chosen] = true;
-            if let Some(component) = source.model.component(train.bearings[*chosen].id) {
-                source.assume(
-                    component,
-                    About::Support,
-                    format!("nothing else holds {} along its axis: it does", shaft.name),
-                );
-            }
-        }
-    }
-    if !is_known && let Some(unit) = source.model.of_kind(&["gear_unit"]).next() {
-        source.assume(unit, About::Support, "the train has loops: torques of their meshes depend on stiffness, their flanks are `both`, one-way supports as without their axial tooth forces");
-    }
-    holds
-}
-
 fn bearings(text: &mut String, train: &Train, supports: &[bool], running: Running) {
     for (bearing, &holds) in train.bearings.iter().zip(supports) {
         let body = |side: usize| -> Option<String> {
@@ -321,36 +206,13 @@ fn bearings(text: &mut String, train: &Train, supports: &[bool], running: Runnin
             text.push_str(&format!("body_1 = {}\n", quoted(&first)));
         }
         text.push_str(&format!("body_2 = {}\n", quoted(&second)));
-        let mut model = "kind = \"linear\"".to_owned();
-        let mut held = |way: &str, stiffness: f64, unit: [&str; 2]| {
-            model.push_str(&format!(
-                ", {way}_stiffness_{} = {}",
-                unit[0],
-                number(stiffness)
-            ));
-            if running == Running::InTime {
-                let damping = number(DAMPING_S * stiffness);
-                model.push_str(&format!(", {way}_damping_{} = {damping}", unit[1]));
-            }
+        // One that was chosen for want of others may have none of its own.
+        let axial = match bearing.axial_n_per_mm {
+            _ if !holds => 0.0,
+            own if own > 0.0 => own,
+            _ => 0.4 * bearing.radial_n_per_mm.max(1.0),
         };
-        let per_mm = ["N_per_mm", "N_s_per_mm"];
-        held("radial", bearing.radial_n_per_mm, per_mm);
-        if holds {
-            // One that was chosen for want of others may have none of its own.
-            let axial = if bearing.axial_n_per_mm > 0.0 {
-                bearing.axial_n_per_mm
-            } else {
-                0.4 * bearing.radial_n_per_mm.max(1.0)
-            };
-            held("axial", axial, per_mm);
-        }
-        if bearing.tilt_nm_per_rad > 0.0 {
-            held(
-                "tilt",
-                bearing.tilt_nm_per_rad,
-                ["Nm_per_rad", "Nm_s_per_rad"],
-            );
-        }
+        let model = bearing.linear_model(axial, running);
         text.push_str(&format!("model = {{ {model} }}\n"));
         if let Some((file, _)) = &bearing.file {
             text.push_str(&format!(

@@ -80,6 +80,13 @@ impl<'a> Source<'a> {
             .leave_out(&component.words(), about, text);
     }
 
+    /// [`Self::assume`] of the component of that number, where the file has it.
+    pub fn assume_of(&self, id: i64, about: About, text: impl Into<String>) {
+        if let Some(component) = self.model.component(id) {
+            self.assume(component, about, text);
+        }
+    }
+
     /// A component's own value stands in a file.
     pub fn take(&self, component: &Component, text: impl Into<String>) {
         self.ledger.borrow_mut().take(&component.words(), text);
@@ -106,50 +113,25 @@ impl<'a> Source<'a> {
         component.attribute(id).is_some_and(given)
     }
 
-    fn wrong(
-        &self,
-        component: &Component,
-        a: &Attribute,
-        found: String,
-        allowed: String,
-    ) -> RexsError {
-        RexsError::Attribute {
-            line: a.line,
-            component: component.words(),
-            attribute: a.id.clone(),
-            found,
-            allowed,
-        }
-    }
-
-    /// Factor from the unit of the file to the wanted one. `standard` is that of the schema, for files that leave it out.
-    fn factor(
-        &self,
-        component: &Component,
-        a: &Attribute,
-        wanted: Unit,
-        standard: Unit,
-    ) -> Result<f64, RexsError> {
+    /// Factor from the unit of the file to the wanted one, which is that of the schema, for files that leave it out.
+    fn factor(&self, component: &Component, a: &Attribute, wanted: Unit) -> Result<f64, RexsError> {
         let absent = a.unit.is_empty() || a.unit.eq_ignore_ascii_case("none");
         if absent && wanted.dimension != units::Dimension::One {
             self.assume(
                 component,
                 About::Nothing,
-                format!("{}: no unit given, taken as {}", a.id, standard.name),
+                format!("{}: no unit given, taken as {}", a.id, wanted.name),
             );
-            return Ok(standard.si / wanted.si);
+            return Ok(1.0);
         }
         if a.unit == wanted.name {
             return Ok(1.0);
         }
         let found = units::read(&a.unit).filter(|(dimension, _)| *dimension == wanted.dimension);
         found.map(|(_, si)| si / wanted.si).ok_or_else(|| {
-            self.wrong(
-                component,
-                a,
-                format!("the unit is `{}`", a.unit),
-                format!("allowed are {}", units::names(wanted.dimension)),
-            )
+            let found = format!("the unit is `{}`", a.unit);
+            let allowed = format!("allowed are {}", units::names(wanted.dimension));
+            component.wrong(&a.id, found, allowed)
         })
     }
 
@@ -164,12 +146,8 @@ impl<'a> Source<'a> {
         let rigid = |v: f64| a.id.ends_with("stiffness") && v == f64::INFINITY;
         let value = value.map(|v| if rigid(v) { RIGID } else { v });
         value.filter(|v| v.is_finite()).ok_or_else(|| {
-            self.wrong(
-                component,
-                a,
-                format!("`{plain}` is no number"),
-                "allowed is a finite number".to_owned(),
-            )
+            let found = format!("`{plain}` is no number");
+            component.wrong(&a.id, found, "allowed is a finite number")
         })
     }
 
@@ -185,7 +163,7 @@ impl<'a> Source<'a> {
         if value.abs() > most {
             let found = format!("{value:e} {}", unit.name);
             let allowed = format!("allowed is up to {most:e} {}", unit.name);
-            return Err(self.wrong(component, a, found, allowed));
+            return Err(component.wrong(&a.id, found, allowed));
         }
         Ok(value)
     }
@@ -200,7 +178,34 @@ impl<'a> Source<'a> {
         id: &str,
         unit: Unit,
     ) -> Result<Option<f64>, RexsError> {
-        self.number_in(component, id, unit, unit)
+        let Some(a) = self.attribute(component, id) else {
+            return Ok(None);
+        };
+        let text = match &a.value {
+            Value::Scalar(text) => text,
+            Value::List(items) if items.len() == 1 => &items[0],
+            _ => return Err(component.wrong(id, "an array", "allowed is one number")),
+        };
+        let value = self.parsed(component, a, text)? * self.factor(component, a, unit)?;
+        let value = self.up_to(component, a, value, unit, largest(unit))?;
+        self.take(
+            component,
+            format!("{id} {text} {}", a.unit).trim().to_owned(),
+        );
+        Ok(Some(value))
+    }
+
+    /// A number above 0; none where the file says another one or none.
+    ///
+    /// # Errors
+    /// As of [`Self::number`].
+    pub fn positive(
+        &self,
+        component: &Component,
+        id: &str,
+        unit: Unit,
+    ) -> Result<Option<f64>, RexsError> {
+        Ok(self.number(component, id, unit)?.filter(|x| *x > 0.0))
     }
 
     /// A number of a size that machines have.
@@ -221,47 +226,13 @@ impl<'a> Source<'a> {
             .transpose()
     }
 
-    /// A number whose unit is `standard` in the schema.
-    ///
-    /// # Errors
-    /// As of [`Self::number`].
-    pub fn number_in(
-        &self,
-        component: &Component,
-        id: &str,
-        unit: Unit,
-        standard: Unit,
-    ) -> Result<Option<f64>, RexsError> {
-        let Some(a) = self.attribute(component, id) else {
-            return Ok(None);
-        };
-        let text = match &a.value {
-            Value::Scalar(text) => text,
-            Value::List(items) if items.len() == 1 => &items[0],
-            _ => {
-                let allowed = "allowed is one number".to_owned();
-                return Err(self.wrong(component, a, "an array".to_owned(), allowed));
-            }
-        };
-        let value = self.parsed(component, a, text)? * self.factor(component, a, unit, standard)?;
-        let value = self.up_to(component, a, value, unit, largest(unit))?;
-        self.take(
-            component,
-            format!("{id} {text} {}", a.unit).trim().to_owned(),
-        );
-        Ok(Some(value))
-    }
-
     /// A number that must be there.
     ///
     /// # Errors
     /// [`RexsError::Missing`] beside those of [`Self::number`].
     pub fn need(&self, component: &Component, id: &str, unit: Unit) -> Result<f64, RexsError> {
         self.number(component, id, unit)?
-            .ok_or_else(|| RexsError::Missing {
-                component: component.words(),
-                what: format!("{id} is missing"),
-            })
+            .ok_or_else(|| component.lacks(format!("{id} is missing")))
     }
 
     /// A list of numbers.
@@ -290,7 +261,7 @@ impl<'a> Source<'a> {
                 .collect(),
             _ => texts.iter().map(|text| text.as_str()).collect(),
         };
-        let factor = self.factor(component, a, unit, unit)?;
+        let factor = self.factor(component, a, unit)?;
         let values: Result<Vec<f64>, _> = split
             .iter()
             .map(|t| {
@@ -314,20 +285,11 @@ impl<'a> Source<'a> {
     pub fn vector(&self, component: &Component, id: &str) -> Result<Option<[f64; 3]>, RexsError> {
         let values = self.list(component, id, units::MM);
         let Some(values) = values.map_err(|cause| match cause {
-            RexsError::Attribute {
-                line,
-                component,
-                attribute,
-                found,
-                ..
-            } if found.ends_with("is no number") => RexsError::Attribute {
-                line,
-                component,
-                attribute,
-                found,
-                allowed: "allowed are three numbers, along the axes of its reference component"
-                    .to_owned(),
-            },
+            RexsError::Attribute { found, .. } if found.ends_with("is no number") => {
+                let allowed =
+                    "allowed are three numbers, along the axes of its reference component";
+                component.wrong(id, found, allowed)
+            }
             other => other,
         })?
         else {
@@ -335,13 +297,10 @@ impl<'a> Source<'a> {
         };
         match values.as_slice() {
             &[x, y, z] => Ok(Some([x, y, z])),
-            _ => Err(RexsError::Attribute {
-                line: component.attribute(id).and_then(|a| a.line),
-                component: component.words(),
-                attribute: id.to_owned(),
-                found: format!("{} numbers", values.len()),
-                allowed: "allowed are three".to_owned(),
-            }),
+            _ => {
+                let found = format!("{} numbers", values.len());
+                Err(component.wrong(id, found, "allowed are three"))
+            }
         }
     }
 
@@ -364,13 +323,7 @@ impl<'a> Source<'a> {
             return Ok(None);
         };
         if value.fract() != 0.0 || value.abs() > 1e9 {
-            return Err(RexsError::Attribute {
-                line: component.attribute(id).and_then(|a| a.line),
-                component: component.words(),
-                attribute: id.to_owned(),
-                found: format!("`{value}`"),
-                allowed: "allowed is a whole number".to_owned(),
-            });
+            return Err(component.wrong(id, format!("`{value}`"), "allowed is a whole number"));
         }
         Ok(Some(value as i64))
     }
@@ -386,13 +339,7 @@ impl<'a> Source<'a> {
         match text.to_lowercase().as_str() {
             "true" | "1" | "1.0" | "yes" | "ja" | "wahr" => Ok(Some(true)),
             "false" | "0" | "0.0" | "no" | "nein" | "falsch" => Ok(Some(false)),
-            _ => Err(RexsError::Attribute {
-                line: component.attribute(id).and_then(|a| a.line),
-                component: component.words(),
-                attribute: id.to_owned(),
-                found: format!("`{text}`"),
-                allowed: "allowed are true and false".to_owned(),
-            }),
+            _ => Err(component.wrong(id, format!("`{text}`"), "allowed are true and false")),
         }
     }
 

@@ -41,14 +41,7 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
     let bearings = train.bearings.clone();
     let carriers = train.shafts.iter();
     let hubs: HashMap<i64, i64> = carriers.filter_map(|s| Some((s.id, s.hub_on?))).collect();
-    let mut on: HashMap<i64, Vec<usize>> = HashMap::new();
-    for (i, bearing) in bearings.iter().enumerate() {
-        let [a, b] = bearing.sides;
-        on.entry(a).or_default().push(i);
-        if b != a {
-            on.entry(b).or_default().push(i);
-        }
-    }
+    let on = train.bearings_of();
     let places = |shaft: i64| -> usize {
         // What a shaft carries does not hold it.
         let carries = |b: &&Bearing| b.sides.iter().any(|side| hubs.get(side) == Some(&shaft));
@@ -68,10 +61,8 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
     for coupling in &mut train.couplings {
         if coupling.is_bare && coupling.sides.iter().any(|&shaft| places(shaft) < 2) {
             coupling.stiffness = RIGID;
-            if let Some(component) = source.model.component(coupling.id) {
-                let what = "no stiffness given, and a shaft at it has not two bearings of its own: rigid in all directions";
-                source.assume(component, About::Stiffness, what);
-            }
+            let what = "no stiffness given, and a shaft at it has not two bearings of its own: rigid in all directions";
+            source.assume_of(coupling.id, About::Stiffness, what);
         }
     }
     let couplings = train.couplings.iter();
@@ -90,13 +81,11 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
             let only = on.get(&id).into_iter().flatten().find(radial);
             if let Some(only) = only.map(|&i| &mut train.bearings[i]) {
                 only.tilt_nm_per_rad = bearing::RIGID_TILT;
-                if let Some(component) = source.model.component(only.id) {
-                    let what = format!(
-                        "the only place that holds {name} across its axis: the bearing holds the shaft against tilting, too, by {:e} N m/rad",
-                        bearing::RIGID_TILT
-                    );
-                    source.assume(component, About::Support, what);
-                }
+                let what = format!(
+                    "the only place that holds {name} across its axis: the bearing holds the shaft against tilting, too, by {:e} N m/rad",
+                    bearing::RIGID_TILT
+                );
+                source.assume_of(only.id, About::Support, what);
             }
             continue;
         }
@@ -114,13 +103,11 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
                 },
             ));
         }
-        if let Some(component) = source.model.component(id) {
-            let what = format!(
-                "no bearing and no coupling holds it across its axis: held at u = {start} and {end} mm by {:e} N/mm, along the axis at the first",
-                bearing::RIGID
-            );
-            source.assume(component, About::Support, what);
-        }
+        let what = format!(
+            "no bearing and no coupling holds it across its axis: held at u = {start} and {end} mm by {:e} N/mm, along the axis at the first",
+            bearing::RIGID
+        );
+        source.assume_of(id, About::Support, what);
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::bearing::Bearing;
 use crate::bearings_and_couplings::bearings_and_couplings;
 use crate::bevel::{self, BevelStage};
-use crate::by_number::{ByNumber, Numbered};
+use crate::by_number::{ByNumber, Numbered, grouped};
 use crate::coupling::{self, Coupling};
 use crate::error::RexsError;
 use crate::gear::{self, Gear};
@@ -16,13 +16,15 @@ use crate::placement::frame;
 use crate::planetary;
 use crate::planetary_set::PlanetarySet;
 use crate::power_flow::{Flow, Link};
-use crate::shaft::{self, Shaft};
+use crate::shaft::Shaft;
+use crate::shaft_sections;
 use crate::source::Source;
 use crate::structure::{Stage, Structure};
 use crate::supports::{hold, leave_out_bare};
 use crate::text::{Names, file_stem};
-use crate::train_finish::{finish_gears, finish_shafts, power};
+use crate::train_finish::{finish_gears, finish_shafts};
 use crate::train_places::{place_shafts, settle_middles};
+use crate::train_power::power;
 use crate::units::MM;
 use std::collections::{BTreeMap, HashMap};
 
@@ -93,7 +95,7 @@ pub struct TorqueSeat {
 }
 
 /// A gearbox in one load case.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Train {
     /// Shafts.
     pub shafts: ByNumber<Shaft>,
@@ -147,11 +149,24 @@ impl Train {
 
     /// Places of the gears of each shaft.
     pub fn gears_of(&self) -> HashMap<i64, Vec<usize>> {
-        let mut found: HashMap<i64, Vec<usize>> = HashMap::new();
-        for (i, seated) in self.gears.iter().enumerate() {
-            found.entry(seated.shaft).or_default().push(i);
-        }
-        found
+        let all = self.gears.iter().enumerate();
+        grouped(all.map(|(i, seated)| (seated.shaft, i)))
+    }
+
+    /// Places of the bearings at each shaft; once of one with the same shaft on both sides.
+    pub fn bearings_of(&self) -> HashMap<i64, Vec<usize>> {
+        let all = self.bearings.iter().enumerate();
+        grouped(all.flat_map(|(i, bearing)| {
+            let [a, b] = bearing.sides;
+            let second = (b != a).then_some((b, i));
+            [(a, i)].into_iter().chain(second)
+        }))
+    }
+
+    /// Each gear of each mesh: its place and that of the mesh.
+    pub fn meshes_of_gears(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let all = self.meshes.iter().enumerate();
+        all.flat_map(|(i, mesh)| mesh.gears.map(|gear| (gear, i)))
     }
 
     /// A shaft, to be changed.
@@ -168,21 +183,7 @@ impl Train {
 pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Train, RexsError> {
     let mut names = Names::default();
     let mut files = Names::default();
-    let mut train = Train {
-        shafts: ByNumber::default(),
-        gears: ByNumber::default(),
-        meshes: Vec::new(),
-        bevels: Vec::new(),
-        sets: Vec::new(),
-        planetary: Vec::new(),
-        of_planets: BTreeMap::new(),
-        bearings: Vec::new(),
-        couplings: Vec::new(),
-        loads: Vec::new(),
-        masses: Vec::new(),
-        links: Vec::new(),
-        flow: Flow::default(),
-    };
+    let mut train = Train::default();
     for component in source.model.of_kind(&["shaft"]) {
         // Planets of the scene have no shafts.
         let role = structure.planetary_role(component.id);
@@ -191,9 +192,9 @@ pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Tr
         }
         let place = frame(source, component)?;
         let name = names.unique(&component.name, component.id);
-        train
-            .shafts
-            .push(shaft::read(source, structure, component, name, place)?);
+        train.shafts.push(shaft_sections::read(
+            source, structure, component, name, place,
+        )?);
     }
     seat_gears(source, structure, &mut train, &mut names, &mut files, stem)?;
     join_stages(source, structure, &mut train, &mut names)?;
@@ -349,29 +350,27 @@ fn join_stages(
 }
 
 fn demand_mates(stage: &Component, [a, b]: [&Gear; 2]) -> Result<(), RexsError> {
-    let differ = |what: &str, x: f64, y: f64| RexsError::Missing {
-        component: stage.words(),
-        what: format!(
-            "{what} of {} and {} do not go together: {x} and {y}",
-            a.name, b.name
+    let angles = [a, b].map(|gear| gear.pressure_angle_deg);
+    let helices = "helix angles (which must be opposite)";
+    for (what, [x, y], off, most) in [
+        (
+            "modules",
+            [a, b].map(|gear| gear.module_mm),
+            a.module_mm - b.module_mm,
+            a.module_mm,
         ),
-    };
-    if (a.module_mm - b.module_mm).abs() > 1e-6 * a.module_mm {
-        return Err(differ("modules", a.module_mm, b.module_mm));
-    }
-    if (a.helix_deg + b.helix_deg).abs() > 1e-6 {
-        return Err(differ(
-            "helix angles (which must be opposite)",
-            a.helix_deg,
-            b.helix_deg,
-        ));
-    }
-    if (a.pressure_angle_deg - b.pressure_angle_deg).abs() > 1e-6 {
-        return Err(differ(
-            "pressure angles",
-            a.pressure_angle_deg,
-            b.pressure_angle_deg,
-        ));
+        (
+            helices,
+            [a, b].map(|gear| gear.helix_deg),
+            a.helix_deg + b.helix_deg,
+            1.0,
+        ),
+        ("pressure angles", angles, angles[0] - angles[1], 1.0),
+    ] {
+        if off.abs() > 1e-6 * most {
+            let names = format!("{what} of {} and {}", a.name, b.name);
+            return Err(stage.lacks(format!("{names} do not go together: {x} and {y}")));
+        }
     }
     Ok(())
 }

@@ -1,16 +1,15 @@
-//! What follows once all parts of a gearbox are read: stations, one direction for parallel shafts, tips, bores, the
-//! flow of power.
+//! What follows once all parts of a gearbox are read: stations, one direction for parallel shafts, tips, bores.
 
 use crate::backlash;
+use crate::by_number::grouped;
 use crate::ledger::About;
-use crate::loads::Load;
-use crate::placement::{Frame, add, dot};
-use crate::power_flow::{ASSUMED_RPM, Flow, TorqueOn, flow};
-use crate::shaft::{self, MOST_RPM, Shaft};
+use crate::placement::{Frame, dot};
+use crate::shaft::Shaft;
+use crate::shaft_sections::demand_sections;
 use crate::source::Source;
 use crate::train::{Mesh, SeatedGear, Train};
 use crate::units::MM;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 
 /// Directions that differ by an angle whose cosine is less than this from 1 are one line.
 const SAME_LINE: f64 = 1e-6;
@@ -55,39 +54,19 @@ impl Lines {
 /// Stations where something stands; one direction for all shafts of parallel axes.
 pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
     let mut marks: Vec<(i64, f64)> = Vec::new();
-    let mut bores: Vec<(i64, f64)> = Vec::new();
     marks.extend(train.gears.iter().map(|g| (g.shaft, g.mid_mm)));
     marks.extend(train.loads.iter().map(|l| (l.shaft, l.u_mm)));
     marks.extend(train.masses.iter().map(|m| (m.shaft, m.u_mm)));
     marks.extend(train.torque_seats().map(|t| (t.shaft, t.u_mm)));
     marks.extend(train.sets.iter().flat_map(|s| s.carriers.iter().copied()));
-    for (sides, places) in train
-        .bearings
-        .iter()
-        .map(|b| (b.sides, b.u_mm))
-        .chain(train.couplings.iter().map(|c| (c.sides, c.u_mm)))
-    {
-        marks.extend(
-            sides
-                .into_iter()
-                .zip(places)
-                .filter_map(|(id, u)| Some((id, u?))),
-        );
+    let bearings = train.bearings.iter();
+    let couplings = train.couplings.iter().map(|c| (c.sides, c.u_mm));
+    for (sides, places) in bearings.clone().map(|b| (b.sides, b.u_mm)).chain(couplings) {
+        let both = sides.into_iter().zip(places);
+        marks.extend(both.filter_map(|(id, u)| Some((id, u?))));
     }
-    bores.extend(
-        train
-            .bearings
-            .iter()
-            .filter_map(|b| Some((b.sides[0], b.bore_mm?))),
-    );
-    let mut marks_of: HashMap<i64, Vec<f64>> = HashMap::new();
-    for (id, u) in marks {
-        marks_of.entry(id).or_default().push(u);
-    }
-    let mut bores_of: HashMap<i64, Vec<f64>> = HashMap::new();
-    for (id, d) in bores {
-        bores_of.entry(id).or_default().push(d);
-    }
+    let marks_of: HashMap<i64, Vec<f64>> = grouped(marks);
+    let bores_of = grouped(bearings.filter_map(|b| Some((b.sides[0], b.bore_mm?))));
     let gears_of = train.gears_of();
     let directions: Vec<[f64; 3]> = train
         .shafts
@@ -112,7 +91,7 @@ pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
         }
         if let Some(component) = source.model.component(shaft.id) {
             let mine = bores_of.get(&shaft.id).map_or(&[][..], Vec::as_slice);
-            shaft::demand_sections(source, component, shaft, mine);
+            demand_sections(source, component, shaft, mine);
         }
     }
     // Ratios are between speeds about z.
@@ -145,9 +124,7 @@ pub fn finish_gears(source: &Source<'_>, train: &mut Train) {
         let [Some(fa), Some(fb)] = frames else {
             continue;
         };
-        let between = add(fb.origin_mm, fa.origin_mm, -1.0);
-        let along = dot(between, fa.axes[0]);
-        let distance = (dot(between, between) - along * along).max(0.0).sqrt();
+        let distance = fa.from_axis_mm(fb.origin_mm);
         told_distance(source, mesh, distance);
         told_apart(source, mesh, [&train.gears[a], &train.gears[b]], [fa, fb]);
         let [ga, gb] = [&train.gears[a].gear, &train.gears[b].gear];
@@ -190,11 +167,7 @@ fn told_distance(source: &Source<'_>, mesh: &Mesh, distance_mm: f64) {
     if off > 1e-4 {
         // d tan alpha_w = da/(a sin alpha_w cos alpha_w): at 20 deg a thousandth of the distance is 0.9 % of the radial
         // force.
-        let about = if off > 1e-3 {
-            About::Place
-        } else {
-            About::Small
-        };
+        let about = About::by(off > 1e-3, About::Place);
         source.assume(stage, about, format!("center_distance is {stated} mm, but the shafts stand {distance_mm:.4} mm apart: as the shafts stand"));
     }
 }
@@ -302,153 +275,4 @@ fn bores(source: &Source<'_>, train: &mut Train) {
         );
         gear.bore_mm = Some(bore);
     }
-}
-
-/// Speeds and torques by the ratios.
-pub fn power(source: &Source<'_>, train: &Train) -> Flow {
-    let ids: Vec<i64> = train.shafts.iter().map(|s| s.id).collect();
-    let sign = |id: i64| train.shaft(id).map_or(1.0, Shaft::sign);
-    // A brake carries what is left over where nothing else does.
-    let open = |l: &&Load| l.transmits && l.torque_nm.is_none() && l.power_w.is_none();
-    let has_open = train.loads.iter().filter(open).any(|l| !l.is_brake);
-    let torques: Vec<TorqueOn> = train
-        .loads
-        .iter()
-        .filter(|l| l.transmits)
-        .map(|l| TorqueOn {
-            shaft: l.shaft,
-            torque_nm: match l.torque_nm {
-                None if l.is_brake && has_open => Some(0.0),
-                torque => torque.map(|t| sign(l.shaft) * t),
-            },
-            power_w: l.power_w,
-        })
-        .collect();
-    let stated: BTreeMap<i64, f64> = train
-        .shafts
-        .iter()
-        .filter_map(|s| Some((s.id, s.sign() * s.speed_rpm?)))
-        .collect();
-    let found = flow(&ids, &train.links, &torques, &stated);
-    let component = |id: i64| source.model.component(id);
-    for (&id, rpm) in found.speed_rpm.iter().filter(|(_, n)| n.abs() > MOST_RPM) {
-        if let Some(shaft) = component(id) {
-            let what = format!(
-                "turns at {rpm:.3e} 1/min by the ratios: look at numbers of teeth and the stated speed"
-            );
-            source.assume(shaft, About::Lost, what);
-        }
-    }
-    let transmitting: Vec<&Load> = train.loads.iter().filter(|l| l.transmits).collect();
-    for shaft in found.assumed_speed.iter().filter_map(|&id| component(id)) {
-        source.assume(shaft, About::Torque, format!("no speed but 0 of its train is given: {} 1/min, in the sense in which the first torque drives", ASSUMED_RPM));
-    }
-    let stated = |l: &&Load| {
-        let torques = [l.torque_nm, l.power_w].into_iter().flatten();
-        { torques }.any(|t| t != 0.0)
-    };
-    let is_loaded = transmitting.iter().any(stated);
-    let turned: HashSet<usize> = found.turned.iter().copied().collect();
-    for (i, load) in transmitting.iter().enumerate() {
-        let Some(load_component) = component(load.id) else {
-            continue;
-        };
-        if load.torque_nm.is_none() {
-            let is_idle = found.torque_nm[i] == 0.0 && !load.is_brake;
-            if is_idle && is_loaded {
-                let what = "it transmits torque, but none comes to it: no load that states one is joined to its shaft by stages and couplings. \
-                            Look for a stage, a coupling or a relation that is missing";
-                source.assume(load_component, About::Lost, what);
-                continue;
-            }
-            let about = if is_idle { About::Torque } else { About::Small };
-            let acts = sign(load.shaft) * found.torque_nm[i];
-            if let Some(stated) = load
-                .stated_nm
-                .filter(|s| (s - acts).abs() > 1e-2 * acts.abs())
-            {
-                let what = format!(
-                    "a torque of {stated:.4} N m is stated, but defines_torque is false: {acts:.4} N m follow from the others"
-                );
-                source.assume(load_component, About::Torque, what);
-            }
-            source.assume(
-                load_component,
-                about,
-                format!(
-                    "torque {:.6} N m about u, from the balance of power",
-                    sign(load.shaft) * found.torque_nm[i] + 0.0
-                ),
-            );
-        }
-        if turned.contains(&i) {
-            source.assume(
-                load_component,
-                About::Torque,
-                "its torque has the other sign: only then does the power that goes in come out",
-            );
-        }
-    }
-    for &(shaft, stated) in &found.other_speed {
-        let follows = found.speed_rpm.get(&shaft).copied().unwrap_or(0.0) * sign(shaft);
-        let stated = stated * sign(shaft);
-        let about = if (stated / follows - 1.0).abs() > 1e-2 {
-            About::Torque
-        } else {
-            About::Small
-        };
-        if let Some(shaft) = component(shaft) {
-            source.assume(shaft, about, format!("rotational_speed is {stated} 1/min, but {follows:.4} 1/min follow by the ratios from the shaft that comes first: the latter"));
-        }
-    }
-    let stage_of: HashMap<usize, i64> = train.meshes.iter().map(|m| (m.link, m.stage)).collect();
-    let couplings = train.couplings.iter().rev();
-    let coupling_of: HashMap<[i64; 2], i64> = couplings.map(|c| (c.sides, c.id)).collect();
-    for &(link, rest) in &found.locked {
-        let own = train.links[link].ratio;
-        let names = train.links[link]
-            .shafts
-            .map(|id| train.shaft(id).map_or("", |s| s.name.as_str()));
-        let coupling = coupling_of.get(&train.links[link].shafts);
-        let id = stage_of.get(&link).or(coupling).copied();
-        let what = format!(
-            "THE GEARBOX IS LOCKED: {} turns {own:.6} times as fast as {} by it, and {rest:.6} times by the other way between them. Loads in the scene come of teeth that jam. Open a coupling (is_engaged) or mend the numbers of teeth",
-            names[1], names[0]
-        );
-        match id
-            .or(train.links[link].shafts.first().copied())
-            .and_then(component)
-        {
-            Some(subject) => source.assume(subject, About::Lost, what),
-            None => continue,
-        }
-    }
-    for &(i, change) in &found.unbalanced {
-        let load = transmitting[i];
-        if let Some(component) = component(load.id) {
-            let sign = sign(load.shaft);
-            let acts = sign * found.torque_nm[i];
-            let stated = acts - sign * change;
-            if acts.abs() <= 1e-6 * stated.abs() {
-                let what = format!(
-                    "its torque of {stated:.4} N m does not act in the scene: nothing takes it off, for its shaft is joined to no other load that \
-                     transmits torque. Look for a stage, a coupling or a relation that is missing"
-                );
-                source.assume(component, About::Lost, what);
-                continue;
-            }
-            let off = change.abs() / acts.abs().max(stated.abs());
-            let about = if off > 1e-2 {
-                About::Lost
-            } else {
-                About::Small
-            };
-            let what = format!(
-                "the torques of its train do not balance by {:.2} %: {acts:.4} N m about u in place of {stated:.4} N m here, where most power goes in",
-                100.0 * off
-            );
-            source.assume(component, about, what);
-        }
-    }
-    found
 }

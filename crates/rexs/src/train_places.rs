@@ -1,5 +1,6 @@
 //! Where shafts stand, and gears on them.
 
+use crate::by_number::grouped;
 use crate::error::RexsError;
 use crate::ledger::About;
 use crate::placement::{Frame, add, frame};
@@ -23,29 +24,13 @@ pub fn place_shafts(
         .collect();
     if let Some(first) = train.shafts.first_mut().filter(|s| s.frame.is_none()) {
         first.frame = Some(Frame::WORLD);
-        if let Some(component) = source.model.component(first.id) {
-            source.assume(
-                component,
-                About::Nothing,
-                "no support_vector given: the origin, along x",
-            );
-        }
+        let what = "no support_vector given: the origin, along x";
+        source.assume_of(first.id, About::Nothing, what);
     }
-    let mut meshes_of: HashMap<i64, Vec<usize>> = HashMap::new();
-    for (i, mesh) in train.meshes.iter().enumerate() {
-        for gear in mesh.gears {
-            meshes_of
-                .entry(train.gears[gear].shaft)
-                .or_default()
-                .push(i);
-        }
-    }
-    let mut hubs_of: HashMap<i64, Vec<i64>> = HashMap::new();
-    for shaft in train.shafts.iter() {
-        if let Some(carrier) = shaft.hub_on {
-            hubs_of.entry(carrier).or_default().push(shaft.id);
-        }
-    }
+    let meshes_of: HashMap<i64, Vec<usize>> =
+        grouped((train.meshes_of_gears()).map(|(gear, mesh)| (train.gears[gear].shaft, mesh)));
+    let hubs_of: HashMap<i64, Vec<i64>> =
+        grouped(train.shafts.iter().filter_map(|s| Some((s.hub_on?, s.id))));
     let known = train.shafts.iter().filter(|s| s.frame.is_some());
     let mut queue: VecDeque<i64> = known.map(|s| s.id).collect();
     let mut open = 0;
@@ -60,9 +45,9 @@ pub fn place_shafts(
             train.shafts[open].frame = Some(Frame::WORLD);
             let id = train.shafts[open].id;
             queue.push_back(id);
-            if let Some(component) = source.model.component(id) {
-                source.assume(component, About::Place, "neither a support_vector nor a stage that tells its place: the origin, along x");
-            }
+            let what =
+                "neither a support_vector nor a stage that tells its place: the origin, along x";
+            source.assume_of(id, About::Place, what);
             continue;
         };
         follow_hubs(train, &hubs_of, placed, &mut queue);
@@ -104,9 +89,10 @@ pub fn place_shafts(
                 });
                 queue.push_back(id);
             }
-            if let Some(component) = source.model.component(id) {
-                source.assume(component, About::Place, format!("no support_vector given: {distance} mm from its mate at {angle} deg, faces in the middle of each other"));
-            }
+            let what = format!(
+                "no support_vector given: {distance} mm from its mate at {angle} deg, faces in the middle of each other"
+            );
+            source.assume_of(id, About::Place, what);
         }
     }
 }
@@ -176,23 +162,17 @@ pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<(), Rexs
         let end = ends.entry(seated.shaft).or_insert(0.0);
         *end = end.max(seated.mid_mm + 0.5 * seated.gear.face_width_mm);
     }
-    let mut meshes_of: HashMap<usize, Vec<usize>> = HashMap::new();
-    for (i, mesh) in train.meshes.iter().enumerate() {
-        let gears = mesh.gears.into_iter();
-        gears.for_each(|gear| meshes_of.entry(gear).or_default().push(i));
-    }
+    let meshes_of: HashMap<usize, Vec<usize>> = grouped(train.meshes_of_gears());
     for i in open {
         let mine = meshes_of.get(&i).map_or(&[][..], Vec::as_slice);
         let end = ends.entry(train.gears[i].shaft).or_insert(0.0);
         let (mid_mm, words) = free_place(train, &frames, i, mine, *end);
         *end = end.max(mid_mm + 0.5 * train.gears[i].gear.face_width_mm);
         train.gears[i].mid_mm = mid_mm;
-        if let Some(component) = source.model.component(train.gears[i].gear.id) {
-            let what = format!(
-                "no place on the shaft given: {words}, the middle of the face at u = {mid_mm:.4} mm"
-            );
-            source.assume(component, About::Place, what);
-        }
+        let what = format!(
+            "no place on the shaft given: {words}, the middle of the face at u = {mid_mm:.4} mm"
+        );
+        source.assume_of(train.gears[i].gear.id, About::Place, what);
     }
     Ok(())
 }

@@ -13,243 +13,166 @@ const KINDS: [(&str, &str, &str); 3] = [
     ("stage_gear_data", "cylindrical_stage_gear_data", "1.3"),
 ];
 
-/// Types whose components have this in their name; "" is any.
-const ROLLING_BEARING: &str = "rolling_bearing_with";
+/// Attributes that were renamed in a version.
+struct Renamed {
+    /// Part of the type's name.
+    kind: &'static str,
+    /// Old and new names.
+    names: &'static [[&'static str; 2]],
+}
 
-/// Attributes that were renamed: part of the type's name, old, new, version of the new one.
-const ATTRIBUTES: [(&str, &str, &str, &str); 42] = [
-    (ROLLING_BEARING, "name", "catalogue_designation", "1.1"),
-    ("bearing", "initial_load", "preload_force", "1.1"),
-    ("bearing", "initial_load_shift", "preload_distance", "1.1"),
-    (
-        ROLLING_BEARING,
-        "dynamic_capacity",
-        "radial_dynamic_load_rating",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "static_capacity",
-        "radial_static_load_rating",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "axial_backlash",
-        "operating_axial_bearing_clearance",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "radial_backlash",
-        "operating_radial_bearing_clearance",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "minimum_bearing_clearance",
-        "minimum_radial_bearing_clearance",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "maximum_bearing_clearance",
-        "maximum_radial_bearing_clearance",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "minimum_outer_diameter",
-        "minimum_bearing_outer_diameter",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "maximum_outer_diameter",
-        "maximum_bearing_outer_diameter",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "minimum_pin_diameter",
-        "minimum_shaft_diameter",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "maximum_pin_diameter",
-        "maximum_shaft_diameter",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "minimum_bore_diameter",
-        "minimum_casing_bore_diameter",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "maximum_bore_diameter",
-        "maximum_casing_bore_diameter",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "decisive_housing_outer_diameter",
-        "casing_outer_diameter",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "decisive_pin_diameter",
-        "shaft_inner_diameter",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "clearance_class",
-        "radial_clearance_class",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "boring_tolerance_class",
-        "casing_bore_tolerance_class",
-        "1.1",
-    ),
-    (
-        ROLLING_BEARING,
-        "pin_tolerance_class",
-        "shaft_tolerance_class",
-        "1.1",
-    ),
-    (
-        "rolling_bearing_row",
-        "significant_width_inner",
-        "significant_contact_length_inner_ring",
-        "1.1",
-    ),
-    (
-        "rolling_bearing_row",
-        "significant_width_outer",
-        "significant_contact_length_outer_ring",
-        "1.1",
-    ),
-    (
-        "rolling_bearing_row",
-        "running_path_radius_of_inner_ring",
-        "raceway_radius_of_inner_ring",
-        "1.1",
-    ),
-    (
-        "rolling_bearing_row",
-        "running_path_radius_of_outer_ring",
-        "raceway_radius_of_outer_ring",
-        "1.1",
-    ),
-    (
-        "rolling_element",
-        "roller_shell_radius",
-        "roller_crowning_radius",
-        "1.1",
-    ),
-    (
-        "gear",
-        "din_3967_deviation_tolerance_series",
-        "tooth_thickness_deviation_tolerance_series_din_3967_1978",
-        "1.1",
-    ),
-    (
-        "stage",
-        "din_3964_center_distance_tolerance_field",
-        "center_distance_tolerance_field_din_3964_1980",
-        "1.1",
-    ),
-    ("gear_unit", "load_duration", "operating_time", "1.3"),
-    (
-        "gear_unit",
-        "load_duration_fraction",
-        "operating_time_fraction",
-        "1.3",
-    ),
-    (
-        "gear_unit",
-        "custom_load_duration_fraction",
-        "operating_time_fraction",
-        "1.3",
-    ),
-    (
-        "gear",
-        "normal_tooth_thickness_at_pitch_diameter",
-        "normal_tooth_thickness_at_reference_diameter",
-        "1.5",
-    ),
-    (
-        "rolling_bearing_row",
-        "reference_diameter",
-        "reference_diameter_rolling_bearing",
-        "2.0.0",
-    ),
-    (
-        "tool",
-        "tip_radius",
-        "tip_corner_radius_reference_profile",
-        "2.0.0",
-    ),
-    (
-        "tool",
-        "tip_radius_factor",
-        "tip_corner_radius_factor_reference_profile",
-        "2.0.0",
-    ),
-    (
-        "bevel_gear",
-        "basic_addendum_coefficient",
-        "basic_crown_gear_addendum_factor",
-        "2.0.0",
-    ),
-    (
-        "bevel_gear",
-        "basic_dedendum_coefficient",
-        "basic_crown_gear_dedendum_factor",
-        "2.0.0",
-    ),
-    (
-        "bevel_stage",
-        "generated_pressure_angle_drive",
-        "generated_pressure_angle_on_drive_side",
-        "2.0.0",
-    ),
-    (
-        "bevel_stage",
-        "generated_pressure_angle_coast",
-        "generated_pressure_angle_on_coast_side",
-        "2.0.0",
-    ),
-    (
-        "bevel_stage",
-        "nominal_design_pressure_angle_drive",
-        "nominal_design_pressure_angle_on_drive_side",
-        "2.0.0",
-    ),
-    (
-        "bevel_stage",
-        "nominal_design_pressure_angle_coast",
-        "nominal_design_pressure_angle_on_coast_side",
-        "2.0.0",
-    ),
-    (
-        "bevel_stage",
-        "effective_pressure_angle_drive",
-        "effective_pressure_angle_on_drive_side",
-        "2.0.0",
-    ),
-    (
-        "bevel_stage",
-        "effective_pressure_angle_coast",
-        "effective_pressure_angle_on_coast_side",
-        "2.0.0",
-    ),
+/// Attributes that were renamed, version by version.
+const ATTRIBUTES: [Renamed; 12] = [
+    // Version 1.1.
+    Renamed {
+        kind: "rolling_bearing_with",
+        names: &[
+            ["name", "catalogue_designation"],
+            ["dynamic_capacity", "radial_dynamic_load_rating"],
+            ["static_capacity", "radial_static_load_rating"],
+            ["axial_backlash", "operating_axial_bearing_clearance"],
+            ["radial_backlash", "operating_radial_bearing_clearance"],
+            [
+                "minimum_bearing_clearance",
+                "minimum_radial_bearing_clearance",
+            ],
+            [
+                "maximum_bearing_clearance",
+                "maximum_radial_bearing_clearance",
+            ],
+            ["minimum_outer_diameter", "minimum_bearing_outer_diameter"],
+            ["maximum_outer_diameter", "maximum_bearing_outer_diameter"],
+            ["minimum_pin_diameter", "minimum_shaft_diameter"],
+            ["maximum_pin_diameter", "maximum_shaft_diameter"],
+            ["minimum_bore_diameter", "minimum_casing_bore_diameter"],
+            ["maximum_bore_diameter", "maximum_casing_bore_diameter"],
+            ["decisive_housing_outer_diameter", "casing_outer_diameter"],
+            ["decisive_pin_diameter", "shaft_inner_diameter"],
+            ["clearance_class", "radial_clearance_class"],
+            ["boring_tolerance_class", "casing_bore_tolerance_class"],
+            ["pin_tolerance_class", "shaft_tolerance_class"],
+        ],
+    },
+    Renamed {
+        kind: "bearing",
+        names: &[
+            ["initial_load", "preload_force"],
+            ["initial_load_shift", "preload_distance"],
+        ],
+    },
+    Renamed {
+        kind: "rolling_bearing_row",
+        names: &[
+            [
+                "significant_width_inner",
+                "significant_contact_length_inner_ring",
+            ],
+            [
+                "significant_width_outer",
+                "significant_contact_length_outer_ring",
+            ],
+            [
+                "running_path_radius_of_inner_ring",
+                "raceway_radius_of_inner_ring",
+            ],
+            [
+                "running_path_radius_of_outer_ring",
+                "raceway_radius_of_outer_ring",
+            ],
+        ],
+    },
+    Renamed {
+        kind: "rolling_element",
+        names: &[["roller_shell_radius", "roller_crowning_radius"]],
+    },
+    Renamed {
+        kind: "gear",
+        names: &[[
+            "din_3967_deviation_tolerance_series",
+            "tooth_thickness_deviation_tolerance_series_din_3967_1978",
+        ]],
+    },
+    Renamed {
+        kind: "stage",
+        names: &[[
+            "din_3964_center_distance_tolerance_field",
+            "center_distance_tolerance_field_din_3964_1980",
+        ]],
+    },
+    // Version 1.3.
+    Renamed {
+        kind: "gear_unit",
+        names: &[
+            ["load_duration", "operating_time"],
+            ["load_duration_fraction", "operating_time_fraction"],
+            ["custom_load_duration_fraction", "operating_time_fraction"],
+        ],
+    },
+    // Version 1.5.
+    Renamed {
+        kind: "gear",
+        names: &[[
+            "normal_tooth_thickness_at_pitch_diameter",
+            "normal_tooth_thickness_at_reference_diameter",
+        ]],
+    },
+    // Version 2.0.0.
+    Renamed {
+        kind: "rolling_bearing_row",
+        names: &[["reference_diameter", "reference_diameter_rolling_bearing"]],
+    },
+    Renamed {
+        kind: "tool",
+        names: &[
+            ["tip_radius", "tip_corner_radius_reference_profile"],
+            [
+                "tip_radius_factor",
+                "tip_corner_radius_factor_reference_profile",
+            ],
+        ],
+    },
+    Renamed {
+        kind: "bevel_gear",
+        names: &[
+            [
+                "basic_addendum_coefficient",
+                "basic_crown_gear_addendum_factor",
+            ],
+            [
+                "basic_dedendum_coefficient",
+                "basic_crown_gear_dedendum_factor",
+            ],
+        ],
+    },
+    Renamed {
+        kind: "bevel_stage",
+        names: &[
+            [
+                "generated_pressure_angle_drive",
+                "generated_pressure_angle_on_drive_side",
+            ],
+            [
+                "generated_pressure_angle_coast",
+                "generated_pressure_angle_on_coast_side",
+            ],
+            [
+                "nominal_design_pressure_angle_drive",
+                "nominal_design_pressure_angle_on_drive_side",
+            ],
+            [
+                "nominal_design_pressure_angle_coast",
+                "nominal_design_pressure_angle_on_coast_side",
+            ],
+            [
+                "effective_pressure_angle_drive",
+                "effective_pressure_angle_on_drive_side",
+            ],
+            [
+                "effective_pressure_angle_coast",
+                "effective_pressure_angle_on_coast_side",
+            ],
+        ],
+    },
 ];
 
 /// Versions with a published schema.
@@ -317,15 +240,17 @@ fn rename(component: &mut Component) {
     if let Some((_, new, _)) = KINDS.iter().find(|(old, ..)| *old == component.kind) {
         (*new).clone_into(&mut component.kind);
     }
-    for (kind, old, new, _) in ATTRIBUTES {
-        if !component.kind.contains(kind)
-            || component.attribute(old).is_none()
-            || component.attribute(new).is_some()
-        {
+    for renamed in ATTRIBUTES {
+        if !component.kind.contains(renamed.kind) {
             continue;
         }
-        for attribute in component.attributes.iter_mut().filter(|a| a.id == old) {
-            new.clone_into(&mut attribute.id);
+        for [old, new] in renamed.names {
+            if component.attribute(old).is_none() || component.attribute(new).is_some() {
+                continue;
+            }
+            for attribute in component.attributes.iter_mut().filter(|a| a.id == *old) {
+                (*new).clone_into(&mut attribute.id);
+            }
         }
     }
 }
