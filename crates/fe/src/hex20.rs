@@ -14,29 +14,27 @@
 //!
 //! Source: T. J. R. Hughes, *The Finite Element Method*, 1987, section 3.7 (serendipity) and 3.8 (quadrature).
 
+use crate::hex8::CORNERS;
+use gearmesh_elements::HEX_EDGES;
+
 /// Natural coordinates of the twenty nodes.
-pub(crate) const NODES: [[f64; 3]; 20] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-    [0.0, -1.0, -1.0],
-    [1.0, 0.0, -1.0],
-    [0.0, 1.0, -1.0],
-    [-1.0, 0.0, -1.0],
-    [0.0, -1.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [0.0, 1.0, 1.0],
-    [-1.0, 0.0, 1.0],
-    [-1.0, -1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [-1.0, 1.0, 0.0],
-];
+pub(crate) const NODES: [[f64; 3]; 20] = with_middles(CORNERS, &HEX_EDGES);
+
+/// Corners, and after them the middles of the edges between them.
+pub(crate) const fn with_middles<const C: usize, const N: usize>(
+    corners: [[f64; 3]; C],
+    edges: &[[usize; 2]],
+) -> [[f64; 3]; N] {
+    let mut nodes = [[0.0; 3]; N];
+    let mut i = 0;
+    while i < N {
+        let [a, b] = if i < C { [i, i] } else { edges[i - C] };
+        let ([ax, ay, az], [bx, by, bz]) = (corners[a], corners[b]);
+        nodes[i] = [0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz)];
+        i += 1;
+    }
+    nodes
+}
 
 /// The nodes of each face: corners counter-clockwise seen from outside, then the edges between them.
 pub(crate) const FACES: [&[usize]; 6] = [
@@ -84,102 +82,4 @@ fn factor(node: usize, axis: usize, x: f64) -> f64 {
 /// ξξ_i + ηη_i + ζζ_i − 2 of a corner.
 fn corner_sum(node: usize, natural: [f64; 3]) -> f64 {
     (0..3).map(|k| natural[k] * NODES[node][k]).sum::<f64>() - 2.0
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-    use crate::isoparametric::stiffness;
-    use crate::quadrature::{GAUSS_2, GAUSS_3, WeightedPoint};
-    use gearmesh_elements::HEX_EDGES;
-
-    /// Corners moved, edges bent.
-    fn distorted() -> [[f64; 3]; 20] {
-        let mut x = NODES;
-        x[6] = [1.4, 1.2, 1.3];
-        x[1] = [0.9, -1.2, -0.8];
-        for (k, [a, b]) in HEX_EDGES.into_iter().enumerate() {
-            x[8 + k] = std::array::from_fn(|axis| {
-                0.5 * (x[a][axis] + x[b][axis]) + 0.1 * ((3 * k + axis) as f64).sin()
-            });
-        }
-        x
-    }
-
-    #[test]
-    fn mid_edge_nodes_lie_between_their_corners() {
-        for (k, [a, b]) in HEX_EDGES.into_iter().enumerate() {
-            let middle = std::array::from_fn(|axis| 0.5 * (NODES[a][axis] + NODES[b][axis]));
-            assert_eq!(NODES[8 + k], middle);
-        }
-    }
-
-    #[test]
-    fn shape_functions_are_nodal() {
-        for (i, node) in NODES.iter().enumerate() {
-            for (j, value) in shape_functions(*node).iter().enumerate() {
-                assert!((value - f64::from(u8::from(i == j))).abs() < 1e-15);
-            }
-        }
-    }
-
-    /// Every quadratic of the three coordinates, and ξ²η besides, is a sum of shape functions.
-    #[test]
-    fn quadratics_are_reproduced() {
-        let functions: [fn([f64; 3]) -> f64; 11] = [
-            |_| 1.0,
-            |x| x[0],
-            |x| x[1],
-            |x| x[2],
-            |x| x[0] * x[0],
-            |x| x[1] * x[1],
-            |x| x[2] * x[2],
-            |x| x[0] * x[1],
-            |x| x[1] * x[2],
-            |x| x[0] * x[2],
-            |x| x[0] * x[0] * x[1],
-        ];
-        let at = [0.3, -0.7, 0.1];
-        let n = shape_functions(at);
-        for f in functions {
-            let sum: f64 = (0..20).map(|i| n[i] * f(NODES[i])).sum();
-            assert!((sum - f(at)).abs() < 1e-14);
-        }
-    }
-
-    #[test]
-    fn gradients_equal_central_differences() {
-        let at = [0.2, -0.4, 0.6];
-        let step = 1e-5;
-        for k in 0..3 {
-            let (mut plus, mut minus) = (at, at);
-            plus[k] += step;
-            minus[k] -= step;
-            let (np, nm) = (shape_functions(plus), shape_functions(minus));
-            for (i, gradient) in natural_gradients(at).iter().enumerate() {
-                // Third derivatives vanish along one axis: rounding only, about 1e-16/step.
-                assert!((gradient[k] - (np[i] - nm[i]) / (2.0 * step)).abs() < 1e-10);
-            }
-        }
-    }
-
-    fn zero_modes(rule: &[WeightedPoint]) -> usize {
-        let lame = crate::Material::new(210e9, 0.3).unwrap().lame();
-        let k = stiffness(&distorted(), natural_gradients, lame, rule).unwrap();
-        let dense = faer::Mat::from_fn(60, 60, |i, j| k.entry(i, j));
-        let eigenvalues = dense.self_adjoint_eigenvalues(faer::Side::Lower).unwrap();
-        let largest = eigenvalues.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        eigenvalues
-            .iter()
-            .filter(|v| v.abs() < 1e-10 * largest)
-            .count()
-    }
-
-    /// 2×2×2 points give 48 strains for 60 − 6 deformations: six modes too many. The full rule has none.
-    #[test]
-    fn reduced_quadrature_has_six_modes_too_many() {
-        assert_eq!(zero_modes(&GAUSS_2), 12);
-        assert_eq!(zero_modes(&GAUSS_3), 6);
-    }
 }

@@ -13,26 +13,12 @@
 //!
 //! Source: O. C. Zienkiewicz, R. L. Taylor, *The Finite Element Method*, vol. 1, 2000, section 8.12.
 
-use crate::wedge6::{L_GRADIENTS, area_coordinates};
+use crate::hex20::with_middles;
+use crate::wedge6::{self, L_GRADIENTS, area_coordinates};
+use gearmesh_elements::WEDGE_EDGES;
 
 /// Natural coordinates of the fifteen nodes.
-pub(crate) const NODES: [[f64; 3]; 15] = [
-    [0.0, 0.0, -1.0],
-    [1.0, 0.0, -1.0],
-    [0.0, 1.0, -1.0],
-    [0.0, 0.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [0.0, 1.0, 1.0],
-    [0.5, 0.0, -1.0],
-    [0.5, 0.5, -1.0],
-    [0.0, 0.5, -1.0],
-    [0.5, 0.0, 1.0],
-    [0.5, 0.5, 1.0],
-    [0.0, 0.5, 1.0],
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-];
+pub(crate) const NODES: [[f64; 3]; 15] = with_middles(wedge6::NODES, &WEDGE_EDGES);
 
 /// The area coordinates that the mid-edge nodes of a triangle belong to.
 const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];

@@ -8,6 +8,7 @@ mod common;
 mod convergence;
 mod cyclic;
 mod edge_crack;
+mod elements;
 mod factorisation;
 mod mass;
 mod modes;
