@@ -6,7 +6,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::file_error::FileError;
+use crate::file_error::{FileError, io_error};
 
 /// Writes a text file.
 ///
@@ -22,11 +22,7 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
 /// [`FileError::NotARegularFile`], [`FileError::OutputIsALink`], [`FileError::Io`]; `path` is then as it was.
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write_atomically(path, |_, file| {
-        file.write_all(bytes).map_err(|source| FileError::Io {
-            path: path.to_owned(),
-            action: "write",
-            source,
-        })
+        file.write_all(bytes).map_err(io_error(path, "write"))
     })
 }
 
@@ -43,13 +39,7 @@ pub fn write_streamed<E: From<FileError>>(
     write_atomically_from(staging, path, |_, file| {
         let mut out = BufWriter::with_capacity(1 << 20, file);
         fill(&mut out)?;
-        out.flush().map_err(|source| {
-            E::from(FileError::Io {
-                path: path.to_owned(),
-                action: "write",
-                source,
-            })
-        })
+        Ok(out.flush().map_err(io_error(path, "write"))?)
     })
 }
 
@@ -87,15 +77,10 @@ pub fn demand_output(path: &Path) -> Result<(), FileError> {
 /// # Errors
 /// Those of [`demand_output`], [`FileError::Io`].
 pub(crate) fn open_growing(path: &Path) -> Result<File, FileError> {
-    let io = |source| FileError::Io {
-        path: path.to_owned(),
-        action: "open",
-        source,
-    };
     demand_output(path)?;
     let mut options = OpenOptions::new();
     let file = options.read(true).write(true).create(true).truncate(false);
-    file.open(path).map_err(io)
+    file.open(path).map_err(io_error(path, "open"))
 }
 
 /// Folder of a file; the current one for a bare name.
@@ -147,13 +132,7 @@ pub(crate) fn write_atomically_from<E: From<FileError>>(
     path: &Path,
     fill: impl FnOnce(&Path, &mut File) -> Result<(), E>,
 ) -> Result<(), E> {
-    let io = |action| {
-        move |source| FileError::Io {
-            path: path.to_owned(),
-            action,
-            source,
-        }
-    };
+    let io = |action| io_error(path, action);
     let _held = wait_for_writes();
     demand_output(path)?;
     let prefix = temporary_prefix(path);
@@ -254,10 +233,11 @@ thread_local! {
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    fn names(folder: &Path) -> Vec<String> {
+    /// What is in a folder, sorted.
+    pub(crate) fn names(folder: &Path) -> Vec<String> {
         let entries = std::fs::read_dir(folder).unwrap();
         let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
         let mut names: Vec<String> = names.collect();

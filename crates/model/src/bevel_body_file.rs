@@ -2,25 +2,21 @@
 
 use crate::bevel_body::{BevelBody, BevelNearField};
 use crate::file_error::FileError;
+use crate::quantity_check::{
+    check_array, check_calibration, check_stations, in_range, out_of_range, positive, smallest,
+};
 use crate::record::{Fields, OPEN};
 use crate::reduced_gear::ReducedGear;
-use crate::reduced_gear_check::{check_array, check_stations, in_range, out_of_range, smallest};
 use crate::reduced_gear_error::ReducedGearError;
+use crate::reduced_gear_file::{Sizes, calibration_fields};
 
 const BEVEL_FRAME: &str = "bevel gear: right-handed, origin in the pitch apex, z the axis towards the heel, middle of tooth 0 on +x at the mean point";
 const NORMAL: &str = "inward normal of the flank in the section, positive into the material";
 
-/// Lengths that the arrays have in common: flanks, stations up the flank and along it.
-pub(crate) struct BevelSizes {
-    pub flanks: usize,
-    pub stations: usize,
-    pub along: usize,
-}
-
 pub(crate) fn bevel_fields(
     it: &mut BevelBody,
     f: &mut Fields<'_>,
-    sizes: &BevelSizes,
+    sizes: Sizes,
 ) -> Result<(), FileError> {
     let what = "the pair file, word for word";
     f.text("pair_toml", &mut it.pair_text, what)?;
@@ -31,7 +27,7 @@ pub(crate) fn bevel_fields(
     let (cones, what) = (&mut it.cones_m, "cone distances of toe and heel");
     f.fixed("cones", cones, &[("toe, heel", 2)], "m", what)?;
     let axes = [
-        ("flank", sizes.flanks),
+        ("flank", sizes.hands),
         ("u station", sizes.stations),
         ("v station", sizes.along),
         ("axis", 3),
@@ -52,14 +48,10 @@ pub(crate) fn bevel_fields(
 fn near_field_fields(
     it: &mut BevelNearField,
     f: &mut Fields<'_>,
-    sizes: &BevelSizes,
+    sizes: Sizes,
 ) -> Result<(), FileError> {
-    let what = "half width of the calibrating Hertz pressure";
-    f.number("half_width", &mut it.half_width_m, "m", what)?;
-    let what = "element length at the load of the finer mesh behind the contact compliance";
-    f.number("element", &mut it.element_m, "m", what)?;
-    let what = "largest relative step from that mesh to the extrapolated contact compliance";
-    f.number("residual", &mut it.residual, "1", what)?;
+    let lengths_m = [&mut it.half_width_m, &mut it.element_m];
+    calibration_fields(f, lengths_m, &mut it.residual)?;
     let (sections, what) = (
         &mut it.sections_m,
         "places of the sections along the tooth, from mid-face",
@@ -70,7 +62,7 @@ fn near_field_fields(
         "share of the way up the flank of the places",
     );
     f.numbers("profile", profile, &[("place", OPEN)], "1", what)?;
-    let flanks = ("flank", sizes.flanks);
+    let flanks = ("flank", sizes.hands);
     let in_section = ("section", it.sections_m.len());
     let places = [flanks, in_section, ("place", it.profile.len())];
     let what = "length of the profile from the lower line to the tip";
@@ -106,13 +98,8 @@ impl ReducedGear {
         let angle = bevel.pitch_angle_rad;
         in_range("bevel.pitch_angle_rad", angle, acute, "between 0 and π/2")?;
         check_stations("bevel.cones_m", &bevel.cones_m)?;
-        let positive = |value: f64| value > 0.0 && value.is_finite();
-        in_range(
-            "the first of bevel.cones_m",
-            bevel.cones_m[0],
-            positive,
-            "above 0 m",
-        )?;
+        let (item, first) = ("the first of bevel.cones_m", bevel.cones_m[0]);
+        in_range(item, first, positive, "above 0 m")?;
         let last = self.grid.roll_angles_rad[stations - 1];
         in_range(
             "the last of the stations up a bevel flank",
@@ -151,19 +138,11 @@ fn check_near_field(
     flanks: usize,
     stations: usize,
 ) -> Result<(), ReducedGearError> {
-    let positive = |value: f64| value > 0.0 && value.is_finite();
-    let width = field.half_width_m;
-    in_range(
-        "bevel.near_field.half_width_m",
-        width,
-        positive,
-        "above 0 m",
+    let (half_width_m, element_m) = (field.half_width_m, field.element_m);
+    check_calibration(
+        "bevel.near_field",
+        [half_width_m, element_m, field.residual],
     )?;
-    let element = field.element_m;
-    in_range("bevel.near_field.element_m", element, positive, "above 0 m")?;
-    let not_negative = |e: f64| e >= 0.0 && e.is_finite();
-    let (item, allowed) = ("bevel.near_field.residual", "finite and not negative");
-    in_range(item, field.residual, not_negative, allowed)?;
     check_stations("bevel.near_field.profile", &field.profile)?;
     let last = field.profile[field.profile.len() - 1];
     let item = "the last of bevel.near_field.profile";

@@ -13,9 +13,9 @@
 //! docs/theory/bore_patterns.md.
 
 use crate::file_error::FileError;
+use crate::quantity_check::{check_array, out_of_range};
 use crate::record::Fields;
 use crate::reduced_gear::ReducedGear;
-use crate::reduced_gear_check::{check_array, out_of_range};
 use crate::reduced_gear_error::ReducedGearError;
 use crate::reduced_gear_file::{GEAR_FRAME, LOAD};
 use std::f64::consts::TAU;

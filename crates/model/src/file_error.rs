@@ -1,11 +1,24 @@
 //! What can go wrong with a gearmesh file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
 use crate::mesh_data::MeshDataError;
 use crate::reduced_gear_error::ReducedGearError;
+
+/// The error of an operation on a file that the system refuses, `action` as a verb phrase. Owns the path only when
+/// something failed.
+pub(crate) fn io_error(
+    path: &Path,
+    action: &'static str,
+) -> impl FnOnce(std::io::Error) -> FileError {
+    move |source| FileError::Io {
+        path: path.to_owned(),
+        action,
+        source,
+    }
+}
 
 /// A file that cannot be written, or that is not what it should be.
 #[derive(Debug, Error)]

@@ -10,9 +10,9 @@
 //! T and V are those of every tooth. docs/theory/cyclic_symmetry.md: where they come from and what is left out.
 
 use crate::file_error::FileError;
+use crate::quantity_check::{check_array, out_of_range};
 use crate::record::{Fields, OPEN};
 use crate::reduced_gear::ReducedGear;
-use crate::reduced_gear_check::{check_array, out_of_range};
 use crate::reduced_gear_error::ReducedGearError;
 use std::sync::Arc;
 

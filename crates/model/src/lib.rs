@@ -22,6 +22,7 @@
 mod atomic_file;
 mod bevel_body;
 mod bevel_body_file;
+mod blank_record;
 mod bore_patterns;
 mod column_file;
 mod csv_cell;
@@ -31,9 +32,6 @@ mod data_tree_read;
 mod data_tree_take;
 mod data_tree_write;
 mod definition_record;
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod definition_tests;
 mod file_error;
 mod hub_patterns;
 mod mesh_data;
@@ -42,6 +40,7 @@ mod microgeometry_record;
 mod modal_basis;
 mod near_field;
 mod own_storage;
+mod quantity_check;
 mod record;
 mod record_axes;
 mod reduced_gear;
@@ -55,6 +54,7 @@ mod seal;
 mod shaft_faces;
 mod shaft_faces_file;
 mod sliding_bore;
+mod smooth_curve;
 mod staged_folder;
 mod stored_gear;
 #[doc(hidden)]
@@ -91,6 +91,7 @@ pub use row_log::{LockedLog, RowLog};
 pub use seal::{bytes_digest, file_digest};
 pub use shaft_faces::{FaceMass, ShaftFaces};
 pub use sliding_bore::{RadialMotions, SlidingBore};
+pub use smooth_curve::SmoothCurve;
 pub use staged_folder::write_folder;
 pub use stored_gear::StoredGear;
 pub use timestamp::utc_now;

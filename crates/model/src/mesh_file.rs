@@ -19,10 +19,7 @@ pub const MESH_FORMAT: FileFormat = FileFormat {
 /// # Errors
 /// [`FileError::Mesh`] for indices or lengths that do not fit together, otherwise as [`DataTree::write`].
 pub fn write_mesh(path: &Path, mesh: &MeshData) -> Result<(), FileError> {
-    mesh.validate().map_err(|source| FileError::Mesh {
-        path: path.to_owned(),
-        source,
-    })?;
+    checked(path, mesh)?;
     let names = mesh
         .point_sets
         .keys()
@@ -67,6 +64,13 @@ pub fn write_mesh(path: &Path, mesh: &MeshData) -> Result<(), FileError> {
         tree.put(format!("cell_fields/{name}"), field_array("element", field));
     }
     tree.write(path, &MESH_FORMAT)
+}
+
+fn checked(path: &Path, mesh: &MeshData) -> Result<(), FileError> {
+    mesh.validate().map_err(|source| FileError::Mesh {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 /// Reads a mesh and checks its indices.
@@ -114,10 +118,7 @@ pub fn read_mesh(path: &Path) -> Result<MeshData, FileError> {
         point_fields: take_fields(&mut tree, path, "point_fields", nodes)?,
         cell_fields: take_fields(&mut tree, path, "cell_fields", elements)?,
     };
-    mesh.validate().map_err(|source| FileError::Mesh {
-        path: path.to_owned(),
-        source,
-    })?;
+    checked(path, &mesh)?;
     Ok(mesh)
 }
 

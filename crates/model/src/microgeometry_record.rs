@@ -97,9 +97,7 @@ impl Record for TipRelief {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         let what = "material removed at the tip circle";
         f.number("amount", &mut self.amount_m, "m", what)?;
-        let what = "roll angle tan(alpha) where it starts";
-        f.number("start_roll", &mut self.start_roll_rad, "rad", what)?;
-        shape_fields(&mut self.shape, f)
+        start_fields(&mut self.start_roll_rad, &mut self.shape, f)
     }
 }
 
@@ -107,10 +105,19 @@ impl Record for RootRelief {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         let what = "material removed at the form circle";
         f.number("amount", &mut self.amount_m, "m", what)?;
-        let what = "roll angle tan(alpha) where it starts";
-        f.number("start_roll", &mut self.start_roll_rad, "rad", what)?;
-        shape_fields(&mut self.shape, f)
+        start_fields(&mut self.start_roll_rad, &mut self.shape, f)
     }
+}
+
+/// Where a relief of the profile starts, and how it grows.
+fn start_fields(
+    start_roll_rad: &mut f64,
+    shape: &mut ReliefShape,
+    f: &mut Fields<'_>,
+) -> Result<(), FileError> {
+    let what = "roll angle tan(alpha) where it starts";
+    f.number("start_roll", start_roll_rad, "rad", what)?;
+    shape_fields(shape, f)
 }
 
 impl Record for EndRelief {

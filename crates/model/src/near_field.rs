@@ -1,5 +1,7 @@
 //! What a plane-strain problem says about the near field of a load on a tooth: the calibration of the local term.
 
+use crate::smooth_curve::SmoothCurve;
+
 /// Deflection of the contact centre under a Hertz pressure, and of the model's own mesh under its own hats, both in
 /// plane strain on the tooth-only submodel.
 ///
@@ -52,18 +54,14 @@ impl NearField {
 /// c₀ over the roll angle. Beyond the ends the end's value.
 ///
 /// Towards the edge c₀ grows like the logarithm of the distance d to it, r_b (ξ_end² − ξ²)/2 on an involute flank. The interpolation is
-/// therefore in u = −ln(1 + d/a₀): cubic Hermite between the places, the slope at a place that of the parabola through
-/// it and its neighbours (one-sided at the ends).
+/// therefore in u = −ln(1 + d/a₀), by a [`SmoothCurve`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactCurve {
     distance: EdgeDistance,
     half_width_m: f64,
     rolls_rad: Vec<f64>,
-    values: Vec<f64>,
-    /// u of each place.
-    places: Vec<f64>,
-    /// ∂c₀/∂u at each place.
-    slopes: Vec<f64>,
+    /// c₀ over u.
+    over_u: SmoothCurve,
 }
 
 /// How far a place along the profile is from the tip's edge.
@@ -89,6 +87,11 @@ impl EdgeDistance {
             Self::Share { length_m } => [length_m * (1.0 - place), length_m],
         }
     }
+
+    /// −ln(1 + d/a₀).
+    fn u(self, half_width_m: f64, place: f64) -> f64 {
+        -(self.at(place)[0] / half_width_m).ln_1p()
+    }
 }
 
 impl ContactCurve {
@@ -99,62 +102,29 @@ impl ContactCurve {
         at: &[f64],
         values: &[f64],
     ) -> Self {
-        let mut curve = Self {
+        let coordinates = at.iter().map(|place| distance.u(half_width_m, *place));
+        Self {
             distance,
             half_width_m,
             rolls_rad: at.to_vec(),
-            values: values.to_vec(),
-            places: Vec::new(),
-            slopes: Vec::new(),
-        };
-        curve.places = at.iter().map(|place| curve.coordinate(*place)).collect();
-        curve.slopes = (0..values.len()).map(|k| curve.slope(k)).collect();
-        curve
+            over_u: SmoothCurve::new(coordinates.collect(), values.to_vec()),
+        }
     }
 
     /// c₀ in m²/N at a roll angle, and its derivative by it. No allocation.
     pub fn at(&self, roll_rad: f64) -> (f64, f64) {
-        let (rolls, y) = (&self.rolls_rad, &self.values);
-        let last = rolls.len() - 1;
-        let k = rolls
-            .partition_point(|place| *place <= roll_rad)
-            .clamp(1, last)
-            - 1;
-        let inside = roll_rad.clamp(rolls[0], rolls[last]);
-        let length = self.places[k + 1] - self.places[k];
-        let t = (self.coordinate(inside) - self.places[k]) / length;
-        let (u, rise) = (1.0 - t, y[k + 1] - y[k]);
-        // Linear part, and what bends it to the two slopes.
-        let low = self.slopes[k] * length - rise;
-        let high = self.slopes[k + 1] * length - rise;
-        let value = y[k] + t * rise + t * u * (u * low - t * high);
-        let slope = rise + low * u * (u - 2.0 * t) - high * t * (2.0 * u - t);
+        let rolls = &self.rolls_rad;
+        let piece = SmoothCurve::piece(rolls, roll_rad);
+        let inside = roll_rad.clamp(rolls[0], rolls[rolls.len() - 1]);
+        let u = self.distance.u(self.half_width_m, inside);
+        let [value, slope] = self.over_u.in_piece(piece, u);
         let moves = if inside == roll_rad {
             let [distance, rate] = self.distance.at(inside);
             rate / (self.half_width_m + distance)
         } else {
             0.0
         };
-        (value, slope / length * moves)
-    }
-
-    fn coordinate(&self, roll_rad: f64) -> f64 {
-        -(self.distance.at(roll_rad)[0] / self.half_width_m).ln_1p()
-    }
-
-    /// Slope of c₀ over u at a place.
-    fn slope(&self, place: usize) -> f64 {
-        let (x, y) = (&self.places, &self.values);
-        let last = y.len() - 1;
-        let secant = |i: usize| (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
-        if last == 1 {
-            return secant(0);
-        }
-        // The parabola through three neighbours; its slope at any of them.
-        let first = place.saturating_sub(1).min(last - 2);
-        let (a, b) = (secant(first), secant(first + 1));
-        let bend = (b - a) / (x[first + 2] - x[first]);
-        a + bend * (2.0 * x[place] - x[first] - x[first + 1])
+        (value, slope * moves)
     }
 }
 

@@ -13,7 +13,7 @@ use hdf5::types::TypeDescriptor;
 use hdf5::{Dataset, File, Group, LinkType, LocationType};
 
 use crate::data_tree_file::{DEEPEST_GROUP, hdf5_error};
-use crate::file_error::FileError;
+use crate::file_error::{FileError, io_error};
 
 /// Walks through all groups and datasets of an open file of the given length.
 ///
@@ -28,11 +28,7 @@ pub(crate) fn check_own_storage(
 ) -> Result<(), FileError> {
     let mut walk = Walk {
         path,
-        raw: std::fs::File::open(path).map_err(|source| FileError::Io {
-            path: path.to_owned(),
-            action: "open",
-            source,
-        })?,
+        raw: std::fs::File::open(path).map_err(io_error(path, "open"))?,
         file_bytes,
         claimed_bytes: 0,
     };
@@ -122,11 +118,7 @@ impl Walk<'_> {
         let mut length = [0; 4];
         let read = self.raw.seek(SeekFrom::Start(place));
         let read = read.and_then(|_| self.raw.read_exact(&mut length));
-        read.map_err(|source| FileError::Io {
-            path: self.path.to_owned(),
-            action: "read",
-            source,
-        })?;
+        read.map_err(io_error(self.path, "read"))?;
         let length = u32::from_le_bytes(length);
         self.claim(name, vec![length as usize], 1)
     }

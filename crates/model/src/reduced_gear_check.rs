@@ -1,8 +1,10 @@
 //! Checks that a reduced gear does not contradict itself.
 
-use std::fmt;
-
 use crate::near_field::NearField;
+use crate::quantity_check::{
+    check_array, check_calibration, check_error, check_finite, check_stations, in_range,
+    out_of_range, positive, smallest,
+};
 use crate::reduced_gear::ReducedGear;
 use crate::reduced_gear_error::ReducedGearError;
 
@@ -69,12 +71,7 @@ impl ReducedGear {
                 ));
             }
             let item = format!("error_estimate_relative of gauge \"{name}\"");
-            in_range(
-                &item,
-                gauge.error_estimate_relative,
-                |e| e >= 0.0 && e.is_finite(),
-                "finite and not negative",
-            )?;
+            check_error(&item, gauge.error_estimate_relative)?;
             let item = format!("adjoint of gauge \"{name}\"");
             check_array(
                 &item,
@@ -96,20 +93,11 @@ impl ReducedGear {
             .chain(&self.provenance.effort)
             .chain(&self.checks.further);
         for (name, value) in times {
-            in_range(name, *value, f64::is_finite, "finite")?;
+            check_finite(name, *value)?;
         }
-        in_range(
-            "the symmetry check",
-            self.checks.symmetry,
-            f64::is_finite,
-            "finite",
-        )?;
-        in_range(
-            "the pattern identity check",
-            self.checks.pattern_identity,
-            f64::is_finite,
-            "finite",
-        )
+        check_finite("the symmetry check", self.checks.symmetry)?;
+        let identity = self.checks.pattern_identity;
+        check_finite("the pattern identity check", identity)
     }
 
     /// The gear's definition, where it is known, is that of this body and holds quantities that there can be.
@@ -121,7 +109,6 @@ impl ReducedGear {
             let found = gear.tooth.teeth;
             return Err(out_of_range("definition.tooth.teeth", found, "gear.teeth"));
         }
-        let positive = |value: f64| value > 0.0 && value.is_finite();
         let (tooth, material) = (&gear.tooth, &gear.material);
         for (item, value) in [
             ("definition.tooth.module", tooth.module_m),
@@ -139,8 +126,7 @@ impl ReducedGear {
         let (item, value) = ("definition.material.poisson", material.poisson);
         in_range(item, value, poisson, "at least 0, less than 0.5")?;
         for flanks in [&gear.microgeometry.right, &gear.microgeometry.left] {
-            let (item, value) = ("definition.microgeometry", flanks.most_added_m());
-            in_range(item, value, f64::is_finite, "finite")?;
+            check_finite("definition.microgeometry", flanks.most_added_m())?;
         }
         Ok(())
     }
@@ -153,21 +139,11 @@ impl ReducedGear {
             return Err(out_of_range("crack.tooth", crack.tooth, "less than teeth"));
         }
         self.flank_index(crack.side)?;
-        let positive = |value: f64| value > 0.0 && value.is_finite();
         in_range("crack.depth_m", crack.depth_m, positive, "above 0 m")?;
-        in_range(
-            "crack.mouth_radius_m",
-            crack.mouth_radius_m,
-            positive,
-            "above 0 m",
-        )?;
-        in_range("crack.angle_rad", crack.angle_rad, f64::is_finite, "finite")?;
-        in_range(
-            "crack.left_out",
-            crack.left_out,
-            |e| e >= 0.0 && e.is_finite(),
-            "finite and not negative",
-        )?;
+        let mouth_m = crack.mouth_radius_m;
+        in_range("crack.mouth_radius_m", mouth_m, positive, "above 0 m")?;
+        check_finite("crack.angle_rad", crack.angle_rad)?;
+        check_error("crack.left_out", crack.left_out)?;
         let (teeth, loads) = (self.teeth, self.grid.len());
         let rows = crack.count(teeth, loads).max(1);
         check_array(
@@ -180,7 +156,6 @@ impl ReducedGear {
 
     fn check_dynamics(&self) -> Result<(), ReducedGearError> {
         let loads = self.teeth * self.flanks.len() * self.grid.len() * 3;
-        let positive = |value: f64| value > 0.0 && value.is_finite();
         if let Some(body) = &self.rigid_body {
             in_range("rigid_body.mass_kg", body.mass_kg, positive, "above 0 kg")?;
             let places = [body.reference_m, body.centre_m].concat();
@@ -260,7 +235,6 @@ impl ReducedGear {
     }
 
     fn check_quantities(&self) -> Result<(), ReducedGearError> {
-        let positive = |value: f64| value > 0.0 && value.is_finite();
         in_range("base_radius_m", self.base_radius_m, positive, "above 0 m")?;
         in_range("face_width_m", self.face_width_m, positive, "above 0 m")?;
         in_range("young_pa", self.young_pa, positive, "above 0 Pa")?;
@@ -297,25 +271,8 @@ impl ReducedGear {
 }
 
 fn check_near_field(near_field: &NearField, expected: usize) -> Result<(), ReducedGearError> {
-    let positive = |value: f64| value > 0.0 && value.is_finite();
-    in_range(
-        "near_field.half_width_m",
-        near_field.half_width_m,
-        positive,
-        "above 0 m",
-    )?;
-    in_range(
-        "near_field.element_m",
-        near_field.element_m,
-        positive,
-        "above 0 m",
-    )?;
-    in_range(
-        "near_field.residual",
-        near_field.residual,
-        |e| e >= 0.0 && e.is_finite(),
-        "finite and not negative",
-    )?;
+    let (half_width_m, element_m) = (near_field.half_width_m, near_field.element_m);
+    check_calibration("near_field", [half_width_m, element_m, near_field.residual])?;
     check_stations("near_field.roll_angles_rad", &near_field.roll_angles_rad)?;
     check_array(
         "near_field.contact_m2_per_n",
@@ -329,72 +286,6 @@ fn check_near_field(near_field: &NearField, expected: usize) -> Result<(), Reduc
         expected,
         "flanks * roll stations * roll stations",
     )
-}
-
-pub(crate) fn out_of_range(
-    item: &str,
-    found: impl fmt::Display,
-    allowed: &'static str,
-) -> ReducedGearError {
-    ReducedGearError::OutOfRange {
-        item: item.to_owned(),
-        found: found.to_string(),
-        allowed,
-    }
-}
-
-pub(crate) fn in_range(
-    item: &str,
-    value: f64,
-    holds: impl Fn(f64) -> bool,
-    allowed: &'static str,
-) -> Result<(), ReducedGearError> {
-    if holds(value) {
-        Ok(())
-    } else {
-        Err(out_of_range(item, value, allowed))
-    }
-}
-
-pub(crate) fn check_array(
-    item: &str,
-    values: &[f64],
-    expected: usize,
-    formula: &'static str,
-) -> Result<(), ReducedGearError> {
-    if values.len() != expected {
-        return Err(ReducedGearError::WrongLength {
-            item: item.to_owned(),
-            found: values.len(),
-            expected,
-            formula,
-        });
-    }
-    match values.iter().position(|value| !value.is_finite()) {
-        Some(index) => Err(ReducedGearError::NotFinite {
-            item: item.to_owned(),
-            index,
-            value: values[index],
-        }),
-        None => Ok(()),
-    }
-}
-
-/// At least two finite values, strictly increasing.
-pub(crate) fn check_stations(item: &str, values: &[f64]) -> Result<(), ReducedGearError> {
-    check_array(item, values, values.len(), "any number")?;
-    if values.len() < 2 || values.windows(2).any(|pair| pair[0] >= pair[1]) {
-        return Err(out_of_range(
-            item,
-            format!("{values:?}"),
-            "at least two strictly increasing values",
-        ));
-    }
-    Ok(())
-}
-
-pub(crate) fn smallest(values: &[f64]) -> f64 {
-    values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::bevel_body_file::{BevelSizes, bevel_fields};
+use crate::bevel_body_file::bevel_fields;
 use crate::data_tree::{DataTree, FileFormat};
 use crate::file_error::FileError;
 use crate::modal_basis::ModalBasis;
@@ -63,12 +63,14 @@ fn check(path: &Path, gear: &ReducedGear) -> Result<(), FileError> {
 
 /// Lengths that the arrays have in common.
 #[derive(Clone, Copy)]
-struct Sizes {
-    teeth: usize,
-    hands: usize,
-    stations: usize,
-    loads: usize,
-    gauges: usize,
+pub(crate) struct Sizes {
+    pub teeth: usize,
+    pub hands: usize,
+    /// Up the flank and along it.
+    pub stations: usize,
+    pub along: usize,
+    pub loads: usize,
+    pub gauges: usize,
 }
 
 impl Record for ReducedGear {
@@ -89,6 +91,7 @@ impl Record for ReducedGear {
             teeth: self.teeth,
             hands: self.flanks.len(),
             stations: self.grid.roll_angles_rad.len(),
+            along: self.grid.z_m.len(),
             loads: self.grid.len(),
             gauges: 0,
         };
@@ -122,14 +125,7 @@ impl Record for ReducedGear {
             it.fields(f, [own, sizes.hands, sizes.loads, sizes.gauges])
         })?;
         f.optional("crack", &mut self.crack, |it, f| crack_fields(it, f, sizes))?;
-        let bevel_sizes = BevelSizes {
-            flanks: sizes.hands,
-            stations: sizes.stations,
-            along: self.grid.z_m.len(),
-        };
-        f.optional("bevel", &mut self.bevel, |it, f| {
-            bevel_fields(it, f, &bevel_sizes)
-        })?;
+        f.optional("bevel", &mut self.bevel, |it, f| bevel_fields(it, f, sizes))?;
         f.group("provenance", |f| self.provenance.fields(f))?;
         self.check_fields(f)
     }
@@ -154,7 +150,7 @@ impl ReducedGear {
             &mut grid.slices,
             "slices across the face width",
         )?;
-        let mut codes = self.flanks.iter().map(|flank| code_of(*flank)).collect();
+        let mut codes = self.flanks.iter().map(|flank| *flank as u32).collect();
         let what = "hands that carry loads: 0 right (faces clockwise), 1 left";
         f.counts("grid/flanks", &mut codes, &[("flank", OPEN)], what)?;
         if f.is_reading() {
@@ -235,17 +231,27 @@ impl ReducedGear {
     }
 }
 
+/// What near fields of all gears have.
+pub(crate) fn calibration_fields(
+    f: &mut Fields<'_>,
+    [half_width_m, element_m]: [&mut f64; 2],
+    residual: &mut f64,
+) -> Result<(), FileError> {
+    let what = "half width of the calibrating Hertz pressure";
+    f.number("half_width", half_width_m, "m", what)?;
+    let what = "element length at the load of the finer mesh behind the contact compliance";
+    f.number("element", element_m, "m", what)?;
+    let what = "largest relative step from that mesh to the extrapolated contact compliance";
+    f.number("residual", residual, "1", what)
+}
+
 fn near_field_fields(
     it: &mut NearField,
     f: &mut Fields<'_>,
     sizes: Sizes,
 ) -> Result<(), FileError> {
-    let what = "half width of the calibrating Hertz pressure";
-    f.number("half_width", &mut it.half_width_m, "m", what)?;
-    let what = "element length at the load of the finer mesh behind the contact compliance";
-    f.number("element", &mut it.element_m, "m", what)?;
-    let what = "largest relative step from that mesh to the extrapolated contact compliance";
-    f.number("residual", &mut it.residual, "1", what)?;
+    let lengths_m = [&mut it.half_width_m, &mut it.element_m];
+    calibration_fields(f, lengths_m, &mut it.residual)?;
     let rolls = &mut it.roll_angles_rad;
     let what = "roll angles tan(alpha) of the places";
     f.numbers("roll_angles", rolls, &[("place", OPEN)], "rad", what)?;
@@ -442,26 +448,16 @@ fn named_numbers(
 }
 
 fn flank(f: &mut Fields<'_>, name: &str, flank: &mut Flank, what: &str) -> Result<(), FileError> {
-    let mut code = code_of(*flank) as usize;
+    let mut code = *flank as usize;
     f.count(name, &mut code, what)?;
     *flank = flank_of(f, name, code as u32)?;
     Ok(())
 }
 
-fn code_of(flank: Flank) -> u32 {
-    match flank {
-        Flank::Right => 0,
-        Flank::Left => 1,
-    }
-}
-
 fn flank_of(f: &Fields<'_>, item: &str, code: u32) -> Result<Flank, FileError> {
-    match code {
-        0 => Ok(Flank::Right),
-        1 => Ok(Flank::Left),
-        _ => {
-            let found = format!("the code {code}");
-            Err(f.wrong_type(item, &found, "0 (right) or 1 (left)"))
-        }
-    }
+    let found = Flank::ALL.get(code as usize);
+    found.copied().ok_or_else(|| {
+        let found = format!("the code {code}");
+        f.wrong_type(item, &found, "0 (right) or 1 (left)")
+    })
 }

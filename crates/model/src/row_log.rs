@@ -11,7 +11,7 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::atomic_file::{folder_of, open_growing};
-use crate::file_error::FileError;
+use crate::file_error::{FileError, io_error};
 
 const NUMBER_BYTES: usize = size_of::<f64>();
 
@@ -32,7 +32,7 @@ impl LockedLog {
     /// [`FileError::InUse`] if another process has it locked, [`FileError::OutputIsALink`],
     /// [`FileError::NotARegularFile`], [`FileError::Io`].
     pub fn open(path: &Path) -> Result<Self, FileError> {
-        let io = |action| RowLog::io(path, action);
+        let io = |action| io_error(path, action);
         let file = open_growing(path)?;
         match file.try_lock() {
             Ok(()) => {}
@@ -110,7 +110,7 @@ impl RowLog {
     /// The log with its first rows; what follows them is cut off.
     fn cut(locked: LockedLog, columns: usize, rows: u64) -> Result<Self, FileError> {
         let LockedLog { path, file } = locked;
-        let io = |action| Self::io(&path, action);
+        let io = |action| io_error(&path, action);
         // The count comes from a file.
         let needed = rows.saturating_mul((columns * NUMBER_BYTES) as u64);
         let found = file.metadata().map_err(io("inspect"))?.len();
@@ -171,7 +171,7 @@ impl RowLog {
         self.flush()?;
         self.file
             .sync_data()
-            .map_err(Self::io(&self.path, "force to the disk"))
+            .map_err(io_error(&self.path, "force to the disk"))
     }
 
     /// Rows from `first` on, at most `count`, into `out`.
@@ -186,7 +186,7 @@ impl RowLog {
         self.seek(first * row_bytes as u64)?;
         self.file
             .read_exact(&mut bytes)
-            .map_err(Self::io(&self.path, "read"))?;
+            .map_err(io_error(&self.path, "read"))?;
         out.clear();
         let (numbers, _) = bytes.as_chunks::<NUMBER_BYTES>();
         out.extend(numbers.iter().map(|b| f64::from_le_bytes(*b)));
@@ -223,7 +223,7 @@ impl RowLog {
             let count = rest.min(block.len() as u64) as usize;
             self.file
                 .read_exact(&mut block[..count])
-                .map_err(Self::io(&self.path, "read"))?;
+                .map_err(io_error(&self.path, "read"))?;
             hasher.update(&block[..count]);
             rest -= count as u64;
         }
@@ -248,7 +248,7 @@ impl RowLog {
     fn flush(&mut self) -> Result<(), FileError> {
         self.file
             .write_all(&self.buffer)
-            .map_err(Self::io(&self.path, "write"))?;
+            .map_err(io_error(&self.path, "write"))?;
         self.hasher.update(&self.buffer);
         self.buffer.clear();
         Ok(())
@@ -257,22 +257,13 @@ impl RowLog {
     fn seek(&mut self, place: u64) -> Result<(), FileError> {
         self.file
             .seek(SeekFrom::Start(place))
-            .map_err(Self::io(&self.path, "read"))?;
+            .map_err(io_error(&self.path, "read"))?;
         Ok(())
     }
 
     /// Folder that the log is in.
     pub(crate) fn folder(&self) -> &Path {
         folder_of(&self.path)
-    }
-
-    /// Owns the path only when something failed.
-    fn io(path: &Path, action: &'static str) -> impl FnOnce(std::io::Error) -> FileError {
-        move |source| FileError::Io {
-            path: path.to_owned(),
-            action,
-            source,
-        }
     }
 }
 

@@ -11,7 +11,7 @@ use std::fs::File;
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use crate::file_error::FileError;
+use crate::file_error::{FileError, io_error};
 use crate::text_heap::{HeapFinder, first_broken};
 
 /// Length of the user block; the smallest that HDF5 allows.
@@ -25,13 +25,7 @@ const MAGIC: &str = "gearmesh seal 1\n";
 /// # Errors
 /// [`FileError::Io`].
 pub(crate) fn write_seal(file: &mut File, path: &Path) -> Result<(), FileError> {
-    let io = |action| {
-        move |source| FileError::Io {
-            path: path.to_owned(),
-            action,
-            source,
-        }
-    };
+    let io = |action| io_error(path, action);
     let length = file.metadata().map_err(io("inspect"))?.len();
     let digest = digest_of_body(file, |_| ()).map_err(io("read back"))?;
     let mut block = seal_text(length, &digest).into_bytes();
@@ -49,26 +43,22 @@ pub(crate) fn write_seal(file: &mut File, path: &Path) -> Result<(), FileError> 
 /// [`FileError::Altered`], [`FileError::BrokenTexts`].
 pub(crate) fn verify_seal(path: &Path) -> Result<u64, FileError> {
     let (mut file, stored) = open_sealed(path)?;
-    let io = |source| FileError::Io {
-        path: path.to_owned(),
-        action: "read",
-        source,
-    };
+    let io = || io_error(path, "read");
     let mut heaps = HeapFinder::new(SEAL_BYTES);
-    let digest = digest_of_body(&mut file, |block| heaps.pass(block)).map_err(io)?;
+    let digest = digest_of_body(&mut file, |block| heaps.pass(block)).map_err(io())?;
     if digest != stored.digest {
         return Err(FileError::Altered {
             path: path.to_owned(),
             difference: format!("its digest is {digest}, was {}", stored.digest),
         });
     }
-    if !has_usual_sizes(&mut file).map_err(io)? {
+    if !has_usual_sizes(&mut file).map_err(io())? {
         return Err(FileError::NotAGearmeshFile {
             path: path.to_owned(),
             found: "its HDF5 head is not that of gearmesh's writer",
         });
     }
-    if let Some(place) = first_broken(&mut file, &heaps.places, stored.length).map_err(io)? {
+    if let Some(place) = first_broken(&mut file, &heaps.places, stored.length).map_err(io())? {
         return Err(FileError::BrokenTexts {
             path: path.to_owned(),
             place,
@@ -98,13 +88,7 @@ struct Seal {
 
 /// Opens a file, reads its seal and compares the length.
 fn open_sealed(path: &Path) -> Result<(File, Seal), FileError> {
-    let io = |action| {
-        move |source| FileError::Io {
-            path: path.to_owned(),
-            action,
-            source,
-        }
-    };
+    let io = |action| io_error(path, action);
     // Looked at before it is opened: to open a pipe is to wait for its other end.
     if !path.metadata().map_err(io("open"))?.is_file() {
         return Err(FileError::NotReadable {

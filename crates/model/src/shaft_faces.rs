@@ -13,8 +13,8 @@
 //! Theory: docs/theory/reduction.md, "Two faces".
 
 use crate::modal_basis::ModalBasis;
+use crate::quantity_check::check_array;
 use crate::reduced_gear::ReducedGear;
-use crate::reduced_gear_check::check_array;
 use crate::reduced_gear_error::ReducedGearError;
 
 /// The front face against the back one. Motions: x, y, z, rotations about x, y, z of the front face's centre.

@@ -7,7 +7,7 @@ use crate::atomic_file::{
     TEMPORARY_SUFFIX, demand_output, folder_of, remove_abandoned, temporary_builder,
     temporary_prefix, wait_for_writes,
 };
-use crate::file_error::FileError;
+use crate::file_error::{FileError, io_error};
 
 /// Writes text files by name into a folder, which is made where it is not there.
 ///
@@ -17,13 +17,7 @@ use crate::file_error::FileError;
 /// # Errors
 /// [`FileError::NotARegularFile`], [`FileError::OutputIsALink`], [`FileError::Io`].
 pub fn write_folder(folder: &Path, files: &[(String, String)]) -> Result<(), FileError> {
-    let io = |action| {
-        move |source| FileError::Io {
-            path: folder.to_owned(),
-            action,
-            source,
-        }
-    };
+    let io = |action| io_error(folder, action);
     for (name, _) in files {
         demand_output(&folder.join(name))?;
     }
@@ -77,14 +71,7 @@ pub fn write_folder(folder: &Path, files: &[(String, String)]) -> Result<(), Fil
 mod tests {
     use super::*;
     use crate::atomic_file::LOOKS;
-
-    fn names(folder: &Path) -> Vec<String> {
-        let entries = std::fs::read_dir(folder).unwrap();
-        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        let mut names: Vec<String> = names.collect();
-        names.sort();
-        names
-    }
+    use crate::atomic_file::tests::names;
 
     fn files(text: &str) -> [(String, String); 2] {
         ["a.csv", "b.toml"].map(|name| (name.to_owned(), text.to_owned()))

@@ -13,11 +13,11 @@ use crate::Progress;
 use crate::flank_loads::SparseVector;
 use crate::repeated_mesh::RepeatedMesh;
 use crate::sector_substructure::SectorSubstructure;
+use crate::stages::Stages;
 use crate::tooth_substructure::ToothSubstructure;
 use faer::{Mat, MatRef};
 use gearmesh_fe::{CondensedLoads, CyclicInterface, CylindricalFrames, FeError, FeModel};
 use rayon::prelude::*;
-use std::time::Instant;
 
 /// A gear held at its bore, factorised tooth by tooth, sector by sector, harmonic by harmonic.
 pub struct CyclicBody {
@@ -42,37 +42,32 @@ pub(crate) enum Place {
 
 impl CyclicBody {
     /// Factorises the three levels. `fixed` tells the nodes that are held; the wall time of each stage is added to
-    /// `stage_seconds`.
+    /// `stages`.
     ///
     /// # Errors
     /// [`FeError`] when the body is not held or memory is short.
-    pub fn new(
+    pub(crate) fn new(
         mesh: &impl RepeatedMesh,
         model: &FeModel,
         fixed: &[bool],
         progress: &dyn Progress,
-        stage_seconds: &mut Vec<(String, f64)>,
+        stages: &mut Stages,
     ) -> Result<Self, FeError> {
-        let mut clock = Instant::now();
-        let mut lap = |name: &str| {
-            stage_seconds.push((name.to_string(), clock.elapsed().as_secs_f64()));
-            clock = Instant::now();
-        };
         progress.stage("condensing a tooth");
         let tooth = ToothSubstructure::new(mesh, model)?;
-        lap("tooth factor");
+        stages.lap("tooth factor");
         progress.stage(match mesh.sectors() {
             1 => "condensing the body, which does not repeat",
             _ => "condensing a sector",
         });
         let sector = SectorSubstructure::new(mesh, model, fixed, &tooth, progress)?;
-        lap("sector factor");
+        stages.lap("sector factor");
         progress.stage("factoring harmonics");
-        let at_cuts = sector.condensation().stiffness();
+        let at_cuts = sector.condensation.stiffness();
         let interface = CyclicInterface::counted(at_cuts, sector.sectors, |done, all| {
             progress.advance(done, all);
         })?;
-        lap("harmonics");
+        stages.lap("harmonics");
         let mut places = vec![Place::Fixed; mesh.nodes().len()];
         for s in 0..sector.sectors {
             for (i, &node) in sector.nodes(s).iter().enumerate() {
@@ -98,14 +93,14 @@ impl CyclicBody {
         vec![
             (
                 "factorisations",
-                1 + self.sector.condensation().factorisations() + self.interface.harmonics(),
+                1 + self.sector.condensation.factorisations() + self.interface.harmonics(),
             ),
-            ("DOF of a tooth", self.tooth.condensation().size()),
+            ("DOF of a tooth", self.tooth.condensation.size()),
             ("DOF at its foot", 3 * self.tooth.boundary_count()),
-            ("DOF of a sector", self.sector.condensation().size()),
+            ("DOF of a sector", self.sector.condensation.size()),
             (
                 "numbers in the factor of a sector",
-                self.sector.condensation().info().nnz_l,
+                self.sector.condensation.info().nnz_l,
             ),
             ("DOF of a cut", self.interface.cut_size()),
             ("harmonics", self.interface.harmonics()),
@@ -125,7 +120,7 @@ impl CyclicBody {
         let loaded: Vec<CondensedLoads> = (0..own)
             .map(|a| {
                 let loads = self.at_foot(on_tooth.kept.as_ref(), a);
-                let condensed = self.sector.condensation().condense(loads.as_ref());
+                let condensed = self.sector.condensation.condense(loads.as_ref());
                 at_cuts
                     .as_mut()
                     .subcols_mut(a * n, n)
@@ -176,7 +171,7 @@ impl CyclicBody {
 
     /// Loads of a tooth, carried to its foot, on the a-th tooth of sector 0.
     pub(crate) fn at_foot(&self, carried: MatRef<'_, f64>, a: usize) -> Mat<f64> {
-        let mut loads = Mat::zeros(self.sector.condensation().size(), carried.ncols());
+        let mut loads = Mat::zeros(self.sector.condensation.size(), carried.ncols());
         for column in 0..carried.ncols() {
             for (b, &node) in self.sector.tooth_nodes(a).iter().enumerate() {
                 for axis in 0..3 {

@@ -98,7 +98,7 @@ impl CyclicBody {
                 });
             }
         }
-        let mut loads = Mat::zeros(self.tooth.condensation().size(), tooth_parts.len());
+        let mut loads = Mat::zeros(self.tooth.condensation.size(), tooth_parts.len());
         let mut loaded: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
         for (column, (&(tooth, case), entries)) in tooth_parts.iter().enumerate() {
             for &(row, value) in entries {
@@ -106,7 +106,7 @@ impl CyclicBody {
             }
             loaded.entry(tooth).or_default().push((case, column));
         }
-        let inside = self.tooth.condensation().condense(loads.as_ref());
+        let inside = self.tooth.condensation.condense(loads.as_ref());
         for (&tooth, columns) in &loaded {
             let (sector, a) = self.sector.of_tooth(tooth);
             for &(case, column) in columns {
@@ -118,13 +118,13 @@ impl CyclicBody {
                 }
             }
         }
-        let mut loads = Mat::zeros(self.sector.condensation().size(), sector_parts.len());
+        let mut loads = Mat::zeros(self.sector.condensation.size(), sector_parts.len());
         for (column, entries) in sector_parts.values().enumerate() {
             for &(row, value) in entries {
                 loads[(row, column)] += value;
             }
         }
-        let in_sectors = self.sector.condensation().condense(loads.as_ref());
+        let in_sectors = self.sector.condensation.condense(loads.as_ref());
         let mut at_cuts =
             vec![Mat::zeros(2 * self.interface.cut_size(), cases.len()); self.sector.sectors];
         for (column, &(sector, case)) in sector_parts.keys().enumerate() {
@@ -139,13 +139,13 @@ impl CyclicBody {
         for (sector, u) in cuts.iter().enumerate() {
             kept.as_mut().subcols_mut(sector * n, n).copy_from(u);
         }
-        let mut interior = Mat::zeros(self.sector.condensation().interior_size(), kept.ncols());
+        let mut interior = Mat::zeros(self.sector.condensation.interior_size(), kept.ncols());
         for (column, &(sector, case)) in sector_parts.keys().enumerate() {
             in_sectors.put_interior(column, interior.col_mut(sector * n + case));
         }
         let sectors = self
             .sector
-            .condensation()
+            .condensation
             .expand(kept.as_ref(), interior.as_ref());
         Response {
             sectors,
@@ -172,7 +172,7 @@ impl CyclicBody {
         }
         let (n, teeth) = (cases.len(), self.sector.own * self.sector.sectors);
         let mut feet = Mat::zeros(3 * self.tooth.boundary_count(), n * teeth);
-        let mut interior = Mat::zeros(self.tooth.condensation().interior_size(), n * teeth);
+        let mut interior = Mat::zeros(self.tooth.condensation.interior_size(), n * teeth);
         for t in 0..teeth {
             let (sector, a) = self.sector.of_tooth(t);
             feet.as_mut()
@@ -186,7 +186,7 @@ impl CyclicBody {
         }
         let inside = self
             .tooth
-            .condensation()
+            .condensation
             .expand(feet.as_ref(), Some(interior.as_ref()));
         for t in 0..teeth {
             for (i, &node) in self.tooth.nodes(t).iter().enumerate() {

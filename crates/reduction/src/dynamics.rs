@@ -3,9 +3,8 @@
 //! A rigid bore on a reference point changes nothing of the compliance: its six motions zero, the bore is held, so that
 //! C at a held reference point is C_hub. What is added are rows under the six motions. docs/theory/modes.md derives it.
 
-use crate::flank_loads::{GridLoad, SparseVector, dot};
+use crate::flank_loads::{GridLoad, SparseVector, directions, dot};
 use crate::gear_body::GearBody;
-use crate::gear_modes::GearModes;
 use crate::modes_on_faces::{FoundMode, hold_faces};
 use crate::repeated_mesh::RepeatedMesh;
 use crate::rigid_mass::REFERENCE_M;
@@ -14,7 +13,7 @@ use crate::tooth_vectors::on_all_teeth;
 use crate::{Progress, ReductionError};
 use faer::{Mat, MatRef};
 use gearmesh_geometry::{HubSupport, ModeRange};
-use gearmesh_model::{FaceMass, ModalBasis, ReferencePoint, RigidBody, ShaftFaces};
+use gearmesh_model::{FaceMass, ModalBasis, ReducedGear, ReferencePoint};
 use rayon::prelude::*;
 
 /// What is asked for.
@@ -29,152 +28,108 @@ pub struct DynamicsRequest<'a> {
     pub faces: Option<&'a HeldFaces>,
 }
 
-/// Parts of the reduced gear for the dynamics.
-pub struct Dynamics {
-    /// Mass and inertia, where the density is known.
-    pub rigid_body: Option<RigidBody>,
-    /// Rows of the flanks under rigid motions, where the hub is on a reference point.
-    pub reference_point: Option<ReferencePoint>,
-    /// Modal basis, where modes were asked for.
-    pub modes: Option<ModalBasis>,
-    /// The two faces of a gear that is cut into its shaft, with their mass where the density is known.
-    pub shaft_faces: Option<ShaftFaces>,
-    /// Checks by name.
-    pub checks: Vec<(String, f64)>,
-    /// Vectors that K was solved for.
-    pub solves: Option<usize>,
-}
-
-/// Computes what the definition asks for. `loads` are those of tooth 0, flank by flank; `gauges` the rows of all
-/// gauges.
+/// Computes what the definition asks for, puts it into the model with its checks, and tells how many vectors K was
+/// solved for in the search for modes. Rows: the loads of tooth 0, flank by flank, and those of all gauges.
 ///
 /// # Errors
 /// [`ReductionError`] when there are no modes in the range or the search does not converge.
-pub fn dynamics(
+pub(crate) fn dynamics(
     request: &DynamicsRequest<'_>,
     body: &GearBody<impl RepeatedMesh>,
-    loads: &[Vec<GridLoad>],
-    gauges: &[SparseVector],
+    (loads, gauges): (&[Vec<GridLoad>], &[SparseVector]),
     progress: &dyn Progress,
-) -> Result<Dynamics, ReductionError> {
-    let mut result = Dynamics {
-        rigid_body: None,
-        reference_point: None,
-        modes: None,
-        shaft_faces: None,
-        checks: Vec::new(),
-        solves: None,
-    };
-    let directions: Vec<&SparseVector> = loads
-        .iter()
-        .flatten()
-        .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
-        .collect();
-    let rows = || on_all_teeth(&body.mesh, &directions);
+    model: &mut ReducedGear,
+) -> Result<Option<usize>, ReductionError> {
+    let checks = &mut model.checks.further;
     if let Some(faces) = request.faces {
-        result.shaft_faces = faces.front_face();
+        model.shaft_faces = faces.front_face();
         let check = (RIGID_MOTION.to_string(), faces.rigid_residual);
-        result
-            .checks
-            .extend(result.shaft_faces.is_some().then_some(check));
+        checks.extend(model.shaft_faces.is_some().then_some(check));
     }
     let Some(density) = request.density_kg_per_m3 else {
-        return Ok(result);
+        return Ok(None);
     };
     progress.stage("mass");
-    let alone = request.modes.is_none() && result.shaft_faces.is_none();
+    let alone = request.modes.is_none() && model.shaft_faces.is_none();
     if request.hub == HubSupport::Fixed && alone {
-        result.rigid_body = Some(body.rigid_body(density)?);
-        return Ok(result);
+        model.rigid_body = Some(body.rigid_body(density)?);
+        return Ok(None);
     }
     let rigid = body.rigid_mass(density)?;
-    result.rigid_body = Some(rigid.body.clone());
-    let of_front = result.shaft_faces.as_ref().and(request.faces);
-    let momenta = of_front
-        .map(|faces| body.mass_product(density, faces.front()))
-        .transpose()?;
-    if let (Some(front), Some(faces), Some(momenta)) = (&mut result.shaft_faces, of_front, &momenta)
-    {
+    model.rigid_body = Some(rigid.body.clone());
+    let mut of_front = None;
+    if let (Some(front), Some(faces)) = (&mut model.shaft_faces, request.faces) {
+        let momenta = body.mass_product(density, faces.front())?;
         let product = |with: MatRef<'_, f64>| -> Vec<f64> {
             let matrix = momenta.transpose() * with;
             (0..36).map(|n| matrix[(n / 6, n % 6)]).collect()
         };
-        front.mass = Some(FaceMass {
+        let mass = front.mass.insert(FaceMass {
             mass: product(faces.front()),
             coupling: product(rigid.motions.as_ref()),
             modes: Vec::new(),
         });
+        of_front = Some((momenta, &mut mass.modes));
     }
-    let rows = rows();
+    let rows = on_all_teeth(&body.mesh, &directions(loads.iter().flatten()));
     if request.hub == HubSupport::ReferencePoint {
         let flank = rows
             .par_iter()
             .flat_map_iter(|row| (0..6).map(|q| product(row, rigid.motions.as_ref(), q)))
             .collect();
-        result.reference_point = Some(ReferencePoint {
+        model.reference_point = Some(ReferencePoint {
             place_m: REFERENCE_M,
             flank,
         });
         if !gauges.is_empty() {
             let strain = strain_of_rigid_motions(gauges, rigid.motions.as_ref());
-            let name = "gauges under rigid motions".to_string();
-            result.checks.push((name, strain));
+            checks.push(("gauges under rigid motions".to_string(), strain));
         }
     }
-    if let Some(range) = request.modes {
-        let mut basis = ModalBasis::default();
-        let mut of_front = Vec::new();
-        let mut take = |omega_squared: f64, nodal_diameters: usize, field: &[f64]| {
-            basis.omega_squared.push(omega_squared);
-            basis.nodal_diameters.push(nodal_diameters);
-            (basis.flank).par_extend(rows.par_iter().map(|row| dot(row, field)));
-            (basis.gauges).extend(gauges.iter().map(|row| dot(row, field)));
-            let along = |momenta: &Mat<f64>| -> Vec<f64> {
-                let columns = momenta.col_iter();
-                columns
-                    .map(|column| column.iter().zip(field).map(|(m, u)| m * u).sum())
-                    .collect()
-            };
-            basis.coupling.extend(along(&rigid.momenta));
-            of_front.extend(momenta.iter().flat_map(along));
+    let Some(range) = request.modes else {
+        return Ok(None);
+    };
+    let (mut basis, mut on_stubs) = (ModalBasis::default(), Vec::new());
+    let mut take = |mode: &FoundMode| {
+        let field = &mode.field;
+        basis.omega_squared.push(mode.omega_squared);
+        basis.nodal_diameters.push(mode.nodal_diameters);
+        (basis.flank).par_extend(rows.par_iter().map(|row| dot(row, field)));
+        (basis.gauges).extend(gauges.iter().map(|row| dot(row, field)));
+        basis.coupling.extend(along(&rigid.momenta, field));
+        if let Some((momenta, modes)) = &mut of_front {
+            modes.extend(along(momenta, field));
+        }
+    };
+    let found = body.natural_modes(&rigid, range, progress, |_, mode, field| {
+        let mode = FoundMode {
+            omega_squared: mode.omega_squared,
+            nodal_diameters: mode.nodal_diameters,
+            field: field.to_vec(),
         };
-        let mut on_stubs = Vec::new();
-        let GearModes {
-            modes,
-            complete_to_hz,
-            solves,
-            ..
-        } = body.natural_modes(&rigid, range, progress, |_, mode, field| {
-            if request.faces.is_some() {
-                on_stubs.push(FoundMode {
-                    omega_squared: mode.omega_squared,
-                    nodal_diameters: mode.nodal_diameters,
-                    field: field.to_vec(),
-                });
-            } else {
-                take(mode.omega_squared, mode.nodal_diameters, field);
-            }
-        })?;
-        if let Some(faces) = request.faces {
-            let held = hold_faces(&on_stubs, faces, body, density, progress)?;
-            for mode in held {
-                take(mode.omega_squared, mode.nodal_diameters, &mode.field);
-            }
+        match request.faces {
+            Some(_) => on_stubs.push(mode),
+            None => take(&mode),
         }
-        let worst = modes
-            .iter()
-            .fold(0.0, |w: f64, m| w.max(m.relative_residual));
-        let name = "residual of the natural modes".to_string();
-        result.checks.push((name, worst));
-        basis.complete_to_hz = complete_to_hz;
-        let front = result.shaft_faces.as_mut();
-        if let Some(mass) = front.and_then(|front| front.mass.as_mut()) {
-            mass.modes = of_front;
-        }
-        result.modes = Some(basis);
-        result.solves = Some(solves);
+    })?;
+    if let Some(faces) = request.faces {
+        let held = hold_faces(&on_stubs, faces, body, density, progress)?;
+        held.iter().for_each(take);
     }
-    Ok(result)
+    let residuals = found.modes.iter().map(|mode| mode.relative_residual);
+    let worst = residuals.fold(0.0, f64::max);
+    checks.push(("residual of the natural modes".to_string(), worst));
+    basis.complete_to_hz = found.complete_to_hz;
+    model.modes = Some(basis);
+    Ok(Some(found.solves))
+}
+
+/// MᵀU of a field for each column of momenta.
+fn along(momenta: &Mat<f64>, field: &[f64]) -> Vec<f64> {
+    let columns = momenta.col_iter();
+    columns
+        .map(|column| column.iter().zip(field).map(|(m, u)| m * u).sum())
+        .collect()
 }
 
 fn product(row: &SparseVector, fields: MatRef<'_, f64>, column: usize) -> f64 {

@@ -1,16 +1,17 @@
-//! C_hub and C_tooth of a body by unit loads on its flanks, the identities that they must fulfil, and the gauges' rows.
+//! C_hub and C_tooth of a body by unit loads on its flanks, and the identities that they must fulfil.
 
-use crate::flank_loads::{GridLoad, SparseVector};
+use crate::flank_loads::{GridLoad, SparseVector, normals};
 use crate::gear_body::GearBody;
 use crate::hub_patterns::by_patterns;
 use crate::repeated_mesh::RepeatedMesh;
-use crate::tooth_submodel::{Deformation, ToothSubmodel};
+use crate::stages::Stages;
+use crate::tooth_submodel::ToothSubmodel;
 use crate::tooth_vectors::summed;
 use crate::toothed_mesh::ToothParts;
 use crate::{Progress, ReductionError, Silent};
 use faer::Mat;
 use gearmesh_geometry::Flank;
-use gearmesh_model::{GaugeRows, HubPatterns};
+use gearmesh_model::HubPatterns;
 
 /// Largest asymmetry of C_hub and largest violation of the pattern identity that round-off explains.
 pub(crate) const SYMMETRY_ALLOWED: f64 = 1e-10;
@@ -23,18 +24,7 @@ pub(crate) const ROWS_BY_FIELDS: &str = "C_hub against solved fields";
 /// C_hub of more numbers (32 MB) is kept by patterns where the body does not repeat.
 const MOST_IN_FULL: usize = 4_000_000;
 
-/// What is loaded.
-pub(crate) struct FlankCase<'a> {
-    /// Flanks that carry loads.
-    pub flanks: &'a [Flank],
-    /// Their loads on tooth 0.
-    pub loads: &'a [Vec<GridLoad>],
-    pub teeth: usize,
-    pub sectors: usize,
-    pub deformation: Deformation,
-}
-
-/// What comes of it, as the reduced gear holds it.
+/// What comes of loads on the flanks, as the reduced gear holds it.
 pub(crate) struct FlankCompliance {
     pub submodels: Vec<ToothSubmodel>,
     /// Of tooth 0's loads only where there are patterns.
@@ -47,72 +37,71 @@ pub(crate) struct FlankCompliance {
     pub patterns: Option<(HubPatterns, f64)>,
 }
 
-/// Solves the loads of one sector's teeth against all teeth, and those of one tooth on its submodel. `lap` is told each stage's end.
+/// Solves the loads of one sector's teeth against all teeth, and those of one tooth on its submodel. `loads`: those of
+/// tooth 0, flank by flank.
 ///
 /// # Errors
 /// [`ReductionError`] when a submodel is not held or an identity is violated by more than round-off explains.
 pub(crate) fn flank_compliance<M: RepeatedMesh + ToothParts>(
     body: &GearBody<M>,
-    case: &FlankCase<'_>,
+    (flanks, loads): (&[Flank], &[Vec<GridLoad>]),
     progress: &dyn Progress,
-    lap: &mut dyn FnMut(&str),
+    stages: &mut Stages,
 ) -> Result<FlankCompliance, ReductionError> {
-    let (flanks, loads, teeth) = (case.flanks, case.loads, case.teeth);
-    let count = loads[0].len();
-    let own = teeth / case.sectors;
+    let (teeth, sectors, count) = (body.mesh.teeth(), body.mesh.sectors(), loads[0].len());
     progress.stage("tooth submodel");
     let submodels: Vec<ToothSubmodel> = flanks
         .iter()
         .zip(loads)
         .map(|(&side, loads)| {
-            ToothSubmodel::new(&body.model, &body.mesh, side, loads, case.deformation)
+            ToothSubmodel::new(&body.model, &body.mesh, side, loads, body.deformation)
         })
         .collect::<Result<_, _>>()?;
-    let mut c_tooth = Vec::with_capacity(flanks.len() * count * count);
-    for (submodel, loads) in submodels.iter().zip(loads) {
-        let rows: Vec<&SparseVector> = loads.iter().map(|l| &l.normal).collect();
-        let products = submodel.products(&rows);
-        // products is [response][load]; the file holds [load][response].
-        c_tooth.extend((0..count * count).map(|k| products[(k % count) * count + k / count]));
-    }
-    lap("tooth submodel");
+    let of_tooth = submodels.iter().zip(loads);
+    let c_tooth: Vec<f64> = of_tooth
+        .flat_map(|(submodel, loads)| submodel.compliance(loads))
+        .collect();
+    stages.lap("tooth submodel");
 
-    let normals: Vec<&SparseVector> = loads.iter().flatten().map(|load| &load.normal).collect();
+    let normals = normals(loads.iter().flatten());
     let row_length = teeth * normals.len();
-    let is_long = case.sectors == 1 && row_length * row_length > MOST_IN_FULL;
+    let is_long = sectors == 1 && row_length * row_length > MOST_IN_FULL;
     let found = is_long
         .then(|| by_patterns(body, &normals, progress))
         .flatten();
     // By patterns the rows are those of tooth 0, with which the checks and the error estimate do.
-    let (c_rows, patterns) = match found {
+    let (values, patterns) = match found {
         Some(found) => {
             body.count(found.solved);
             (found.first_tooth, Some((found.patterns, found.left_out)))
         }
         None => {
             progress.stage("solving flank loads");
-            (body.compliance(own, &normals, progress), None)
+            (body.compliance(teeth / sectors, &normals, progress), None)
         }
     };
-    lap("solve");
+    let rows = HubRows {
+        values,
+        flanks: flanks.len(),
+        teeth,
+        count,
+    };
+    stages.lap("solve");
 
     progress.stage("checking");
-    let known = c_rows.len() / (row_length * normals.len());
-    let symmetry = asymmetry(&c_rows, known, flanks.len(), teeth, count);
-    let by_fields = rows_by_fields(body, &normals, &c_rows, row_length);
+    let symmetry = rows.asymmetry();
+    let by_fields = rows_by_fields(body, &normals, &rows);
     // What each entry lacks may add up in a sum of all rows.
     let left_out = by_fields.entries_in_sum * patterns.as_ref().map_or(0.0, |(_, left)| *left);
     let rows_by_fields = by_fields.off;
     let pattern_identity = pattern_identity(
-        body,
-        &submodels[0],
+        (&submodels[0], &c_tooth),
         &normals[..count],
-        &c_rows,
-        row_length,
-        &c_tooth,
+        &rows,
+        |loads, each| body.solve_each(loads, &Silent, each),
+        |patterns| body.energy_products(patterns),
     );
-    let c_hub = by_blocks(&c_rows, known, flanks.len(), teeth, count);
-    drop(c_rows);
+    let c_hub = rows.into_blocks();
     for (check, found, allowed) in [
         ("symmetry of C_hub", symmetry, SYMMETRY_ALLOWED),
         ("the pattern identity", pattern_identity, IDENTITY_ALLOWED),
@@ -120,7 +109,7 @@ pub(crate) fn flank_compliance<M: RepeatedMesh + ToothParts>(
     ] {
         checked(check, found, allowed)?;
     }
-    lap("checks");
+    stages.lap("checks");
     Ok(FlankCompliance {
         submodels,
         c_hub,
@@ -144,50 +133,59 @@ pub(crate) fn checked(check: &'static str, found: f64, allowed: f64) -> Result<(
     Ok(())
 }
 
-/// From rows over all responses, `[s][f][l][t][f'][m]`, to blocks `[s][f][t][f'][l][m]`.
-pub(crate) fn by_blocks(
-    rows: &[f64],
-    own: usize,
-    flanks: usize,
-    teeth: usize,
-    count: usize,
-) -> Vec<f64> {
-    let mut blocks = Vec::with_capacity(rows.len());
-    for load_flank in 0..own * flanks {
-        for response_flank in 0..teeth * flanks {
-            for l in 0..count {
-                let start = ((load_flank * count + l) * teeth * flanks + response_flank) * count;
-                blocks.extend_from_slice(&rows[start..start + count]);
-            }
-        }
-    }
-    blocks
+/// C_hub as it is solved: for each load of the first teeth, `[tooth][flank][load]`, the responses of all teeth,
+/// `[tooth][flank][response]`.
+pub(crate) struct HubRows {
+    pub values: Vec<f64>,
+    pub flanks: usize,
+    pub teeth: usize,
+    /// Loads of a flank.
+    pub count: usize,
 }
 
-/// Largest |C_lm − C_ml| over the sector's own teeth, relative to the largest entry.
-pub(crate) fn asymmetry(
-    rows: &[f64],
-    own: usize,
-    flanks: usize,
-    teeth: usize,
-    count: usize,
-) -> f64 {
-    let size = own * flanks * count;
-    let row_length = teeth * flanks * count;
-    let mut worst: f64 = 0.0;
-    let mut largest: f64 = 0.0;
-    for i in 0..size {
-        for j in 0..=i {
-            let (a, b) = (rows[i * row_length + j], rows[j * row_length + i]);
-            let difference = (a - b).abs();
-            if difference.is_nan() {
-                return f64::NAN;
-            }
-            worst = worst.max(difference);
-            largest = largest.max(a.abs());
-        }
+impl HubRows {
+    fn row_length(&self) -> usize {
+        self.teeth * self.flanks * self.count
     }
-    worst / largest
+
+    /// Number of rows: the loads of the first teeth.
+    fn known(&self) -> usize {
+        self.values.len() / self.row_length()
+    }
+
+    /// As blocks between flanks, `[load's tooth][load's flank][tooth][flank][load][response]`.
+    pub fn into_blocks(self) -> Vec<f64> {
+        let (count, responses) = (self.count, self.teeth * self.flanks);
+        let mut blocks = Vec::with_capacity(self.values.len());
+        for load_flank in 0..self.known() / count {
+            for response_flank in 0..responses {
+                for l in 0..count {
+                    let start = ((load_flank * count + l) * responses + response_flank) * count;
+                    blocks.extend_from_slice(&self.values[start..start + count]);
+                }
+            }
+        }
+        blocks
+    }
+
+    /// Largest |C_lm − C_ml| over the first teeth, relative to the largest entry.
+    pub fn asymmetry(&self) -> f64 {
+        let (rows, row_length) = (&self.values, self.row_length());
+        let mut worst: f64 = 0.0;
+        let mut largest: f64 = 0.0;
+        for i in 0..self.known() {
+            for j in 0..=i {
+                let (a, b) = (rows[i * row_length + j], rows[j * row_length + i]);
+                let difference = (a - b).abs();
+                if difference.is_nan() {
+                    return f64::NAN;
+                }
+                worst = worst.max(difference);
+                largest = largest.max(a.abs());
+            }
+        }
+        worst / largest
+    }
 }
 
 /// Weights of the loads in a sum: positive, so that nothing cancels, and without any order of the grid's. A product of
@@ -226,9 +224,9 @@ struct RowsByFields {
 fn rows_by_fields(
     body: &GearBody<impl RepeatedMesh>,
     normals: &[&SparseVector],
-    c_rows: &[f64],
-    row_length: usize,
+    c_hub: &HubRows,
 ) -> RowsByFields {
+    let (c_rows, row_length) = (&c_hub.values, c_hub.row_length());
     let loads = sums_of(normals);
     let loads: Vec<&SparseVector> = loads.iter().collect();
     let entry = c_rows.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
@@ -255,36 +253,16 @@ fn rows_by_fields(
     }
 }
 
-/// ‖ΨᵀKΨ − C_g‖ / ‖C_g‖ over sums of all patterns of tooth 0's first flank, with K applied to them.
+/// ‖ΨᵀKΨ − C_g‖ / ‖C_g‖ over sums of all patterns of tooth 0's first flank, with K applied to them: `solve_each` solves
+/// for loads, `energy_products` takes XᵀKX of fields.
 pub(crate) fn pattern_identity(
-    body: &GearBody<impl RepeatedMesh>,
-    submodel: &ToothSubmodel,
+    (submodel, c_tooth): (&ToothSubmodel, &[f64]),
     normals: &[&SparseVector],
-    c_rows: &[f64],
-    row_length: usize,
-    c_tooth: &[f64],
-) -> f64 {
-    pattern_identity_of(
-        submodel,
-        normals,
-        c_rows,
-        row_length,
-        c_tooth,
-        |loads, each| body.solve_each(loads, &Silent, each),
-        |patterns| body.energy_products(patterns),
-    )
-}
-
-/// As [`pattern_identity`], for any way to solve for loads and to take XᵀKX of fields.
-pub(crate) fn pattern_identity_of(
-    submodel: &ToothSubmodel,
-    normals: &[&SparseVector],
-    c_rows: &[f64],
-    row_length: usize,
-    c_tooth: &[f64],
+    c_hub: &HubRows,
     solve_each: impl FnOnce(&[&SparseVector], &mut dyn FnMut(usize, &[f64])),
     energy_products: impl FnOnce(&[Vec<f64>]) -> Mat<f64>,
 ) -> f64 {
+    let (c_rows, row_length) = (&c_hub.values, c_hub.row_length());
     let count = normals.len();
     let weights: Vec<Vec<f64>> = (0..SUMS).map(|k| weights_of_sum(count, k)).collect();
     let loads = sums_of(normals);
@@ -308,53 +286,4 @@ pub(crate) fn pattern_identity_of(
         }
     }
     (difference / norm).sqrt()
-}
-
-/// A gauge as rows of nodal weights.
-pub(crate) struct AskedGauge<'a> {
-    pub name: &'a str,
-    pub tooth: usize,
-    pub side: Flank,
-    pub description: String,
-    /// On its own tooth.
-    pub row: &'a SparseVector,
-    /// Placed on tooth 0.
-    pub at_zero: SparseVector,
-}
-
-/// One adjoint solution per gauge: y = K⁻¹g, read at all grid loads in three directions; and gᵀW on its own tooth.
-pub(crate) fn gauge_readings<M: RepeatedMesh>(
-    body: &GearBody<M>,
-    loads: &[Vec<GridLoad>],
-    submodels: &[ToothSubmodel],
-    gauges: &[AskedGauge<'_>],
-    progress: &dyn Progress,
-) -> Vec<GaugeRows> {
-    if gauges.is_empty() {
-        return Vec::new();
-    }
-    progress.stage("solving gauges");
-    let directions: Vec<&SparseVector> = loads
-        .iter()
-        .flatten()
-        .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
-        .collect();
-    let rows: Vec<&SparseVector> = gauges.iter().map(|gauge| gauge.row).collect();
-    let adjoints = body.readings(&rows, &directions, progress);
-    gauges
-        .iter()
-        .zip(adjoints)
-        .map(|(gauge, adjoint)| GaugeRows {
-            name: gauge.name.to_owned(),
-            tooth: gauge.tooth,
-            side: gauge.side,
-            description: gauge.description.clone(),
-            error_estimate_relative: 0.0,
-            adjoint,
-            own_tooth: submodels
-                .iter()
-                .flat_map(|s| s.products(&[&gauge.at_zero]))
-                .collect(),
-        })
-        .collect()
 }

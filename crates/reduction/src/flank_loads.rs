@@ -12,6 +12,7 @@
 use crate::face_overlap::overlap_points;
 use crate::toothed_mesh::ToothedMesh;
 use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
+use gearmesh_mesh::OutlineFace;
 use gearmesh_model::FlankGrid;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -99,57 +100,97 @@ pub fn flank_loads(
     let (helix_sin, helix_cos) = (profile.base_radius_m * twist).atan().sin_cos();
     let axial_part = -side.mirror() * helix_sin;
 
-    let count = grid.len();
-    let mut sums = vec![0.0; count];
-    let mut parts: Vec<[BTreeMap<usize, f64>; 3]> = vec![Default::default(); count];
-    for face in mesh.outline_faces(tooth, side, [start, end]) {
-        let (arc_range, z_range) = (face.range_m(0), face.range_m(1));
-        let cells = overlapping(&station_arcs, arc_range)
-            .flat_map(|i| overlapping(&grid.z_m, z_range).map(move |j| (i, j)));
-        for (i, j) in cells {
-            let [xi, z] = [&grid.roll_angles_rad, &grid.z_m];
-            let points = overlap_points(
-                &face,
-                ordered([station_arcs[i], station_arcs[i + 1]]),
-                [z[j], z[j + 1]],
-            );
-            for point in points {
-                let [arc, height] = point.place_m;
-                let roll = roll_at(arc);
-                let (normal, tangent) = profile.flank_frame(side, roll);
-                let (sin, cos) = (tooth_angle + twist * height).sin_cos();
-                let turn = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
-                let (n_t, tangent) = (turn(normal), turn(tangent));
-                let normal = [helix_cos * n_t[0], helix_cos * n_t[1], axial_part];
+    let [xi, z] = [&grid.roll_angles_rad, &grid.z_m];
+    let faces = mesh.outline_faces(tooth, side, [start, end]);
+    grid_loads(&faces, grid, [&station_arcs, z], |[arc, height], [i, j]| {
+        let roll = roll_at(arc);
+        let (normal, tangent) = profile.flank_frame(side, roll);
+        let (sin, cos) = (tooth_angle + twist * height).sin_cos();
+        let turn = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
+        let ([n_x, n_y], [t_x, t_y]) = (turn(normal), turn(tangent));
+        HatLoad {
+            shares: [
+                (roll - xi[i]) / (xi[i + 1] - xi[i]),
+                (height - z[j]) / (z[j + 1] - z[j]),
+            ],
+            density: 1.0,
+            directions: [
+                [helix_cos * n_x, helix_cos * n_y, axial_part],
+                [t_x, t_y, 0.0],
+                [0.0, 0.0, 1.0],
+            ],
+        }
+    })
+}
+
+/// What loads at a point of a cell of the grid.
+pub(crate) struct HatLoad {
+    /// How far through the cell the point lies, up the flank and along it.
+    pub shares: [f64; 2],
+    /// Load per area of the faces' places.
+    pub density: f64,
+    /// Normal, up the profile, along the tooth.
+    pub directions: [[f64; 3]; 3],
+}
+
+/// All unit loads on some faces, numbered as [`FlankGrid::load`]. `stations`: those of the grid as the faces have their
+/// places, up the flank and along it; `at` tells the load at a place in the cell between two of each.
+pub(crate) fn grid_loads(
+    faces: &[OutlineFace],
+    grid: &FlankGrid,
+    stations: [&[f64]; 2],
+    at: impl Fn([f64; 2], [usize; 2]) -> HatLoad,
+) -> Vec<GridLoad> {
+    let mut sums = vec![0.0; grid.len()];
+    let mut parts: Vec<[BTreeMap<usize, f64>; 3]> = vec![Default::default(); grid.len()];
+    for face in faces {
+        let [up, along] = [0, 1].map(|axis| overlapping(stations[axis], face.range_m(axis)));
+        let along: Vec<usize> = along.collect();
+        for (i, j) in up.flat_map(|i| along.iter().map(move |&j| (i, j))) {
+            let [up, along] = stations;
+            let window = [[up[i], up[i + 1]], [along[j], along[j + 1]]].map(ordered);
+            for point in overlap_points(face, window[0], window[1]) {
+                let load = at(point.place_m, [i, j]);
                 let shapes = face.shape.shapes(point.natural);
-                let along = (roll - xi[i]) / (xi[i + 1] - xi[i]);
-                let across = (height - z[j]) / (z[j + 1] - z[j]);
+                let [a, b] = load.shares;
                 // In a cell of the grid four hats are not zero.
-                for (load, hat) in [
-                    (grid.load(i, j), (1.0 - along) * (1.0 - across)),
-                    (grid.load(i, j + 1), (1.0 - along) * across),
-                    (grid.load(i + 1, j), along * (1.0 - across)),
-                    (grid.load(i + 1, j + 1), along * across),
+                for (number, hat) in [
+                    (grid.load(i, j), (1.0 - a) * (1.0 - b)),
+                    (grid.load(i, j + 1), (1.0 - a) * b),
+                    (grid.load(i + 1, j), a * (1.0 - b)),
+                    (grid.load(i + 1, j + 1), a * b),
                 ] {
-                    let weight = point.area_m2 * hat;
-                    sums[load] += weight;
+                    let weight = point.area_m2 * load.density * hat;
+                    sums[number] += weight;
                     for (node, shape) in face.nodes.iter().zip(&shapes) {
-                        let dof = 3 * *node as usize;
                         let value = weight * shape[0];
-                        for axis in 0..2 {
-                            *parts[load][0].entry(dof + axis).or_default() += value * normal[axis];
-                            *parts[load][1].entry(dof + axis).or_default() += value * tangent[axis];
+                        for (part, direction) in parts[number].iter_mut().zip(&load.directions) {
+                            for (axis, share) in direction.iter().enumerate() {
+                                if *share != 0.0 {
+                                    let dof = 3 * *node as usize + axis;
+                                    *part.entry(dof).or_default() += value * share;
+                                }
+                            }
                         }
-                        if axial_part != 0.0 {
-                            *parts[load][0].entry(dof + 2).or_default() += value * axial_part;
-                        }
-                        *parts[load][2].entry(dof + 2).or_default() += value;
                     }
                 }
             }
         }
     }
     parts.into_iter().zip(sums).map(GridLoad::of_unit).collect()
+}
+
+/// The normal ones of some loads.
+pub(crate) fn normals<'a>(loads: impl IntoIterator<Item = &'a GridLoad>) -> Vec<&'a SparseVector> {
+    loads.into_iter().map(|load| &load.normal).collect()
+}
+
+/// Some loads in all three directions.
+pub(crate) fn directions<'a>(
+    loads: impl IntoIterator<Item = &'a GridLoad>,
+) -> Vec<&'a SparseVector> {
+    let of_load = |load: &'a GridLoad| [&load.normal, &load.tangential, &load.axial];
+    loads.into_iter().flat_map(of_load).collect()
 }
 
 /// Product of a sparse row with a full vector.

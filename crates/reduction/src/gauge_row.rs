@@ -15,8 +15,9 @@ use crate::face_overlap::overlap_points;
 use crate::flank_loads::SparseVector;
 use crate::toothed_mesh::ToothedMesh;
 use gearmesh_fe::{ElementFormulas, FeModel};
-use gearmesh_geometry::{GaugeDefinition, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{GaugeDefinition, GearDefinition, ProfileCurve, RootPosition};
 use gearmesh_mesh::OutlineFace;
+use gearmesh_model::GaugeRows;
 use std::collections::BTreeMap;
 
 /// Layers whose edges differ by less are one \[m\].
@@ -27,6 +28,28 @@ pub(crate) struct Reading<'a> {
     pub face: &'a OutlineFace,
     pub natural: [f64; 2],
     pub area_m2: f64,
+}
+
+/// A gauge by its name and place, without readings.
+pub(crate) fn gauge_head(gauge: &GaugeDefinition) -> GaugeRows {
+    let place = match gauge.position {
+        RootPosition::TangentAngle(a) => format!("{:.2} deg tangent", a.to_degrees()),
+        RootPosition::Radius(r) => format!("radius {:.4} mm", r * 1e3),
+    };
+    GaugeRows {
+        name: gauge.name.clone(),
+        tooth: gauge.tooth,
+        side: gauge.side,
+        description: format!(
+            "tooth {}, {} root, {place}, {:.3} mm along the profile, {:.3} mm wide at z {:.3} mm",
+            gauge.tooth,
+            gauge.side,
+            gauge.length_m * 1e3,
+            gauge.width_m * 1e3,
+            gauge.z_m * 1e3
+        ),
+        ..GaugeRows::default()
+    }
 }
 
 /// The row of a gauge, placed on `tooth` instead of its own tooth.

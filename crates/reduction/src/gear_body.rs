@@ -5,6 +5,7 @@ use crate::flank_loads::SparseVector;
 use crate::part::Part;
 use crate::repeated_mesh::RepeatedMesh;
 use crate::single_sector::SingleSector;
+use crate::stages::Stages;
 use crate::tooth_submodel::Deformation;
 use crate::tooth_vectors::on_tooth;
 use crate::whole_gear::WholeGear;
@@ -32,7 +33,7 @@ pub struct GearBody<M = GearMesh> {
     /// Wall time by stage.
     pub stage_seconds: Vec<(String, f64)>,
     pub(crate) solver: Solver,
-    deformation: Deformation,
+    pub(crate) deformation: Deformation,
     right_hand_sides: AtomicUsize,
 }
 
@@ -154,10 +155,9 @@ impl<M: RepeatedMesh> GearBody<M> {
         meshed_s: f64,
         progress: &dyn Progress,
     ) -> Result<Self, ReductionError> {
-        let mut stage_seconds = vec![("mesh".to_string(), meshed_s)];
-        let clock = Instant::now();
+        let mut stages = Stages::after(vec![("mesh".to_string(), meshed_s)]);
         let dofs = deformation.dofs(model.node_count(), bore)?;
-        stage_seconds.push(("model".to_string(), clock.elapsed().as_secs_f64()));
+        stages.lap("model");
         let solver = match symmetry {
             Symmetry::Auto => {
                 let mut fixed = vec![false; model.node_count()];
@@ -172,11 +172,11 @@ impl<M: RepeatedMesh> GearBody<M> {
                 if held > 0 {
                     return Err(ReductionError::HeldTeeth { held });
                 }
-                let body = CyclicBody::new(&mesh, &model, &fixed, progress, &mut stage_seconds)?;
+                let body = CyclicBody::new(&mesh, &model, &fixed, progress, &mut stages)?;
                 Solver::Cyclic(Box::new(body))
             }
             Symmetry::Off => {
-                let whole = WholeGear::new(&model, &dofs, progress, &mut stage_seconds)?;
+                let whole = WholeGear::new(&model, &dofs, progress, &mut stages)?;
                 Solver::Whole(Box::new(whole))
             }
         };
@@ -185,7 +185,7 @@ impl<M: RepeatedMesh> GearBody<M> {
             model,
             dofs,
             stubs: None,
-            stage_seconds,
+            stage_seconds: stages.into_seconds(),
             solver,
             deformation,
             right_hand_sides: AtomicUsize::new(0),

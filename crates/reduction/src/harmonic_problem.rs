@@ -48,7 +48,7 @@ impl<'a> SectorMass<'a> {
         fixed: &[bool],
         density_kg_per_m3: f64,
     ) -> Result<Self, FeError> {
-        let [right, left] = body.sector.cuts();
+        let [right, left] = &body.sector.cuts;
         let mut on_left_cut = vec![false; body.sector.node_count()];
         for &node in left {
             on_left_cut[node] = true;
@@ -63,7 +63,7 @@ impl<'a> SectorMass<'a> {
             place[l] = place[r];
         }
         let mut shared = vec![false; body.tooth.node_count()];
-        for &node in body.tooth.boundary() {
+        for &node in &body.tooth.boundary {
             shared[node] = true;
         }
         Ok(Self {
@@ -143,7 +143,7 @@ impl HarmonicProblem<'_> {
 
     /// Turns what the sector has on its cut L.
     fn turn_left_cut(&self, on_sector: &mut Mat<f64>, turn: c64) {
-        let [_, left] = self.mass.body.sector.cuts();
+        let [_, left] = &self.mass.body.sector.cuts;
         for first in (0..on_sector.ncols()).step_by(self.parts) {
             for row in left.iter().flat_map(|node| 3 * node..3 * node + 3) {
                 let value = self.turned(on_sector, (row, first), turn);
@@ -207,7 +207,7 @@ impl HarmonicProblem<'_> {
         let x = x.to_owned();
         let on_sector = self.on_sector(&x);
         let columns = on_sector.ncols();
-        let nodes = body.sector.body_nodes();
+        let nodes = &body.sector.body_nodes;
         let mut at_body = Mat::zeros(3 * nodes.len(), columns);
         for column in 0..columns {
             let to = at_body.col_as_slice_mut(column);
@@ -296,7 +296,7 @@ fn counted(nodes: &[usize]) -> impl NodePairs {
 /// To the feet of a tooth cell from the sector's nodes.
 fn feet(body: &CyclicBody, tooth: usize) -> impl NodePairs {
     let of_sector = body.sector.tooth_nodes(tooth).iter().copied();
-    body.tooth.boundary().iter().copied().zip(of_sector)
+    body.tooth.boundary.iter().copied().zip(of_sector)
 }
 
 /// The other way.
@@ -337,8 +337,8 @@ impl ModeProblem for HarmonicProblem<'_> {
         let body = self.mass.body;
         self.product(
             x,
-            |at_body| body.sector.body_stiffness() * at_body,
-            |at_teeth| body.tooth.stiffness() * at_teeth,
+            |at_body| body.sector.body_stiffness.as_ref() * at_body,
+            |at_teeth| body.tooth.stiffness.as_ref() * at_teeth,
         )
     }
 
@@ -348,7 +348,7 @@ impl ModeProblem for HarmonicProblem<'_> {
         let (own, vectors) = (body.sector.own, b.ncols());
         let columns = self.parts * vectors;
         let mut x = b.to_owned();
-        let (tooth, sector) = (body.tooth.condensation(), body.sector.condensation());
+        let (tooth, sector) = (&body.tooth.condensation, &body.sector.condensation);
 
         let mut loads = Mat::zeros(tooth.size(), own * columns);
         for (a, column) in (0..own).flat_map(|a| (0..columns).map(move |c| (a, c))) {

@@ -8,24 +8,27 @@
 //! and the loads uniform over the width: plane strain, and in a mesh made of layers exactly what one layer gives.
 
 use crate::flank_compliance::{
-    IDENTITY_ALLOWED, SYMMETRY_ALLOWED, asymmetry, by_blocks, checked, pattern_identity_of,
+    HubRows, IDENTITY_ALLOWED, SYMMETRY_ALLOWED, checked, pattern_identity,
 };
-use crate::flank_loads::{GridLoad, SparseVector, dot, flank_grid, flank_loads};
-use crate::gauge_row::gauge_row;
+use crate::flank_loads::{
+    GridLoad, SparseVector, directions, dot, flank_grid, flank_loads, normals,
+};
+use crate::gauge_row::{gauge_head, gauge_row};
 use crate::imported_error::{ImportedMeshError, PythonFailure};
 use crate::imported_mesh::ImportedMesh;
 use crate::near_field::{calibration, line_compliance};
-use crate::reduce::{assembled, describe, element_names};
+use crate::reduce::of_definition;
+use crate::reduction_steps::provenance;
+use crate::stages::Stages;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::whole_gear::WholeGear;
 use crate::{Progress, ReductionError};
 use gearmesh_fe::DofMap;
 use gearmesh_geometry::{Flank, GearDefinition, MeshedBody};
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
-use gearmesh_model::{FlankGrid, GaugeRows, MeshData, ReducedGear, read_mesh};
+use gearmesh_model::{FlankGrid, GaugeRows, MeshData, ReducedGear, ReductionChecks, read_mesh};
 use rayon::prelude::*;
 use std::path::Path;
-use std::time::Instant;
 
 const IMPORT_SCRIPT: &str = "import sys, gearmesh
 try:
@@ -81,15 +84,10 @@ pub fn reduce_imported(
     mesh: MeshData,
     progress: &dyn Progress,
 ) -> Result<ReducedGear, ReductionError> {
-    let mut stage_seconds: Vec<(String, f64)> = Vec::new();
-    let mut clock = Instant::now();
-    let mut lap = |stages: &mut Vec<(String, f64)>, name: &str| {
-        stages.push((name.to_string(), clock.elapsed().as_secs_f64()));
-        clock = Instant::now();
-    };
+    let mut stages = Stages::after(Vec::new());
     progress.stage("checking the mesh");
     let mesh = ImportedMesh::new(gear, body, mesh)?;
-    lap(&mut stage_seconds, "model");
+    stages.lap("model");
     let grid = flank_grid(gear);
     let (flanks, teeth, count) = (&gear.reduction.flanks, gear.tooth.teeth, grid.len());
     let loads: Vec<Vec<Vec<GridLoad>>> = (0..teeth)
@@ -99,7 +97,7 @@ pub fn reduce_imported(
             flanks.iter().map(of_side).collect()
         })
         .collect();
-    lap(&mut stage_seconds, "loads");
+    stages.lap("loads");
 
     progress.stage("tooth submodels");
     let blocks: Vec<ToothBlocks> = loads
@@ -109,52 +107,46 @@ pub fn reduce_imported(
         .collect::<Result<_, _>>()?;
     let (c_tooth, _) = mean(blocks.iter().map(|b| &b.c_tooth[..]));
     let (plane, spread) = mean(blocks.iter().map(|b| &b.plane[..]));
-    lap(&mut stage_seconds, "tooth submodel");
+    stages.lap("tooth submodel");
     progress.stage("calibrating the near field");
     let near_field = calibration(gear, mesh.cut.clone(), &mesh.model, plane)?;
-    lap(&mut stage_seconds, "near field");
+    stages.lap("near field");
 
     let held: Vec<usize> = mesh.bore.iter().map(|&n| n as usize).collect();
     let dofs = DofMap::with_fixed_nodes(mesh.model.node_count(), &held)?;
-    let whole = WholeGear::new(&mesh.model, &dofs, progress, &mut stage_seconds)?;
+    let whole = WholeGear::new(&mesh.model, &dofs, progress, &mut stages)?;
     progress.stage("solving flank loads");
-    let mut clock = Instant::now();
-    let mut lap = |stages: &mut Vec<(String, f64)>, name: &str| {
-        stages.push((name.to_string(), clock.elapsed().as_secs_f64()));
-        clock = Instant::now();
-    };
-    let normals: Vec<&SparseVector> = loads
-        .iter()
-        .flatten()
-        .flatten()
-        .map(|load| &load.normal)
-        .collect();
-    let mut c_rows = Vec::with_capacity(normals.len() * normals.len());
+    let normals = normals(loads.iter().flatten().flatten());
+    let mut values = Vec::with_capacity(normals.len() * normals.len());
     whole.solve_each(&dofs, &normals, progress, |_, u| {
-        c_rows.par_extend(normals.par_iter().map(|v| dot(v, u)));
+        values.par_extend(normals.par_iter().map(|v| dot(v, u)));
     });
-    lap(&mut stage_seconds, "solve");
+    let rows = HubRows {
+        values,
+        flanks: flanks.len(),
+        teeth,
+        count,
+    };
+    stages.lap("solve");
 
     progress.stage("checking");
-    let symmetry = asymmetry(&c_rows, teeth, flanks.len(), teeth, count);
+    let symmetry = rows.asymmetry();
     let first = (0, flanks[0]);
     let deformation = Deformation::Spatial;
     let submodel = ToothSubmodel::of_tooth(&mesh.model, &mesh, first, &loads[0][0], deformation)?;
-    let identity = pattern_identity_of(
-        &submodel,
+    let identity = pattern_identity(
+        (&submodel, &blocks[0].c_tooth),
         &normals[..count],
-        &c_rows,
-        normals.len(),
-        &blocks[0].c_tooth,
+        &rows,
         |loads, each| whole.solve_each(&dofs, loads, &crate::Silent, each),
         |patterns| whole.energy_products(&dofs, patterns),
     );
     checked("symmetry of C_hub", symmetry, SYMMETRY_ALLOWED)?;
     checked("the pattern identity", identity, IDENTITY_ALLOWED)?;
-    let c_hub = by_blocks(&c_rows, teeth, flanks.len(), teeth, count);
-    lap(&mut stage_seconds, "checks");
+    let c_hub = rows.into_blocks();
+    stages.lap("checks");
     let gauges = gauges(gear, &mesh, &loads, &whole, &dofs, progress)?;
-    lap(&mut stage_seconds, "gauges");
+    stages.lap("gauges");
     let effort = vec![
         ("factorisations".to_string(), 1.0),
         (
@@ -166,21 +158,28 @@ pub fn reduce_imported(
             dofs.free_count() as f64,
         ),
     ];
-    let mut reduced = assembled(gear, grid, c_hub, c_tooth, near_field, gauges);
-    let provenance = &mut reduced.provenance;
-    provenance.element = element_names(&mesh.model);
-    provenance.nodes = mesh.model.node_count();
-    provenance.elements = mesh.model.element_count();
-    provenance.dofs = dofs.free_count();
-    provenance.stage_seconds = stage_seconds;
-    provenance.effort = effort;
-    reduced.checks.symmetry = symmetry;
-    reduced.checks.pattern_identity = identity;
-    reduced.checks.further = vec![(
+    let spread = (
         "spread of the near field over the teeth".to_string(),
         spread,
-    )];
-    Ok(reduced)
+    );
+    let found = ReducedGear {
+        teeth,
+        sectors: gear.sectors(),
+        young_pa: gear.material.young_pa,
+        poisson: gear.material.poisson,
+        flanks: flanks.clone(),
+        c_hub,
+        c_tooth,
+        gauges,
+        checks: ReductionChecks {
+            symmetry,
+            pattern_identity: identity,
+            further: vec![spread],
+        },
+        provenance: provenance(&mesh.model, dofs.free_count(), stages, effort),
+        ..ReducedGear::default()
+    };
+    Ok(of_definition(gear, grid, near_field, found))
 }
 
 /// C_tooth, `[flank][load][response]`, and W, `[flank][load station][response station]`, of one tooth.
@@ -191,22 +190,17 @@ fn tooth_blocks(
     tooth: usize,
     loads: &[Vec<GridLoad>],
 ) -> Result<ToothBlocks, ReductionError> {
-    let count = grid.len();
     let mut blocks = ToothBlocks {
         c_tooth: Vec::new(),
         plane: Vec::new(),
     };
     for (&side, loads) in gear.reduction.flanks.iter().zip(loads) {
-        let rows: Vec<&SparseVector> = loads.iter().map(|load| &load.normal).collect();
-        let products = |deformation| {
+        let submodel = |deformation| {
             ToothSubmodel::of_tooth(&mesh.model, mesh, (tooth, side), loads, deformation)
-                .map(|submodel| submodel.products(&rows))
         };
-        // [response][load]; the file holds [load][response].
-        let spatial = products(Deformation::Spatial)?;
-        let spatial = (0..count * count).map(|k| spatial[(k % count) * count + k / count]);
-        blocks.c_tooth.extend(spatial);
-        let plane = products(Deformation::PlaneStrain)?;
+        let spatial = submodel(Deformation::Spatial)?;
+        blocks.c_tooth.extend(spatial.compliance(loads));
+        let plane = submodel(Deformation::PlaneStrain)?.products(&normals(loads));
         let width_m = gear.tooth.face_width_m;
         blocks.plane.extend(line_compliance(grid, &plane, width_m));
     }
@@ -242,12 +236,7 @@ fn gauges(
         .iter()
         .map(|g| gauge_row(gear, mesh, &mesh.model, g, g.tooth))
         .collect::<Result<_, _>>()?;
-    let directions: Vec<&SparseVector> = loads
-        .iter()
-        .flatten()
-        .flatten()
-        .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
-        .collect();
+    let directions = directions(loads.iter().flatten().flatten());
     let mut adjoints: Vec<Vec<f64>> = Vec::new();
     let references: Vec<&SparseVector> = rows.iter().collect();
     whole.solve_each(dofs, &references, progress, |_, y| {
@@ -268,13 +257,9 @@ fn gauges(
         .zip(adjoints.into_iter().zip(&rows))
         .map(|(gauge, (adjoint, row))| {
             Ok(GaugeRows {
-                name: gauge.name.clone(),
-                tooth: gauge.tooth,
-                side: gauge.side,
-                description: describe(gauge),
-                error_estimate_relative: 0.0,
                 adjoint,
                 own_tooth: own_tooth(gauge.tooth, row)?,
+                ..gauge_head(gauge)
             })
         })
         .collect()

@@ -1,7 +1,7 @@
 //! Whether a mesh that was made elsewhere fits its definition: one part, its bore, its flanks.
 
-use crate::imported_error::ImportedMeshError;
-use crate::tooth_frame::{in_tooth, side_index};
+use crate::imported_error::{ImportedMeshError, Misfit};
+use crate::tooth_frame::in_tooth;
 use gearmesh_geometry::{Flank, GearDefinition, MeshedBody, ProfileCurve};
 use gearmesh_mesh::OutlineFace;
 use gearmesh_model::MeshData;
@@ -22,8 +22,11 @@ pub(crate) struct ImportCheck<'a> {
 }
 
 impl ImportCheck<'_> {
-    pub(crate) fn file(&self) -> String {
-        self.body.file.display().to_string()
+    pub(crate) fn misfit(&self, problem: Misfit) -> Box<ImportedMeshError> {
+        Box::new(ImportedMeshError::Misfit {
+            file: self.body.file.display().to_string(),
+            problem,
+        })
     }
 
     fn at_mm(&self, node: u32) -> [f64; 3] {
@@ -56,8 +59,7 @@ impl ImportCheck<'_> {
             *sizes.entry(root(&mut parent, n)).or_default() += 1;
         }
         match sizes.iter().min_by_key(|(_, size)| **size) {
-            Some((&node, &nodes)) if sizes.len() > 1 => Err(Box::new(ImportedMeshError::Parts {
-                file: self.file(),
+            Some((&node, &nodes)) if sizes.len() > 1 => Err(self.misfit(Misfit::Parts {
                 parts: sizes.len(),
                 nodes,
                 at_mm: self.at_mm(node),
@@ -82,8 +84,7 @@ impl ImportCheck<'_> {
         if names.len() > SHOWN {
             found.push(format!("and {} more", names.len() - SHOWN));
         }
-        Box::new(ImportedMeshError::SetMissing {
-            file: self.file(),
+        self.misfit(Misfit::SetMissing {
             wanted,
             more,
             use_of,
@@ -108,17 +109,14 @@ impl ImportCheck<'_> {
             .copied()
             .max_by(|a, b| off(a).total_cmp(&off(b)));
         match worst {
-            Some(node) if off(&node) > self.tolerance_m() => {
-                Err(Box::new(ImportedMeshError::Bore {
-                    file: self.file(),
-                    set: name.clone(),
-                    node,
-                    at_mm: self.at_mm(node),
-                    found_mm: radius(node) * 1e3,
-                    expected_mm: expected * 1e3,
-                    allowed_um: self.tolerance_m() * 1e6,
-                }))
-            }
+            Some(node) if off(&node) > self.tolerance_m() => Err(self.misfit(Misfit::Bore {
+                set: name.clone(),
+                node,
+                at_mm: self.at_mm(node),
+                found_mm: radius(node) * 1e3,
+                expected_mm: expected * 1e3,
+                allowed_um: self.tolerance_m() * 1e6,
+            })),
             _ => Ok(nodes.to_vec()),
         }
     }
@@ -162,8 +160,7 @@ impl ImportCheck<'_> {
             let nodes = self.set(name).unwrap_or(&[]).iter().copied();
             let worst = nodes.max_by(|a, b| off(a).total_cmp(&off(b)));
             if let Some(node) = worst.filter(|n| off(n) > self.tolerance_m()) {
-                return Err(Box::new(ImportedMeshError::Flank {
-                    file: self.file(),
+                return Err(self.misfit(Misfit::Flank {
                     set: name.clone(),
                     node,
                     at_mm: self.at_mm(node),
@@ -229,7 +226,7 @@ impl ImportCheck<'_> {
         let arcs = [self.curve.flank_start_m(), self.curve.flank_end_m()];
         let whole = 2.0 * half * (arcs[1] - arcs[0]);
         for (tooth, side, name) in flanks {
-            let faces = &outlines[*tooth][side_index(*side)];
+            let faces = &outlines[*tooth][*side as usize];
             let covered: f64 = faces
                 .iter()
                 .flat_map(|face| crate::face_overlap::overlap_points(face, arcs, [-half, half]))
@@ -237,8 +234,7 @@ impl ImportCheck<'_> {
                 .sum();
             if covered < COVERAGE * whole {
                 let radius = |xi: f64| profile.base_radius_m * (1.0 + xi * xi).sqrt() * 1e3;
-                return Err(Box::new(ImportedMeshError::Coverage {
-                    file: self.file(),
+                return Err(self.misfit(Misfit::Coverage {
                     set: name.clone(),
                     covered_percent: 100.0 * covered / whole,
                     side: side.name(),

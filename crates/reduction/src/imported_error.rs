@@ -2,19 +2,36 @@
 
 use thiserror::Error;
 
-/// Why a mesh from elsewhere is not the gear of the definition.
+/// Why a gear that was meshed elsewhere cannot be reduced.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ImportedMeshError {
+    /// The mesh is not the gear of the definition.
+    #[error("{file}: {problem}")]
+    Misfit {
+        /// Mesh file.
+        file: String,
+        /// What does not fit.
+        problem: Misfit,
+    },
+    /// The mesh program could not read the file.
+    #[error(transparent)]
+    Python(#[from] PythonFailure),
+    /// The exchange file could not be read.
+    #[error("{0}")]
+    Exchange(String),
+}
+
+/// Why a mesh from elsewhere is not the gear of the definition.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Misfit {
     /// A named set is missing or empty.
     #[error(
-        "{file}: there is no node or element set \"{wanted}\"{}, {use_of}; the file has {}. Name the sets in the mesher (gmsh: \
+        "there is no node or element set \"{wanted}\"{}, {use_of}; the file has {}. Name the sets in the mesher (gmsh: \
          physical groups, Abaqus: *NSET or *ELSET) or their names in [blank]",
         if *more > 0 { format!(" (and {more} more of that pattern)") } else { String::new() },
         if found.is_empty() { "no sets at all".to_string() } else { format!("the sets {found}") }
     )]
     SetMissing {
-        /// Mesh file.
-        file: String,
         /// Name of the set.
         wanted: String,
         /// How many others of the same pattern are missing too.
@@ -26,14 +43,12 @@ pub enum ImportedMeshError {
     },
     /// A bore that is none.
     #[error(
-        "{file}: node {node} of the set \"{set}\" at x {:.4} y {:.4} z {:.4} mm has the radius {found_mm:.4} mm; the bore has {expected_mm:.4} mm \
+        "node {node} of the set \"{set}\" at x {:.4} y {:.4} z {:.4} mm has the radius {found_mm:.4} mm; the bore has {expected_mm:.4} mm \
          and {allowed_um:.1} um (0.2 % of the module) are allowed: check blank.bore_diameter_mm and blank.length_unit; the axis of \
          the gear must be z",
         at_mm[0], at_mm[1], at_mm[2]
     )]
     Bore {
-        /// Mesh file.
-        file: String,
         /// Name of the set.
         set: String,
         /// Worst node.
@@ -49,13 +64,11 @@ pub enum ImportedMeshError {
     },
     /// A flank that is not where the definition has it.
     #[error(
-        "{file}: node {node} of the set \"{set}\" at x {:.4} y {:.4} z {:.4} mm lies {distance_um:.1} um off the {side} flank of tooth \
+        "node {node} of the set \"{set}\" at x {:.4} y {:.4} z {:.4} mm lies {distance_um:.1} um off the {side} flank of tooth \
          {tooth}; {allowed_um:.1} um (0.2 % of the module) are allowed, for the exact profile without microgeometry. {hint}",
         at_mm[0], at_mm[1], at_mm[2]
     )]
     Flank {
-        /// Mesh file.
-        file: String,
         /// Name of the set.
         set: String,
         /// Worst node.
@@ -75,13 +88,11 @@ pub enum ImportedMeshError {
     },
     /// Faces that do not cover the flank.
     #[error(
-        "{file}: the faces of the set \"{set}\" cover {covered_percent:.2} % of the {side} flank of tooth {tooth}, which reaches from radius \
+        "the faces of the set \"{set}\" cover {covered_percent:.2} % of the {side} flank of tooth {tooth}, which reaches from radius \
          {from_mm:.3} to {to_mm:.3} mm over the face width of {width_mm:.3} mm; at least 99 % are needed: put all nodes of the flank in the \
          set, the edges too, and check tooth.face_width_mm (z = 0 is mid-face)"
     )]
     Coverage {
-        /// Mesh file.
-        file: String,
         /// Name of the set.
         set: String,
         /// Share covered.
@@ -99,13 +110,11 @@ pub enum ImportedMeshError {
     },
     /// Parts that hang together nowhere.
     #[error(
-        "{file}: the mesh falls into {parts} parts that share no node, the smallest has {nodes} nodes around x {:.3} y {:.3} z {:.3} mm; \
+        "the mesh falls into {parts} parts that share no node, the smallest has {nodes} nodes around x {:.3} y {:.3} z {:.3} mm; \
          merge coinciding nodes (gmsh: coherence, removeDuplicateNodes) or remove what does not belong to the gear",
         at_mm[0], at_mm[1], at_mm[2]
     )]
     Parts {
-        /// Mesh file.
-        file: String,
         /// How many parts.
         parts: usize,
         /// Nodes of the smallest.
@@ -114,23 +123,13 @@ pub enum ImportedMeshError {
         at_mm: [f64; 3],
     },
     /// The formulation asked for does not fit the elements.
-    #[error(
-        "{file}: mesh.element is {element}, but the mesh has {found} elements only; remove the key"
-    )]
+    #[error("mesh.element is {element}, but the mesh has {found} elements only; remove the key")]
     Element {
-        /// Mesh file.
-        file: String,
         /// Formulation asked for.
         element: &'static str,
         /// Kinds found.
         found: String,
     },
-    /// The mesh program could not read the file.
-    #[error(transparent)]
-    Python(#[from] PythonFailure),
-    /// The exchange file could not be read.
-    #[error("{0}")]
-    Exchange(String),
 }
 
 impl ImportedMeshError {
@@ -139,7 +138,7 @@ impl ImportedMeshError {
         match self {
             Self::Python(failure) => failure.input,
             Self::Exchange(_) => false,
-            _ => true,
+            Self::Misfit { .. } => true,
         }
     }
 }

@@ -10,9 +10,9 @@
 
 use crate::ReductionError;
 use crate::imported_check::ImportCheck;
-use crate::imported_error::ImportedMeshError;
+use crate::imported_error::Misfit;
 use crate::imported_outline::outlines;
-use crate::tooth_frame::{in_tooth, nearest_tooth, side_index};
+use crate::tooth_frame::{in_tooth, nearest_tooth};
 use crate::toothed_mesh::{ToothParts, ToothedMesh};
 use gearmesh_fe::{Element, ElementBlock, FeModel, Material};
 use gearmesh_geometry::{Flank, GearDefinition, MeshedBody, ProfileCurve};
@@ -106,8 +106,8 @@ impl ImportedMesh {
                 .collect();
             below.sort_unstable();
             below.dedup();
-            let sides = [Flank::Right, Flank::Left].map(|side| {
-                let faces = &self.outlines[tooth][side_index(side)];
+            let sides = Flank::ALL.map(|side| {
+                let faces = &self.outlines[tooth][side as usize];
                 let mut on_side: Vec<u32> = faces
                     .iter()
                     .flat_map(|face| face.nodes.iter().copied())
@@ -126,7 +126,7 @@ impl ImportedMesh {
 
 impl ToothedMesh for ImportedMesh {
     fn outline_faces(&self, tooth: usize, side: Flank, arc_m: [f64; 2]) -> Vec<OutlineFace> {
-        let faces = self.outlines[tooth][side_index(side)].iter();
+        let faces = self.outlines[tooth][side as usize].iter();
         let inside = |face: &&OutlineFace| {
             let [from, to] = face.range_m(0);
             to > arc_m[0] && from < arc_m[1]
@@ -145,7 +145,7 @@ impl ToothParts for ImportedMesh {
     }
 
     fn tooth_supports(&self, tooth: usize, loaded: Flank) -> Vec<u32> {
-        let opposite = &self.side_nodes[tooth][side_index(loaded.opposite())];
+        let opposite = &self.side_nodes[tooth][loaded.opposite() as usize];
         let mut nodes = [&self.cut_nodes[tooth][..], &opposite[..]].concat();
         nodes.sort_unstable();
         nodes.dedup();
@@ -164,13 +164,10 @@ fn fe_model(check: &ImportCheck<'_>) -> Result<FeModel, ReductionError> {
     };
     if !fits {
         let found: Vec<&str> = check.mesh.cells.keys().map(|kind| kind.name()).collect();
-        return Err(ReductionError::Imported(Box::new(
-            ImportedMeshError::Element {
-                file: check.file(),
-                element: named.name(),
-                found: found.join(" and "),
-            },
-        )));
+        return Err(ReductionError::Imported(check.misfit(Misfit::Element {
+            element: named.name(),
+            found: found.join(" and "),
+        })));
     }
     let blocks = check.mesh.cells.iter().map(|(kind, nodes)| ElementBlock {
         element: match (kind, named) {

@@ -1,7 +1,7 @@
 //! The faces of a mesh that was made elsewhere that lie on the outlines of its teeth.
 
 use crate::imported_check::ImportCheck;
-use crate::tooth_frame::{in_tooth, nearest_tooth, side_index};
+use crate::tooth_frame::{in_tooth, nearest_tooth};
 use gearmesh_fe::{ElementFormulas, FeModel};
 use gearmesh_geometry::Flank;
 use gearmesh_mesh::{FaceShape, OutlineFace};
@@ -70,7 +70,7 @@ pub(crate) fn outlines(check: &ImportCheck<'_>, model: &FeModel) -> Vec<[Vec<Out
         let count = corners.len() as f64;
         let centre = std::array::from_fn(|k| corners.iter().map(|x| x[k]).sum::<f64>() / count);
         let tooth = nearest_tooth(centre, teeth);
-        for side in [Flank::Right, Flank::Left] {
+        for side in Flank::ALL {
             // The centre says which half the face is in; a node on the border belongs to both.
             if in_tooth(centre, tooth, teeth, side)[1] > 0.0 {
                 continue;
@@ -83,7 +83,7 @@ pub(crate) fn outlines(check: &ImportCheck<'_>, model: &FeModel) -> Vec<[Vec<Out
                 })
                 .collect();
             if let Some(places_m) = places {
-                outlines[tooth][side_index(side)].push(OutlineFace {
+                outlines[tooth][side as usize].push(OutlineFace {
                     shape: face.shape,
                     nodes: face.nodes.clone(),
                     element: face.element,

@@ -16,9 +16,9 @@
 //! | calibration of the near field in plane strain | `near_field.rs` |
 //! | a narrow load on a fine section of the tooth | `contact_problem.rs` |
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
-//! | compliance, checks, gauges' rows | `flank_compliance.rs` |
+//! | compliance and its checks; what gauges read | `flank_compliance.rs`; `asked_gauges.rs` |
 //! | C_hub of a body that does not repeat, by patterns | `hub_patterns.rs`, `single_sector.rs` |
-//! | the reduction | `reduce.rs`; of a bevel gear `bevel/` |
+//! | the reduction | `reduce.rs`, of a bevel gear `bevel/`; the steps of both `reduction_steps.rs`, their wall time `stages.rs` |
 //! | a gear that was meshed elsewhere | `import.rs`, `imported_mesh.rs` |
 //! | whether its mesh fits; the outlines found in it | `imported_check.rs`, `imported_error.rs`; `imported_outline.rs` |
 //! | points in the frame of a tooth | `tooth_frame.rs` |
@@ -37,6 +37,7 @@
 //! patterns, the reduced compliance is C_g = ΨᵀKΨ = NᵀU − NᵀW. It is never computed by inverting ΨᵀKΨ: the proof that
 //! it need not be is in docs/theory/reduction.md, and every reduction checks the identity on its own numbers.
 
+mod asked_gauges;
 pub mod bevel;
 pub mod bore_patterns;
 pub mod contact_problem;
@@ -65,6 +66,7 @@ mod modes_on_faces;
 pub mod near_field;
 mod part;
 pub mod reduce;
+mod reduction_steps;
 pub mod repeated_mesh;
 pub mod rigid_mass;
 pub mod root_crack;
@@ -75,6 +77,7 @@ mod separating_circle;
 pub mod shaft_faces;
 mod single_sector;
 pub mod skin;
+mod stages;
 mod time_estimate;
 mod tooth_frame;
 pub mod tooth_submodel;

@@ -8,7 +8,7 @@
 use crate::ReductionError;
 use crate::contact_problem::ContactProblem;
 use crate::error_estimate::line_load;
-use crate::flank_loads::{SparseVector, flank_loads};
+use crate::flank_loads::{flank_loads, normals};
 use crate::gear_body::model_of;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use gearmesh_fe::FeModel;
@@ -98,6 +98,33 @@ pub(crate) fn edge_distances_m(length: f64, module: f64) -> Vec<f64> {
     distances
 }
 
+/// c₀ at places, extrapolated from two gradings, and the largest relative step to it from the finer one. `deflection`
+/// solves a place with a grading.
+///
+/// # Errors
+/// Those of `deflection`.
+pub(crate) fn contact_at(
+    places: &[f64],
+    module_m: f64,
+    deflection: impl Fn(f64, ContactGrading) -> Result<f64, ReductionError> + Sync,
+) -> Result<(Vec<f64>, f64), ReductionError> {
+    let at_all = |factor: f64| -> Result<Vec<f64>, ReductionError> {
+        let grading = grading(module_m, factor);
+        let places = places.par_iter();
+        places.map(|&place| deflection(place, grading)).collect()
+    };
+    let (fine, coarse) = (at_all(1.0)?, at_all(COARSENING)?);
+    let pairs = fine.iter().zip(&coarse);
+    let best: Vec<f64> = pairs
+        .map(|(fine, coarse)| extrapolated(*fine, *coarse))
+        .collect();
+    let steps = fine.iter().zip(&best);
+    let residual = steps
+        .map(|(fine, best)| (fine / best - 1.0).abs())
+        .fold(0.0, f64::max);
+    Ok((best, residual))
+}
+
 /// Calibrates the tooth of a gear on its mesh.
 ///
 /// # Errors
@@ -129,24 +156,9 @@ pub fn calibration(
     let half_width_m = HALF_WIDTH_IN_MODULES * module;
     let roll_angles_rad = places(gear);
     let problem = ContactProblem::new(gear, cut, *model.material());
-    let at_all = |factor: f64| -> Result<Vec<f64>, ReductionError> {
-        roll_angles_rad
-            .par_iter()
-            .map(|&roll| problem.deflection(roll, half_width_m, grading(module, factor)))
-            .collect()
-    };
-    let fine = at_all(1.0)?;
-    let coarse = at_all(COARSENING)?;
-    let contact_m2_per_n: Vec<f64> = fine
-        .iter()
-        .zip(&coarse)
-        .map(|(&fine, &coarse)| extrapolated(fine, coarse))
-        .collect();
-    let residual = fine
-        .iter()
-        .zip(&contact_m2_per_n)
-        .map(|(fine, best)| (fine / best - 1.0).abs())
-        .fold(0.0, f64::max);
+    let (contact_m2_per_n, residual) = contact_at(&roll_angles_rad, module, |roll, grading| {
+        problem.deflection(roll, half_width_m, grading)
+    })?;
     Ok(NearField {
         half_width_m,
         roll_angles_rad,
@@ -170,8 +182,7 @@ fn mean_mesh_compliance(
     let model = model_of(gear, &teeth)?;
     let loads = flank_loads(gear, &teeth, grid, 0, side);
     let submodel = ToothSubmodel::new(&model, &teeth, side, &loads, Deformation::PlaneStrain)?;
-    let rows: Vec<&SparseVector> = loads.iter().map(|load| &load.normal).collect();
-    let products = submodel.products(&rows);
+    let products = submodel.products(&normals(&loads));
     Ok(line_compliance(grid, &products, gear.tooth.face_width_m))
 }
 
@@ -227,8 +238,7 @@ pub fn mesh_compliance(
     };
     let loads = flank_loads(gear, &layer, &across, 0, side);
     let submodel = ToothSubmodel::new(&plane, &layer, side, &loads, Deformation::PlaneStrain)?;
-    let rows: Vec<&SparseVector> = loads.iter().map(|load| &load.normal).collect();
-    let products = submodel.products(&rows);
+    let products = submodel.products(&normals(&loads));
     let stations = grid.roll_angles_rad.len();
     // Half of each station's two loads is one newton over the whole width: a line load of 1/width.
     let all = across.len();

@@ -11,7 +11,7 @@
 //! V: the eigenvectors of RRᵀ over all normal loads with the largest eigenvalues. docs/theory/crack.md derives it.
 
 use crate::flank_compliance::{IDENTITY_ALLOWED, checked};
-use crate::flank_loads::{GridLoad, SparseVector};
+use crate::flank_loads::{GridLoad, SparseVector, directions};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
 use crate::shaft_faces::HeldFaces;
@@ -80,10 +80,7 @@ pub fn root_crack(
         });
     }
 
-    let on_flank: Vec<&SparseVector> = loads
-        .iter()
-        .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
-        .collect();
+    let on_flank = directions(loads);
     let coupling = doubled.coupling().iter();
     let vectors: Vec<&SparseVector> = (coupling.chain(on_flank.iter().copied()))
         .chain(&gauges)

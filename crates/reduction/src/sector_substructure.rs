@@ -8,7 +8,6 @@ use crate::sector_stiffness::sector_stiffness;
 use crate::separating_circle::separating_circle;
 use crate::tooth_substructure::{ToothSubstructure, gather, sum_in_order};
 use faer::Mat;
-use faer::sparse::SparseColMatRef;
 use gearmesh_fe::{
     CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation, StiffnessMatrix,
     SymbolicFactor, assemble_mass, assemble_stiffness,
@@ -37,12 +36,15 @@ pub struct SectorSubstructure {
     tooth_nodes: Vec<Vec<usize>>,
     /// Elements of the body alone.
     body_elements: Vec<u32>,
-    /// The cuts R and L.
-    cuts: [Vec<usize>; 2],
-    /// Stiffness of the body alone and its nodes among those of the sector.
-    body_stiffness: StiffnessMatrix,
-    body_nodes: Vec<usize>,
-    condensation: SectorCondensation,
+    /// Nodes of the cuts R (before its first tooth) and L (its image, behind the last one); none in a single sector.
+    pub cuts: [Vec<usize>; 2],
+    /// Stiffness of hub, web and rim without the tooth cells, three rows for each of
+    /// [`SectorSubstructure::body_nodes`].
+    pub body_stiffness: StiffnessMatrix,
+    /// Sector nodes of hub, web and rim.
+    pub body_nodes: Vec<usize>,
+    /// The condensation.
+    pub condensation: SectorCondensation,
 }
 
 impl SectorSubstructure {
@@ -116,7 +118,7 @@ impl SectorSubstructure {
                 nodes.filter_map(place).collect::<Vec<_>>()
             })
         };
-        let foot = tooth.condensation().stiffness();
+        let foot = tooth.condensation.stiffness();
         let ringed = match sectors {
             1 => SectorCondensation::ringed(
                 (body_stiffness.as_ref(), &body_nodes),
@@ -163,27 +165,6 @@ impl SectorSubstructure {
             body_nodes,
             condensation,
         })
-    }
-
-    /// The condensation.
-    pub fn condensation(&self) -> &SectorCondensation {
-        &self.condensation
-    }
-
-    /// Nodes of the cuts R (before its first tooth) and L (its image, behind the last one); none in a single sector.
-    pub fn cuts(&self) -> &[Vec<usize>; 2] {
-        &self.cuts
-    }
-
-    /// Stiffness of hub, web and rim without the tooth cells, three rows for each of
-    /// [`SectorSubstructure::body_nodes`].
-    pub fn body_stiffness(&self) -> SparseColMatRef<'_, usize, f64> {
-        self.body_stiffness.as_ref()
-    }
-
-    /// Sector nodes of hub, web and rim.
-    pub fn body_nodes(&self) -> &[usize] {
-        &self.body_nodes
     }
 
     /// Mass (kg) as [`SectorSubstructure::body_stiffness`].

@@ -18,7 +18,7 @@
 //!
 //! Kept is the front face against the back one: the rest follows. Theory: docs/theory/reduction.md, "Two faces".
 
-use crate::flank_loads::{GridLoad, SparseVector};
+use crate::flank_loads::{GridLoad, SparseVector, directions};
 use crate::gear_body::GearBody;
 use crate::tooth_vectors::on_all_teeth;
 use crate::{Progress, ReductionError};
@@ -115,9 +115,7 @@ impl HeldFaces {
             1 => 0.0,
             _ => rigid_residual(nodes, (&motions, &stiffness), 2.0 * half),
         };
-        let directions: Vec<&SparseVector> = (loads.iter().flatten())
-            .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
-            .collect();
+        let directions = directions(loads.iter().flatten());
         Ok(Some(Self {
             flank: read(motions.as_ref(), &on_all_teeth(&body.mesh, &directions)),
             gauges: read(motions.as_ref(), gauges),

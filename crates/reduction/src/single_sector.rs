@@ -51,7 +51,7 @@ impl<'a> SingleSector<'a> {
     ) -> Option<Self> {
         (body.sector.sectors == 1).then(|| {
             let on_tooth = body.tooth.condense(&body.frames, vectors);
-            let ring = body.sector.condensation().ring();
+            let ring = body.sector.condensation.ring();
             let ring = ring.and_then(|ring| OnRing::new(ring, &on_tooth, progress));
             let solved = ring.as_ref().map_or(0, OnRing::solved);
             Self {
@@ -85,7 +85,7 @@ impl<'a> SingleSector<'a> {
             let carried = &self.on_tooth.kept * shares;
             let loads = self.body.at_foot(carried.as_ref(), own);
             self.solved.fetch_add(shares.ncols(), Ordering::Relaxed);
-            self.body.sector.condensation().condense(loads.as_ref())
+            self.body.sector.condensation.condense(loads.as_ref())
         });
         HalfSolves {
             tooth: own,

@@ -3,14 +3,6 @@
 use gearmesh_geometry::Flank;
 use std::f64::consts::TAU;
 
-/// Place of a side in arrays by side: right, left.
-pub(crate) const fn side_index(side: Flank) -> usize {
-    match side {
-        Flank::Right => 0,
-        Flank::Left => 1,
-    }
-}
-
 /// The tooth in whose pitch a point lies.
 pub(crate) fn nearest_tooth([x, y, _]: [f64; 3], teeth: usize) -> usize {
     let pitch = TAU / teeth as f64;

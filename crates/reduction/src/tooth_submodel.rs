@@ -4,7 +4,7 @@
 //! mesh, so that the patterns Ψ = U − W are free of it.
 
 use crate::ReductionError;
-use crate::flank_loads::{GridLoad, SparseVector};
+use crate::flank_loads::{GridLoad, SparseVector, normals};
 use crate::part::Part;
 use crate::toothed_mesh::ToothParts;
 use faer::Mat;
@@ -115,6 +115,15 @@ impl ToothSubmodel {
             let row = weights.iter().enumerate();
             field[dof] -= row.map(|(load, w)| w * self.w[(k, load)]).sum::<f64>();
         }
+    }
+
+    /// NᵀW of the loads that it was solved for, `[load][response]` (m/N).
+    pub fn compliance(&self, loads: &[GridLoad]) -> Vec<f64> {
+        let count = loads.len();
+        let products = self.products(&normals(loads));
+        (0..count * count)
+            .map(|k| products[(k % count) * count + k / count])
+            .collect()
     }
 
     /// rowᵀ W for each load, for rows over the whole gear's degrees of freedom: `[row][load]`.

@@ -7,7 +7,6 @@ use crate::flank_loads::SparseVector;
 use crate::part::Part;
 use crate::repeated_mesh::RepeatedMesh;
 use faer::Mat;
-use faer::sparse::SparseColMatRef;
 use gearmesh_fe::{
     CondensedLoads, CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation,
     StiffnessMatrix, assemble_mass, assemble_stiffness,
@@ -22,11 +21,12 @@ pub struct ToothSubstructure {
     part: Vec<u32>,
     /// Nodes of the whole mesh of each tooth: the images of those of tooth 0.
     images: Vec<Vec<u32>>,
-    /// Which of them are shared with elements outside the cell.
-    boundary: Vec<usize>,
-    /// Stiffness of the cell, nothing fixed.
-    stiffness: StiffnessMatrix,
-    condensation: StaticCondensation,
+    /// Nodes of the cell that are shared with the rest of the gear.
+    pub boundary: Vec<usize>,
+    /// Stiffness of the cell, nothing fixed, three rows a node.
+    pub stiffness: StiffnessMatrix,
+    /// The condensation.
+    pub condensation: StaticCondensation,
 }
 
 impl ToothSubstructure {
@@ -80,16 +80,6 @@ impl ToothSubstructure {
         })
     }
 
-    /// The condensation.
-    pub fn condensation(&self) -> &StaticCondensation {
-        &self.condensation
-    }
-
-    /// Stiffness of the cell, nothing fixed, three rows a node.
-    pub fn stiffness(&self) -> SparseColMatRef<'_, usize, f64> {
-        self.stiffness.as_ref()
-    }
-
     /// Mass of the cell (kg), as [`ToothSubstructure::stiffness`].
     ///
     /// # Errors
@@ -100,11 +90,6 @@ impl ToothSubstructure {
         let mut mass = assemble_mass(&part.model, &dofs, density_kg_per_m3)?;
         CylindricalFrames::new(part.model.nodes().iter().copied()).turn_stiffness(&mut mass);
         Ok(mass)
-    }
-
-    /// Nodes of the cell that are shared with the rest of the gear.
-    pub fn boundary(&self) -> &[usize] {
-        &self.boundary
     }
 
     /// Number of nodes of the cell.

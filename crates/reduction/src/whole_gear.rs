@@ -3,6 +3,7 @@
 use crate::Progress;
 use crate::flank_loads::{SparseVector, dot};
 use crate::repeated_mesh::RepeatedMesh;
+use crate::stages::Stages;
 use crate::tooth_vectors::on_all_teeth;
 use faer::Mat;
 use gearmesh_fe::{
@@ -11,7 +12,6 @@ use gearmesh_fe::{
 };
 use rayon::prelude::*;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Columns that are solved together.
 const BLOCK: usize = 64;
@@ -23,28 +23,26 @@ pub struct WholeGear {
 }
 
 impl WholeGear {
-    /// Assembles and factorises. The wall time of each stage is added to `stage_seconds`.
+    /// Assembles and factorises. The wall time of each stage is added to `stages`.
     ///
     /// # Errors
     /// [`FeError`] when the body is not held or memory is short.
-    pub fn new(
+    pub(crate) fn new(
         model: &FeModel,
         dofs: &DofMap,
         progress: &dyn Progress,
-        stage_seconds: &mut Vec<(String, f64)>,
+        stages: &mut Stages,
     ) -> Result<Self, FeError> {
         progress.stage("assembling");
-        let clock = Instant::now();
         let graph = NodeGraph::new(model, dofs)?;
         let stiffness = assemble_stiffness_with_graph(model, dofs, &graph)?;
-        stage_seconds.push(("assembly".into(), clock.elapsed().as_secs_f64()));
+        stages.lap("assembly");
         progress.stage("factoring");
-        let clock = Instant::now();
         let ordering = DofOrdering::nested_dissection(&graph, dofs)?;
         let symbolic = SymbolicFactor::new(&stiffness, ordering)?;
         progress.expect(symbolic.expected_seconds());
         let factor = Factor::from_symbolic(Arc::new(symbolic), &stiffness)?;
-        stage_seconds.push(("factor".into(), clock.elapsed().as_secs_f64()));
+        stages.lap("factor");
         Ok(Self { stiffness, factor })
     }
 

@@ -7,6 +7,7 @@ use gearmesh_bevel::{BevelError, BevelGauge, BevelGear};
 use gearmesh_fe::FeModel;
 use gearmesh_geometry::Flank;
 use gearmesh_mesh::{BevelMesh, OutlineFace};
+use gearmesh_model::GaugeRows;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -79,17 +80,23 @@ pub fn bevel_gauge_row(
     Ok(row.into_iter().collect())
 }
 
-/// Position and size of a gauge in words.
-pub fn describe_bevel_gauge(gauge: &BevelGauge) -> String {
-    format!(
-        "tooth {}, {} root, {:.2} deg tangent, {:.3} mm along the profile, {:.3} mm wide at {:.3} mm from mid-face along the pitch cone",
-        gauge.tooth,
-        gauge.side,
-        gauge.tangent_rad.to_degrees(),
-        gauge.length_m * 1e3,
-        gauge.width_m * 1e3,
-        gauge.along_m * 1e3
-    )
+/// A gauge by its name and place, without readings.
+pub(crate) fn bevel_gauge_head(gauge: &BevelGauge) -> GaugeRows {
+    GaugeRows {
+        name: gauge.name.clone(),
+        tooth: gauge.tooth,
+        side: gauge.side,
+        description: format!(
+            "tooth {}, {} root, {:.2} deg tangent, {:.3} mm along the profile, {:.3} mm wide at {:.3} mm from mid-face along the pitch cone",
+            gauge.tooth,
+            gauge.side,
+            gauge.tangent_rad.to_degrees(),
+            gauge.length_m * 1e3,
+            gauge.width_m * 1e3,
+            gauge.along_m * 1e3
+        ),
+        ..GaugeRows::default()
+    }
 }
 
 /// Points of tooth 0's outline, `[section][node]`; nodes that the mesh leaves out between quadratic elements included.

@@ -8,10 +8,8 @@ use gearmesh_bevel::{BevelGear, FlankPatch};
 use gearmesh_geometry::Flank;
 use gearmesh_mesh::BevelMesh;
 use gearmesh_model::FlankGrid;
-use std::collections::BTreeMap;
 
-use crate::face_overlap::overlap_points;
-use crate::flank_loads::{GridLoad, overlapping};
+use crate::flank_loads::{GridLoad, HatLoad, grid_loads};
 
 /// Abscissae on \[0, 1\] and weights of Gauss's rule with three points: a is nearly linear in u.
 const GAUSS: [(f64, f64); 3] = [
@@ -69,47 +67,17 @@ pub fn bevel_loads(
             .map(|(u, weight)| weight * area_m2(patch, [s, *u]))
             .sum()
     };
-    let count = grid.len();
-    let mut sums = vec![0.0; count];
-    let mut parts: Vec<[BTreeMap<usize, f64>; 3]> = vec![Default::default(); count];
-    for face in &faces {
-        let (u_range, s_range) = (face.range_m(0), face.range_m(1));
-        let cells = overlapping(us, u_range)
-            .flat_map(|i| overlapping(&along, s_range).map(move |j| (i, j)));
-        for (i, j) in cells {
-            let window = [[us[i], us[i + 1]], [along[j], along[j + 1]]];
-            for point in overlap_points(face, window[0], window[1]) {
-                let [u, s] = point.place_m;
-                let at = patch.point([s, u]);
-                let density = at.dr[0].cross(&at.dr[1]).norm() / profile_area(s);
-                let up = at.dr[1].normalize();
-                let lengthwise = (at.dr[0] - up * up.dot(&at.dr[0])).normalize();
-                let directions = [at.n, up, lengthwise];
-                let shapes = face.shape.shapes(point.natural);
-                let (a, b) = (
-                    (u - us[i]) / (us[i + 1] - us[i]),
-                    (s - along[j]) / (along[j + 1] - along[j]),
-                );
-                for (load, hat) in [
-                    (grid.load(i, j), (1.0 - a) * (1.0 - b)),
-                    (grid.load(i, j + 1), (1.0 - a) * b),
-                    (grid.load(i + 1, j), a * (1.0 - b)),
-                    (grid.load(i + 1, j + 1), a * b),
-                ] {
-                    let weight = point.area_m2 * density * hat;
-                    sums[load] += weight;
-                    for (node, shape) in face.nodes.iter().zip(&shapes) {
-                        let dof = 3 * *node as usize;
-                        for (part, direction) in parts[load].iter_mut().zip(&directions) {
-                            for axis in 0..3 {
-                                *part.entry(dof + axis).or_default() +=
-                                    weight * shape[0] * direction[axis];
-                            }
-                        }
-                    }
-                }
-            }
+    grid_loads(&faces, grid, [us, &along], |[u, s], [i, j]| {
+        let at = patch.point([s, u]);
+        let up = at.dr[1].normalize();
+        let lengthwise = (at.dr[0] - up * up.dot(&at.dr[0])).normalize();
+        HatLoad {
+            shares: [
+                (u - us[i]) / (us[i + 1] - us[i]),
+                (s - along[j]) / (along[j + 1] - along[j]),
+            ],
+            density: at.dr[0].cross(&at.dr[1]).norm() / profile_area(s),
+            directions: [at.n, up, lengthwise].map(<[f64; 3]>::from),
         }
-    }
-    parts.into_iter().zip(sums).map(GridLoad::of_unit).collect()
+    })
 }

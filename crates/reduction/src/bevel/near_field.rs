@@ -10,22 +10,19 @@ use gearmesh_fe::{Factor, FeModel, Material, assemble_stiffness};
 use gearmesh_geometry::Flank;
 use gearmesh_mesh::BevelSection;
 use gearmesh_mesh::contact_section::{ContactGrading, ContactSection, ToothEdges};
-use gearmesh_model::{BevelNearField, FlankGrid};
+use gearmesh_model::{BevelNearField, FlankGrid, SmoothCurve};
 use nalgebra::Vector3;
-use rayon::prelude::*;
 
 use super::loads::{area_m2, shares_of};
 use crate::ReductionError;
 use crate::contact_problem::{ContactProblem, LoadedProfile};
 use crate::face_overlap::overlap_points;
 use crate::flank_loads::overlapping;
-use crate::near_field::{HALF_WIDTH_IN_MODULES, edge_distances_m, extrapolated, grading};
+use crate::near_field::{HALF_WIDTH_IN_MODULES, contact_at, edge_distances_m, grading};
 use crate::tooth_submodel::Deformation;
 
 /// Places of the sections, as shares of the way from toe to heel.
 const SECTIONS: [f64; 3] = [0.1, 0.5, 0.9];
-/// Ratio of the two gradings, as in [`crate::near_field`].
-const COARSENING: f64 = 2.0;
 
 /// One flank in one normal section, turned over for left flanks so that the loaded one is the right one.
 struct SectionProfile {
@@ -57,7 +54,7 @@ impl SectionProfile {
             .map(|height| shares_of(patch, section.cone_m, *height)[0])
             .collect();
         let loaded = line(own);
-        let end = loaded.arcs[loaded.arcs.len() - 1];
+        let (_, end) = loaded.end();
         let mut profile = Self {
             loaded,
             opposite: line(other),
@@ -101,9 +98,7 @@ impl SectionProfile {
         if best.is_finite() {
             best
         } else {
-            let q = self
-                .opposite
-                .at(self.opposite.arcs[self.opposite.arcs.len() - 1])[0];
+            let (q, _) = self.opposite.end();
             (q[0] - p[0]).hypot(q[1] - p[1])
         }
     }
@@ -111,9 +106,7 @@ impl SectionProfile {
 
 impl LoadedProfile for SectionProfile {
     fn section(&self, centre_arc_m: f64, grading: ContactGrading) -> ContactSection {
-        let tip = self.loaded.arcs[self.loaded.arcs.len() - 1];
-        let over = self.opposite.arcs[self.opposite.arcs.len() - 1];
-        let [right, left] = [self.loaded.at(tip)[0], self.opposite.at(over)[0]];
+        let ((right, tip), (left, over)) = (self.loaded.end(), self.opposite.end());
         let edges = ToothEdges {
             loaded: &|arc| self.loaded.at(arc)[0],
             opposite: &|share| self.opposite.at(share * over)[0],
@@ -136,11 +129,11 @@ impl LoadedProfile for SectionProfile {
     }
 }
 
-/// A smooth line through points by its arc length: cubic pieces whose slopes are those of parabolas through three neighbours.
+/// A smooth line through points by its arc length.
 struct SmoothLine {
     points: Vec<[f64; 2]>,
     arcs: Vec<f64>,
-    slopes: Vec<[f64; 2]>,
+    coordinates: [SmoothCurve; 2],
 }
 
 impl SmoothLine {
@@ -150,45 +143,27 @@ impl SmoothLine {
             let step = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
             arcs.push(arcs[arcs.len() - 1] + step);
         }
-        let last = points.len() - 1;
-        let secant = |k: usize, axis: usize| {
-            (points[k + 1][axis] - points[k][axis]) / (arcs[k + 1] - arcs[k])
-        };
-        let slopes = (0..=last)
-            .map(|k| {
-                let first = k.saturating_sub(1).min(last - 2);
-                [0, 1].map(|axis| {
-                    let (a, b) = (secant(first, axis), secant(first + 1, axis));
-                    let bend = (b - a) / (arcs[first + 2] - arcs[first]);
-                    a + bend * (2.0 * arcs[k] - arcs[first] - arcs[first + 1])
-                })
-            })
-            .collect();
+        let coordinates = [0, 1].map(|axis| {
+            let values = points.iter().map(|point| point[axis]).collect();
+            SmoothCurve::new(arcs.clone(), values)
+        });
         Self {
             points,
             arcs,
-            slopes,
+            coordinates,
         }
     }
 
     /// Point and slope at an arc length.
     fn at(&self, arc: f64) -> [[f64; 2]; 2] {
-        let last = self.points.len() - 1;
-        let k = self.arcs.partition_point(|a| *a <= arc).clamp(1, last) - 1;
-        let length = self.arcs[k + 1] - self.arcs[k];
-        let t = (arc - self.arcs[k]) / length;
-        let u = 1.0 - t;
-        let of_axis = [0, 1].map(|axis| {
-            let [p, q] = [self.points[k][axis], self.points[k + 1][axis]];
-            let [a, b] = [self.slopes[k][axis], self.slopes[k + 1][axis]];
-            let rise = q - p;
-            let (low, high) = (a * length - rise, b * length - rise);
-            [
-                p + t * rise + t * u * (u * low - t * high),
-                (rise + low * u * (u - 2.0 * t) - high * t * (2.0 * u - t)) / length,
-            ]
-        });
+        let of_axis = self.coordinates.each_ref().map(|curve| curve.at(arc));
         [0, 1].map(|kind| of_axis.map(|both| both[kind]))
+    }
+
+    /// Its end and the arc length there.
+    fn end(&self) -> ([f64; 2], f64) {
+        let arc = self.arcs[self.arcs.len() - 1];
+        (self.at(arc)[0], arc)
     }
 }
 
@@ -264,17 +239,11 @@ pub fn section_fields(
         field.mesh_m2_per_n.extend(plane);
         let arcs: Vec<f64> = field.profile.iter().map(|u| profile.arc_at(*u)).collect();
         let problem = ContactProblem::of_profile(profile, material);
-        let at_all = |factor: f64| -> Result<Vec<f64>, ReductionError> {
-            arcs.par_iter()
-                .map(|&arc| problem.deflection_at(arc, half_width_m, grading(module, factor)))
-                .collect()
-        };
-        let (fine, coarse) = (at_all(1.0)?, at_all(COARSENING)?);
-        for (fine, coarse) in fine.iter().zip(&coarse) {
-            let best = extrapolated(*fine, *coarse);
-            field.residual = field.residual.max((fine / best - 1.0).abs());
-            field.contact_m2_per_n.push(best);
-        }
+        let (contact, residual) = contact_at(&arcs, module, |arc, grading| {
+            problem.deflection_at(arc, half_width_m, grading)
+        })?;
+        field.residual = field.residual.max(residual);
+        field.contact_m2_per_n.extend(contact);
     }
     Ok(field)
 }

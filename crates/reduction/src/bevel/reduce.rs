@@ -4,22 +4,18 @@ use gearmesh_bevel::{BevelError, BevelGear, FlankPatch, Hand};
 use gearmesh_fe::{FeModel, Material};
 use gearmesh_geometry::Flank;
 use gearmesh_mesh::{BevelMesh, BodyGrid, MeshError};
-use gearmesh_model::{
-    BevelBody, BevelMember, FlankGrid, Provenance, ReducedGear, ReductionChecks, SpiralHand,
-    StoredGear, utc_now,
-};
+use gearmesh_model::{BevelBody, BevelMember, FlankGrid, ReducedGear, SpiralHand, StoredGear};
 use std::time::Instant;
 
-use super::gauge::{bevel_gauge_row, describe_bevel_gauge};
+use super::gauge::{bevel_gauge_head, bevel_gauge_row};
 use super::loads::{area_m2, bevel_grid, bevel_loads};
 use super::near_field::{opposite_distances_m, section_fields};
-use crate::dynamics::{DynamicsRequest, dynamics};
-use crate::error_estimate::{Reduced, coarser_bevel_meshes};
-use crate::flank_compliance::{
-    AskedGauge, FlankCase, FlankCompliance, ROWS_BY_FIELDS, flank_compliance, gauge_readings,
-};
-use crate::flank_loads::{GridLoad, SparseVector};
-use crate::reduce::{ReductionOptions, element_names, mode_solves};
+use crate::asked_gauges::AskedGauges;
+use crate::dynamics::DynamicsRequest;
+use crate::error_estimate::coarser_bevel_meshes;
+use crate::reduce::ReductionOptions;
+use crate::reduction_steps::Reduction;
+use crate::stages::Stages;
 use crate::tooth_submodel::Deformation;
 use crate::{GearBody, Progress, ReductionError};
 
@@ -98,140 +94,56 @@ pub fn reduce_bevel(
     progress: &dyn Progress,
 ) -> Result<(ReducedGear, GearBody<BevelMesh>), ReductionError> {
     let body = bevel_body(gear, progress)?;
-    let mut stage_seconds = body.stage_seconds.clone();
-    let mut clock = Instant::now();
-    let mut lap = |name: &str| {
-        stage_seconds.push((name.to_string(), clock.elapsed().as_secs_f64()));
-        clock = Instant::now();
-    };
+    let mut stages = Stages::after(body.stage_seconds.clone());
     let grid = bevel_grid(gear);
     let flanks = &gear.reduction.flanks;
     let patches: Vec<FlankPatch> = flanks
         .iter()
         .map(|&side| flank_patch(gear, side))
         .collect::<Result<_, _>>()?;
-    let loads: Vec<Vec<GridLoad>> = flanks
+    let loads = flanks
         .iter()
         .zip(&patches)
         .map(|(&side, patch)| bevel_loads(&body.mesh, patch, side, &grid))
         .collect();
-    lap("loads");
-    let teeth = gear.blank().teeth;
-    let case = FlankCase {
-        flanks,
-        loads: &loads,
-        teeth,
-        sectors: teeth,
-        deformation: Deformation::Spatial,
-    };
-    let FlankCompliance {
-        submodels,
-        c_hub,
-        c_tooth,
-        symmetry,
-        pattern_identity,
-        rows_by_fields,
-        ..
-    } = flank_compliance(&body, &case, progress, &mut lap)?;
+    stages.lap("loads");
+    let mut found = Reduction::of_flanks(body, (flanks, loads), stages, progress)?;
+
     progress.stage("calibrating the near field");
     let near_field = section_fields(gear, &patches, &grid)?;
-    lap("near field");
+    found.stages.lap("near field");
 
-    let rows: Vec<SparseVector> = gear
-        .gauges
-        .iter()
-        .map(|g| bevel_gauge_row(gear, &body.mesh, &body.model, g, g.tooth))
-        .collect::<Result<_, _>>()?;
-    let asked: Vec<AskedGauge<'_>> = gear
-        .gauges
-        .iter()
-        .zip(&rows)
-        .map(|(gauge, row)| {
-            Ok(AskedGauge {
-                name: &gauge.name,
-                tooth: gauge.tooth,
-                side: gauge.side,
-                description: describe_bevel_gauge(gauge),
-                row,
-                at_zero: bevel_gauge_row(gear, &body.mesh, &body.model, gauge, 0)?,
-            })
-        })
-        .collect::<Result<_, ReductionError>>()?;
-    let mut gauges = gauge_readings(&body, &loads, &submodels, &asked, progress);
-    lap("gauges");
+    let asked = AskedGauges::new(&gear.gauges, bevel_gauge_head, |gauge, tooth| {
+        bevel_gauge_row(gear, &found.body.mesh, &found.body.model, gauge, tooth)
+    })?;
+    found.read_gauges(&asked);
     let request = DynamicsRequest {
         density_kg_per_m3: gear.material.density_kg_per_m3,
         hub: gear.hub,
         modes: gear.modes,
         faces: None,
     };
-    let dynamics = dynamics(&request, &body, &loads, &rows, progress)?;
-    if dynamics.rigid_body.is_some() {
-        lap("mass and modes");
-    }
-    let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
-    further.extend(dynamics.checks);
+    found.add_dynamics(&request, &asked.rows)?;
     if options.estimate_error {
-        let reduced = Reduced {
-            teeth,
-            flanks,
-            grid: &grid,
-            c_hub: &c_hub,
-            c_tooth: &c_tooth,
-            gauges: &gauges,
-        };
-        let coarser = coarser_bevel_meshes(gear, body.mesh.body_grid(), &grid, progress)?;
-        let errors = coarser.errors_of(&reduced);
-        errors.state(&mut further, &mut gauges);
-        lap("error estimate");
+        let body_grid = found.body.mesh.body_grid();
+        let coarser = coarser_bevel_meshes(gear, body_grid, &grid, progress)?;
+        found.estimate_errors(&grid, coarser);
+        found.stages.lap("error estimate");
     }
-    let mut effort = body.effort();
-    effort.extend(dynamics.solves.map(mode_solves));
     let opposite = opposite_distances_m(gear, &patches, &grid.roll_angles_rad, 0.5)?;
+    let (model, body) = found.finished();
     let model = ReducedGear {
         name: gear.name.clone(),
         input: StoredGear::without_definition(gear.source.clone()),
-        teeth,
-        sectors: teeth,
         base_radius_m: patches[0].lever_m(),
         face_width_m: gear.blank().face_width_m,
-        young_pa: gear.material.young_pa,
-        poisson: gear.material.poisson,
-        flanks: flanks.clone(),
-        c_hub,
-        c_tooth,
         opposite_distance_m: opposite.concat(),
-        near_field: None,
-        gauges,
-        rigid_body: dynamics.rigid_body,
-        reference_point: dynamics.reference_point,
-        modes: dynamics.modes,
-        crack: None,
-        hub_patterns: None,
-        shaft_faces: None,
-        bore: None,
         bevel: Some(BevelBody {
             near_field: Some(near_field),
             ..surface(gear, &patches, &grid)
         }),
-        provenance: Provenance {
-            program: "gearmesh".into(),
-            version: env!("CARGO_PKG_VERSION").into(),
-            created_utc: utc_now(),
-            threads: rayon::current_num_threads(),
-            element: element_names(&body.model),
-            nodes: body.mesh.nodes.len(),
-            elements: body.mesh.elements.len(),
-            dofs: body.dofs.free_count(),
-            stage_seconds,
-            effort,
-        },
-        checks: ReductionChecks {
-            symmetry,
-            pattern_identity,
-            further,
-        },
         grid,
+        ..model
     };
     Ok((model, body))
 }

@@ -1,7 +1,5 @@
 //! Parts of definitions that the made-up gear does not have.
 
-use crate::data_tree::DataTree;
-use crate::record::{Named, Record, read_record, write_record};
 use gearmesh_geometry::microgeometry::{
     EndRelief, FaceEnds, ProfileCrowning, ReliefShape, RootRelief, TipRelief, Topography,
 };
@@ -10,6 +8,7 @@ use gearmesh_geometry::{
     Gearing, InternalRoot, LengthUnit, Lugs, MeshSettings, MeshedBody, Microgeometry, ModeRange,
     Openings, PinionCutter, Rim, RootPosition, Slots, ToothDefinition, Web,
 };
+use gearmesh_model::{DataTree, Named, Record, read_record, write_record};
 use std::path::Path;
 
 fn read_back<R: Record + Default + Clone>(record: &R) -> R {

@@ -1,0 +1,197 @@
+//! The blank of a gear's definition in a file: solid, with web and openings, ring, shaft, or a mesh from elsewhere.
+
+use gearmesh_geometry::{
+    Blank, Contour, ContourPoint, Holes, LengthUnit, Lugs, MeshedBody, Openings, Slots, Web,
+};
+
+use crate::file_error::FileError;
+use crate::record::{Fields, Named, OPEN, Record};
+
+impl Record for Blank {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let mut bore_radius_m = self.bore_radius_m();
+        let (mut web, mut contour) = (self.web(), self.contour().cloned());
+        let mut meshed = self.meshed().cloned();
+        let mut shaft = self.cut_into_shaft().copied();
+        let mut rim = self.rim().copied();
+        let (mut slots, mut holes) = match self.openings() {
+            None => (None, None),
+            Some(Openings::Slots(slots)) => (Some(slots), None),
+            Some(Openings::Holes(holes)) => (None, Some(holes)),
+        };
+        f.number("bore_radius", &mut bore_radius_m, "m", "bore radius")?;
+        f.optional("web", &mut web, Web::fields)?;
+        f.optional("contour", &mut contour, Contour::fields)?;
+        f.optional("slots", &mut slots, Slots::fields)?;
+        f.optional("holes", &mut holes, Holes::fields)?;
+        f.optional("meshed", &mut meshed, MeshedBody::fields)?;
+        f.optional("shaft", &mut shaft, |shaft, f| {
+            let what = "radius of the hole that the mesh leaves open along the axis";
+            f.number("hole_radius", &mut shaft.hole_radius_m, "m", what)?;
+            let what = "radius of the shaft at back and front, where a gear cut into it is held; 0 where it does not go on";
+            let ends = [("back, front", 2)];
+            f.fixed("end_radii", &mut shaft.end_radii_m, &ends, "m", what)
+        })?;
+        f.optional("rim", &mut rim, |rim, f| {
+            let what = "outer radius of a ring with internal teeth";
+            f.number("outer_radius", &mut rim.outer_radius_m, "m", what)?;
+            let mut back = rim.held_z_m.map(|band| band[0]);
+            let mut front = rim.held_z_m.map(|band| band[1]);
+            let what = "back of the band of the outside that is held, where not all of it is";
+            f.optional_number("held_back", &mut back, "m", what)?;
+            let what = "its front";
+            f.optional_number("held_front", &mut front, "m", what)?;
+            rim.held_z_m = back.zip(front).map(|(back, front)| [back, front]);
+            f.optional("lugs", &mut rim.lugs, Lugs::fields)
+        })?;
+        if !f.is_reading() {
+            return Ok(());
+        }
+        let openings = match (slots, holes) {
+            (Some(_), Some(_)) => return Err(f.contradiction("holes", "there are slots, too")),
+            (slots, holes) => slots.map(Openings::Slots).or(holes.map(Openings::Holes)),
+        };
+        if let Some(rim) = rim {
+            if shaft.is_some() || meshed.is_some() || web.is_some() || openings.is_some() {
+                let what = "there is a shaft, a web, openings or a mesh from elsewhere, too";
+                return Err(f.contradiction("rim", what));
+            }
+            *self = Self::Ring(rim);
+            return Ok(());
+        }
+        if let Some(shaft) = shaft {
+            if meshed.is_some() || web.is_some() || contour.is_some() || openings.is_some() {
+                let what = "there is a web, a contour, openings or a mesh from elsewhere, too";
+                return Err(f.contradiction("shaft", what));
+            }
+            if bore_radius_m != 0.0 {
+                return Err(f.contradiction("shaft", "there is a bore, too"));
+            }
+            *self = Self::CutIntoShaft(shaft);
+            return Ok(());
+        }
+        *self = match (meshed, web, contour) {
+            (Some(body), None, None) if openings.is_none() => Self::Meshed {
+                bore_radius_m,
+                body,
+            },
+            (Some(_), ..) => {
+                let what = "there is a web, a contour or openings, too";
+                return Err(f.contradiction("meshed", what));
+            }
+            (None, Some(web), contour) => Self::Webbed {
+                bore_radius_m,
+                web,
+                contour,
+                openings,
+            },
+            (None, None, None) => Self::Solid {
+                bore_radius_m,
+                openings,
+            },
+            (None, None, Some(_)) => return Err(f.contradiction("contour", "there is no web")),
+        };
+        Ok(())
+    }
+}
+
+impl Record for Web {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let what = "outer radius of the hub";
+        f.number("hub_radius", &mut self.hub_radius_m, "m", what)?;
+        let what = "inner radius of the rim";
+        f.number("rim_inner_radius", &mut self.rim_inner_radius_m, "m", what)?;
+        f.number("thickness", &mut self.thickness_m, "m", "web thickness")?;
+        let what = "axial position of the web's mid-plane from mid-face";
+        f.number("offset", &mut self.offset_m, "m", what)
+    }
+}
+
+impl Record for Contour {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let what = "z of the hub's back and front";
+        f.fixed("hub", &mut self.hub_z_m, &[("back, front", 2)], "m", what)?;
+        let of = |p: &ContourPoint| [p.radius_m, p.z_m[0], p.z_m[1], p.fillet_radius_m];
+        let mut points: Vec<f64> = self.web.iter().flat_map(of).collect();
+        let axes = [("point", OPEN), ("radius, back, front, fillet radius", 4)];
+        let what =
+            "z of the web's back and front from the hub to the rim, straight between the points";
+        f.numbers("web", &mut points, &axes, "m", what)?;
+        let point = |p: &[f64; 4]| ContourPoint {
+            radius_m: p[0],
+            z_m: [p[1], p[2]],
+            fillet_radius_m: p[3],
+        };
+        self.web = points.as_chunks().0.iter().map(point).collect();
+        Ok(())
+    }
+}
+
+impl Record for Lugs {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.count(
+            "count",
+            &mut self.count,
+            "parts of the outside that are held",
+        )?;
+        f.number("width", &mut self.width_rad, "rad", "angle covered by each")?;
+        let what = "polar angle of the middle of the first one";
+        f.number("phase", &mut self.phase_rad, "rad", what)
+    }
+}
+
+impl Record for Slots {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.count("count", &mut self.count, "number of slots")?;
+        f.number(
+            "inner_radius",
+            &mut self.inner_radius_m,
+            "m",
+            "inner radius",
+        )?;
+        f.number(
+            "outer_radius",
+            &mut self.outer_radius_m,
+            "m",
+            "outer radius",
+        )?;
+        f.number(
+            "width",
+            &mut self.width_rad,
+            "rad",
+            "angle covered by a slot",
+        )?;
+        let what = "polar angle of the first slot's centre from tooth 0";
+        f.number("phase", &mut self.phase_rad, "rad", what)?;
+        let what = "radius of the four corners";
+        f.number("corner_radius", &mut self.corner_radius_m, "m", what)
+    }
+}
+
+impl Record for Holes {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.count("count", &mut self.count, "number of holes")?;
+        let what = "radius of the pitch circle";
+        f.number("pitch_radius", &mut self.pitch_radius_m, "m", what)?;
+        f.number("radius", &mut self.radius_m, "m", "radius of a hole")?;
+        let what = "polar angle of the first hole's centre from tooth 0";
+        f.number("phase", &mut self.phase_rad, "rad", what)
+    }
+}
+
+impl Record for MeshedBody {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let mut file = self.file.display().to_string();
+        f.text("file", &mut file, "mesh file of the gear")?;
+        self.file = file.into();
+        let what = "unit of its coordinates";
+        f.choice("length_unit", &mut self.length_unit, what)?;
+        f.text("bore_set", &mut self.bore_set, "set of the bore")?;
+        let what = "sets of the flanks, {tooth} and {side} standing for number and side";
+        f.text("flank_sets", &mut self.flank_sets, what)
+    }
+}
+
+impl Named for LengthUnit {
+    const NAMES: &'static [(Self, &'static str)] = &[(Self::Metre, "m"), (Self::Millimetre, "mm")];
+}
