@@ -7,13 +7,14 @@ use crate::tca_sides::edge_words;
 use crate::{reduce, system_table};
 use gearmesh_bearings::QuasiStaticBearing;
 use gearmesh_bearings::bearing_file::BearingFromFile;
-use gearmesh_bevel::{AssembledPair, BevelError, BevelGear, PairFile};
+use gearmesh_bevel::{BevelError, BevelGear, PairFile};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearDefinition, Gearing, InternalRoot};
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_scene::optimise::{Evaluator, Optimisation};
+use gearmesh_scene::pair::BevelScene;
 use gearmesh_scene::rating::sn_curve;
 use gearmesh_scene::study::{RestCases, Scratch, Study, StudyScenes};
 use gearmesh_scene::system_run::RunJob;
@@ -135,18 +136,22 @@ pub fn check(path: &Path) -> Result<Finding, Failure> {
         InputKind::Optimisation => optimisation(&Optimisation::from_document(document, folder)?),
         InputKind::SnTable => sn_table(&document),
         InputKind::Record => record(folder),
-        InputKind::Gear if PairFile::recognises(&document)? => bevel_pair(&document),
+        InputKind::Gear if PairFile::recognises(&document)? => {
+            bevel_pair(&BevelScene::from_document(document)?)
+        }
         InputKind::Gear if BevelGear::recognises(&document)? => bevel_gear(&document, folder),
         InputKind::Gear if BearingFromFile::recognises(&document)? => bearing(&document),
         InputKind::Gear => gear(&document),
     }
 }
 
-fn bevel_pair(document: &InputDocument) -> Result<Finding, Failure> {
-    let file = PairFile::from_document(document)?;
-    let (design, _) = file.checked_design(document)?;
-    let pair = AssembledPair::new(&file, &design);
-    let pair = pair.map_err(|error| Failure::work(error.in_file(document)))?;
+/// What is found in a bevel pair, assembled without load.
+///
+/// # Errors
+/// [`Failure`] for flanks that cannot be made, do not touch or jam.
+pub fn bevel_pair(scene: &BevelScene) -> Result<Finding, Failure> {
+    let (file, design) = (&scene.file, scene.design()?);
+    let pair = scene.assembled().map_err(Failure::work)?;
     let coast = pair.coast.as_ref().ok().and_then(Option::as_ref);
     let edges = [
         edge_words(file.pinion_flank, pair.driving.as_ref()),
@@ -159,13 +164,13 @@ fn bevel_pair(document: &InputDocument) -> Result<Finding, Failure> {
         .chain(edges)
         .map(|words| format!("warning: {words}"))
         .collect();
-    finding.lines = thickness_words(&design, &file);
+    finding.lines = thickness_words(design, file);
     (finding.facts).insert(
         "backlash_mm".into(),
         json!(1e3 * design.backlash_m(&file.blank)),
     );
     for (i, tooth) in design.teeth.iter().enumerate() {
-        let thickness = thickness_figures(tooth, design.settings[i].as_ref(), &file);
+        let thickness = thickness_figures(tooth, design.settings[i].as_ref(), file);
         (finding.facts).insert(format!("{}_thickness", tooth.blank.name), thickness);
     }
     Ok(finding)
@@ -235,7 +240,7 @@ fn scene(scene: SceneFile) -> Result<Finding, Failure> {
             finding.notes = loaded.scene.notes;
             Ok(finding)
         }
-        SceneFile::Bevel(scene) => bevel_pair(&scene.document),
+        SceneFile::Bevel(scene) => bevel_pair(&scene),
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
             let built = loaded.build()?;

@@ -7,11 +7,11 @@ use std::sync::{Mutex, PoisonError};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::ModelShelf;
 use gearmesh_scene::SceneFile;
-use gearmesh_scene::pair::demand_gears_that_fit;
+use gearmesh_scene::pair::{BevelScene, demand_gears_that_fit};
 use gearmesh_scene::study::{RestCases, RestFigures, Subject};
 use serde_json::{Value, json};
 
-use crate::check::check;
+use crate::check::{Finding, bevel_pair, check};
 use crate::failure::Failure;
 use crate::gear_file::GearFile;
 use crate::reduce::{Reduction, reduce_to};
@@ -102,6 +102,13 @@ pub fn demand_names(kind: NewKind, files: &Texts) -> Result<(), Failure> {
 #[derive(Debug, Default)]
 struct Kept(Mutex<Vec<String>>);
 
+impl Kept {
+    fn all(self) -> Vec<String> {
+        let kept = self.0.into_inner();
+        kept.unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 impl Listener for Kept {
     fn begin(&self, _: &str) -> Box<dyn Task + '_> {
         Box::new(Silent)
@@ -136,22 +143,38 @@ pub fn look(kind: NewKind, folder: &Path) -> Result<Vec<String>, Failure> {
                     return Err(Failure::input(problem).about(&path));
                 }
             },
-            Some(_) => {
-                let found = check(&path)?;
-                if let Some(problem) = found.problem {
-                    return Err(Failure::input(problem).about(&path));
-                }
-                found.notes.iter().for_each(|note| watch.warning(note));
-                watch.unit_slips(found.slips);
-            }
+            Some(_) => told(check(&path)?, &path, &watch)?,
             None => {
                 let table = InputDocument::read(&path)?;
                 table.table()?;
             }
         }
     }
-    let kept = kept.0.into_inner();
-    Ok(kept.unwrap_or_else(PoisonError::into_inner))
+    Ok(kept.all())
+}
+
+/// What should be known of a bevel pair; flanks that its scene has made are not made again.
+///
+/// # Errors
+/// [`Failure`] for flanks that cannot be made, do not touch or jam.
+pub fn look_at_bevel(scene: &BevelScene) -> Result<Vec<String>, Failure> {
+    let kept = Kept::default();
+    let watch = Watch {
+        listener: &kept,
+        ..Watch::unattended()
+    };
+    told(bevel_pair(scene)?, Path::new(&scene.document.file), &watch)?;
+    Ok(kept.all())
+}
+
+/// Tells what was found in a file that has no problem.
+fn told(found: Finding, path: &Path, watch: &Watch<'_>) -> Result<(), Failure> {
+    if let Some(problem) = found.problem {
+        return Err(Failure::input(problem).about(path));
+    }
+    found.notes.iter().for_each(|note| watch.warning(note));
+    watch.unit_slips(found.slips);
+    Ok(())
 }
 
 /// What a bearing comes to at rest: its columns.

@@ -154,7 +154,7 @@ pub fn run_bevel(
 ) -> Result<SceneResult, Failure> {
     refuse_restart(how)?;
     let loaded = scene.load(&ModelShelf::default())?;
-    let assembled = loaded.assembled().map_err(Failure::work)?;
+    let assembled = scene.assembled().map_err(Failure::work)?;
     assembled.jam.iter().for_each(|words| watch.warning(words));
     let result = with_torques(watch, |progress| loaded.run(progress, watch.stop))
         .inspect_err(|_| watch.unit_slips(scene.document.unit_slips()))?;

@@ -12,7 +12,7 @@ use super::run::{RunError, absolute, te_mesh_error};
 use crate::model_shelf::{ModelShelf, ShelvedModel};
 use crate::periods::Coverage;
 use gearmesh_bevel::pair_file::{BevelFile, LoadRequest};
-use gearmesh_bevel::{AssembledPair, PairDesign, PairFile};
+use gearmesh_bevel::{AssembledPair, BevelError, PairDesign, PairFile, ToothCheck};
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{ContactPatch, LocalContact, StaticContact};
 use gearmesh_drivetrain::{BevelAtRest, BevelSlices};
@@ -22,6 +22,7 @@ use gearmesh_model::{ReducedGear, StoredGear};
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize};
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 /// Slices of rigid gears where the file says nothing, and more where a light load touches few of them.
@@ -36,10 +37,18 @@ const PASSAGE: usize = 4;
 /// A bevel pair file.
 #[derive(Debug, Clone)]
 pub struct BevelScene {
-    /// What it holds.
+    /// What it holds. Flanks that were made already do not follow a change of it.
     pub file: PairFile,
     /// The file, for complaints and provenance.
     pub document: InputDocument,
+    made: Made,
+}
+
+/// What follows from a pair file, made once, when it is first asked for; clones share it.
+#[derive(Debug, Clone, Default)]
+struct Made {
+    design: Arc<OnceLock<Result<(PairDesign, [ToothCheck; 2]), InputError>>>,
+    assembled: Arc<OnceLock<Result<AssembledPair, BevelError>>>,
 }
 
 /// A bevel pair with what deflects under its loads.
@@ -47,7 +56,6 @@ pub struct BevelScene {
 pub struct LoadedBevel {
     scene: BevelScene,
     load: LoadRequest,
-    design: PairDesign,
     models: Option<[ShelvedModel; 2]>,
     model_files: [String; 2],
 }
@@ -68,7 +76,36 @@ impl BevelScene {
     /// [`InputError`] with file, line, key, what was found and what is allowed.
     pub fn from_document(document: InputDocument) -> Result<Self, InputError> {
         let file = PairFile::from_document(&document)?;
-        Ok(Self { file, document })
+        let made = Made::default();
+        Ok(Self {
+            file,
+            document,
+            made,
+        })
+    }
+
+    /// Settings and flanks, the teeth of both members checked.
+    ///
+    /// # Errors
+    /// [`InputError`] for flanks that cannot be made.
+    pub fn design(&self) -> Result<&PairDesign, InputError> {
+        let make = || self.file.checked_design(&self.document);
+        match self.made.design.get_or_init(make) {
+            Ok((design, _)) => Ok(design),
+            Err(error) => Err(error.clone()),
+        }
+    }
+
+    /// The pair as it is assembled, without load.
+    ///
+    /// # Errors
+    /// [`InputError`] as of [`Self::design`], and for an assembly in which the flanks do not touch, or teeth jam.
+    pub fn assembled(&self) -> Result<&AssembledPair, InputError> {
+        let design = self.design()?;
+        let make = || AssembledPair::new(&self.file, design);
+        let made = self.made.assembled.get_or_init(make);
+        made.as_ref()
+            .map_err(|error| error.clone().in_file(&self.document))
     }
 
     /// Folder that its file names are relative to.
@@ -85,7 +122,7 @@ impl BevelScene {
         let problem = "is missing: a bevel pair is run under the torques of its [load]; `gearmesh tca` analyses its contact without load";
         let missing = || self.document.error("load", problem);
         let load = self.file.load.clone().ok_or_else(missing)?;
-        let (design, _) = self.file.checked_design(&self.document)?;
+        self.design()?;
         let mut model_files = [String::new(), String::new()];
         let models = match &load.models {
             Some(files) => {
@@ -104,7 +141,6 @@ impl BevelScene {
         Ok(LoadedBevel {
             scene: self.clone(),
             load,
-            design,
             models,
             model_files,
         })
@@ -115,15 +151,6 @@ impl LoadedBevel {
     fn members(&self) -> Option<[&ReducedGear; 2]> {
         let models = self.models.as_ref()?;
         Some(models.each_ref().map(|shelved| &*shelved.model))
-    }
-
-    /// The pair as it is assembled, without load.
-    ///
-    /// # Errors
-    /// [`InputError`] for an assembly in which the flanks do not touch, or teeth jam.
-    pub fn assembled(&self) -> Result<AssembledPair, InputError> {
-        let assembled = AssembledPair::new(&self.scene.file, &self.design);
-        assembled.map_err(|error| error.in_file(&self.scene.document))
     }
 
     /// Gauges of both members: gear (1 or 2) and name.
@@ -232,7 +259,7 @@ impl LoadedBevel {
 
     fn run_in_slices(&self, slices: usize, watched: &Watched<'_>) -> Result<SceneResult, RunError> {
         let (file, load) = (&self.scene.file, &self.load);
-        let flanks = BevelSlices::new(&file.blank, &self.design, slices)?;
+        let flanks = BevelSlices::new(&file.blank, self.scene.design()?, slices)?;
         let pair = BevelAtRest::new(&file.blank, flanks, (file.pinion_flank, &file.tca.error));
         let contact = self.contact(&pair)?;
         let found = self.solve(&pair, &contact, watched)?;

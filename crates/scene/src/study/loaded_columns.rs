@@ -53,6 +53,7 @@ impl RestFigures {
         shelf: &ModelShelf,
         stop: &AtomicBool,
     ) -> Result<(Self, Option<SceneResult>), StudyError> {
+        // Both sides need the flanks: they are made once.
         let load = || -> Result<Option<SceneResult>, StudyError> {
             if subject.file.load.is_none() {
                 return Ok(None);

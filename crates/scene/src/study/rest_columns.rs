@@ -1,7 +1,7 @@
 //! The columns of bevel pairs and of bearings that are studied by themselves: a number each.
 
 use gearmesh_bearings::{BearingError, Life, QuasiStaticBearing, Ratings, StaticSafety};
-use gearmesh_bevel::{AssembledPair, BevelError, PairDesign, sensitivity};
+use gearmesh_bevel::{BevelError, sensitivity};
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 use gearmesh_geometry::InputError;
 
@@ -37,15 +37,6 @@ pub(super) fn bevel_names() -> Vec<String> {
     names
 }
 
-/// Settings and flanks of a bevel pair, its teeth checked.
-///
-/// # Errors
-/// As [`of_bevel`].
-pub(super) fn design(subject: &BevelScene) -> Result<PairDesign, InputError> {
-    let found = subject.file.checked_design(&subject.document);
-    Ok(found.map_err(without_line)?.0)
-}
-
 /// The text of a case is not the user's.
 fn without_line(error: InputError) -> InputError {
     InputError {
@@ -59,11 +50,10 @@ fn without_line(error: InputError) -> InputError {
 /// # Errors
 /// [`InputError`] where the flanks cannot be made or do not touch, or teeth jam in the assembly.
 pub(super) fn of_bevel(subject: &BevelScene) -> Result<Vec<f64>, InputError> {
-    let BevelScene { file, document } = subject;
-    let design = design(subject)?;
-    let flanks = design.flanks(file.pinion_flank);
+    let BevelScene { file, document, .. } = subject;
+    let flanks = (subject.design().map_err(without_line)?).flanks(file.pinion_flank);
     let fault = |error: BevelError| without_line(error.in_file(document));
-    let pair = AssembledPair::new(file, &design).map_err(fault)?;
+    let pair = subject.assembled().map_err(without_line)?;
     let found = pair.path().map_err(fault)?;
     // Where only edges touch, no contact moves with the errors.
     let moved = (found.mean.as_ref())
