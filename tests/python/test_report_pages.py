@@ -93,3 +93,25 @@ def test_a_page_fits(browser, pages, kind, width, medium):
     assert it.complaints == []
     assert it.page.evaluate("document.documentElement.scrollWidth") <= width
     assert it.page.evaluate(COLLISIONS) == []
+
+
+def test_gears_in_space_and_charts_share_a_cursor(browser, pages):
+    it = studio_page.Page(browser, pages["pair"].as_uri())
+    it.until("document.querySelector('.scene + .position output')?.textContent.endsWith('°')")
+    it.page.wait_for_timeout(500)
+    assert it.colours(".scene canvas >> nth=0") > 20, "the gears are blank"
+    before = it.page.locator(".scene canvas").first.screenshot()
+    # A quarter along the first pitch of the chart of the transmission error.
+    chart = it.page.locator("figure[data-kind=line]").first
+    box = chart.locator(".u-over").bounding_box()
+    chart.locator(".u-over").hover(position=dict(x=0.1 * box["width"], y=60))
+    shown = float(chart.locator(".u-legend .u-series").first.locator(".u-value").text_content())
+    angle = float(it.page.locator(".position output").text_content().rstrip("°"))
+    assert 0.0 < angle == pytest.approx(shown, rel=1e-3)
+    # Another chart over the same axis has the same place under its cursor.
+    others = "[...document.querySelectorAll('figure[data-kind=line]')].map((one) => one.querySelector('.u-legend .u-value')?.textContent)"
+    assert sum(one == it.page.evaluate(others)[0] for one in it.page.evaluate(others)) >= 3
+    it.page.wait_for_timeout(300)
+    assert it.page.locator(".scene canvas").first.screenshot() != before
+    it.keep("report_pair")
+    assert it.complaints == []

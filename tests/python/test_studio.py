@@ -363,6 +363,19 @@ def run_of(scene, result):
     return result
 
 
+def test_planets_show_how_they_share_the_load(browser, tmp_path):
+    gm.program("init", "planetary", "-o", str(tmp_path / "set"))
+    scene = next(path for path in (tmp_path / "set").glob("*.toml") if "[[planetary]]" in path.read_text())
+    with studio_page.server(PROGRAM, run_of(scene, tmp_path / "set.h5")) as address:
+        it = studio_page.Page(browser, address)
+        it.page.select_option("#shown", "planets")
+        it.until("document.querySelectorAll('#plots canvas').length === 2")
+        assert all("carrier" in one for one in it.page.locator("#plots figcaption").all_text_contents())
+        assert it.colours("#plots canvas >> nth=0") > 5
+        it.keep("planets")
+        assert it.complaints == []
+
+
 def test_modes_move_the_machine(browser, tmp_path):
     scene = named_by_whole_paths("gearbox_three_stage.toml", tmp_path, ('kind = "static"', 'kind = "eigen"'))
     with studio_page.server(PROGRAM, run_of(scene, tmp_path / "modes.h5")) as address:
@@ -443,7 +456,23 @@ def test_a_bevel_pair_answers_while_its_fields_change(browser, tmp_path):
         assert "spiral_angle_deg = 33" in changed.read_text()
         again = [1e6 * row["te_peak_to_peak_m"] for row in studio_page.printed(PROGRAM, changed, tmp_path)["rows"]]
         assert shown() == pytest.approx(again, rel=1e-12)
-        it.keep("bevel")
+        # A pinned state stays beside the next one; a link brings it to another page.
+        it.page.click("#pin-new")
+        differences = it.page.locator("#outcome .difference")
+        assert differences.count() > 5 and set(differences.all_text_contents()) == {"±0.0 %"}
+        kept = shown()
+        field.fill("34")
+        field.press("Enter")
+        it.until(f"Number(document.querySelector('#outcome [data-column=te_peak_to_peak_um]').value) !== {kept[0]!r}")
+        assert any(one != "±0.0 %" for one in differences.all_text_contents())
+        assert "pin 1" in it.page.locator("#outcome .u-legend").first.text_content()
+        it.keep("bevel_pinned")
+        it.page.locator("#outcome .actions button").first.click()
+        it.until(f"Number(document.querySelector('#outcome [data-column=te_peak_to_peak_um]').value) === {kept[0]!r}")
+        shared = studio_page.Page(browser, it.page.url)
+        shared.until(f"Number(document.querySelector('#outcome [data-column=te_peak_to_peak_um]')?.value) === {kept[0]!r}")
+        assert shared.page.locator("#text").input_value() == changed.read_text()
+        assert shared.complaints == []
         assert it.complaints == []
 
 

@@ -1,18 +1,9 @@
 // Line charts and order spectra, drawn by uPlot.
-const DASHES = { solid: [], dashed: [9, 5], dotted: [2, 4] };
-
-function axis(label, unit, more = {}) {
-  const font = "12px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
-  return {
-    label: withUnit(label, unit), labelFont: "600 " + font, font, labelSize: 24, labelGap: 2,
-    stroke: cssColour("--faint"), grid: { stroke: cssColour("--grid"), width: 1 }, ticks: { stroke: cssColour("--line"), width: 1, size: 6 },
-    values: (u, splits) => splits.map(v => (v == null ? "" : number(v, 6))), ...more,
-  };
-}
+const dashOf = series => DASHES[["solid", "dashed", "dotted"].indexOf(series.dash)];
 
 function textWidth(text) {
   const ctx = document.createElement("canvas").getContext("2d");
-  ctx.font = "600 12px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+  ctx.font = font(12, "600");
   return ctx.measureText(text).width;
 }
 
@@ -38,18 +29,10 @@ function bandPaths(u, series, first, last) {
   return { stroke, fill };
 }
 
-// Powers of ten, of many every second or third; where the axis spans less than two, also 2 and 5 times them.
-function logSplits(u, axisIndex, min, max) {
-  const steps = max / min > 100 ? [1] : [1, 2, 5], splits = [];
-  const room = Math.max(2, Math.floor(u.bbox.height / devicePixelRatio / 28)), every = Math.ceil(Math.log10(max / min) / room);
-  for (let p = Math.floor(Math.log10(min)); p <= Math.ceil(Math.log10(max)); p++) if (p % every === 0) for (const m of steps) splits.push(m * 10 ** p);
-  return splits.filter(v => v >= min * 0.999 && v <= max * 1.001);
-}
-const logAxis = { size: 64, splits: logSplits, filter: (u, splits) => splits, values: (u, splits) => splits.map(power) };
-
 // The toolbar, the chart made anew for every theme and width, and the legend for the keyboard.
 function chart(figure, place, hint, data, optionsFor, window, d) {
-  let plot = null, shown = null, range = window;
+  let plot = null, shown = null, range = window, mark = null;
+  const abscissa = d.x ? withUnit(d.x.label, d.x.unit) : null;
   const reset = () => { range = null; draw(); };
   place.before(element("div", { className: "tools" }, element("span", { className: "hint", textContent: hint }), button("Show all", reset),
     ...downloads(figure, { PNG: () => chartPng(figure, plot), SVG: () => chartSvg(figure, plot, d), CSV: () => chartCsv(plot) })));
@@ -65,6 +48,13 @@ function chart(figure, place, hint, data, optionsFor, window, d) {
     options.height = Math.round(Math.max(Math.min(430, Math.max(260, width * 0.38)), Math.min(title, 520)));
     if (shown) options.series.forEach((s, i) => { s.show = shown[i]; });
     options.scales.x = { ...options.scales.x, time: false };
+    if (abscissa) {
+      // One cursor for all charts over the same; a picture in space follows it, and says where it stands.
+      const pub = type => type === "mousemove" || type === "mouseleave";
+      options.cursor = { ...options.cursor, y: false, sync: { key: abscissa, setSeries: false, scales: ["x", null], filters: { pub } } };
+      const said = u => u.cursor.event && u.cursor.idx != null && tell(`${abscissa} of a chart`, data[0][u.cursor.idx]);
+      options.hooks = { ...options.hooks, setCursor: [said], draw: [...(options.hooks?.draw ?? []), u => mark !== null && lineAt(u, mark)] };
+    }
     options.hooks = { ...options.hooks, setScale: [(u, key) => { if (key === "x" && u.status === 1) range = zoomed(u); }] };
     plot = new uPlot(options, data, place);
     if (range) plot.setScale("x", { min: range[0], max: range[1] });
@@ -75,21 +65,7 @@ function chart(figure, place, hint, data, optionsFor, window, d) {
     return min > x[0] || max < x[x.length - 1] ? [min, max] : null;
   };
   figures.push(draw);
-}
-
-function legendForKeyboard(plot) {
-  plot.root.querySelectorAll(".u-legend .u-series").forEach((row, i) => {
-    if (i === 0) return;
-    const head = row.querySelector("th");
-    head.tabIndex = 0;
-    head.setAttribute("role", "switch");
-    const state = () => head.setAttribute("aria-checked", String(plot.series[i].show));
-    state();
-    head.addEventListener("click", () => setTimeout(state));
-    head.addEventListener("keydown", e => {
-      if (e.key === "Enter" || e.key === " ") { e.preventDefault(); plot.setSeries(i, { show: !plot.series[i].show }); state(); }
-    });
-  });
+  followers.push({ axis: abscissa, follow: x => { mark = x; plot?.redraw(false); } });
 }
 
 const legendValue = (u, v) => (v == null ? "" : number(v, 5));
@@ -98,19 +74,19 @@ const legendValue = (u, v) => (v == null ? "" : number(v, 5));
 function marks(u, list, base) {
   const { ctx } = u, ratio = devicePixelRatio, { left, top: roof, width } = u.bbox;
   let free = -Infinity;
-  ctx.font = `${12 * ratio}px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif`;
+  ctx.font = font(12 * ratio);
   ctx.textBaseline = "bottom"; ctx.textAlign = "left";
   for (const { order, label } of [...list].sort((a, b) => a.order - b.order)) {
     const x = u.valToPos(order, "x", true);
     if (x < left || x > left + width) continue;
-    ctx.strokeStyle = cssColour("--line"); ctx.lineWidth = ratio;
+    ctx.strokeStyle = colour("--line"); ctx.lineWidth = ratio;
     ctx.setLineDash([3 * ratio, 3 * ratio]);
     ctx.beginPath(); ctx.moveTo(x, roof); ctx.lineTo(x, base); ctx.stroke();
     ctx.setLineDash([]);
     const text = label ? `${number(order)} · ${label}` : number(order), half = ctx.measureText(text).width / 2;
     const at = Math.min(Math.max(x - half, left), left + width - 2 * half);
     if (at < free) continue;
-    ctx.fillStyle = cssColour("--faint"); ctx.fillText(text, at, roof - 4 * ratio);
+    ctx.fillStyle = colour("--faint"); ctx.fillText(text, at, roof - 4 * ratio);
     free = at + 2 * half + 8 * ratio;
   }
 }
@@ -127,9 +103,9 @@ function lineChart(figure, place, d) {
     padding: [d.marks.length ? 24 : null, null, null, null],
     hooks: { draw: d.marks.length ? [markLines] : [] },
     scales: { x: {}, y: d.log ? { distr: 3 } : {} },
-    axes: [axis(d.x.label, d.x.unit, { size: 34 }), axis(d.y.label, d.y.unit, d.log ? logAxis : { size: 64 })],
+    axes: [axis(d.x.label, d.x.unit, { size: 34 }), axis(d.y.label, d.y.unit, d.log ? logAxis : { size: wideAs(64) })],
     series: [{ label: withUnit(d.x.label, d.x.unit), value: legendValue }, ...d.series.map(s => ({
-      label: s.name, stroke: seriesColour(s.colour), width: 1.5, ...(d.log ? {} : { fill: translucent(seriesColour(s.colour)), paths: bandPaths }), dash: DASHES[s.dash], show: s.shown, points: { show: false }, value: legendValue,
+      label: s.name, stroke: seriesColour(s.colour), width: 1.5, ...(d.log ? {} : { fill: translucent(seriesColour(s.colour)), paths: bandPaths }), dash: dashOf(s), show: s.shown, points: { show: false }, value: legendValue,
     }))],
     legend: { markers: { width: 2, dash: (u, i) => ({ solid: "solid", dashed: "dashed", dotted: "dotted" })[d.series[i - 1].dash] } },
     focus: { alpha: 0.5 },
@@ -157,7 +133,7 @@ function spectrumChart(figure, place, d) {
     const spread = Math.min(6 * ratio, Math.max(3 * ratio, perOrder * 0.8 / Math.max(1, shown.length)));
     shown.forEach((i, n) => {
       const offset = (n - (shown.length - 1) / 2) * spread;
-      ctx.strokeStyle = ctx.fillStyle = cssColour(`--c${(i - 1) % 8}`);
+      ctx.strokeStyle = ctx.fillStyle = curveColour(i - 1);
       for (let k = 0; k < data[0].length; k++) {
         if (!(data[i][k] > floor)) continue;
         const x = u.valToPos(data[0][k], "x", true) + offset, y = u.valToPos(data[i][k], "y", true), strong = marked.has(data[0][k]);
@@ -174,7 +150,7 @@ function spectrumChart(figure, place, d) {
     scales: { x: { range: (u, a, b) => (b - a < 1 ? [a - 1, b + 1] : [a - (b - a) * 0.01, b + (b - a) * 0.01]) }, y: { distr: 3, range: () => [floor, top] } },
     axes: [axis("order", "1/rev", { size: 34 }), axis(d.y.label, d.y.unit, logAxis)],
     series: [{ label: "order", value: legendValue }, ...d.series.map((s, i) => ({
-      label: s.name, stroke: cssColour(`--c${i % 8}`), width: 2, paths: () => null, points: { show: false }, value: legendValue,
+      label: s.name, stroke: curveColour(i), width: 2, paths: () => null, points: { show: false }, value: legendValue,
     }))],
     legend: { markers: { width: 2 } },
     cursor: { drag: { x: true, y: false }, points: { show: false } },

@@ -30,17 +30,17 @@ function canvasesToPng(figure, canvases, lines = []) {
   const ratio = devicePixelRatio, head = 30 * ratio, line = 20 * ratio;
   const width = canvases.reduce((sum, c) => sum + c.width, 0), height = Math.max(...canvases.map(c => c.height));
   const sheet = element("canvas", { width, height: head + height + line * lines.length + 8 * ratio }), ctx = sheet.getContext("2d");
-  ctx.fillStyle = cssColour("--paper"); ctx.fillRect(0, 0, sheet.width, sheet.height);
-  ctx.fillStyle = cssColour("--ink"); ctx.textBaseline = "middle";
-  ctx.font = `600 ${14 * ratio}px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif`;
+  ctx.fillStyle = colour("--paper"); ctx.fillRect(0, 0, sheet.width, sheet.height);
+  ctx.fillStyle = colour("--ink"); ctx.textBaseline = "middle";
+  ctx.font = font(14 * ratio, "600");
   ctx.fillText(figureTitle(figure), 8 * ratio, head / 2, width - 16 * ratio);
   let x = 0;
   for (const c of canvases) { ctx.drawImage(c, x, head); x += c.width; }
-  ctx.font = `${12 * ratio}px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif`;
-  lines.forEach(({ text, colour }, i) => {
+  ctx.font = font(12 * ratio);
+  lines.forEach(({ text, stroke }, i) => {
     const y = head + height + line * (i + 0.5);
-    ctx.fillStyle = colour; ctx.fillRect(12 * ratio, y - ratio, 22 * ratio, 2 * ratio);
-    ctx.fillStyle = cssColour("--ink"); ctx.fillText(text, 42 * ratio, y);
+    ctx.fillStyle = stroke; ctx.fillRect(12 * ratio, y - ratio, 22 * ratio, 2 * ratio);
+    ctx.fillStyle = colour("--ink"); ctx.fillText(text, 42 * ratio, y);
   });
   return new Promise(resolve => sheet.toBlob(resolve, "image/png"));
 }
@@ -49,22 +49,14 @@ const shownSeries = plot => plot.series.map((s, i) => ({ s, i })).slice(1).filte
 const strokeOf = (plot, i) => { const s = plot.series[i].stroke; return typeof s === "function" ? s(plot, i) : s; };
 
 function chartPng(figure, plot) {
-  const lines = shownSeries(plot).map(({ s, i }) => ({ text: s.label, colour: strokeOf(plot, i) }));
+  const lines = shownSeries(plot).map(({ s, i }) => ({ text: s.label, stroke: strokeOf(plot, i) }));
   return canvasesToPng(figure, [plot.ctx.canvas], lines);
-}
-
-// Round steps between the ends of an axis, about six.
-function ticks(min, max) {
-  const aim = (max - min) / 6, power10 = 10 ** Math.floor(Math.log10(aim)), step = [1, 2, 5, 10].find(m => m * power10 >= aim * 0.999) * power10;
-  const all = [];
-  for (let k = Math.ceil(min / step - 1e-9); k * step <= max + 1e-9 * step; k++) all.push(Number((k * step).toPrecision(12)));
-  return all;
 }
 
 function chartSvg(figure, plot, d) {
   const ratio = devicePixelRatio, b = plot.bbox, left = b.left / ratio, top = b.top / ratio + 30, w = b.width / ratio, h = b.height / ratio;
   const X = v => left + plot.valToPos(v, "x"), Y = v => top + plot.valToPos(v, "y");
-  const { x, y } = plot.scales, shown = shownSeries(plot), ink = cssColour("--ink"), grid = cssColour("--grid");
+  const { x, y } = plot.scales, shown = shownSeries(plot), ink = colour("--ink"), grid = colour("--grid");
   const width = plot.width, height = plot.height + 30 + 20 * shown.length + 8, out = [];
   const text = (at, up, words, more = "") => out.push(`<text x='${at.toFixed(1)}' y='${up.toFixed(1)}' fill='${ink}' ${SVG_FONT} ${more}>${escapeXml(words)}</text>`);
   const line = (a, c, e, f, colour, more = "") => out.push(`<line x1='${a.toFixed(2)}' y1='${c.toFixed(2)}' x2='${e.toFixed(2)}' y2='${f.toFixed(2)}' stroke='${colour}' ${more}/>`);
@@ -90,16 +82,16 @@ function chartSvg(figure, plot, d) {
       path += `${pen}${X(xs[k]).toFixed(2)} ${Y(ys[k]).toFixed(2)}`;
       pen = "L";
     }
-    out.push(`<path d='${path}' fill='none' stroke='${colour}' stroke-width='1.5' stroke-dasharray='${DASHES[d.series[i - 1].dash].join(" ")}'/>`);
+    out.push(`<path d='${path}' fill='none' stroke='${colour}' stroke-width='1.5' stroke-dasharray='${dashOf(d.series[i - 1]).join(" ")}'/>`);
   }
-  out.push(`</svg><rect x='${left}' y='${top}' width='${w}' height='${h}' fill='none' stroke='${cssColour("--line")}'/>`);
+  out.push(`</svg><rect x='${left}' y='${top}' width='${w}' height='${h}' fill='none' stroke='${colour("--line")}'/>`);
   shown.forEach(({ s, i }, n) => {
     const at = plot.height + 30 + 20 * n + 6;
     line(12, at, 34, at, strokeOf(plot, i), "stroke-width='2'");
     text(42, at + 4, s.label);
   });
   return `<svg xmlns='http://www.w3.org/2000/svg' width='${width}' height='${height}' viewBox='0 0 ${width} ${height}'>` +
-    `<rect width='100%' height='100%' fill='${cssColour("--paper")}'/>${out.join("")}</svg>`;
+    `<rect width='100%' height='100%' fill='${colour("--paper")}'/>${out.join("")}</svg>`;
 }
 
 function chartCsv(plot) {

@@ -46,7 +46,7 @@ function fieldPicture(figure, place, d) {
   // All elements, the colours those of the bar.
   function fieldSvg() {
     const all = bounds(), f = 900 / all.width, w = 900, h = Math.ceil(all.height * f), x0 = all.x - all.width / 2, y1 = all.y + all.height / 2;
-    const fill = (v, q) => `rgb(${mapColour(VIRIDIS, (v - low) / (high - low)).map(c => Math.round(shades ? c * shades[q] : c)).join(",")})`, out = [];
+    const fill = (v, q) => `rgb(${mapColour((v - low) / (high - low)).map(c => Math.round(shades ? c * shades[q] : c)).join(",")})`, out = [];
     for (let q = 0; q < quadCount; q++) {
       const n = [0, 1, 2, 3].map(k => quads[4 * q + k]);
       const v = d.perNode ? n.reduce((s, k) => s + values[k], 0) / 4 : values[q];
@@ -138,7 +138,7 @@ function fieldPicture(figure, place, d) {
   }
   function colours() {
     const table = new Uint32Array(256);
-    for (let i = 0; i < 256; i++) { const [r, g, b] = mapColour(VIRIDIS, i / 255); table[i] = (255 << 24 | b << 16 | g << 8 | r) >>> 0; }
+    for (let i = 0; i < 256; i++) { const [r, g, b] = mapColour(i / 255); table[i] = (255 << 24 | b << 16 | g << 8 | r) >>> 0; }
     return table;
   }
 
@@ -189,7 +189,7 @@ function fieldPicture(figure, place, d) {
       }
       ctx.stroke();
     }
-    ctx.strokeStyle = cssColour("--ink"); ctx.lineWidth = 0.9 * ratio; ctx.beginPath();
+    ctx.strokeStyle = colour("--ink"); ctx.lineWidth = 0.9 * ratio; ctx.beginPath();
     for (const [a, b, q] of border) {
       const from = toPixel(a), to = toPixel(b);
       if (shades && !isSeen(q, [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2])) continue;
@@ -205,32 +205,32 @@ function fieldPicture(figure, place, d) {
     ctx.save();
     ctx.lineJoin = "round";
     if (sign !== "words") {
-      ctx.strokeStyle = cssColour("--paper"); ctx.lineWidth = 4 * ratio; shape();
-      ctx.strokeStyle = cssColour("--ink"); ctx.lineWidth = 1.6 * ratio; shape();
+      ctx.strokeStyle = colour("--paper"); ctx.lineWidth = 4 * ratio; shape();
+      ctx.strokeStyle = colour("--ink"); ctx.lineWidth = 1.6 * ratio; shape();
     }
-    ctx.font = `600 ${12.5 * ratio}px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif`;
+    ctx.font = font(12.5 * ratio, "600");
     ctx.textBaseline = "middle";
     const wide = ctx.measureText(words).width, right = px + 12 * ratio + wide < width;
     const at = sign === "words" ? px - wide / 2 : right ? px + 10 * ratio : px - 10 * ratio - wide, up = py + { ring: -12, square: 14, words: 0 }[sign] * ratio;
-    ctx.strokeStyle = cssColour("--paper"); ctx.lineWidth = 4 * ratio; ctx.strokeText(words, at, up);
-    ctx.fillStyle = cssColour("--ink"); ctx.fillText(words, at, up);
+    ctx.strokeStyle = colour("--paper"); ctx.lineWidth = 4 * ratio; ctx.strokeText(words, at, up);
+    ctx.fillStyle = colour("--ink"); ctx.fillText(words, at, up);
     ctx.restore();
   }
   // A length to measure by: 1, 2 or 5 times a power of ten, about a seventh of the width.
   function scaleMark(ctx) {
     const aim = view.width / 7, power = 10 ** Math.floor(Math.log10(aim)), length = [5, 2, 1].find(m => m * power <= aim) * power;
     const x = 14 * ratio, y = height - 14 * ratio, pixels = length * scale(), text = `${number(length)} mm`;
-    ctx.font = `${12 * ratio}px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif`;
-    ctx.fillStyle = cssColour("--paper"); ctx.globalAlpha = 0.85;
+    ctx.font = font(12 * ratio);
+    ctx.fillStyle = colour("--paper"); ctx.globalAlpha = 0.85;
     ctx.fillRect(x - 6 * ratio, y - 22 * ratio, Math.max(pixels, ctx.measureText(text).width) + 12 * ratio, 30 * ratio);
     ctx.globalAlpha = 1;
-    ctx.strokeStyle = ctx.fillStyle = cssColour("--ink"); ctx.lineWidth = 2 * ratio;
+    ctx.strokeStyle = ctx.fillStyle = colour("--ink"); ctx.lineWidth = 2 * ratio;
     ctx.beginPath(); ctx.moveTo(x, y); ctx.lineTo(x + pixels, y); ctx.stroke();
     ctx.textBaseline = "bottom"; ctx.textAlign = "left"; ctx.fillText(text, x, y - 4 * ratio);
   }
   // What the bar shows, in lines that have room, and the unit.
   function heads(ctx, room) {
-    ctx.font = "12px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+    ctx.font = font(12);
     const lines = [""];
     for (const word of d.quantity.split(" ")) {
       const longer = `${lines[lines.length - 1]} ${word}`.trim();
@@ -242,9 +242,9 @@ function fieldPicture(figure, place, d) {
     const w = 92, h = height / ratio, ctx = bar.getContext("2d"), top = 12 + 16 * heads(ctx, w - 6).length, bottom = h - 12;
     bar.width = w * ratio; bar.height = h * ratio; bar.style.height = `${h}px`;
     ctx.scale(ratio, ratio);
-    for (let y = top; y < bottom; y++) { const [r, g, b] = mapColour(VIRIDIS, (bottom - y) / (bottom - top)); ctx.fillStyle = `rgb(${r}, ${g}, ${b})`; ctx.fillRect(4, y, 18, 1.5); }
-    ctx.strokeStyle = cssColour("--faint"); ctx.strokeRect(4, top, 18, bottom - top);
-    ctx.fillStyle = cssColour("--ink"); ctx.font = "12px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif"; ctx.textBaseline = "middle";
+    for (let y = top; y < bottom; y++) { const [r, g, b] = mapColour((bottom - y) / (bottom - top)); ctx.fillStyle = `rgb(${r}, ${g}, ${b})`; ctx.fillRect(4, y, 18, 1.5); }
+    ctx.strokeStyle = colour("--faint"); ctx.strokeRect(4, top, 18, bottom - top);
+    ctx.fillStyle = colour("--ink"); ctx.font = font(12); ctx.textBaseline = "middle";
     heads(ctx, w - 6).forEach((words, k) => ctx.fillText(words, 4, 10 + 16 * k, w - 6));
     ctx.textAlign = "left";
     const mark = (v, text) => { const y = bottom - (bottom - top) * (v - low) / (high - low); ctx.fillRect(22, y - 0.5, 4, 1); ctx.fillText(text, 30, y, w - 32); };

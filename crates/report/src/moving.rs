@@ -4,15 +4,18 @@
 //! | --- | --- |
 //! | a moment: where the gears stand and what presses on their flanks | this one |
 //! | surface of a gear | `moving/gear_surface.rs` |
+//! | a gear as pages draw it in space | `moving/gear_shape.rs` |
 //! | moments of a pair at rest | `moving/pair_moments.rs` |
 //! | a moment as a file, the series as one | `moving/vtu_text.rs` |
 
+mod gear_shape;
 mod gear_surface;
 mod pair_moments;
 mod vtu_text;
 
+pub use gear_shape::GearShape;
 pub use gear_surface::{FlankFace, GearSurface, tooth_outline};
-pub use pair_moments::{pair_moment, pair_surfaces, pair_turns};
+pub use pair_moments::{pair_moment, pair_surfaces, pair_turns, touching_points_m};
 pub use vtu_text::{Series, series_text};
 
 use gearmesh_geometry::Flank;

@@ -1,8 +1,9 @@
 //! A report as one HTML file that opens without a network.
 //!
 //! Style, script and data are inside the file: the numbers as base64 of 32-bit floats, the charts drawn by uPlot (MIT,
-//! vendored in assets/ with its licence), the field pictures by a small rasteriser on a canvas. A content security
-//! policy in the page forbids every request. All texts are escaped.
+//! vendored in assets/ with its licence), the field pictures by a small rasteriser on a canvas, bodies in space by
+//! three (MIT), which only pages with such a picture carry. A content security policy in the page forbids every
+//! request. All texts are escaped.
 
 mod error;
 mod field_picture;
@@ -10,10 +11,11 @@ mod flank_chart;
 mod line_chart;
 mod map_chart;
 mod markup;
-mod packed;
+pub(crate) mod packed;
 mod path_chart;
 mod polar_chart;
 mod scatter_chart;
+mod space_view;
 mod spectrum_chart;
 mod table;
 mod text;
@@ -27,6 +29,7 @@ pub use map_chart::MapChart;
 pub use path_chart::PathChart;
 pub use polar_chart::PolarChart;
 pub use scatter_chart::{PointSeries, ScatterChart};
+pub use space_view::{SCENE_3D, SpaceView, THREE_CORE, THREE_MODULE, VIEW_3D};
 pub use spectrum_chart::{SpectrumChart, SpectrumSeries};
 pub use table::{Align, KeyFigures, Table};
 pub use text::Text;
@@ -40,6 +43,11 @@ const CHART_SCRIPT: &str = include_str!("../assets/charts.js");
 const DOWNLOAD_SCRIPT: &str = include_str!("../assets/download.js");
 const FIELD_SCRIPT: &str = include_str!("../assets/field.js");
 const PAGE_SCRIPT: &str = include_str!("../assets/page.js");
+const SPACE_SCRIPT: &str = include_str!("../assets/space.js");
+/// What drawings of all pages share, those of the studio among them: a module, colours, numbers, axes, legends.
+pub const DRAWING_SCRIPT: &str = include_str!("../assets/drawing.js");
+/// Its colours as a style.
+pub const DRAWING_STYLE: &str = include_str!("../assets/drawing.css");
 /// uPlot, as published: for other pages than these.
 pub const UPLOT_SCRIPT: &str = include_str!("../assets/uPlot-1.6.32.iife.min.js");
 /// Its style.
@@ -71,6 +79,8 @@ pub enum Block {
     MapChart(MapChart),
     /// Points over two axes.
     ScatterChart(ScatterChart),
+    /// Bodies in space.
+    SpaceView(SpaceView),
 }
 
 macro_rules! block_from {
@@ -93,7 +103,8 @@ block_from!(
     PathChart,
     FlankChart,
     MapChart,
-    ScatterChart
+    ScatterChart,
+    SpaceView
 );
 
 /// A heading and what stands under it.
@@ -174,13 +185,17 @@ impl Page {
     /// [`PageError`]: the block, what was found and what is expected.
     pub fn render(&self) -> Result<String, PageError> {
         let mut page = String::new();
+        let mut blocks = self.sections.iter().flat_map(|section| &section.blocks);
+        let in_space = blocks.any(|block| matches!(block, Block::SpaceView(_)));
+        // Modules that the page itself unpacks.
+        let more = if in_space { " blob:" } else { "" };
         let _ = write!(
             page,
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
-             script-src 'unsafe-inline'; img-src data:\">\n<title>{}</title>\n\
-             <style>{UPLOT_STYLE}\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n",
+             script-src 'unsafe-inline'{more}; img-src data:\">\n<title>{}</title>\n\
+             <style>{UPLOT_STYLE}\n{DRAWING_STYLE}\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n",
             escape(&plain(&self.title)),
             html(&self.title)
         );
@@ -210,10 +225,15 @@ impl Page {
         if let Some(footer) = &self.footer {
             let _ = writeln!(page, "<footer>{}</footer>", html(footer));
         }
+        if in_space {
+            page.push_str(&space_view::modules());
+        }
+        // In one scope nothing is exported.
+        let drawing = DRAWING_SCRIPT.replace("\nexport ", "\n");
         let _ = write!(
             page,
             "<script>\n/* uPlot 1.6.32\n{UPLOT_LICENCE}*/\n{UPLOT_SCRIPT}\n</script>\n\
-             <script>\n\"use strict\";\n{PAGE_SCRIPT}\n{DOWNLOAD_SCRIPT}\n{CHART_SCRIPT}\n{FIELD_SCRIPT}\n</script>\n</body>\n</html>\n"
+             <script>\n\"use strict\";\n{drawing}\n{PAGE_SCRIPT}\n{DOWNLOAD_SCRIPT}\n{CHART_SCRIPT}\n{FIELD_SCRIPT}\n{SPACE_SCRIPT}\n</script>\n</body>\n</html>\n"
         );
         Ok(page)
     }
@@ -265,6 +285,7 @@ fn render_block(page: &mut String, block: &Block) -> Result<(), PageError> {
         Block::SpectrumChart(chart) => {
             render_figure(page, "spectrum", chart.title(), &chart.payload()?)?
         }
+        Block::SpaceView(view) => render_figure(page, "space", view.title(), view.data())?,
         Block::FieldPicture(picture) => {
             render_figure(page, "field", picture.title(), &picture.payload()?)?
         }
@@ -321,6 +342,46 @@ mod tests {
             assert!(!html.contains(forbidden), "{forbidden}");
         }
         assert!(html.contains("default-src 'none'") && html.contains("Leon Sorokin"));
+    }
+
+    /// Only a page with bodies in space carries three, and only there a script may come out of a blob. What it carries is
+    /// what was published.
+    #[test]
+    fn bodies_in_space_bring_their_modules() {
+        let section = |block: Block| Section {
+            heading: "s".into(),
+            blocks: vec![block],
+        };
+        let page = |block: Block| Page::new("t").section(section(block)).render().unwrap();
+        let without = page(chart("c").into());
+        let with = page(SpaceView::new("gears", serde_json::json!({"gears": []})).into());
+        assert!(!without.contains("blob:;") && !without.contains("id=\"modules\""));
+        assert!(with.contains("script-src 'unsafe-inline' blob:; img-src"));
+        for forbidden in ["src=", "@import", "url(", "fetch(", "<link"] {
+            assert!(!with.contains(forbidden), "{forbidden}");
+        }
+        let (_, packed) = with.split_once("id=\"modules\">").unwrap();
+        let (packed, _) = packed.split_once('<').unwrap();
+        use base64::Engine as _;
+        let packed = base64::engine::general_purpose::STANDARD
+            .decode(packed)
+            .unwrap();
+        let unpacked = flate2::read::GzDecoder::new(&packed[..]);
+        let texts: serde_json::Value = serde_json::from_reader(unpacked).unwrap();
+        assert_eq!(texts["three.core.min.js"], THREE_CORE);
+        assert_eq!(texts["three.module.min.js"], THREE_MODULE);
+        // All that they name is there.
+        for (name, text) in texts.as_object().unwrap() {
+            for named in text.as_str().unwrap().split("\"./").skip(1) {
+                let named = named.split('"').next().unwrap();
+                assert!(texts.get(named).is_some(), "{name}: {named}");
+            }
+        }
+        assert!(
+            with.len() - without.len() < 300_000,
+            "{}",
+            with.len() - without.len()
+        );
     }
 
     #[test]

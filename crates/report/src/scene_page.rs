@@ -6,6 +6,7 @@ use crate::page::{
     self, Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle,
     Page, PageError, Section, SeriesColour, SpectrumChart, SpectrumSeries, Table, Text,
 };
+use crate::pair_in_space;
 use crate::pair_orders::{PairOrders, Shaft};
 use crate::peak_view::PeakView;
 use crate::quantity::Quantity;
@@ -70,6 +71,9 @@ pub enum ScenePageError {
     Comparison(#[from] SceneComparisonError),
 }
 
+/// Pairs of a page that are drawn in space.
+const MOST_IN_SPACE: usize = 4;
+
 fn micro(values: &[f64]) -> Vec<f64> {
     values.iter().map(|v| v * 1e6).collect()
 }
@@ -89,7 +93,12 @@ pub fn scene_page(
         [title] => Page::new(*title).subtitle("gearmesh report"),
         _ => Page::new("gearmesh report").subtitle(titles.join(" - ")),
     };
-    for section in chapters.iter().map(pair_sections) {
+    // A browser draws some pictures in space at once, not dozens.
+    let in_space = chapters.len() <= MOST_IN_SPACE;
+    for section in chapters
+        .iter()
+        .map(|chapter| pair_sections(chapter, in_space))
+    {
         page = section?.into_iter().fold(page, Page::section);
     }
     for chapter in systems {
@@ -113,9 +122,13 @@ pub fn scene_page(
 ///
 /// # Errors
 /// [`ScenePageError`] when its comparison cannot be made.
-fn pair_sections(chapter: &SceneChapter) -> Result<Vec<Section>, ScenePageError> {
+fn pair_sections(chapter: &SceneChapter, in_space: bool) -> Result<Vec<Section>, ScenePageError> {
     let r = &chapter.result;
-    let mut all = vec![overview(r), transmission_error(chapter), contact(r)];
+    let mut all = vec![overview(r)];
+    if let Some(view) = in_space.then(|| pair_in_space::view(r)).flatten() {
+        all.push(Section::new(format!("{}: pressure on the flanks", r.title)).push(view));
+    }
+    all.extend([transmission_error(chapter), contact(r)]);
     all.extend(contact_pattern::section(r));
     if !r.strain.is_empty() {
         all.push(root_strain(chapter));

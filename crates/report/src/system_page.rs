@@ -6,6 +6,7 @@
 //! | line loads over the face, tilt of the axes at rest | `across_the_face.rs` |
 //! | which columns, in which charts, with which units | `columns.rs` |
 //! | time histories, spectra, energy | `transient.rs` |
+//! | waterfalls of runs whose speed changes | `run_up.rs` |
 //! | balls and cages of bearings whose balls move | `bearings.rs` |
 //! | pairs of teeth: forces, contact pattern, path | `tooth_pairs.rs` |
 //! | orbits of gears, lines of shafts and cages | `orbits.rs` |
@@ -24,6 +25,7 @@ mod eigen;
 mod equilibria;
 mod losses;
 mod orbits;
+mod run_up;
 mod sets;
 mod stages;
 mod sweep;
@@ -50,6 +52,7 @@ pub(crate) fn sections(
         ResultKind::Transient => {
             sections.push(transient::histories(r)?);
             sections.extend(transient::spectra(r, &passings)?);
+            sections.extend(run_up::section(r, &passings)?);
             sections.extend(tooth_pairs::sections(r, &passings)?);
             sections.extend(orbits::section(r, &passings)?);
             sections.extend(bearings::sections(r)?);

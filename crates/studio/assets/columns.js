@@ -1,9 +1,11 @@
 // Columns of a system's result: as many charts as units, cut to what the screen shows by the server.
 
 import { ask } from "./server.js";
-import { Chart, curveColour, joined, short } from "./curves.js";
+import { Chart, joined } from "./curves.js";
+import { curveColour, short } from "./drawing.js";
 import { element } from "./dom.js";
 import { Orbit } from "./orbit.js";
+import { Planets } from "./planets.js";
 import { Waterfall } from "./waterfall.js";
 import { Motion } from "./motion.js";
 import { byId, fail } from "./said.js";
@@ -24,6 +26,7 @@ export async function showColumns() {
   byId("band-from").value = short(Number((0.25 * highest).toPrecision(2)));
   byId("band-to").value = short(Number((0.75 * highest).toPrecision(2)));
   byId("shown").parentElement.hidden = byId("whole").hidden = isSingle;
+  if (description.sets.length === 0) byId("shown").querySelector("[value=planets]").remove();
   const chosen = new Set(description.columns.slice(0, isSingle ? MOST : 1).map((column) => column.name));
   const charts = new Map();
   let range = null;
@@ -45,7 +48,7 @@ export async function showColumns() {
     ...(shown === "envelope" ? { band_Hz: [Number(byId("band-from").value), Number(byId("band-to").value)] } : {}),
   });
 
-  let [orbit, waterfall] = [null, null];
+  let [orbit, waterfall, planets] = [null, null, null];
   const dropped = (one) => {
     one?.figure.remove();
     return null;
@@ -91,9 +94,15 @@ export async function showColumns() {
     const how = byId("shown").value;
     if (how !== "orbit") orbit = dropped(orbit);
     if (how !== "waterfall") waterfall = dropped(waterfall);
-    if (how === "orbit" || how === "waterfall") {
+    if (how !== "planets") planets = dropped(planets);
+    if (how === "orbit" || how === "waterfall" || how === "planets") {
       for (const chart of charts.values()) chart.figure.remove();
       charts.clear();
+      if (how === "planets") {
+        planets ??= new Planets(byId("plots"));
+        byId("rows").textContent = "";
+        return planets.show(range);
+      }
       if (how === "orbit" && columns.length >= 2) return drawOrbit(columns.slice(0, 2), own);
       if (how === "waterfall" && columns.length > 0) {
         waterfall ??= new Waterfall(byId("plots"), description.columns);

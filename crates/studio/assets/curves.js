@@ -1,11 +1,8 @@
 // Curves over the driver angle and beside them, drawn by uPlot. All charts over the driver angle share one cursor.
 
-const KEY = "angle";
-const DASHES = [[], [6, 3], [2, 2], [8, 3, 2, 3], [4, 4], [1, 3]];
+import { DASHES, axis, colour, curveColour, legendForKeyboard, lineAt, short, wideAs } from "./drawing.js";
 
-export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-export const curveColour = (k) => colour(`--c${k % 6}`);
-export const short = (value) => (value === null || value === undefined || !Number.isFinite(value) ? "" : String(Number(value.toPrecision(5))));
+const KEY = "angle";
 
 /** One chart; drawn anew only where its curves are others, else it gets new numbers. */
 export class Chart {
@@ -48,11 +45,11 @@ export class Chart {
     }
     this.#shape = shape;
     this.#plot?.destroy();
-    this.#plot = new uPlot(this.#options(series, unit), data, this.box);
+    this.#plot = new uPlot(this.#options(series), data, this.box);
+    legendForKeyboard(this.#plot);
   }
 
-  #options(series, unit) {
-    const axis = { stroke: colour("--faint"), grid: { stroke: colour("--grid"), width: 1 }, ticks: { stroke: colour("--grid"), width: 1 }, font: "11px system-ui, sans-serif" };
+  #options(series) {
     const drawn = series.map((one, k) => ({
       label: one.label,
       stroke: one.colour ?? curveColour(k),
@@ -64,13 +61,13 @@ export class Chart {
       ...(this.bars ? { paths: uPlot.paths.bars({ size: [0.8 / series.length, 14] }), fill: one.colour ?? curveColour(k) } : {}),
     }));
     const cursor = { drag: { x: this.zoomed !== null, y: false, setScale: false }, points: { size: 7 } };
-    if (this.linked) cursor.sync = { key: this.linked, setSeries: false };
+    if (this.linked) Object.assign(cursor, { y: false, sync: { key: this.linked, setSeries: false } });
     return {
       width: Math.max(this.box.clientWidth, 200),
       height: this.height,
       // Bars at both ends are whole.
       scales: { x: this.bars ? { time: false, range: (_, low, high) => [low - 0.5 * (this.first ?? 0), high + 0.5 * (this.first ?? 0)] } : { time: false } },
-      axes: [{ ...axis, size: 32 }, { ...axis, size: 56, values: (_, ticks) => ticks.map(short) }],
+      axes: [axis("", "", { size: 32 }), axis("", "", { size: wideAs(50) })],
       series: [{ label: this.x, value: (_, value) => short(value) }, ...drawn],
       cursor,
       hooks: {
@@ -89,19 +86,7 @@ export class Chart {
   }
 
   #mark(plot) {
-    if (this.mark === undefined || !this.linked) return;
-    const at = plot.valToPos(this.mark, "x", true);
-    const { left, top, width, height } = plot.bbox;
-    if (at < left || at > left + width) return;
-    const { ctx } = plot;
-    ctx.save();
-    ctx.strokeStyle = colour("--faint");
-    ctx.setLineDash([3, 3]);
-    ctx.beginPath();
-    ctx.moveTo(at, top);
-    ctx.lineTo(at, top + height);
-    ctx.stroke();
-    ctx.restore();
+    if (this.mark !== undefined && this.linked) lineAt(plot, this.mark);
   }
 }
 

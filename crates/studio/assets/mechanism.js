@@ -2,7 +2,7 @@
 
 import * as THREE from "./three.module.min.js";
 import { View3d } from "./view3d.js";
-import { colour } from "./curves.js";
+import { colour } from "./drawing.js";
 
 function surface({ points_mm, quads }) {
   const geometry = new THREE.BufferGeometry();

@@ -1,7 +1,7 @@
 // Natural modes: a table of frequencies, and the machine as the chosen mode moves it.
 
 import { ask } from "./server.js";
-import { short } from "./curves.js";
+import { short } from "./drawing.js";
 import { element } from "./dom.js";
 import { Mechanism } from "./mechanism.js";
 import { byId, fail } from "./said.js";

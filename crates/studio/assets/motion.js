@@ -1,7 +1,7 @@
 // The gears, shafts and bearings of a multibody result in three dimensions, moment by moment, with the forces on the
 // teeth as arrows.
 
-import { short } from "./curves.js";
+import { short } from "./drawing.js";
 import { Job } from "./job.js";
 import { Mechanism } from "./mechanism.js";
 import { byId, fail, say } from "./said.js";

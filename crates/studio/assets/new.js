@@ -6,6 +6,7 @@ import { Job } from "./job.js";
 import { element } from "./dom.js";
 import { byId, fail, say } from "./said.js";
 import { Bevel, showColumnsTable, showImport } from "./outcome.js";
+import { Pins } from "./variants.js";
 
 /** Milliseconds without a change after which files are looked at. */
 const PAUSE = 60;
@@ -60,13 +61,36 @@ class Texts {
   }
 }
 
+/** The files of an address that was shared; null where it has none of a kind that can be begun. */
+function shared(kinds) {
+  try {
+    const { kind, files } = JSON.parse(decodeURIComponent(location.hash.slice(1)));
+    const isText = (file) => typeof files[file.name] === "string";
+    return kinds.find(({ name }) => name === kind)?.files.every(isText) ? { kind, files } : null;
+  } catch {
+    return null;
+  }
+}
+
 export async function showNew() {
   const { kinds, folder, begun } = await ask("/api/new");
   byId("begin").hidden = false;
   byId("tools").hidden = true;
   byId("file").textContent = "Something new";
   byId("where").textContent = `Files are written into a new folder in ${folder}.`;
-  let [texts, form, shown, looking, bevel] = [null, null, null, null, null];
+  let [texts, form, shown, looking, bevel, found] = [null, null, null, null, null, null];
+  const take = ({ kind, files }) => {
+    const own = kinds.find(({ name }) => name === kind);
+    if (texts?.kind !== own) begin(own, false);
+    const { name } = texts;
+    // Fields as the texts have them.
+    for (const file of texts.files.values()) {
+      texts.name = file.name;
+      texts.type(files[file.name] ?? file.text);
+    }
+    texts.name = name;
+  };
+  const pins = new Pins({ go: take, changed: () => found && bevel?.show(found, pins) });
   const looks = [];
   globalThis.gearmeshLooks = looks;
   const job = new Job((words) => {
@@ -89,12 +113,14 @@ export async function showNew() {
   async function look() {
     try {
       const begun = performance.now();
-      const found = await ask("/api/new", texts.body);
+      const body = texts.body;
+      found = await ask("/api/new", body);
+      found.body = body;
       const { warnings, columns } = found;
       fail(null);
       byId("run").disabled = false;
       say(warnings.length > 0 ? warnings.join("  ") : "Nothing is wrong with these files.");
-      if (texts.kind.name === "bevel-pair") (bevel ??= new Bevel(byId("outcome"))).show(found);
+      if (texts.kind.name === "bevel-pair") (bevel ??= new Bevel(byId("outcome"))).show(found, pins);
       else if (columns) showColumnsTable(byId("outcome"), columns);
       // For the bench: until the browser has painted it.
       requestAnimationFrame(() => setTimeout(() => looks.push(performance.now() - begun)));
@@ -108,6 +134,7 @@ export async function showNew() {
 
   function changed() {
     draw();
+    history.replaceState(null, "", `${location.pathname}${location.search}#${encodeURIComponent(JSON.stringify(texts.body))}`);
     clearTimeout(looking);
     looking = setTimeout(look, PAUSE);
   }
@@ -115,7 +142,8 @@ export async function showNew() {
   /** `look`: at the files as they are; without, something is changed in them next. */
   function begin(kind, look = true) {
     texts = new Texts(kind, changed);
-    [shown, bevel] = [null, null];
+    [shown, bevel, found] = [null, null, null];
+    byId("pin-new").hidden = kind.name !== "bevel-pair";
     byId("outcome").replaceChildren();
     byId("begun").hidden = false;
     byId("run").hidden = kind.name === "bearing";
@@ -178,17 +206,24 @@ export async function showNew() {
   byId("run").addEventListener("click", () =>
     work("/api/new/begin", texts.body, (result) => {
       // The pair is opened by the server; the page is that of the pair then.
-      if (result.opens) location.reload();
-      else {
+      if (result.opens) {
+        history.replaceState(null, "", location.pathname + location.search);
+        location.reload();
+      } else {
         say(`The files are in ${result.folder}.`);
-        (bevel ??= new Bevel(byId("outcome"))).show(result);
+        found = { ...result, body: texts.body };
+        (bevel ??= new Bevel(byId("outcome"))).show(found, pins);
       }
     }));
-  if (begun) {
-    const kind = kinds.find(({ name }) => name === begun.kind);
-    for (const file of kind.files) file.text = begun.files[file.name] ?? file.text;
-    begin(kind, false);
-    // Fields as the text has them.
-    texts.type(texts.file.text);
+  byId("pin-new").addEventListener("click", () => found && pins.pin(found.body, found));
+  byId("share-new").addEventListener("click", async () => {
+    await navigator.clipboard.writeText(location.href).catch(() => prompt("The address", location.href));
+    say("The address of these files is copied. It works as long as this server runs; the part behind # works with any other one.");
+  });
+  addEventListener("hashchange", () => location.reload());
+  for (const kind of kinds.filter(({ name }) => name === begun?.kind)) for (const file of kind.files) file.text = begun.files[file.name] ?? file.text;
+  const first = shared(kinds) ?? begun;
+  if (first) {
+    take(first);
   } else say("Choose what to begin. Every field has a value that runs at once; the text beside the fields is the file itself.");
 }

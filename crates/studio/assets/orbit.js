@@ -1,6 +1,6 @@
 // Two columns against each other, as an orbit: one scale for both where they have one unit.
 
-import { colour, short } from "./curves.js";
+import { colour, frame } from "./drawing.js";
 import { element } from "./dom.js";
 
 /** Height of the picture [px]. */
@@ -28,17 +28,13 @@ export class Orbit {
     if (across.unit === up.unit) per.fill(Math.min(...per));
     const middle = ends.map(([low, high]) => 0.5 * (low + high));
     const at = (x, y) => [0.5 * (box.left + box.right) + (x - middle[0]) * per[0], 0.5 * (box.top + box.bottom) - (y - middle[1]) * per[1]];
-    context.strokeStyle = colour("--line");
-    context.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
+    const end = (k, pixels) => middle[k] + pixels / per[k];
+    const [halfWide, halfHigh] = [0.5 * (box.right - box.left), 0.5 * (box.bottom - box.top)];
+    const side = (k, half, { label, unit }) => ({ low: end(k, -half), high: end(k, half), name: `${label} ${unit}` });
+    frame(context, box, side(0, halfWide, across), side(1, halfHigh, up));
     context.strokeStyle = colour("--c0");
     context.beginPath();
     xs.forEach((x, k) => context[k === 0 ? "moveTo" : "lineTo"](...at(x, ys[k])));
     context.stroke();
-    context.fillStyle = colour("--faint");
-    context.font = "11px system-ui, sans-serif";
-    context.textAlign = "center";
-    for (const x of ends[0]) context.fillText(short(x), Math.min(Math.max(at(x, 0)[0], box.left + 16), box.right - 16), box.bottom + 15);
-    context.textAlign = "right";
-    for (const y of ends[1]) context.fillText(short(y), box.left - 5, at(0, y)[1] + 4);
   }
 }

@@ -1,7 +1,9 @@
 // What bearings, bevel pairs and gearboxes come to: tables and curves of their figures.
 
-import { Chart, short } from "./curves.js";
+import { Chart } from "./curves.js";
+import { DASHES, colour, short } from "./drawing.js";
 import { element } from "./dom.js";
+import { comparedCell } from "./variants.js";
 
 const cell = (tag, text) => element(tag, {}, text);
 
@@ -11,15 +13,20 @@ function table(heads, rows) {
   return element("div", { className: "table", tabIndex: 0 }, element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
 }
 
-/** Columns at rest: a number each, or one for each torque. */
-export function showColumnsTable(place, { torques_Nm, columns }) {
+/** Columns at rest: a number each, or one for each torque; beside them those of kept states at the last torque. */
+export function showColumnsTable(place, { torques_Nm, columns }, pins = null) {
+  const pinned = pins?.pinned ?? [];
   const heads = ["figure", "unit", ...(torques_Nm.length > 0 ? torques_Nm.map((load) => `${short(load)} N·m`) : [""])];
+  const kept = pinned.map((pin) => new Map(pin.answer.columns.columns.map((column) => [column.name, column.values.at(-1)])));
   const rows = columns.map(({ name, label, unit, values }) => {
     const figures = values.map((value) => element("data", { value: String(value) }, short(value)));
     figures.forEach((one) => (one.dataset.column = name));
     return [label, unit, ...figures];
   });
-  place.replaceChildren(table(heads, rows));
+  const made = table(heads, rows);
+  made.querySelector("thead tr").append(...pinned.map((pin) => pins.head(pin)));
+  made.querySelectorAll("tbody tr").forEach((row, k) => row.append(...kept.map((own) => comparedCell(columns[k].values.at(-1), own.get(columns[k].name)))));
+  place.replaceChildren(made);
 }
 
 /** A bevel pair: its transmission error and pressure under each torque, its columns; once it was run, also what `gearmesh tca` finds. */
@@ -32,16 +39,22 @@ export class Bevel {
     this.free = chart("Transmission error without load", "µrad of the gear");
   }
 
-  show({ tca, columns, load, lines }) {
+  /** `pins`: states whose curves under the last torque stay, dashed. */
+  show({ tca, columns, load, lines }, pins) {
     if (this.curves.parentElement !== this.place) this.place.replaceChildren(this.curves, this.figures);
     const path = tca?.path ?? [];
     this.free.show(path.map((one) => one.pinion_deg), path.length > 0 ? [{ label: "this pair of teeth", values: path.map((one) => one.error_urad), dash: [] }] : []);
     const angles = load?.angle_deg ?? [];
     const curve = (values, k) => values.slice(k * angles.length, (k + 1) * angles.length);
-    const series = (values) => (load?.torques_Nm ?? []).map((torque, k) => ({ label: `${short(torque)} N·m`, values: curve(values, k), dash: [[], [6, 3], [2, 2]][k % 3] }));
-    this.error.show(angles, load ? [...series(load.te_um), { label: "no load", values: load.unloaded_um, dash: [1, 3] }] : []);
-    this.pressure.show(angles, series(load?.pressure_largest_MPa));
-    showColumnsTable(this.figures, columns);
+    // Only where it goes through as many positions of a pitch.
+    const alike = pins.pinned.filter(({ answer }) => answer.load?.angle_deg.length === angles.length);
+    const series = (key) => [
+      ...(load?.torques_Nm ?? []).map((torque, k) => ({ label: `${short(torque)} N·m`, values: curve(load[key], k), dash: DASHES[k % DASHES.length] })),
+      ...alike.map(({ name, answer }) => ({ label: name, values: answer.load[key].slice(-angles.length), colour: colour("--pinned"), dash: [3, 4], width: 2 })),
+    ];
+    this.error.show(angles, load ? [...series("te_um"), { label: "no load", values: load.unloaded_um, dash: [1, 3] }] : []);
+    this.pressure.show(angles, load ? series("pressure_largest_MPa") : []);
+    showColumnsTable(this.figures, columns, pins);
     if (lines) this.figures.append(element("details", {}, element("summary", {}, "As gearmesh tca prints it"), element("pre", {}, lines.join("\n"))));
   }
 }

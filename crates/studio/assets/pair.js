@@ -3,9 +3,10 @@
 import { Calculator, ask, askText } from "./server.js";
 import { State, none } from "./state.js";
 import { Form } from "./form.js";
-import { PairCurves, short } from "./curves.js";
-import { FlankMap, endOfScale, showScale } from "./flank.js";
-import { Scene3d } from "./scene3d.js";
+import { PairCurves } from "./curves.js";
+import { short } from "./drawing.js";
+import { FlankMap } from "./flank.js";
+import { Scene3d, endOfScale, showScale } from "./scene3d.js";
 import { Variants } from "./variants.js";
 import { Job } from "./job.js";
 import { Seeker } from "./seek.js";

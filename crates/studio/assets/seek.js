@@ -1,6 +1,6 @@
 // An optimisation: which keys are varied, what is to be small, the front that is found, a click takes a point over.
 
-import { short } from "./curves.js";
+import { number, short, ticks } from "./drawing.js";
 import { element } from "./dom.js";
 import { Job } from "./job.js";
 import { byId, fail, say } from "./said.js";
@@ -113,9 +113,9 @@ export class Seeker {
     });
     svg.append(drawn("path", { d: `M${LEFT} 10V${HIGH - BELOW}H${WIDE - 8}`, class: "axis" }));
     for (const [k, [low, high]] of ends.entries()) {
-      for (const value of [low, high]) {
+      for (const value of ticks(low, high, 4)) {
         const [x, y] = place(k === 0 ? [value, ends[1][0]] : [ends[0][0], value]);
-        svg.append(k === 0 ? drawn("text", { x, y: HIGH - BELOW + 16, "text-anchor": "middle" }, short(value)) : drawn("text", { x: LEFT - 6, y: y + 4, "text-anchor": "end" }, short(value)));
+        svg.append(k === 0 ? drawn("text", { x, y: HIGH - BELOW + 16, "text-anchor": "middle" }, number(value, 6)) : drawn("text", { x: LEFT - 6, y: y + 4, "text-anchor": "end" }, number(value, 6)));
       }
     }
     svg.append(drawn("text", { x: 0.5 * (LEFT + WIDE), y: HIGH - 6, "text-anchor": "middle" }, label(names[0])));

@@ -1,9 +1,8 @@
 // Waterfall of a column: amplitudes over frequency and time in colour, with the orders of a shaft drawn.
 
 import { ask } from "./server.js";
-import { colour, short } from "./curves.js";
+import { font, frame, mapCss, short } from "./drawing.js";
 import { element } from "./dom.js";
-import { pressureColour } from "./flank.js";
 import { fail } from "./said.js";
 
 /** Height of the picture [px], and what lies below the largest amplitude in it [decades]. */
@@ -58,11 +57,11 @@ export class Waterfall {
     const y = (row) => box.bottom - (row + 1) * tall;
     amplitudes.forEach((amplitude, at) => {
       const share = amplitude > 0 ? 1 + Math.log10(amplitude / most) / DECADES : 0;
-      context.fillStyle = `rgb(${pressureColour(share).map(Math.round).join(" ")})`;
+      context.fillStyle = mapCss(share);
       context.fillRect(box.left + (at % lines) * wide, y(Math.floor(at / lines)), wide + 0.6, tall + 0.6);
     });
     const wanted = this.shaft.value ? this.orders.value.split(/[\s,;]+/).map(Number).filter((order) => order > 0) : [];
-    context.font = "11px system-ui, sans-serif";
+    context.font = font(11);
     context.lineWidth = 1.2;
     for (const order of wanted) {
       context.strokeStyle = context.fillStyle = "#ffffff";
@@ -74,15 +73,6 @@ export class Waterfall {
       if (top < box.right - 20) context.fillText(short(order), top + 4, box.top + 12);
     }
     context.setLineDash([]);
-    context.fillStyle = colour("--faint");
-    context.textAlign = "center";
-    for (const share of [0, 0.25, 0.5, 0.75, 1]) {
-      const x = box.left + share * (box.right - box.left);
-      context.fillText(short(share * lines * line_Hz), Math.min(Math.max(x, box.left + 8), box.right - 16), box.bottom + 15);
-    }
-    context.fillText("frequency Hz", 0.5 * (box.left + box.right), box.bottom + 30);
-    context.textAlign = "right";
-    context.fillText(`${short(time_s[0])} s`, box.left - 5, box.bottom);
-    context.fillText(`${short(time_s.at(-1))} s`, box.left - 5, box.top + 10);
+    frame(context, box, { low: 0, high: lines * line_Hz, name: "frequency Hz" }, { low: time_s[0], high: time_s.at(-1), name: "time s" });
   }
 }

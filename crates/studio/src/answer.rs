@@ -1,8 +1,6 @@
 //! A result as the page draws it. Figures are those of `gearmesh run --json`; curves have the units of axes.
 
-use std::f64::consts::TAU;
-
-use gearmesh_report::moving::pair_turns;
+use gearmesh_report::moving::{pair_turns, touching_points_m};
 use gearmesh_report::run_figures::pair_figures;
 use gearmesh_scene::{LoadedScene, SceneResult};
 use gearmesh_signal::OrderSpectrum;
@@ -101,13 +99,14 @@ impl PairAnswer {
         let pair = &loaded.lines.pair;
         let width_mm = MM * loaded.layout.reference.width_m;
         let places = result.places.clone().unwrap_or_default();
-        let turns = (0..result.angles()).flat_map(|angle| pair_turns(loaded, result, (0, angle)));
+        let turns = (0..result.angles()).flat_map(|angle| pair_turns(pair, result, (0, angle)));
         let base_mm = MM * pair.gear_1.base_radius_m;
         let diameters = places.roll_1_rad.iter().zip(&places.width_m);
         let diameter = |(roll, width): (&f64, &f64)| match *width > 0.0 {
             true => 2.0 * base_mm * (1.0 + roll * roll).sqrt(),
             false => 0.0,
         };
+        let points = touching_points_m(pair, result);
         let (orders, amplitudes_um) = spectrum(result, pair.gear_1.teeth)?;
         Ok(Self {
             figures: pair_figures(result),
@@ -134,7 +133,7 @@ impl PairAnswer {
             diameter_mm: diameters.map(diameter).collect(),
             z_mm: scaled(&places.z_m, MM),
             width_mm: scaled(&places.width_m, MM),
-            point_mm: points(loaded, result),
+            point_mm: points.iter().flatten().map(|x| MM * x).collect(),
             turns_rad: turns.collect(),
             centre_distance_mm: MM * pair.centre_distance_m,
             axial_offset_mm: MM * loaded.scene.axial_offset_m,
@@ -174,25 +173,4 @@ fn spectrum(result: &SceneResult, teeth: usize) -> Result<(Vec<f64>, Vec<f64>), 
         amplitudes.extend(own.map(|amplitude| MICRO * amplitude));
     }
     Ok((orders, amplitudes))
-}
-
-/// Where the slices touch in the axes of gear 1.
-fn points(loaded: &LoadedScene, result: &SceneResult) -> Vec<f64> {
-    let pair = &loaded.lines.pair;
-    let tooth = &pair.gear_1;
-    let block = result.slots * result.slices;
-    let mut points = vec![0.0; 2 * result.angles() * block];
-    for (angle, driver_rad) in result.angle_rad.iter().enumerate() {
-        for patch in loaded.patches_at(*driver_rad) {
-            let place = patch.places[0];
-            let [x, y] = tooth.flank_point_m(pair.flank, place.u);
-            let turn = TAU * patch.teeth[0] as f64 / tooth.teeth as f64
-                + place.v * tooth.twist_rad_per_m();
-            let (s, c) = turn.sin_cos();
-            let at = angle * block + patch.line * result.slices + patch.slice;
-            points[2 * at] = MM * (c * x - s * y);
-            points[2 * at + 1] = MM * (s * x + c * y);
-        }
-    }
-    points
 }

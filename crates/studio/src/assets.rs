@@ -2,13 +2,16 @@
 //!
 //! | library | version | licence | source |
 //! | --- | --- | --- | --- |
-//! | three | 0.184.0, the last release with a minified module build | MIT (`assets/three-LICENSE.txt`) | npm package `three`, `build/` |
+//! | three | 0.184.0, the last release with a minified module build | MIT | npm package `three`, `build/`; the copy of `gearmesh_report::page` |
 //! | uPlot | 1.6.32 | MIT | the copy of `gearmesh_report::page` |
 //!
 //! Both stand as published; a test compares their SHA-256. A table, and not a folder: what is not named here is not
 //! served.
 
-use gearmesh_report::page::{UPLOT_SCRIPT, UPLOT_STYLE};
+use gearmesh_report::page::{
+    DRAWING_SCRIPT, DRAWING_STYLE, SCENE_3D, THREE_CORE, THREE_MODULE, UPLOT_SCRIPT, UPLOT_STYLE,
+    VIEW_3D,
+};
 
 /// A file of the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,7 +35,7 @@ macro_rules! own {
     };
 }
 
-const OWN: [Asset; 28] = own!(
+const OWN: [Asset; 25] = own!(
     "index.html" PAGE,
     "studio.css" STYLE,
     "icon.svg" PICTURE,
@@ -48,26 +51,29 @@ const OWN: [Asset; 28] = own!(
     "state.js" SCRIPT,
     "form.js" SCRIPT,
     "curves.js" SCRIPT,
-    "scene3d.js" SCRIPT,
-    "view3d.js" SCRIPT,
     "motion.js" SCRIPT,
     "mechanism.js" SCRIPT,
     "modes.js" SCRIPT,
     "choice.js" SCRIPT,
     "orbit.js" SCRIPT,
+    "planets.js" SCRIPT,
     "waterfall.js" SCRIPT,
     "flank.js" SCRIPT,
     "variants.js" SCRIPT,
     "columns.js" SCRIPT,
-    "three.module.min.js" SCRIPT,
-    "three.core.min.js" SCRIPT,
 );
 
-/// All of them.
+/// All of them, those that reports draw with, too.
 pub fn assets() -> impl Iterator<Item = Asset> {
     let shared = [
         ("uplot.js", SCRIPT, UPLOT_SCRIPT),
         ("uplot.css", STYLE, UPLOT_STYLE),
+        ("three.module.min.js", SCRIPT, THREE_MODULE),
+        ("three.core.min.js", SCRIPT, THREE_CORE),
+        ("drawing.js", SCRIPT, DRAWING_SCRIPT),
+        ("drawing.css", STYLE, DRAWING_STYLE),
+        ("view3d.js", SCRIPT, VIEW_3D),
+        ("scene3d.js", SCRIPT, SCENE_3D),
     ];
     let shared = shared.map(|(name, kind, text)| Asset { name, kind, text });
     OWN.into_iter().chain(shared)

@@ -2,22 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
-use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{write_bytes, write_text};
 use gearmesh_operations::import::{ImportRequest, import};
 use gearmesh_operations::new_files::{self, KINDS, NewKind, Texts};
-use gearmesh_operations::report::{ReportRequest, report};
-use gearmesh_operations::run::{RunHow, run_bevel};
-use gearmesh_operations::tca::{TcaRequest, tca};
-use gearmesh_operations::{Failure, Scratch, Watch};
-use gearmesh_scene::pair::{BevelScene, SceneResult};
-use gearmesh_scene::study::RestFigures;
-use gearmesh_scene::{ModelShelf, named_files, renamed_files};
+use gearmesh_operations::{Scratch, Watch};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::bevel::{self, BevelModels};
 use crate::form::Form;
 use crate::problem::Problem;
 use crate::text_edit;
@@ -87,39 +81,38 @@ pub fn edited(edit: &Edit) -> Result<Value, Problem> {
 ///
 /// # Errors
 /// [`Problem`] for the first of them that is wrong, and once `stop` is set.
-pub fn looked_at(new: &NewFiles, stop: &AtomicBool) -> Result<Value, Problem> {
+pub fn looked_at(
+    new: &NewFiles,
+    models: &BevelModels,
+    stop: &AtomicBool,
+) -> Result<Value, Problem> {
     let kind = new_files::kind(&new.kind)?;
     let scratch = Scratch::new()?;
     write(kind, &new.files, scratch.path())?;
-    // Files are named as the page shows them.
-    let named = |problem: Problem| match problem {
-        Problem::Input(text) => {
-            Problem::Input(text.replace(&format!("{}/", scratch.path().display()), ""))
-        }
-        other => other,
-    };
     let last = kind.files.last().map_or("", |file| file.name);
-    let find = || match kind.name {
-        "bearing" => new_files::bearing_figures(kind, scratch.path())
-            .map(|columns| json!({"columns": columns}))
-            .map_err(Problem::from),
-        "bevel-pair" => live_bevel(&scratch.path().join(last), stop),
-        _ => Ok(json!({})),
+    let found = match kind.name {
+        "bevel-pair" => bevel::live(&scratch.path().join(last), models, stop),
+        _ => others(kind, scratch.path()),
     };
-    // Side by side: both design the flanks of a bevel pair. What is wrong with the files is said first.
-    let (warnings, found) = std::thread::scope(|scope| {
-        let found = scope.spawn(find);
-        let warnings = new_files::look(kind, scratch.path());
-        let found = found.join();
-        (
-            warnings,
-            found.unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
-        )
-    });
-    let warnings = warnings.map_err(|failure| named(failure.into()))?;
-    let mut found = found.map_err(named)?;
-    found["warnings"] = json!(warnings);
-    Ok(found)
+    found.map_err(|problem| named(problem, scratch.path()))
+}
+
+/// A problem with its files named as the page shows them.
+fn named(problem: Problem, folder: &Path) -> Problem {
+    match problem {
+        Problem::Input(text) => Problem::Input(text.replace(&format!("{}/", folder.display()), "")),
+        other => other,
+    }
+}
+
+/// What should be known of files that no bevel pair is made of, and the figures of a bearing.
+fn others(kind: NewKind, folder: &Path) -> Result<Value, Problem> {
+    let warnings = new_files::look(kind, folder)?;
+    let columns = match kind.name {
+        "bearing" => Some(new_files::bearing_figures(kind, folder)?),
+        _ => None,
+    };
+    Ok(json!({"warnings": warnings, "columns": columns}))
 }
 
 /// Writes the files into a new folder and computes them: the gears of a pair are reduced, a bevel pair is analysed.
@@ -128,7 +121,11 @@ pub fn looked_at(new: &NewFiles, stop: &AtomicBool) -> Result<Value, Problem> {
 /// [`Problem`] for what is wrong, and once `watch` stops it.
 pub fn begun(new: &NewFiles, watch: &Watch<'_>) -> Result<(Value, PathBuf), Problem> {
     let kind = new_files::kind(&new.kind)?;
-    looked_at(new, watch.stop)?;
+    let scratch = Scratch::new()?;
+    write(kind, &new.files, scratch.path())?;
+    // A bevel pair is solved below, and says then what is wrong with it; a folder is made for what is right.
+    let looked = new_files::look(kind, scratch.path());
+    looked.map_err(|failure| named(failure.into(), scratch.path()))?;
     let folder = new_folder(kind.name)?;
     write(kind, &new.files, &folder)?;
     let last = folder.join(kind.files.last().map_or("", |file| file.name));
@@ -137,106 +134,10 @@ pub fn begun(new: &NewFiles, watch: &Watch<'_>) -> Result<(Value, PathBuf), Prob
             new_files::reduce_gears(kind, &folder, watch)?;
             json!({"opens": true})
         }
-        "bevel-pair" => {
-            let request = TcaRequest {
-                pair: last.clone(),
-                report: Some(folder.join("bevel_pair.html")),
-            };
-            let found = tca(&request, watch)?;
-            let scene = BevelScene::from_document(InputDocument::read(&last)?)?;
-            let loaded = under_load(&scene, &last, watch)?;
-            json!({
-                "tca": found.figures,
-                "lines": found.lines,
-                "load": loaded.as_ref().map(load_curves),
-                "columns": new_files::figures_as_json(&RestFigures::of_bevel(&scene, loaded.as_ref()).map_err(Failure::from)?),
-            })
-        }
+        "bevel-pair" => bevel::written(&last, watch)?,
         _ => json!({"columns": new_files::bearing_figures(kind, &folder)?}),
     };
     Ok((with_folder(result, &folder), last))
-}
-
-/// A bevel pair as its text is, under its torques: curves and figures, nothing written.
-fn live_bevel(file: &Path, stop: &AtomicBool) -> Result<Value, Problem> {
-    let scene = BevelScene::from_document(InputDocument::read(file)?)?;
-    let found = RestFigures::solved_bevel(&scene, &ModelShelf::default(), stop);
-    if stop.load(Ordering::Relaxed) {
-        return Err(Problem::Stopped);
-    }
-    let (figures, result) = found.map_err(Failure::from)?;
-    Ok(json!({
-        "load": result.as_ref().map(load_curves),
-        "columns": new_files::figures_as_json(&figures),
-    }))
-}
-
-/// Runs a bevel pair under the torques of its `[load]`, if it has one, and writes result and page beside its file.
-fn under_load(
-    scene: &BevelScene,
-    file: &Path,
-    watch: &Watch<'_>,
-) -> Result<Option<SceneResult>, Problem> {
-    if scene.file.load.is_none() {
-        return Ok(None);
-    }
-    let output = file.with_extension("h5");
-    let how = RunHow {
-        output: Some(&output),
-        ..RunHow::default()
-    };
-    let result = run_bevel(scene, &how, watch)?;
-    let request = ReportRequest {
-        results: vec![output],
-        output: file.with_file_name("bevel_pair_loaded.html"),
-        ..ReportRequest::default()
-    };
-    report(&request, watch)?;
-    Ok(Some(result))
-}
-
-/// Curves of a pitch as the page draws them.
-fn load_curves(result: &SceneResult) -> Value {
-    let largest_mpa = result.even_positions().map(|position| {
-        let pressures = position.pressing().map(|at| 1e-6 * at.pressure_pa);
-        pressures.fold(0.0, f64::max)
-    });
-    let pitch = 0..result.points_per_pitch();
-    let of_pitch = |values: &[f64], scale: f64| -> Vec<f64> {
-        let curves = values.chunks_exact(result.angles());
-        let pitches = curves.flat_map(|curve| &curve[pitch.clone()]);
-        pitches.map(|value| scale * value).collect()
-    };
-    json!({
-        "torques_Nm": result.torque_nm,
-        "angle_deg": of_pitch(&result.angle_rad, 1f64.to_degrees()),
-        "te_um": of_pitch(&result.te_m, 1e6),
-        "unloaded_um": of_pitch(&result.unloaded_m, 1e6),
-        "pressure_largest_MPa": largest_mpa.collect::<Vec<_>>(),
-    })
-}
-
-/// A bevel pair from its file, with whole paths: something begun already.
-///
-/// # Errors
-/// [`Problem`] for a file that is no bevel pair.
-pub fn begun_bevel(path: &Path) -> Result<NewFiles, Problem> {
-    let kind = new_files::kind("bevel-pair")?;
-    let document = InputDocument::read(path)?;
-    let folder = std::path::absolute(path.parent().unwrap_or(Path::new("")));
-    let files = named_files(&document.text, &folder.unwrap_or_default());
-    let whole = |(name, file): (String, PathBuf)| (name, file.display().to_string());
-    let names: BTreeMap<String, String> = files.into_iter().map(whole).collect();
-    // Comments are lost with the names; a text that names no file stays as it is.
-    let text = match names.is_empty() {
-        true => document.text,
-        false => renamed_files(&document.text, &names).map_err(Problem::Input)?,
-    };
-    let name = kind.files[0].name.to_owned();
-    Ok(NewFiles {
-        kind: kind.name.to_owned(),
-        files: Texts::from([(name, text)]),
-    })
 }
 
 /// Imports a gearbox from the bytes of a REXS file, whose name says its kind.

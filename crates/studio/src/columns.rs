@@ -30,12 +30,12 @@ const MOST_MOMENTS: usize = 150;
 /// Edges of an envelope's band, as a share of its width; as in `gearmesh signal envelope`.
 const EDGE: f64 = 0.1;
 
-/// A stretch of a result whose gears are drawn.
+/// A stretch of a result.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct MomentsAsked {
-    from: Option<f64>,
-    to: Option<f64>,
+pub struct StretchAsked {
+    pub(crate) from: Option<f64>,
+    pub(crate) to: Option<f64>,
 }
 
 /// A result in time, opened.
@@ -125,6 +125,7 @@ impl ColumnsSession {
             "rows": result.rows.rows(),
             "axis": {"name": axis_name, "label": label, "unit": unit},
             "columns": listed.collect::<Vec<_>>(),
+            "sets": result.head.sets.iter().map(|set| &set.name).collect::<Vec<_>>(),
         });
         let band = result.spectrum_band();
         let mut session = Self {
@@ -178,7 +179,7 @@ impl ColumnsSession {
     ///
     /// # Errors
     /// [`Problem`] for a result without anything that could be drawn, and once `watch` stops it.
-    pub fn moments(&self, asked: &MomentsAsked, watch: &Watch<'_>) -> Result<Value, Problem> {
+    pub fn moments(&self, asked: &StretchAsked, watch: &Watch<'_>) -> Result<Value, Problem> {
         let result = self.locked()?;
         let stretch = [asked.from, asked.to];
         Ok(moving_system(
@@ -282,6 +283,12 @@ impl ColumnsSession {
     /// What the rows run over.
     pub(crate) fn axis(&self) -> &[f64] {
         &self.axis
+    }
+
+    /// Its name and unit, as a chart has them.
+    pub(crate) fn axis_words(&self) -> String {
+        let (label, unit) = words_and_unit(&self.axis_name);
+        format!("{label} {unit}")
     }
 
     /// Demands a column.

@@ -3,6 +3,7 @@
 mod answer;
 mod assets;
 mod beginning;
+mod bevel;
 mod choice;
 mod columns;
 mod form;
@@ -14,11 +15,11 @@ mod latest;
 mod modes;
 mod opened;
 mod pair;
+mod planets;
 mod problem;
 mod routes;
 mod seek;
 mod server;
-mod shape;
 mod text_edit;
 mod waterfall;
 

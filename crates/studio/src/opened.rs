@@ -5,7 +5,8 @@ use std::path::Path;
 use gearmesh_scene::system_run::ResultKind;
 use gearmesh_scene::{ResultFile, SceneFile};
 
-use crate::beginning::{NewFiles, begun_bevel};
+use crate::beginning::NewFiles;
+use crate::bevel;
 use crate::choice::{FolderSession, SceneSession};
 use crate::columns::ColumnsSession;
 use crate::modes::ModesSession;
@@ -57,7 +58,7 @@ impl Opened {
         }
         match SceneFile::read(path)? {
             SceneFile::Pair(_) => Ok(Self::Pair(Box::new(PairSession::read(path)?))),
-            SceneFile::Bevel(_) => Ok(Self::New(Some(Box::new(begun_bevel(path)?)))),
+            SceneFile::Bevel(_) => Ok(Self::New(Some(Box::new(bevel::begun(path)?)))),
             SceneFile::System(scene) => Ok(Self::Scene(Box::new(SceneSession::new(path, *scene)))),
         }
     }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use gearmesh_model::ReducedGear;
 use gearmesh_operations::Watch;
 use gearmesh_operations::changed_pair::ChangedPair;
+use gearmesh_report::moving::GearShape;
 use gearmesh_report::words_and_unit;
 use gearmesh_scene::pair::PairWatch;
 use gearmesh_scene::study::{Case, PairColumns, Setting};
@@ -16,7 +17,6 @@ use serde_json::{Value, json};
 use crate::answer::PairAnswer;
 use crate::form::{Field, Form, Gears, Kind, pitch_errors};
 use crate::problem::Problem;
-use crate::shape::GearShape;
 
 /// Bytes of forces, pressures and places that a page can show; results beyond belong into a file.
 const MOST_BYTES: f64 = 30e6;

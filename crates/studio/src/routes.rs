@@ -17,8 +17,9 @@ use serde_json::{Value, json};
 
 use crate::assets;
 use crate::beginning::{self, Edit, NewFiles};
+use crate::bevel::BevelModels;
 use crate::choice::Chosen;
-use crate::columns::{CurvesAsked, MomentsAsked};
+use crate::columns::{CurvesAsked, StretchAsked};
 use crate::guard::{self, Address};
 use crate::job::Job;
 use crate::latest::Latest;
@@ -44,6 +45,8 @@ pub struct Studio {
     pub latest: Latest,
     /// What takes longer.
     pub job: Job,
+    /// Models of the bevel pair that is begun.
+    bevel_models: BevelModels,
     /// Once true, the server ends.
     pub stop: Arc<AtomicBool>,
 }
@@ -57,6 +60,7 @@ impl Studio {
             opened: RwLock::new(Arc::new(opened)),
             latest: Latest::default(),
             job: Job::default(),
+            bevel_models: BevelModels::default(),
             stop,
         }
     }
@@ -80,6 +84,7 @@ pub fn router(studio: Arc<Studio>, address: Arc<Address>) -> Router {
         .route("/columns", get(columns).post(curves))
         .route("/columns/moments", post(moments))
         .route("/columns/waterfall", post(waterfall))
+        .route("/columns/planets", post(planets))
         .route("/scene", get(scene).post(run))
         .route("/folder", get(folder).post(choose))
         .route("/modes", get(modes).post(mode))
@@ -239,9 +244,11 @@ async fn folder(State(studio): Shared) -> Result<Json<Value>, Problem> {
 
 /// Opens a file of the folder.
 async fn choose(State(studio): Shared, Body(chosen): Body<Chosen>) -> Result<Json<Value>, Problem> {
-    let opened = studio.opened();
-    let path = opened.folder()?.chosen(&chosen)?;
-    studio.open(Opened::named(path)?);
+    let path = studio.opened().folder()?.chosen(&chosen)?.to_owned();
+    // Models and results may be long: off the loop that answers.
+    let opened = tokio::task::spawn_blocking(move || Opened::named(&path)).await;
+    let failed = |error| Problem::Work(format!("the file could not be opened: {error}"));
+    studio.open(opened.map_err(failed)??);
     Ok(Json(json!({})))
 }
 
@@ -277,9 +284,19 @@ async fn waterfall(
     Ok(Json(found.await?))
 }
 
+async fn planets(
+    State(studio): Shared,
+    Body(asked): Body<StretchAsked>,
+) -> Result<Json<Value>, Problem> {
+    let opened = studio.opened();
+    opened.columns()?;
+    let found = (studio.latest).run(move |_| opened.columns()?.planets(&asked));
+    Ok(Json(found.await?))
+}
+
 async fn moments(
     State(studio): Shared,
-    Body(asked): Body<MomentsAsked>,
+    Body(asked): Body<StretchAsked>,
 ) -> Result<Json<Value>, Problem> {
     let opened = studio.opened();
     opened.columns()?;
@@ -307,7 +324,9 @@ async fn edit(Body(edit): Body<Edit>) -> Result<Json<Value>, Problem> {
 
 /// Bearings are computed while one types: off the loop that answers.
 async fn look(State(studio): Shared, Body(files): Body<NewFiles>) -> Result<Json<Value>, Problem> {
-    let found = (studio.latest).run(move |watch| beginning::looked_at(&files, &watch.stop));
+    let worker = Arc::clone(&studio);
+    let found = (studio.latest)
+        .run(move |watch| beginning::looked_at(&files, &worker.bevel_models, &watch.stop));
     Ok(Json(found.await?))
 }
 

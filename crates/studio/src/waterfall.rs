@@ -1,20 +1,11 @@
 //! Waterfall of a column: spectra of short blocks one after the other, each at its time and at the speed of a shaft.
 
-use gearmesh_signal::{FrequencyBlocks, Window, campbell::frequency_map};
+use gearmesh_report::waterfall;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::columns::ColumnsSession;
 use crate::problem::Problem;
-
-/// Blocks that a picture shows.
-const BLOCKS: usize = 80;
-
-/// A stretch has as many blocks beside each other, without what they overlap.
-const PARTS: usize = 16;
-
-/// Rows of a block: fewer resolve nothing, more are finer than the picture.
-const ROWS: [usize; 2] = [64, 4096];
 
 /// Lines that a picture shows: of more the largest of neighbours.
 const LINES: usize = 400;
@@ -47,32 +38,8 @@ impl ColumnsSession {
             Ok(result.read_for_spectrum(name)?[rows.clone()].to_vec())
         };
         let values = read(&asked.column)?;
-        let speed = match &asked.speed {
-            Some(name) => read(name)?,
-            None => vec![0.0; values.len()],
-        };
-        let mut turned = 0.0;
-        let angle: Vec<f64> = (speed.iter())
-            .map(|speed| {
-                turned += speed.abs() / rate;
-                turned
-            })
-            .collect();
-        let block = (values.len() / PARTS).clamp(ROWS[0], ROWS[1]) & !1;
-        if values.len() < 2 * block {
-            let problem = format!(
-                "{} rows are shown; a waterfall needs {}: show a longer part",
-                values.len(),
-                2 * block
-            );
-            return Err(refused(&problem));
-        }
-        let blocks = FrequencyBlocks {
-            block_samples: block,
-            step_samples: ((values.len() - block) / (BLOCKS - 1)).max(1),
-            window: Window::Hann,
-        };
-        let map = frequency_map(&values, &angle, rate, blocks).map_err(|error| refused(&error))?;
+        let speed = asked.speed.as_ref().map(read).transpose()?;
+        let map = waterfall(&values, speed.as_deref(), rate).map_err(|error| refused(&error))?;
         let lines = map.first().map_or(0, |row| row.spectrum.values.len());
         let group = lines.div_ceil(LINES).max(1);
         let largest = |lines: &[f64]| lines.iter().copied().fold(0.0, f64::max);

@@ -31,7 +31,7 @@ fn libraries_are_as_published() {
         let found: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
         assert_eq!(found, published, "{name}");
     }
-    let licence = include_str!("../assets/three-LICENSE.txt");
+    let licence = include_str!("../../report/assets/three-LICENSE.txt");
     assert!(licence.contains("The MIT License"));
 }
 

@@ -37,6 +37,16 @@ fn reported(desk: &Desk, name: &str, scene: &Path) -> (String, String) {
     page(desk, name, &["report", argument(&result), "-o"])
 }
 
+/// A drive that comes to speed in a fifth of a second.
+fn run_up(desk: &Desk) -> PathBuf {
+    let text = std::fs::read_to_string(shipped("dynamics_17_25.toml")).unwrap();
+    let folder = shipped("").canonicalize().unwrap();
+    let whole = format!("gear = \"{}/", folder.display());
+    let text = text.replace("gear = \"", &whole);
+    let text = text.replace("end_s = 2.0", "end_s = 0.2");
+    desk.file("run_up.toml", text.replace("end_s = 1.0", "end_s = 0.2"))
+}
+
 /// A page for each command and each kind of run that makes one.
 fn every_kind(desk: &Desk) -> Vec<(String, String)> {
     let (pair, _) = run_scene(desk, "");
@@ -57,6 +67,7 @@ fn every_kind(desk: &Desk) -> Vec<(String, String)> {
     let steps = "\n[solver]\nstep_s = 5e-6\n[output]\ninterval_s = 1e-5";
     let sweep = changed(&hybrid, run, &format!("{sweep}{steps}"));
     pages.push(reported(desk, "sweep", &desk.file("sweep.toml", sweep)));
+    pages.push(reported(desk, "run-up", &run_up(desk)));
     let spectrum = desk.path("transient.h5");
     let column = "elements/mesh/transmission_error_m";
     let spectrum = ["signal", "spectrum", argument(&spectrum), column, "-o"];
@@ -263,6 +274,18 @@ fn pages_read_as_in_print() {
         demand_drawings(&name, &html);
         // A caption beside its table is not cut where the table scrolls.
         assert!(!html.contains("<caption>"), "{name}");
+        // What draws in space is in the page of a pair alone; at one speed there is no waterfall.
+        assert_eq!(
+            html.contains("data-kind=\"space\""),
+            name == "pair",
+            "{name}"
+        );
+        assert_eq!(html.contains("blob:;"), name == "pair", "{name}");
+        assert_eq!(
+            html.contains("Over time and frequency"),
+            name == "run-up",
+            "{name}"
+        );
         match &name[..] {
             "thrust" => {
                 let figures = html.split("</dl>").next().unwrap();
@@ -285,6 +308,11 @@ fn pages_read_as_in_print() {
                 }
                 assert_eq!(html.matches("<svg viewBox=").count(), 1);
                 demand_face_load_factor(&html, "first stage");
+            }
+            // From rest the speed changes: the mesh frequency and its multiples are drawn over the map.
+            "run-up" => {
+                assert!(html.contains("<h2>Over time and frequency</h2>"));
+                assert!(html.contains("<polyline") && html.contains(">3×</text>"));
             }
             "sweep" => assert!(!html.contains("at −"), "speeds as on the axis"),
             "optimise" => {

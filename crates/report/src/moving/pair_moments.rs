@@ -2,8 +2,9 @@
 
 use super::gear_surface::flank_directions;
 use super::{FlankLoad, GearSurface, Moment, Placement};
-use gearmesh_geometry::GearDefinition;
+use gearmesh_geometry::{GearDefinition, GearPair};
 use gearmesh_scene::{LoadedScene, SceneResult};
+use std::f64::consts::TAU;
 
 /// The surfaces of both gears, with sections between the slices.
 #[must_use]
@@ -31,15 +32,36 @@ pub fn pair_surfaces(loaded: &LoadedScene, gears: [&GearDefinition; 2]) -> [Gear
 /// flanks of both teeth 0 touch at the pitch point.
 #[must_use]
 pub fn pair_turns(
-    loaded: &LoadedScene,
+    pair: &GearPair,
     result: &SceneResult,
     (torque, angle): (usize, usize),
 ) -> [f64; 2] {
-    let pair = &loaded.lines.pair;
     let [base_1, base_2] = [&pair.gear_1, &pair.gear_2].map(|gear| gear.base_radius_m);
     let turn_1 = result.angle_rad[angle];
     let turn_2 = (result.curve(&result.te_m, torque)[angle] + base_1 * turn_1) / base_2;
     pair.tooth_middles_rad((pair.centre_distance_m, [turn_1, turn_2]))
+}
+
+/// Where the slices touch across the axes of gear 1 \[m\], `[angle][line][slice]`; the origin where none does, and
+/// everywhere for a result without places.
+#[must_use]
+pub fn touching_points_m(pair: &GearPair, result: &SceneResult) -> Vec<[f64; 2]> {
+    let tooth = &pair.gear_1;
+    let Some(places) = &result.places else {
+        return vec![[0.0; 2]; result.angles() * result.slots * result.slices];
+    };
+    let point = |(at, roll): (usize, &f64)| {
+        if places.width_m[at] <= 0.0 {
+            return [0.0; 2];
+        }
+        let [number, _] = pair.teeth_of(result.pair[at / result.slices] as i64);
+        let turn =
+            TAU * number as f64 / tooth.teeth as f64 + places.z_m[at] * tooth.twist_rad_per_m();
+        let (s, c) = turn.sin_cos();
+        let [x, y] = tooth.flank_point_m(pair.flank, *roll);
+        [c * x - s * y, s * x + c * y]
+    };
+    places.roll_1_rad.iter().enumerate().map(point).collect()
 }
 
 /// Gear 1 stands at the origin, gear 2 beside it on +x; both turn about z as the transmission error says. Misalignment and axes beside the bores
@@ -52,7 +74,7 @@ pub fn pair_moment(
     (torque, angle): (usize, usize),
 ) -> Moment {
     let pair = &loaded.lines.pair;
-    let [turn_1, turn_2] = pair_turns(loaded, result, (torque, angle));
+    let [turn_1, turn_2] = pair_turns(pair, result, (torque, angle));
     let placements = vec![
         Placement::turned(turn_1, [0.0; 3]),
         Placement::turned(

@@ -42,6 +42,8 @@ pub struct MapChart {
     spacing: f64,
     /// Values up at each place along.
     columns: Vec<Vec<f64>>,
+    /// Over the map.
+    lines: Vec<(String, Vec<[f64; 2]>)>,
 }
 
 impl MapChart {
@@ -54,6 +56,7 @@ impl MapChart {
             along: Vec::new(),
             spacing: 1.0,
             columns: Vec::new(),
+            lines: Vec::new(),
         }
     }
 
@@ -61,6 +64,13 @@ impl MapChart {
     #[must_use]
     pub fn values(mut self, along: Vec<f64>, spacing: f64, columns: Vec<Vec<f64>>) -> Self {
         (self.along, self.spacing, self.columns) = (along, spacing, columns);
+        self
+    }
+
+    /// Draws a line over the map, its name at the end; what of it lies above the map is left out.
+    #[must_use]
+    pub fn line(mut self, name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
+        self.lines.push((name.into(), points));
         self
     }
 
@@ -87,7 +97,9 @@ impl MapChart {
                 });
             }
         }
+        let of_lines = self.lines.iter().flat_map(|(_, points)| points).flatten();
         let values = self.columns.iter().flatten().chain(&self.along);
+        let values = values.chain(of_lines);
         match values.enumerate().find(|(_, value)| !value.is_finite()) {
             None => Ok(lines),
             Some((index, &found)) => Err(PageError::NotFinite {
@@ -166,6 +178,7 @@ impl MapChart {
         }
         let top = self.spacing * lines as f64;
         self.ticks(page, ([from, to], top));
+        self.lines_over(page, ([from, to], top));
         page.push_str("</svg>\n");
         self.scale(page, largest);
         page.push_str("</figure>\n");
@@ -224,6 +237,49 @@ impl MapChart {
             8.0 + 0.5 * high,
             named(&self.axes[1])
         );
+    }
+
+    /// Lines over the map, where they are within it.
+    fn lines_over(&self, page: &mut String, ([from, to], top): ([f64; 2], f64)) {
+        let [wide, high] = SIZE;
+        let mut taken: Vec<[f64; 2]> = Vec::new();
+        for (name, points) in &self.lines {
+            let within = |p: &&[f64; 2]| p[0] >= from && p[0] <= to && p[1] >= 0.0 && p[1] <= top;
+            let place = |[x, y]: [f64; 2]| {
+                [
+                    MARGIN + wide * (x - from) / (to - from).max(f64::MIN_POSITIVE),
+                    8.0 + high - high * y / top,
+                ]
+            };
+            let runs = points.split(|p| !within(&p)).filter(|run| run.len() > 1);
+            for run in runs.clone() {
+                let text = run.iter().fold(String::new(), |mut text, point| {
+                    let [x, y] = place(*point);
+                    let _ = write!(text, "{x:.1},{y:.1} ");
+                    text
+                });
+                let _ = writeln!(
+                    page,
+                    "<polyline points=\"{}\" fill=\"none\" stroke=\"#ffffff\" stroke-width=\"1.3\" stroke-dasharray=\"7 6\"/>",
+                    text.trim_end()
+                );
+            }
+            // A name where it meets no other one.
+            let end = runs.last().and_then(|run| run.last()).map(|p| place(*p));
+            let Some([x, y]) = end.map(|[x, y]| [x - 6.0, (y - 6.0).max(24.0)]) else {
+                continue;
+            };
+            let is_free =
+                |other: &[f64; 2]| (other[1] - y).abs() > 26.0 || (other[0] - x).abs() > 160.0;
+            if taken.iter().all(is_free) {
+                taken.push([x, y]);
+                let _ = writeln!(
+                    page,
+                    "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"end\">{}</text>",
+                    svg(name)
+                );
+            }
+        }
     }
 
     /// The colours of the decades.
@@ -304,6 +360,21 @@ mod tests {
         // From the third of four rows over the whole width.
         let row = format!("<path d=\"M76.0 188.0h640.0v-90.0h-640.0z\" fill=\"{brightest}\"");
         assert!(html.contains(&row), "{html}");
+    }
+
+    #[test]
+    fn a_line_leaves_the_map_and_comes_back() {
+        let along: Vec<f64> = (0..5).map(f64::from).collect();
+        let columns = vec![vec![1.0; 10]; 5];
+        let line = [2.0, 5.0, 12.0, 5.0, 4.0].into_iter().enumerate();
+        let line = line.map(|(x, y)| [x as f64, y]).collect();
+        let mut html = String::new();
+        let chart = map().values(along, 1.0, columns).line("1×", line);
+        chart.render(&mut html).unwrap();
+        // Both ends of the part that is above are left out, and the name stands once.
+        assert_eq!(html.matches("<polyline").count(), 2, "{html}");
+        assert!(html.contains("points=\"76.0,296.0 236.0,188.0\""), "{html}");
+        assert_eq!(html.matches(">1×<").count(), 1);
     }
 
     #[test]

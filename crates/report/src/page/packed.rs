@@ -1,5 +1,7 @@
 //! Arrays of numbers as base64 of little-endian bytes: four characters for three bytes, far shorter than decimal text.
 
+use serde_json::{Value, json};
+
 const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /// Base64 (RFC 4648, with padding).
@@ -21,7 +23,7 @@ pub(super) fn base64(bytes: &[u8]) -> String {
 }
 
 /// 32-bit floats: seven digits are more than a picture shows.
-pub(super) fn floats(values: impl IntoIterator<Item = f64>) -> String {
+pub(crate) fn floats(values: impl IntoIterator<Item = f64>) -> String {
     base64(
         &values
             .into_iter()
@@ -38,6 +40,30 @@ pub(super) fn shorts(values: impl IntoIterator<Item = u16>) -> String {
             .flat_map(u16::to_le_bytes)
             .collect::<Vec<u8>>(),
     )
+}
+
+/// Values from 0 on as 16-bit multiples of a step: `{step, values}`. Zero stays zero.
+pub(crate) fn scaled(values: impl Iterator<Item = f64>) -> Value {
+    let values: Vec<f64> = values.collect();
+    let most = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let step = most / f64::from(u16::MAX);
+    let packed = shorts(values.iter().map(|value| (value / step).round() as u16));
+    json!({"step": step, "values": packed})
+}
+
+/// Values of both signs as 16-bit multiples of a step: `{step, values}`.
+pub(crate) fn scaled_signed(values: impl Iterator<Item = f64>) -> Value {
+    let values: Vec<f64> = values.collect();
+    let most = values
+        .iter()
+        .fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
+    let step = most / f64::from(i16::MAX);
+    let packed = shorts(
+        values
+            .iter()
+            .map(|value| (value / step).round() as i16 as u16),
+    );
+    json!({"step": step, "values": packed})
 }
 
 /// 32-bit unsigned integers.
@@ -68,6 +94,17 @@ mod tests {
         ] {
             assert_eq!(base64(plain.as_bytes()), coded);
         }
+    }
+
+    #[test]
+    fn scaled_values_keep_zero_and_their_largest() {
+        let packed = scaled([0.0, 655.35].into_iter());
+        assert_eq!(packed["values"], shorts([0, u16::MAX]));
+        assert!((packed["step"].as_f64().unwrap_or(0.0) - 0.01).abs() < 1e-12);
+        let signed = scaled_signed([-2.0, 1.0].into_iter());
+        assert_eq!(signed["values"], shorts([(-i16::MAX) as u16, 16384]));
+        // Nothing at all has a step, too.
+        assert_eq!(scaled([0.0].into_iter())["values"], shorts([0]));
     }
 
     #[test]

@@ -93,20 +93,30 @@ impl SceneResult {
     /// # Errors
     /// As of [`Self::overlap_width_m`].
     pub fn stage(&self) -> Result<Option<StageSummary>, InputError> {
+        let Some(pair) = self.gear_pair()? else {
+            return Ok(None);
+        };
+        Ok(Some(StageSummary::new(
+            &pair,
+            self.definitions()?,
+            self.overlap_width_m()?,
+        )))
+    }
+
+    /// The pair on its flanks, its axes parallel; none of bevel pairs.
+    ///
+    /// # Errors
+    /// As of [`Self::overlap_width_m`].
+    pub fn gear_pair(&self) -> Result<Option<GearPair>, InputError> {
         if self.bevel.is_some() {
             return Ok(None);
         }
-        let (gears, scene) = (self.definitions()?, self.scene()?);
-        let width_m = overlap_width_m(gears, &scene);
-        let [first, second] = gears.map(|gear| gear.profile.clone());
-        let pair = GearPair::new(
-            first,
-            second,
-            scene.centre_distance_m,
-            Misalignment::default(),
-        );
+        let scene = self.scene()?;
+        let [first, second] = self.definitions()?.map(|gear| gear.profile.clone());
+        let parallel = Misalignment::default();
+        let pair = GearPair::new(first, second, scene.centre_distance_m, parallel);
         let pair = pair.map_err(|e| scene.document.error("pair", e))?;
-        Ok(Some(StageSummary::new(&pair, gears, width_m)))
+        Ok(Some(pair.on_flanks(scene.flank)))
     }
 
     fn definitions(&self) -> Result<[&GearDefinition; 2], InputError> {
@@ -118,7 +128,10 @@ impl SceneResult {
     }
 
     /// The scene inside the result.
-    fn scene(&self) -> Result<Scene, InputError> {
+    ///
+    /// # Errors
+    /// [`InputError`] for a scene that this version does not understand.
+    pub fn scene(&self) -> Result<Scene, InputError> {
         let document = InputDocument::new("scene in result", &self.scene_toml);
         Scene::from_document(document, Path::new("."))
     }

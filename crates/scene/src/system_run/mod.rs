@@ -71,7 +71,7 @@ pub(crate) use recorder::{body_column, element_column};
 pub use result::{EigenResult, FOLDED_SHARE, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
 pub use result_kind::ResultKind;
 pub use run_record::RunRecord;
-pub use set_figures::{MeshShares, SetFigures};
+pub use set_figures::{MeshShares, PlanetShares, SetFigures};
 pub use set_modes::{SetMode, SetModeKind};
 pub use speed_plan::{SpeedPlan, Window};
 pub use stages::{StageLine, StageLoad, StageRow, StageTable};

@@ -6,6 +6,8 @@
 //! e   = φ_c − (z_s φ_s + z_r φ_r)/(z_s + z_r)      transmission error of the carrier, after Willis
 //! ```
 //!
+//! [`SystemResult::planet_shares`] has the shares row by row, over the turn of the carrier.
+//!
 //! The moments on sun and ring about their axes are those of the meshes alone: friction included, inertia left out.
 
 use gearmesh_model::FileError;
@@ -18,6 +20,10 @@ use super::stages::Span;
 use crate::system::planetary::PlanetarySet;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Moments of the meshes on sun and ring.
+const SUN_CHANNEL: &str = "moment_1_Nm";
+const RING_CHANNEL: &str = "moment_2_Nm";
 
 /// The meshes of one central member.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,7 +87,37 @@ impl SetFigures {
     }
 }
 
+/// Shares of the planets of a set, row by row: `[planet][row]`; 1 where all carry the same, NaN where none carries.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanetShares {
+    /// The set.
+    pub set: PlanetarySet,
+    /// How far the carrier has turned \[rad\]; none where it is not recorded.
+    pub carrier_rad: Option<Vec<f64>>,
+    /// Of the sun meshes; none where they are not recorded.
+    pub sun: Option<Vec<Vec<f64>>>,
+    /// Of the ring meshes.
+    pub ring: Option<Vec<Vec<f64>>>,
+}
+
 impl SystemResult {
+    /// How the planets of all sets share the load in rows of a result.
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn planet_shares(&self, rows: &[usize]) -> Result<Vec<PlanetShares>, FileError> {
+        let columns = Columns { result: self, rows };
+        let of_set = |set: &PlanetarySet| {
+            Ok(PlanetShares {
+                set: set.clone(),
+                carrier_rad: columns.read(&body_column(&set.members.carrier, "turn_rad"))?,
+                sun: columns.share_curves(&set.sun_meshes, SUN_CHANNEL)?,
+                ring: columns.share_curves(&set.ring_meshes, RING_CHANNEL)?,
+            })
+        };
+        self.head.sets.iter().map(of_set).collect()
+    }
+
     /// Figures of all planetary sets, of runs in time with rows and of equilibria.
     ///
     /// # Errors
@@ -101,8 +137,8 @@ impl SystemResult {
         };
         let of_set = |set: &PlanetarySet| {
             Ok(SetFigures {
-                sun: columns.shares(&set.sun_meshes, "moment_1_Nm")?,
-                ring: columns.shares(&set.ring_meshes, "moment_2_Nm")?,
+                sun: columns.shares(&set.sun_meshes, SUN_CHANNEL)?,
+                ring: columns.shares(&set.ring_meshes, RING_CHANNEL)?,
                 sun_orbit_m: columns.orbit_m(set)?,
                 pin_force_n: columns.pin_forces_n(set)?,
                 transmission_error_rad: columns.transmission_error_rad(set)?,
@@ -138,32 +174,51 @@ impl Columns<'_> {
         names.map(|name| self.read(&name)).collect()
     }
 
-    fn shares(&self, meshes: &[String], channel: &str) -> Result<Option<MeshShares>, FileError> {
-        let of = |channel: &str| {
-            let names = meshes.iter().map(|mesh| element_column(mesh, channel));
-            self.read_all(names)
-        };
-        let Some(moments) = of(channel)? else {
+    /// A channel of the meshes of all planets.
+    fn of_meshes(
+        &self,
+        meshes: &[String],
+        channel: &str,
+    ) -> Result<Option<Vec<Vec<f64>>>, FileError> {
+        let names = meshes.iter().map(|mesh| element_column(mesh, channel));
+        self.read_all(names)
+    }
+
+    /// The share of each planet in each row; NaN where none carries.
+    fn share_curves(
+        &self,
+        meshes: &[String],
+        channel: &str,
+    ) -> Result<Option<Vec<Vec<f64>>>, FileError> {
+        let Some(mut moments) = self.of_meshes(meshes, channel)? else {
             return Ok(None);
         };
         let count = moments.len() as f64;
-        let sums: Vec<f64> = (0..self.rows.len())
-            .map(|row| moments.iter().map(|m| m[row]).sum())
-            .collect();
-        if moments.is_empty() || sums.contains(&0.0) {
+        for row in 0..self.rows.len() {
+            let sum: f64 = moments.iter().map(|m| m[row]).sum();
+            let share = |moment: f64| {
+                if sum == 0.0 {
+                    f64::NAN
+                } else {
+                    count * moment / sum
+                }
+            };
+            moments.iter_mut().for_each(|m| m[row] = share(m[row]));
+        }
+        Ok((!moments.is_empty()).then_some(moments))
+    }
+
+    fn shares(&self, meshes: &[String], channel: &str) -> Result<Option<MeshShares>, FileError> {
+        let Some(shares) = self.share_curves(meshes, channel)? else {
+            return Ok(None);
+        };
+        if shares.iter().flatten().any(|share| share.is_nan()) {
             return Ok(None);
         }
-        let shares = |moment: &Vec<f64>| -> Vec<f64> {
-            moment
-                .iter()
-                .zip(&sums)
-                .map(|(m, sum)| count * m / sum)
-                .collect()
-        };
-        let figures: Vec<Figures> = moments.iter().map(|m| Figures::of(&shares(m))).collect();
+        let figures: Vec<Figures> = shares.iter().map(|own| Figures::of(own)).collect();
         let mut normal_force_n = vec![0.0; meshes.len()];
         for flank in ["normal_force_right_N", "normal_force_left_N"] {
-            let forces = of(flank)?.unwrap_or_default();
+            let forces = self.of_meshes(meshes, flank)?.unwrap_or_default();
             let sums = normal_force_n.iter_mut().zip(&forces);
             sums.for_each(|(sum, force)| *sum += Figures::of(force).mean);
         }

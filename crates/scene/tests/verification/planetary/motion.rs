@@ -174,6 +174,23 @@ fn ten_planets_share_a_newton_metre() {
         for share in shares.mean {
             assert!((share - 1.0).abs() < within, "{run_keys}: {share}");
         }
+        // Row by row the shares of ten planets are ten, and the carrier turns 80 of 200 times as far as the sun.
+        let rows: Vec<usize> = (0..result.rows.rows()).collect();
+        let found = result.planet_shares(&rows).unwrap().remove(0);
+        for shares in [found.sun.unwrap(), found.ring.unwrap()] {
+            for row in 0..rows.len() {
+                let sum: f64 = shares.iter().map(|own| own[row]).sum();
+                assert!((sum - 10.0).abs() < 1e-9, "{run_keys}, row {row}: {sum}");
+            }
+        }
+        if let (Some(turn), true) = (found.carrier_rad, rows.len() > 1) {
+            let [first, last] = [turn[0], turn[rows.len() - 1]];
+            let expected = 0.4 * TAU * 0.004;
+            assert!(
+                ((last - first).abs() / expected - 1.0).abs() < 1e-3,
+                "{first} {last}"
+            );
+        }
     }
 }
 

@@ -2,6 +2,10 @@
 
 import * as THREE from "./three.module.min.js";
 
+// While the page scrolls, the wheel belongs to the page.
+let lastScroll = -1e9;
+addEventListener("scroll", () => (lastScroll = performance.now()), { passive: true });
+
 export class View3d {
   #wanted = false;
 
@@ -27,11 +31,12 @@ export class View3d {
     this.#wanted = true;
     requestAnimationFrame(() => {
       this.#wanted = false;
-      this.#render();
+      this.render();
     });
   }
 
-  #render() {
+  /** Draws at once: a print does not wait for a picture of the screen. */
+  render() {
     const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
     if (width === 0 || !this.view.size) return;
     this.renderer.setSize(width, height, false);
@@ -75,6 +80,7 @@ export class View3d {
     });
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("wheel", (event) => {
+      if (performance.now() - lastScroll < 300) return;
       event.preventDefault();
       zoom(Math.exp(-0.0012 * event.deltaY));
     }, { passive: false });

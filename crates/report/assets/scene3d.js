@@ -3,13 +3,37 @@
 
 import * as THREE from "./three.module.min.js";
 import { View3d } from "./view3d.js";
-import { colour } from "./curves.js";
-import { pressureColour } from "./flank.js";
+import { colour, mapColour, mapCss, short } from "./drawing.js";
 
 /** Sections of helical teeth along the axis. */
 const SECTIONS = 10;
 /** Places with pressure that are drawn; more would be finer than the picture. */
 const MOST_PLACES = 6000;
+
+/** The pressure at the end of the scale: nineteen twentieths of the loaded places are below. Tip edges press far more than the flank and would leave it one colour. */
+export function endOfScale(answer) {
+  const loaded = answer.pressure_MPa.filter((value) => value > 0).sort((a, b) => a - b);
+  return loaded.length > 0 ? loaded[Math.floor(0.95 * (loaded.length - 1))] : 1;
+}
+
+/** The bar beside the gears. */
+export function showScale(place, most) {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [160, 10];
+  const context = canvas.getContext("2d");
+  for (let x = 0; x < 160; x++) {
+    context.fillStyle = mapCss(x / 159);
+    context.fillRect(x, 0, 1, 10);
+  }
+  const ends = document.createElement("div");
+  ends.className = "ends";
+  for (const text of ["0", `${short(Math.round(most))} MPa and more`]) {
+    const end = document.createElement("span");
+    end.textContent = text;
+    ends.append(end);
+  }
+  place.replaceChildren(canvas, ends);
+}
 
 function outline(gear) {
   const points = [];
@@ -152,7 +176,7 @@ export class Scene3d extends View3d {
       matrix.makeScale(thick, thick, answer.width_mm[at]);
       matrix.setPosition(answer.point_mm[2 * at], answer.point_mm[2 * at + 1], answer.z_mm[at]);
       boxes.setMatrixAt(count, matrix);
-      const [r, g, b] = pressureColour(pressure / this.most);
+      const [r, g, b] = mapColour(pressure / this.most);
       boxes.setColorAt(count, tint.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace));
       count += 1;
     }

@@ -1,8 +1,9 @@
-//! A gear as the page draws it: the exact outline of a tooth, and the parts of the blank as rings of stated heights.
+//! A gear as a page draws it: the exact outline of a tooth, and the parts of the blank as rings of stated heights.
 
 use gearmesh_geometry::{Blank, GearDefinition, Openings};
-use gearmesh_report::moving::tooth_outline;
 use serde::Serialize;
+
+use super::tooth_outline;
 
 const MM: f64 = 1e3;
 
