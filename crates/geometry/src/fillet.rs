@@ -10,6 +10,7 @@ pub mod full_round;
 pub mod pinion_cutter;
 pub mod rack;
 
+use crate::bisection::halved;
 use full_round::FullRound;
 use pinion_cutter::CutterTrochoid;
 use rack::Trochoid;
@@ -48,18 +49,12 @@ impl Fillet {
 
     /// Parameter between 0 and `end` at which the tangent angle equals `tangent_rad`, if it is reached.
     pub fn parameter_at_tangent(&self, tangent_rad: f64, end: f64) -> Option<f64> {
-        let (mut low, mut high) = (0.0, end);
+        let (low, high) = (0.0, end);
         if self.tangent_angle_rad(low) < tangent_rad || self.tangent_angle_rad(high) > tangent_rad {
             return None;
         }
-        for _ in 0..100 {
-            let mid = 0.5 * (low + high);
-            if self.tangent_angle_rad(mid) > tangent_rad {
-                low = mid;
-            } else {
-                high = mid;
-            }
-        }
+        let is_steeper = |at: f64| self.tangent_angle_rad(at) > tangent_rad;
+        let [low, high] = halved([low, high], 100, is_steeper);
         Some(0.5 * (low + high))
     }
 

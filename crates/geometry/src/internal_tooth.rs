@@ -4,13 +4,15 @@
 //! shift −x. Lengths in files have no sign; ISO 21771 gives z and all diameters of a ring a negative one. Equations:
 //! docs/theory/internal_teeth.md.
 
+use crate::bisection::halved;
 use crate::definition::{InternalRoot, PinionCutter, ToothDefinition};
 use crate::fillet::Fillet;
 use crate::fillet::full_round::FullRound;
 use crate::fillet::pinion_cutter::CutterTrochoid;
 use crate::involute;
 use crate::tip_sweep::{RollingPinion, deepest};
-use crate::tooth::{GeometryError, ToothGeometry, transverse_pressure_angle_rad};
+use crate::tooth::{ToothGeometry, transverse_pressure_angle_rad};
+use crate::tooth_error::GeometryError;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A ring keeps at least so many more teeth than its cutter.
@@ -58,19 +60,11 @@ impl CutterTooth {
 
     /// Largest rounding that fits \[m\]: zero or less where the tooth is pointed.
     fn largest_rounding_m(&self) -> f64 {
-        let (mut low, mut high) = (0.0, self.tip_radius_m - self.base_radius_m);
-        if self.rounding(low)[1] < 0.0 {
+        if self.rounding(0.0)[1] < 0.0 {
             return -1.0;
         }
-        for _ in 0..100 {
-            let middle = 0.5 * (low + high);
-            if self.rounding(middle)[1] >= 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        low
+        let fits = |radius_m: f64| self.rounding(radius_m)[1] >= 0.0;
+        halved([0.0, self.tip_radius_m - self.base_radius_m], 100, fits)[0]
     }
 }
 
@@ -151,7 +145,7 @@ pub(crate) fn internal_tooth(
             tip_radius_mm: tip * 1e3,
         });
     }
-    let tooth = ToothGeometry {
+    let mut tooth = ToothGeometry {
         teeth: d.teeth,
         internal: true,
         reference_radius_m: reference,
@@ -160,7 +154,7 @@ pub(crate) fn internal_tooth(
         root_radius_m: made.root_radius_m,
         base_half_angle_rad: base_half_angle,
         form_roll_rad: made.form_roll_rad,
-        flank_end_roll_rad: flank_end,
+        flank_end_roll_rad: tip_roll,
         tip_roll_rad: tip_roll,
         tip_chamfer_m: d.tip_chamfer_m,
         undercut: false,
@@ -168,26 +162,8 @@ pub(crate) fn internal_tooth(
         fillet_end: made.fillet_end,
         helix_angle_rad: d.helix_angle_rad,
     };
-    let tip_half_angle = tooth.half_angle_rad(tip_roll);
-    if tip_half_angle <= 0.0 {
-        return Err(GeometryError::PointedTooth {
-            tip_radius_mm: tip * 1e3,
-            thickness_mm: 2.0 * tip_half_angle * tip * 1e3,
-        });
-    }
-    if d.tip_chamfer_m > 0.0 {
-        let too_large = |lost, allowed_m: f64| GeometryError::ChamferTooLarge {
-            chamfer_mm: d.tip_chamfer_m * 1e3,
-            lost,
-            allowed_mm: allowed_m * 1e3,
-        };
-        if tip + d.tip_chamfer_m >= form_radius {
-            return Err(too_large("usable flank", form_radius - tip));
-        }
-        if tooth.tip_half_angle_rad() <= 0.0 {
-            return Err(too_large("tip land", tip_half_angle * tip));
-        }
-    }
+    tooth.refuse_pointed()?;
+    tooth.chamfer_tip()?;
     if let InternalRoot::Cutter(cutter) = root {
         check_trimming(d, cutter, &tooth)?;
     }
@@ -325,22 +301,14 @@ impl RingSpace {
                 - rho / self.base_radius_m
                 - involute::polar_angle_rad(roll_of(rho))
         };
-        let (mut low, mut high) = (0.0, root_radius_m - self.base_radius_m);
-        if !(high > 0.0 && excess(low) > 0.0 && excess(high) < 0.0) {
+        let high = root_radius_m - self.base_radius_m;
+        if !(high > 0.0 && excess(0.0) > 0.0 && excess(high) < 0.0) {
             return Err(GeometryError::NoFullRound {
                 root_radius_mm: root_radius_m * 1e3,
                 width_mm: 2e3 * root_radius_m * excess(0.0),
             });
         }
-        for _ in 0..200 {
-            let middle = 0.5 * (low + high);
-            if excess(middle) > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let rho = low;
+        let [rho, _] = halved([0.0, high], 200, |rho| excess(rho) > 0.0);
         let form_roll = roll_of(rho) + rho / self.base_radius_m;
         let space_angle = -PI / self.teeth as f64;
         // The flank's inward normal has the polar angle π/2 − (ξ + ψ_b).

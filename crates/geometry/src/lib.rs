@@ -22,6 +22,7 @@
 //! from +z, the *right* flank of a tooth faces clockwise. Formulas are derived in docs/theory/geometry.md.
 
 pub mod base_circles;
+mod bisection;
 pub mod blank;
 pub mod body_outline;
 pub mod definition;
@@ -34,11 +35,13 @@ mod internal_tooth;
 pub mod involute;
 pub mod microgeometry;
 pub mod pair;
+pub mod pair_error;
 pub mod point_contact;
 pub mod profile_curve;
 mod tip_in_fillet;
 mod tip_sweep;
 pub mod tooth;
+pub mod tooth_error;
 
 pub use base_circles::BaseCircles;
 pub use blank::{
@@ -53,6 +56,8 @@ pub use definition::{
 pub use gearmesh_elements::Element;
 pub use input::InputError;
 pub use microgeometry::{GearMicrogeometry, Microgeometry};
-pub use pair::{GearPair, Misalignment, PairError};
+pub use pair::{GearPair, Misalignment};
+pub use pair_error::PairError;
 pub use profile_curve::ProfileCurve;
-pub use tooth::{GeometryError, ToothGeometry};
+pub use tooth::ToothGeometry;
+pub use tooth_error::GeometryError;

@@ -5,6 +5,7 @@
 //! large: its path in the mate's frame, an epitrochoid or, with a ring, a hypotrochoid, goes deeper than the point where
 //! it leaves the flank.
 
+use crate::bisection::halved;
 use crate::involute;
 use crate::tooth::ToothGeometry;
 use std::f64::consts::PI;
@@ -71,20 +72,14 @@ fn depth_in_fillet_m(tooth: &ToothGeometry, radius_m: f64, polar_rad: f64) -> f6
         x.hypot(y)
     };
     // From the root circle to the involute the radius goes one way.
-    let (mut low, mut high) = (0.0, tooth.fillet_end);
+    let (low, high) = (0.0, tooth.fillet_end);
     if !(tooth.is_towards_tip(radius_m, radius_at(low))
         && tooth.is_towards_tip(radius_at(high), radius_m))
     {
         return 0.0;
     }
-    for _ in 0..50 {
-        let middle = 0.5 * (low + high);
-        if tooth.is_towards_tip(radius_m, radius_at(middle)) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let lies_below = |at: f64| tooth.is_towards_tip(radius_m, radius_at(at));
+    let [low, _] = halved([low, high], 50, lies_below);
     let [x, y] = tooth.fillet.point_m(low);
     let inside = (polar_rad - y.atan2(x)) * radius_m;
     // Across the circle the fillet's tangent [± cos τ, sin τ] has this share along the radius.

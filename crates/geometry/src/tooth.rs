@@ -1,168 +1,13 @@
 //! One tooth: root arc, trochoidal fillet, involute flank, chamfer and tip, as functions of simple parameters.
 
+use crate::bisection::halved;
 use crate::definition::{Flank, Gearing, ToothDefinition};
 use crate::fillet::Fillet;
 use crate::fillet::rack::Trochoid;
 use crate::internal_tooth::internal_tooth;
 use crate::involute;
+use crate::tooth_error::GeometryError;
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// Why no gear can be cut from a definition.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum GeometryError {
-    /// The two flanks meet below the tip circle.
-    #[error(
-        "the tooth is pointed: at the tip radius {tip_radius_mm:.4} mm the flanks have crossed (thickness {thickness_mm:.4} mm); lower the addendum or the profile shift, or give a smaller tip diameter"
-    )]
-    PointedTooth {
-        /// Tip radius.
-        tip_radius_mm: f64,
-        /// Circular tooth thickness there.
-        thickness_mm: f64,
-    },
-    /// The rounding does not fit on the tip of the rack.
-    #[error(
-        "a rack tip radius of {rack_tip_radius} modules does not fit: the rack tooth's tip is too narrow by {excess_mm:.4} mm; at most {allowed:.4} modules fit"
-    )]
-    RackTipTooNarrow {
-        /// Rounding asked for, in modules.
-        rack_tip_radius: f64,
-        /// Missing half width.
-        excess_mm: f64,
-        /// Largest rounding that fits, in modules.
-        allowed: f64,
-    },
-    /// The fillet cuts so much away that no usable involute is left.
-    #[error(
-        "undercut destroys the tooth: the involute would start at radius {form_radius_mm:.4} mm, not below the tip at {tip_radius_mm:.4} mm; raise the profile shift above {needed_profile_shift:.4} or the number of teeth"
-    )]
-    Undercut {
-        /// Radius at which the involute would start.
-        form_radius_mm: f64,
-        /// Radius at which it would end.
-        tip_radius_mm: f64,
-        /// Profile shift without undercut.
-        needed_profile_shift: f64,
-    },
-    /// Tip at or below the root, or root at or below the axis.
-    #[error(
-        "the radii are impossible: root {root_radius_mm:.4} mm, tip {tip_radius_mm:.4} mm; the root must be above 0 and the tip above the root"
-    )]
-    ImpossibleRadii {
-        /// Root radius.
-        root_radius_mm: f64,
-        /// Tip radius.
-        tip_radius_mm: f64,
-    },
-    /// A ring's tip circle inside its base circle, where there is no involute.
-    #[error(
-        "the tip of the ring, at radius {tip_radius_mm:.4} mm, must lie outside its base circle, at {base_radius_mm:.4} mm: no involute goes further; lower the addendum or the profile shift, or give a larger tip diameter"
-    )]
-    TipInsideBase {
-        /// Tip radius.
-        tip_radius_mm: f64,
-        /// Base radius.
-        base_radius_mm: f64,
-    },
-    /// A ring whose root or form circle is not outside its tip circle.
-    #[error(
-        "the radii of the ring are impossible: tip {tip_radius_mm:.4} mm, end of the involute {form_radius_mm:.4} mm, root {root_radius_mm:.4} mm; they must grow in this order"
-    )]
-    ImpossibleRing {
-        /// Root radius.
-        root_radius_mm: f64,
-        /// Radius at which fillet and involute meet.
-        form_radius_mm: f64,
-        /// Tip radius.
-        tip_radius_mm: f64,
-    },
-    /// No full root radius between the flanks of a ring.
-    #[error(
-        "no full root radius fits the root circle at {root_radius_mm:.4} mm, where the space is {width_mm:.4} mm wide; lower the dedendum or the profile shift"
-    )]
-    NoFullRound {
-        /// Root radius.
-        root_radius_mm: f64,
-        /// Width of the space between the involutes there; negative where they have crossed.
-        width_mm: f64,
-    },
-    /// The cutter has nearly as many teeth as its ring.
-    #[error(
-        "a cutter of {cutter_teeth} teeth is too large for the ring; at most {allowed} teeth are possible"
-    )]
-    CutterTooLarge {
-        /// Its number of teeth.
-        cutter_teeth: usize,
-        /// Largest number.
-        allowed: usize,
-    },
-    /// The rounding does not fit on the tip of the cutter.
-    #[error(
-        "a tip radius of {tip_radius} modules does not fit on the cutter's tooth; at most {allowed:.4} modules fit"
-    )]
-    CutterTipTooNarrow {
-        /// Rounding asked for, in modules.
-        tip_radius: f64,
-        /// Largest rounding that fits, in modules.
-        allowed: f64,
-    },
-    /// No centre distance of cutter and ring.
-    #[error(
-        "a cutter of {cutter_teeth} teeth cannot cut the ring: the profile shifts of both together must stay below {least_shift_sum:.4}; lower one of them or take a cutter with fewer teeth"
-    )]
-    NoCutting {
-        /// Number of teeth of the cutter.
-        cutter_teeth: usize,
-        /// Sum of the profile shifts at which the pressure angle of cutting vanishes.
-        least_shift_sum: f64,
-    },
-    /// The rounding of the cutter reaches down to its pitch circle.
-    #[error(
-        "the rounding of the cutter's tip has its centre at radius {centre_radius_mm:.4} mm, allowed is more than the pitch radius of cutting, {pitch_radius_mm:.4} mm; raise the cutter's addendum or lower its tip radius"
-    )]
-    CutterTooShort {
-        /// Radius of the rounding's centre.
-        centre_radius_mm: f64,
-        /// Pitch radius of the cutter in cutting.
-        pitch_radius_mm: f64,
-    },
-    /// The cutter's involute ends at its base circle, before the ring's tip.
-    #[error(
-        "a cutter of {cutter_teeth} teeth makes no involute at the ring's tip: its own ends at its base circle, which reaches the ring's diameter {reached_diameter_mm:.4} mm, and the ring's flank goes to {flank_end_diameter_mm:.4} mm; give a larger tip diameter or a cutter with more teeth"
-    )]
-    CutterMissesTip {
-        /// Number of teeth of the cutter.
-        cutter_teeth: usize,
-        /// Smallest diameter of the ring that it makes.
-        reached_diameter_mm: f64,
-        /// Where the ring's flank ends.
-        flank_end_diameter_mm: f64,
-    },
-    /// The cutter's corners cut into the ring's tips.
-    #[error(
-        "a cutter of {cutter_teeth} teeth cuts {depth_um:.2} um into the tips of the ring on its way out of the space; give a cutter with fewer teeth or a tip diameter of {clear_tip_diameter_mm:.4} mm or more"
-    )]
-    CutterTrimsTip {
-        /// Number of teeth of the cutter.
-        cutter_teeth: usize,
-        /// Depth along the normal of the ring's flank.
-        depth_um: f64,
-        /// Tip diameter from which on the ring is clear.
-        clear_tip_diameter_mm: f64,
-    },
-    /// The chamfer takes away the flank or the tip land.
-    #[error(
-        "a tip chamfer of {chamfer_mm:.4} mm leaves no {lost}; at most {allowed_mm:.4} mm is possible"
-    )]
-    ChamferTooLarge {
-        /// Chamfer asked for.
-        chamfer_mm: f64,
-        /// What it destroys.
-        lost: &'static str,
-        /// Largest possible chamfer.
-        allowed_mm: f64,
-    },
-}
 
 /// The transverse profile of a tooth centred on +x: of helical teeth the section at z = 0. Radii in metres, angles in
 /// radians.
@@ -201,6 +46,35 @@ pub struct ToothGeometry {
     pub helix_angle_rad: f64,
 }
 
+/// The trochoid of the rounded tip of a rack that cuts so deep below the reference circle.
+fn rack_trochoid(
+    d: &ToothDefinition,
+    reference_radius_m: f64,
+    depth_m: f64,
+) -> Result<Trochoid, GeometryError> {
+    let helix_cos = d.helix_angle_rad.cos();
+    let (sin_n, cos_n) = d.pressure_angle_rad.sin_cos();
+    let tan_n = d.pressure_angle_rad.tan();
+    let m = d.module_m;
+    let rho = d.rack_tip_radius * m;
+    let offset = 0.25 * PI * m - d.dedendum * m * tan_n - rho * (1.0 - sin_n) / cos_n;
+    if offset < -1e-12 * m {
+        return Err(GeometryError::RackTipTooNarrow {
+            rack_tip_radius: d.rack_tip_radius,
+            excess_mm: -offset * 1e3,
+            allowed: (0.25 * PI - d.dedendum * tan_n) * cos_n / (1.0 - sin_n),
+        });
+    }
+    Ok(Trochoid {
+        reference_radius_m,
+        centre_depth_m: Trochoid::regular_depth_m(depth_m - rho, m),
+        centre_offset_m: offset.max(0.0) / helix_cos + 0.5 * d.thickness_allowance_m,
+        tip_radius_m: rho,
+        helix_cos,
+        space_angle_rad: -PI / d.teeth as f64,
+    })
+}
+
 impl ToothGeometry {
     /// Derives the profile.
     ///
@@ -217,13 +91,11 @@ impl ToothGeometry {
         // Heights and the rack's own lengths are those of the normal section; lengths along the pitch line stretch by
         // 1/cos β in the transverse section, and with them the tangent of the pressure angle.
         let helix_cos = d.helix_angle_rad.cos();
-        let (sin_n, cos_n) = d.pressure_angle_rad.sin_cos();
         let tan_n = d.pressure_angle_rad.tan();
         let alpha = transverse_pressure_angle_rad(d);
-        let (sin, cos) = alpha.sin_cos();
         let m = d.module_m;
         let reference = 0.5 * m * d.teeth as f64 / helix_cos;
-        let base = reference * cos;
+        let base = reference * alpha.cos();
         let tip = d
             .tip_diameter_m
             .map_or(reference + m * (d.addendum + d.profile_shift), |v| 0.5 * v);
@@ -236,23 +108,7 @@ impl ToothGeometry {
             });
         }
 
-        let rho = d.rack_tip_radius * m;
-        let offset = 0.25 * PI * m - d.dedendum * m * tan_n - rho * (1.0 - sin_n) / cos_n;
-        if offset < -1e-12 * m {
-            return Err(GeometryError::RackTipTooNarrow {
-                rack_tip_radius: d.rack_tip_radius,
-                excess_mm: -offset * 1e3,
-                allowed: (0.25 * PI - d.dedendum * tan_n) * cos_n / (1.0 - sin_n),
-            });
-        }
-        let trochoid = Trochoid {
-            reference_radius_m: reference,
-            centre_depth_m: Trochoid::regular_depth_m(depth - rho, m),
-            centre_offset_m: offset.max(0.0) / helix_cos + 0.5 * d.thickness_allowance_m,
-            tip_radius_m: rho,
-            helix_cos,
-            space_angle_rad: -PI / d.teeth as f64,
-        };
+        let trochoid = rack_trochoid(d, reference, depth)?;
         let thickness =
             m * (FRAC_PI_2 + 2.0 * d.profile_shift * tan_n) / helix_cos - d.thickness_allowance_m;
         let base_half_angle = 0.5 * thickness / reference + involute::involute_function(alpha);
@@ -274,57 +130,82 @@ impl ToothGeometry {
             fillet_end: 0.0,
             helix_angle_rad: d.helix_angle_rad,
         };
-        let tip_half_angle = tooth.half_angle_rad(tip_roll);
-        if tip_half_angle <= 0.0 || tip <= base {
-            return Err(GeometryError::PointedTooth {
-                tip_radius_mm: tip * 1e3,
-                thickness_mm: 2.0 * tip_half_angle * tip * 1e3,
-            });
-        }
+        tooth.refuse_pointed()?;
+        tooth.end_fillet(d, &trochoid)?;
+        tooth.chamfer_tip()?;
+        Ok(tooth)
+    }
 
-        // The rack's straight flank ends where the rounding begins; its contact point is the involute's start.
+    /// Ends the fillet where the involute starts: the rack's straight flank ends where the rounding begins, whose contact
+    /// point that is, or the trochoid crosses the involute.
+    fn end_fillet(
+        &mut self,
+        d: &ToothDefinition,
+        trochoid: &Trochoid,
+    ) -> Result<(), GeometryError> {
+        let (sin_n, tan_n) = (d.pressure_angle_rad.sin(), d.pressure_angle_rad.tan());
+        let sin = transverse_pressure_angle_rad(d).sin();
+        let (tip, base) = (self.tip_radius_m, self.base_radius_m);
         let undercut_error = |form_roll: f64| GeometryError::Undercut {
             form_radius_mm: involute::radius_m(form_roll, base) * 1e3,
             tip_radius_mm: tip * 1e3,
             needed_profile_shift: d.dedendum
                 - d.rack_tip_radius * (1.0 - sin_n)
-                - 0.5 * d.teeth as f64 / helix_cos * sin * sin,
+                - 0.5 * d.teeth as f64 / d.helix_angle_rad.cos() * sin * sin,
         };
-        let form_roll = (reference * sin - (trochoid.centre_depth_m + rho * sin_n) / sin) / base;
+        let depth = trochoid.centre_depth_m + trochoid.tip_radius_m * sin_n;
+        let form_roll = (self.reference_radius_m * sin - depth / sin) / base;
         if form_roll >= 0.0 {
-            tooth.form_roll_rad = form_roll;
-            tooth.fillet_end = trochoid.centre_depth_m / tan_n;
+            self.form_roll_rad = form_roll;
+            self.fillet_end = trochoid.centre_depth_m / tan_n;
         } else {
-            tooth.undercut = true;
-            tooth.fillet_end = tooth
-                .undercut_crossing(&trochoid)
-                .ok_or_else(|| undercut_error(tip_roll))?;
-            let p = trochoid.point_m(tooth.fillet_end);
-            tooth.form_roll_rad = involute::roll_angle_rad(p[0].hypot(p[1]), base);
+            self.undercut = true;
+            self.fillet_end = self
+                .undercut_crossing(trochoid)
+                .ok_or_else(|| undercut_error(self.tip_roll_rad))?;
+            let p = trochoid.point_m(self.fillet_end);
+            self.form_roll_rad = involute::roll_angle_rad(p[0].hypot(p[1]), base);
         }
-        if tooth.form_roll_rad >= tip_roll {
-            return Err(undercut_error(tooth.form_roll_rad));
+        match self.form_roll_rad >= self.tip_roll_rad {
+            true => Err(undercut_error(self.form_roll_rad)),
+            false => Ok(()),
         }
+    }
 
-        if d.tip_chamfer_m > 0.0 {
-            let form_radius = involute::radius_m(tooth.form_roll_rad, base);
-            if tip - d.tip_chamfer_m <= form_radius {
-                return Err(GeometryError::ChamferTooLarge {
-                    chamfer_mm: d.tip_chamfer_m * 1e3,
-                    lost: "usable flank",
-                    allowed_mm: (tip - form_radius) * 1e3,
-                });
-            }
-            tooth.flank_end_roll_rad = involute::roll_angle_rad(tip - d.tip_chamfer_m, base);
-            if tooth.tip_half_angle_rad() <= 0.0 {
-                return Err(GeometryError::ChamferTooLarge {
-                    chamfer_mm: d.tip_chamfer_m * 1e3,
-                    lost: "tip land",
-                    allowed_mm: tip_half_angle * tip * 1e3,
-                });
-            }
+    /// Refuses a tooth whose flanks meet below the tip circle.
+    pub(crate) fn refuse_pointed(&self) -> Result<(), GeometryError> {
+        let half_angle = self.half_angle_rad(self.tip_roll_rad);
+        if half_angle <= 0.0 || self.tip_radius_m <= self.base_radius_m {
+            return Err(GeometryError::PointedTooth {
+                tip_radius_mm: self.tip_radius_m * 1e3,
+                thickness_mm: 2.0 * half_angle * self.tip_radius_m * 1e3,
+            });
         }
-        Ok(tooth)
+        Ok(())
+    }
+
+    /// Ends the flank at the chamfer of the tip, which leaves some of the flank and of the land.
+    pub(crate) fn chamfer_tip(&mut self) -> Result<(), GeometryError> {
+        if self.tip_chamfer_m <= 0.0 {
+            return Ok(());
+        }
+        let too_large = |lost, allowed_m: f64| GeometryError::ChamferTooLarge {
+            chamfer_mm: self.tip_chamfer_m * 1e3,
+            lost,
+            allowed_mm: allowed_m * 1e3,
+        };
+        let form_radius = involute::radius_m(self.form_roll_rad, self.base_radius_m);
+        let end = self.tip_radius_m - self.tip_direction() * self.tip_chamfer_m;
+        if !self.is_towards_tip(end, form_radius) {
+            let flank = self.tip_direction() * (self.tip_radius_m - form_radius);
+            return Err(too_large("usable flank", flank));
+        }
+        let tip_half_angle = self.half_angle_rad(self.tip_roll_rad);
+        self.flank_end_roll_rad = involute::roll_angle_rad(end, self.base_radius_m);
+        if self.tip_half_angle_rad() <= 0.0 {
+            return Err(too_large("tip land", tip_half_angle * self.tip_radius_m));
+        }
+        Ok(())
     }
 
     /// Which way the tip lies from the root: +1 away from the axis, −1 towards it, inside a ring. ISO 21771 gives the
@@ -456,15 +337,7 @@ impl ToothGeometry {
                 low = t;
                 continue;
             }
-            let mut high = t;
-            for _ in 0..100 {
-                let mid = 0.5 * (low + high);
-                if is_inside(mid) {
-                    low = mid
-                } else {
-                    high = mid
-                }
-            }
+            let [low, high] = halved([low, t], 100, is_inside);
             return Some(0.5 * (low + high));
         }
         None

@@ -51,48 +51,8 @@ pub(super) fn check_contour(
             "found one point, at least two are needed: at the hub and at the rim",
         ));
     }
-    let mut least = room.bore_mm;
-    for (k, point) in points.iter().enumerate() {
-        let most = if k + 1 == points.len() {
-            room.ring_mm
-        } else {
-            points[k + 1].diameter_mm
-        };
-        let [back, front] = point.z_mm;
-        // Two points at one diameter are a step of the web.
-        let step = k > 0 && point.diameter_mm == least;
-        let last = k + 1 == points.len();
-        keys.require(
-            &format!("web.{k}.diameter_mm"),
-            point.diameter_mm,
-            (point.diameter_mm >= least + 2.0 * room.least_mm || step)
-                && (point.diameter_mm < most || !last && point.diameter_mm == most),
-            &format!(
-                "at least {:.4} and less than {most:.3}: from the hub outwards in steps of two thousandths of a module, the rim at least half a module thick",
-                least + 2.0 * room.least_mm
-            ),
-        )?;
-        let z_key = format!("web.{k}.z_mm");
-        keys.require(
-            &z_key,
-            front - back,
-            front >= back + room.least_mm,
-            &format!(
-                "[back, front] with back < front, at least {:.4} apart, a thousandth of a module",
-                room.least_mm
-            ),
-        )?;
-        if step {
-            let before = points[k - 1].z_mm;
-            let common = before[1].min(front) - before[0].max(back);
-            keys.require(
-                &z_key,
-                common,
-                common >= room.least_mm && (back != before[0] || front != before[1]),
-                "a step that moves a face and leaves the web in one piece: a thousandth of a module in common with the point before it",
-            )?;
-        }
-        least = point.diameter_mm;
+    for k in 0..points.len() {
+        check_point(keys, k, points, room)?;
     }
     let half = 0.5 * room.width_mm;
     let last = format!("web.{}.z_mm", points.len() - 1);
@@ -137,6 +97,52 @@ pub(super) fn check_contour(
         offset_m: 0.5 * (rim.z_mm[0] + rim.z_mm[1]) * MM,
     };
     Ok((contour, web))
+}
+
+/// A point against those before and behind it.
+fn check_point(
+    keys: &TableKeys,
+    k: usize,
+    points: &[WebPointTable],
+    room: &ContourRoom,
+) -> Result<(), InputError> {
+    let (diameter, [back, front]) = (points[k].diameter_mm, points[k].z_mm);
+    let before = k.checked_sub(1).map(|before| &points[before]);
+    let least = before.map_or(room.bore_mm, |point| point.diameter_mm);
+    let behind = points.get(k + 1);
+    let most = behind.map_or(room.ring_mm, |point| point.diameter_mm);
+    // Two points at one diameter are a step of the web.
+    let step = before.filter(|point| point.diameter_mm == diameter);
+    keys.require(
+        &format!("web.{k}.diameter_mm"),
+        diameter,
+        (diameter >= least + 2.0 * room.least_mm || step.is_some())
+            && (diameter < most || behind.is_some() && diameter == most),
+        &format!(
+            "at least {:.4} and less than {most:.3}: from the hub outwards in steps of two thousandths of a module, the rim at least half a module thick",
+            least + 2.0 * room.least_mm
+        ),
+    )?;
+    let z_key = format!("web.{k}.z_mm");
+    keys.require(
+        &z_key,
+        front - back,
+        front >= back + room.least_mm,
+        &format!(
+            "[back, front] with back < front, at least {:.4} apart, a thousandth of a module",
+            room.least_mm
+        ),
+    )?;
+    if let Some(before) = step.map(|point| point.z_mm) {
+        let common = before[1].min(front) - before[0].max(back);
+        keys.require(
+            &z_key,
+            common,
+            common >= room.least_mm && (back != before[0] || front != before[1]),
+            "a step that moves a face and leaves the web in one piece: a thousandth of a module in common with the point before it",
+        )?;
+    }
+    Ok(())
 }
 
 /// Whether two faces are one, or so far apart as walls are thick.

@@ -139,12 +139,36 @@ impl MicrogeometryTable {
                 path,
                 side,
             };
-            of.tip_relief()?;
-            of.root_relief()?;
+            of.relief(&of.table.tip_relief())?;
+            of.relief(&of.table.root_relief())?;
             of.profile_crowning()?;
             of.end_relief()?;
         }
         Ok(())
+    }
+
+    fn tip_relief(&self) -> StatedRelief {
+        StatedRelief {
+            amount: ("tip_relief_um", self.tip_relief_um),
+            start: (
+                "tip_relief_start_diameter_mm",
+                self.tip_relief_start_diameter_mm,
+            ),
+            shape: ("tip_relief_shape", self.tip_relief_shape),
+            to_root: false,
+        }
+    }
+
+    fn root_relief(&self) -> StatedRelief {
+        StatedRelief {
+            amount: ("root_relief_um", self.root_relief_um),
+            start: (
+                "root_relief_start_diameter_mm",
+                self.root_relief_start_diameter_mm,
+            ),
+            shape: ("root_relief_shape", self.root_relief_shape),
+            to_root: true,
+        }
     }
 
     /// The keys of one side, those of both sides where it is silent.
@@ -175,6 +199,14 @@ impl MicrogeometryTable {
             left: None,
         }
     }
+}
+
+/// A relief of the profile by its keys, each with its name.
+struct StatedRelief {
+    amount: (&'static str, Option<f64>),
+    start: (&'static str, Option<f64>),
+    shape: (&'static str, Option<ReliefWord>),
+    to_root: bool,
 }
 
 /// The keys that act on one side of a gear's teeth.
@@ -239,26 +271,10 @@ impl SideTable<'_> {
         }
     }
 
-    /// Amount \[m\] of the tip relief and the diameter \[mm\] where it begins.
-    fn tip_relief(&self) -> Result<Option<(f64, f64)>, InputError> {
-        let table = self.table;
-        let start = table.tip_relief_start_diameter_mm;
-        self.together(
-            ("tip_relief_um", table.tip_relief_um),
-            ("tip_relief_start_diameter_mm", start),
-            &[("tip_relief_shape", table.tip_relief_shape.is_some())],
-        )
-    }
-
-    /// Amount \[m\] of the root relief and the diameter \[mm\] where it begins.
-    fn root_relief(&self) -> Result<Option<(f64, f64)>, InputError> {
-        let table = self.table;
-        let start = table.root_relief_start_diameter_mm;
-        self.together(
-            ("root_relief_um", table.root_relief_um),
-            ("root_relief_start_diameter_mm", start),
-            &[("root_relief_shape", table.root_relief_shape.is_some())],
-        )
+    /// Amount \[m\] of a relief of the profile and the diameter \[mm\] where it begins.
+    fn relief(&self, stated: &StatedRelief) -> Result<Option<(f64, f64)>, InputError> {
+        let (key, shape) = stated.shape;
+        self.together(stated.amount, stated.start, &[(key, shape.is_some())])
     }
 
     /// Amount \[m\] of the profile crowning and the diameter \[mm\] where it is zero.
@@ -302,8 +318,20 @@ impl FlankTable<'_> {
             tip_roll_rad: self.profile.tip_roll_rad,
             face_width_m: self.face_width_m,
             profile_crowning: self.profile_crowning()?,
-            tip_relief: self.tip_relief()?,
-            root_relief: self.root_relief()?,
+            tip_relief: self.relief(table.tip_relief())?.map(
+                |(amount_m, start_roll_rad, shape)| TipRelief {
+                    amount_m,
+                    start_roll_rad,
+                    shape,
+                },
+            ),
+            root_relief: self.relief(table.root_relief())?.map(
+                |(amount_m, start_roll_rad, shape)| RootRelief {
+                    amount_m,
+                    start_roll_rad,
+                    shape,
+                },
+            ),
             profile_angle_m: self
                 .of
                 .amount_m("profile_angle_um", table.profile_angle_um)?,
@@ -327,54 +355,30 @@ impl FlankTable<'_> {
     }
 
     fn profile_crowning(&self) -> Result<Option<ProfileCrowning>, InputError> {
-        let diameter = "profile_crowning_diameter_mm";
         let Some((amount_m, diameter_mm)) = self.of.profile_crowning()? else {
             return Ok(None);
         };
-        let ok = self.is_on_involute(diameter_mm, false);
-        self.require_on_involute(diameter, diameter_mm, ok)?;
+        self.require_on_involute("profile_crowning_diameter_mm", diameter_mm, false)?;
         Ok(Some(ProfileCrowning {
             amount_m,
             centre_roll_rad: self.roll_rad(diameter_mm),
         }))
     }
 
-    fn tip_relief(&self) -> Result<Option<TipRelief>, InputError> {
-        let table = self.of.table;
-        let amount = ("tip_relief_um", table.tip_relief_um);
-        let (start, shape) = ("tip_relief_start_diameter_mm", table.tip_relief_shape);
-        let Some((amount_m, diameter_mm)) = self.of.tip_relief()? else {
+    /// Amount \[m\] of a relief, the roll angle where it begins, and how it grows.
+    fn relief(&self, stated: StatedRelief) -> Result<Option<(f64, f64, ReliefShape)>, InputError> {
+        let Some((amount_m, diameter_mm)) = self.of.relief(&stated)? else {
             return Ok(None);
         };
-        let ok = self.is_on_involute(diameter_mm, false);
-        self.require_on_involute(start, diameter_mm, ok)?;
+        self.require_on_involute(stated.start.0, diameter_mm, stated.to_root)?;
         let start_roll_rad = self.roll_rad(diameter_mm);
-        let rolled_rad = (self.profile.tip_roll_rad - start_roll_rad).abs();
-        let length_m = self.profile.base_radius_m * rolled_rad;
-        Ok(Some(TipRelief {
-            amount_m,
-            start_roll_rad,
-            shape: self.shape(shape, amount, length_m)?,
-        }))
-    }
-
-    fn root_relief(&self) -> Result<Option<RootRelief>, InputError> {
-        let table = self.of.table;
-        let amount = ("root_relief_um", table.root_relief_um);
-        let (start, shape) = ("root_relief_start_diameter_mm", table.root_relief_shape);
-        let Some((amount_m, diameter_mm)) = self.of.root_relief()? else {
-            return Ok(None);
+        let end_roll_rad = match stated.to_root {
+            true => self.profile.form_roll_rad,
+            false => self.profile.tip_roll_rad,
         };
-        let ok = self.is_on_involute(diameter_mm, true);
-        self.require_on_involute(start, diameter_mm, ok)?;
-        let start_roll_rad = self.roll_rad(diameter_mm);
-        let rolled_rad = (start_roll_rad - self.profile.form_roll_rad).abs();
-        let length_m = self.profile.base_radius_m * rolled_rad;
-        Ok(Some(RootRelief {
-            amount_m,
-            start_roll_rad,
-            shape: self.shape(shape, amount, length_m)?,
-        }))
+        let length_m = self.profile.base_radius_m * (end_roll_rad - start_roll_rad).abs();
+        let shape = self.shape(stated.shape.1, stated.amount, length_m)?;
+        Ok(Some((amount_m, start_roll_rad, shape)))
     }
 
     fn end_relief(&self) -> Result<Option<EndRelief>, InputError> {
@@ -428,18 +432,18 @@ impl FlankTable<'_> {
         (2.0 * form_m / MM, 2.0 * self.profile.tip_radius_m / MM)
     }
 
-    /// Whether a diameter lies between form and tip circle: with the form circle, and without the tip circle, or, of
-    /// what reaches to the root, the other way round.
-    fn is_on_involute(&self, diameter_mm: f64, to_root: bool) -> bool {
+    /// Demands a diameter between form and tip circle: with the form circle, and without the tip circle, or, of what
+    /// reaches to the root, the other way round.
+    fn require_on_involute(
+        &self,
+        key: &str,
+        diameter_mm: f64,
+        to_root: bool,
+    ) -> Result<(), InputError> {
         let (form, tip) = self.involute_mm();
         let open = if to_root { form } else { tip };
         let (low, high) = (form.min(tip), form.max(tip));
-        (low..=high).contains(&diameter_mm) && diameter_mm != open
-    }
-
-    fn require_on_involute(&self, key: &str, value: f64, ok: bool) -> Result<(), InputError> {
-        let (form, tip) = self.involute_mm();
-        let to_root = key.starts_with("root");
+        let ok = (low..=high).contains(&diameter_mm) && diameter_mm != open;
         let allowed = match (to_root, form < tip) {
             (true, true) => format!("above {form:.3} to {tip:.3}"),
             (false, true) => format!("{form:.3} to below {tip:.3}"),
@@ -447,7 +451,7 @@ impl FlankTable<'_> {
             (false, false) => format!("above {tip:.3} to {form:.3}"),
         };
         let allowed = format!("{allowed}: the involute part of the flank");
-        self.of.require(key, value, ok, &allowed)
+        self.of.require(key, diameter_mm, ok, &allowed)
     }
 
     /// Roll angle of the flank at a diameter in millimetres.

@@ -22,7 +22,8 @@ const fn usual(key: &'static str, low: f64, high: f64, hint: &'static str) -> Us
 /// Lengths of microgeometry and damage.
 const MICRO: &str = "the key is in micrometres, 0.012 mm are 12 um";
 const STIFFNESS: &str = "the key is in N/mm, 1e9 N/m are 1e6 N/mm";
-
+const MILLIMETRES: &str = "the key is in millimetres";
+const MEGAPASCAL: &str = "the key is in MPa, 1e9 Pa are 1000 MPa";
 const NEWTON: &str = "the key is in newtons, 14 kN are 14000 N";
 
 const USUAL: [Usual; 40] = [
@@ -51,14 +52,9 @@ const USUAL: [Usual; 40] = [
     usual("removed_um", 0.05, 5000.0, MICRO),
     usual("full_damping_depth_um", 0.02, 1000.0, MICRO),
     usual("full_depth_um", 0.02, 1000.0, MICRO),
-    usual("module_mm", 0.1, 60.0, "the key is in millimetres"),
-    usual("face_width_mm", 0.5, 2000.0, "the key is in millimetres"),
-    usual(
-        "centre_distance_mm",
-        2.0,
-        20_000.0,
-        "the key is in millimetres",
-    ),
+    usual("module_mm", 0.1, 60.0, MILLIMETRES),
+    usual("face_width_mm", 0.5, 2000.0, MILLIMETRES),
+    usual("centre_distance_mm", 2.0, 20_000.0, MILLIMETRES),
     usual(
         "helix_angle_deg",
         0.8,
@@ -73,60 +69,30 @@ const USUAL: [Usual; 40] = [
         100.0,
         "c_gamma of steel gears is about 20 N/(mm um), which is 2e10 N/m2",
     ),
-    usual(
-        "tensile_strength_MPa",
-        10.0,
-        10_000.0,
-        "the key is in MPa, 1e9 Pa are 1000 MPa",
-    ),
-    usual(
-        "stress_amplitude_MPa",
-        1.0,
-        10_000.0,
-        "the key is in MPa, 1e9 Pa are 1000 MPa",
-    ),
+    usual("tensile_strength_MPa", 10.0, 10_000.0, MEGAPASCAL),
+    usual("stress_amplitude_MPa", 1.0, 10_000.0, MEGAPASCAL),
     usual(
         "gravity_m_per_s2",
         0.1,
         1000.0,
         "weight on earth is 9.81 m/s2, which is 9810 mm/s2",
     ),
-    usual(
-        "outer_diameters_mm",
-        0.5,
-        20_000.0,
-        "the key is in millimetres",
-    ),
-    usual("stations_mm", 0.5, 100_000.0, "the key is in millimetres"),
+    usual("outer_diameters_mm", 0.5, 20_000.0, MILLIMETRES),
+    usual("stations_mm", 0.5, 100_000.0, MILLIMETRES),
     usual(
         "damping_s",
         1e-9,
         0.1,
         "damping over stiffness, about 1e-5 s",
     ),
-    usual(
-        "bore_diameter_mm",
-        0.1,
-        20_000.0,
-        "the key is in millimetres",
-    ),
+    usual("bore_diameter_mm", 0.1, 20_000.0, MILLIMETRES),
     usual("dynamic_N", 100.0, 1e8, NEWTON),
     usual("static_N", 20.0, 1e9, NEWTON),
     usual("fatigue_N", 1.0, 1e8, NEWTON),
-    usual("ball_diameter_mm", 0.25, 500.0, "the key is in millimetres"),
-    usual(
-        "roller_diameter_mm",
-        0.5,
-        500.0,
-        "the key is in millimetres",
-    ),
-    usual("roller_length_mm", 0.5, 1000.0, "the key is in millimetres"),
-    usual(
-        "pitch_diameter_mm",
-        1.0,
-        20_000.0,
-        "the key is in millimetres",
-    ),
+    usual("ball_diameter_mm", 0.25, 500.0, MILLIMETRES),
+    usual("roller_diameter_mm", 0.5, 500.0, MILLIMETRES),
+    usual("roller_length_mm", 0.5, 1000.0, MILLIMETRES),
+    usual("pitch_diameter_mm", 1.0, 20_000.0, MILLIMETRES),
     usual("radial_clearance_um", 0.1, 2000.0, MICRO),
     usual("preload_um", 0.05, 2000.0, MICRO),
     usual("scale_um", 0.05, 1000.0, MICRO),
