@@ -18,12 +18,16 @@ pub use signal::{
 pub use studio::StudioArguments;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use gearmesh_operations::accuracy::AccuracyRequest;
 use gearmesh_operations::bevel_pair::BevelRequest;
+use gearmesh_operations::compare::CompareRequest;
 use gearmesh_operations::compliance::ComplianceRequest;
 use gearmesh_operations::export::ExportRequest;
+use gearmesh_operations::file_words::positive;
 use gearmesh_operations::import::ImportRequest;
 use gearmesh_operations::mesh::MeshRequest;
 use gearmesh_operations::modes::ModesRequest;
+use gearmesh_operations::optimise::OptimiseRequest;
 use gearmesh_operations::recover::RecoverRequest;
 use gearmesh_operations::report::ReportRequest;
 use gearmesh_operations::tca::TcaRequest;
@@ -56,7 +60,7 @@ pub enum Command {
     /// Recover the strain of all gauges from a result, and whole fields on request
     Recover(Printed<RecoverRequest>),
     /// Compare a result with a reference record
-    Compare(CompareArguments),
+    Compare(Printed<CompareRequest>),
     /// Write a report page
     Report(Printed<ReportRequest>),
     /// Export a result as a table (CSV, Parquet, MATLAB, universal file) or as moving gears (ParaView), a gear as STEP
@@ -72,9 +76,9 @@ pub enum Command {
     /// Run a scene again and again with some of its keys changed
     Study(StudyArguments),
     /// Say what accuracy costs in time, for columns of a scene: error against time of every knob
-    Accuracy(AccuracyArguments),
+    Accuracy(Printed<AccuracyRequest>),
     /// Seek the relief, crowning or other keys that make the objectives of a gear pair least
-    Optimise(OptimiseArguments),
+    Optimise(Printed<OptimiseRequest>),
     /// Find where a rolling bearing comes to rest under a load: load on every ball or roller, pressures, stiffness,
     /// life
     Bearing(BearingArguments),
@@ -165,107 +169,12 @@ fn percent(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number that is more than zero.
-fn positive(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "no number".to_owned())?;
-    if value > 0.0 && value < 1e9 {
-        Ok(value)
-    } else {
-        Err("allowed is more than 0, less than 1e9".to_owned())
-    }
-}
-
-/// Two names with `=` between them.
-fn head_and_column(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((head, column)) if !head.is_empty() && !column.is_empty() => {
-            Ok((head.trim().to_owned(), column.trim().to_owned()))
-        }
-        _ => Err("allowed is HEAD=COLUMN, a column of data.csv and one of the result".to_owned()),
-    }
-}
-
-/// `gearmesh compare`.
-#[derive(Debug, Args)]
-pub struct CompareArguments {
-    /// Result file
-    pub result: PathBuf,
-    /// Folder of a reference record (docs/records.md)
-    pub reference: PathBuf,
-    /// Multibody results: which column of the result belongs to a column of data.csv; may be given several times
-    #[arg(long, value_name = "HEAD=COLUMN", value_parser = head_and_column)]
-    pub column: Vec<(String, String)>,
-    /// Multibody results: begin at this time [default: the middle of the run]
-    #[arg(long)]
-    pub from_s: Option<f64>,
-    /// Multibody results: the record's angle at the start of the run [default: 0]
-    #[arg(long, allow_negative_numbers = true)]
-    pub start_angle_deg: Option<f64>,
-    /// Print figures as JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
 /// `gearmesh check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
     /// Gear file, bearing file, scene, study, S-N table, record (or its folder), model or result
     pub file: PathBuf,
     /// Print what the file is as JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// `gearmesh accuracy`.
-#[derive(Debug, Args)]
-pub struct AccuracyArguments {
-    /// Scene of a gear pair, multibody scene, or bevel pair
-    pub scene: PathBuf,
-    /// What is to be exact: columns of a study of the scene, of series COLUMN:FIGURE, with mean, deviation, rms,
-    /// peak-to-peak, largest, least; of runs in time line-250Hz; of sweeps resonance-rpm. Where none is named:
-    /// deviations and peaks of teeth, gauges and bearings in motion; of pairs at rest peak-to-peak, pressure, K_Hbeta
-    /// and strain
-    #[arg(long, value_delimiter = ',')]
-    pub columns: Vec<String>,
-    /// Runs in time: figures from this time on
-    #[arg(long, default_value = "0")]
-    pub from_s: f64,
-    /// Vary elements and element lengths of the reduced gears, too, which reduces each several times; keep the models
-    /// in this folder
-    #[arg(long)]
-    pub elements: Option<PathBuf>,
-    /// Judge settings by this time; processor time where other work shares the machine
-    #[arg(long, default_value = "wall")]
-    pub time: TimeWord,
-    /// Page with the picture of error against time
-    #[arg(short, long)]
-    pub output: Option<PathBuf>,
-    /// Print figures as JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// A time that settings are judged by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum TimeWord {
-    /// Wall time
-    Wall,
-    /// Processor time
-    Processor,
-}
-
-/// `gearmesh optimise`.
-#[derive(Debug, Args)]
-pub struct OptimiseArguments {
-    /// File with the scene, what is sought, what scatters, what is to be small
-    pub file: PathBuf,
-    /// Folder for front.csv, tried.csv and the page optimise.html
-    #[arg(short, long)]
-    pub output: PathBuf,
-    /// Largest result of a trial of a multibody scene
-    #[arg(long = "most-result-GB", default_value = "1", value_parser = positive)]
-    pub most_result_gb: f64,
-    /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
 }

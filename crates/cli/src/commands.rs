@@ -65,10 +65,7 @@ pub fn tca(a: &Printed<TcaRequest>) -> Result<(), Failure> {
 }
 
 fn print(answer: Result<Answer, Failure>, as_json: bool) -> Result<(), Failure> {
-    let answer = answer?;
-    match as_json {
-        true => console::json(&answer.figures),
-        false => answer.lines.into_iter().for_each(console::data),
-    }
+    let Answer { figures, lines } = answer?;
+    console::found(as_json, || figures, || lines);
     Ok(())
 }

@@ -26,6 +26,18 @@ pub fn json(value: &serde_json::Value) {
     data(format!("{value:#}"));
 }
 
+/// What a command found, as JSON or as lines for people.
+pub fn found(
+    as_json: bool,
+    figures: impl FnOnce() -> serde_json::Value,
+    lines: impl FnOnce() -> Vec<String>,
+) {
+    match as_json {
+        true => json(&figures()),
+        false => lines().into_iter().for_each(data),
+    }
+}
+
 /// A remark on standard error. Nobody can be told that standard error is closed.
 pub fn note(text: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr(), "{}", printable(&text.to_string()));

@@ -2,7 +2,7 @@
 
 use crate::console;
 use gearmesh_model::wait_for_writes;
-use gearmesh_operations::{Failure, Scratch};
+use gearmesh_operations::{Failure, Scratch, Watch};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -17,6 +17,16 @@ static DEMAND: Mutex<Option<Arc<AtomicBool>>> = Mutex::new(None);
 pub struct OnDemand {
     /// Whether it was asked.
     pub asked: Arc<AtomicBool>,
+}
+
+impl OnDemand {
+    /// Operations are listened to, and stop where they were asked to.
+    pub fn watch(&self) -> Watch<'_> {
+        Watch {
+            stop: &self.asked,
+            ..console::watch()
+        }
+    }
 }
 
 /// For work that looks at a flag and stops where it can go on later.

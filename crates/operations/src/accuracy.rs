@@ -1,6 +1,7 @@
 //! What accuracy costs in time, for a scene of the user's own.
 
 use crate::failure::Failure;
+use crate::file_words::time_words;
 use crate::reduce::reduced_for_study;
 use crate::scratch::Scratch;
 use crate::watch::Watch;
@@ -20,23 +21,33 @@ use std::path::PathBuf;
 const REPEATED_FOR_S: f64 = 0.2;
 
 /// What is judged.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Default, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AccuracyRequest {
-    /// Scene file.
+    /// Scene of a gear pair, multibody scene, or bevel pair
     pub scene: PathBuf,
-    /// Columns as those of a study; of series COLUMN:FIGURE. None: what the model decides.
+    /// What is to be exact: columns of a study of the scene, of series COLUMN:FIGURE, with mean, deviation, rms,
+    /// peak-to-peak, largest, least; of runs in time line-250Hz; of sweeps resonance-rpm. Where none is named:
+    /// deviations and peaks of teeth, gauges and bearings in motion; of pairs at rest peak-to-peak, pressure, K_Hbeta
+    /// and strain
+    #[arg(long, value_delimiter = ',')]
     #[serde(default, deserialize_with = "crate::one_or_many::read")]
     pub columns: Vec<String>,
-    /// Figures of multibody runs from this time on.
+    /// Runs in time: figures from this time on
+    #[arg(long, default_value = "0")]
     #[serde(default)]
     pub from_s: f64,
-    /// Judge by the time of the processor, not of the wall.
+    /// Vary elements and element lengths of the reduced gears, too, which reduces each several times; keep the models
+    /// in this folder
+    #[arg(long)]
+    pub elements: Option<PathBuf>,
+    /// Judge settings by this time; processor time where other work shares the machine
+    #[arg(long = "time", value_name = "TIME", default_value = "wall", value_parser = time_words(),
+        action = clap::ArgAction::Set)]
     #[serde(default)]
     pub by_processor_time: bool,
-    /// Folder for models, where the gears' elements are varied, too.
-    pub elements: Option<PathBuf>,
-    /// Page with the picture.
+    /// Page with the picture of error against time
+    #[arg(short, long)]
     pub output: Option<PathBuf>,
 }
 

@@ -61,11 +61,6 @@ pub fn design(a: &BevelRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
     })
 }
 
-/// Adds a line.
-pub(crate) fn say(lines: &mut Vec<String>, text: impl Into<String>) {
-    lines.push(text.into());
-}
-
 /// Writes nominal points and normals of all flanks; none where one cannot be made or written.
 fn write_grids(
     design: &PairDesign,
@@ -128,29 +123,22 @@ fn pair_lines(file: &PairFile) -> [(&'static str, f64); 6] {
 }
 
 fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Vec<String> {
-    let mut all = Vec::new();
-    let lines = &mut all;
+    let mut lines = Vec::new();
     let [pinion, gear] = &file.blank.members;
-    say(
-        lines,
-        format!(
-            "# {}: {}/{} teeth, {} taper, pinion {} hand",
-            file.title,
-            pinion.teeth,
-            gear.teeth,
-            file.blank.data.taper.word(),
-            pinion.hand.word()
-        ),
-    );
+    lines.push(format!(
+        "# {}: {}/{} teeth, {} taper, pinion {} hand",
+        file.title,
+        pinion.teeth,
+        gear.teeth,
+        file.blank.data.taper.word(),
+        pinion.hand.word()
+    ));
     for (key, value) in pair_lines(file) {
-        say(lines, format!("# {key:<26} {value:>12.4}"));
+        lines.push(format!("# {key:<26} {value:>12.4}"));
     }
-    say(
-        lines,
-        format!("# {:<26} {:>12} {:>12}", "", "pinion", "gear"),
-    );
+    lines.push(format!("# {:<26} {:>12} {:>12}", "", "pinion", "gear"));
     for ((key, a), (_, b)) in blank_lines(pinion).into_iter().zip(blank_lines(gear)) {
-        say(lines, format!("# {key:<26} {a:>12.4} {b:>12.4}"));
+        lines.push(format!("# {key:<26} {a:>12.4} {b:>12.4}"));
     }
     for (key, value) in [
         (
@@ -163,26 +151,23 @@ fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Vec<
         ),
     ] {
         let [a, b] = value.map(|x| x.map_or_else(|| "-".to_owned(), |x| format!("{:.4}", 1e3 * x)));
-        say(lines, format!("# {key:<26} {a:>12} {b:>12}"));
+        lines.push(format!("# {key:<26} {a:>12} {b:>12}"));
     }
     if let Some(rms) = design.fit_rms_m {
-        say(
-            lines,
-            format!(
-                "# left of the asked ease-off, root mean square: concave {:.3} um, convex {:.3} um",
-                1e6 * rms[0],
-                1e6 * rms[1]
-            ),
-        );
+        lines.push(format!(
+            "# left of the asked ease-off, root mean square: concave {:.3} um, convex {:.3} um",
+            1e6 * rms[0],
+            1e6 * rms[1]
+        ));
     }
     for words in thickness_words(design, file) {
-        say(lines, format!("# {words}"));
+        lines.push(format!("# {words}"));
     }
     for (i, name) in ["pinion", "gear"].into_iter().enumerate() {
         let Some(settings) = &design.settings[i] else {
             for flank in &design.teeth[i].flanks {
                 if let Some(fit) = flank.grid_fit() {
-                    say(lines, format!("# {}: {}", flank.name(), fit_words(fit)));
+                    lines.push(format!("# {}: {}", flank.name(), fit_words(fit)));
                 }
             }
             continue;
@@ -193,21 +178,18 @@ fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Vec<
             .filter_map(|(side, s)| settings_toml(s, &format!("{name}.{}", side.word())))
             .collect();
         if tables.is_empty() {
-            say(
-                lines,
-                format!("# {name}: cut by the plane tool of the crown gear"),
-            );
+            lines.push(format!("# {name}: cut by the plane tool of the crown gear"));
             continue;
         }
-        say(lines, format!("[{name}]\nsettings = \"given\""));
+        lines.push(format!("[{name}]\nsettings = \"given\""));
         // Read back, settings that are the same for both flanks would be those of one operation.
         let apart = design.teeth[i].thickness.from == ThicknessFrom::Blank;
         if apart && is_one_operation(&file.blank.members[i], settings) {
-            say(lines, "thickness = \"blank\"");
+            lines.push("thickness = \"blank\"".to_owned());
         }
-        tables.iter().for_each(|t| say(lines, t.trim_end()));
+        lines.extend(tables.iter().map(|t| t.trim_end().to_owned()));
     }
-    all
+    lines
 }
 
 /// What a flank through points is worth.

@@ -3,7 +3,7 @@
 use crate::accuracy::{self, demand_kept};
 use crate::failure::Failure;
 use crate::import::{ImportRequest, import};
-use crate::optimise::optimise;
+use crate::optimise::OptimiseRequest;
 use crate::watch::Watch;
 use crate::{bevel_pair, check, compare, compliance, export, mesh, modes, recover, report, tca};
 use serde::Deserialize;
@@ -15,15 +15,6 @@ use std::path::PathBuf;
 #[serde(deny_unknown_fields)]
 struct CheckRequest {
     file: PathBuf,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct OptimiseRequest {
-    file: PathBuf,
-    output: PathBuf,
-    #[serde(rename = "most_result_GB")]
-    most_result_gb: f64,
 }
 
 /// Does an operation, which is named as the command of the program is; what the command prints with `--json`.
@@ -61,13 +52,9 @@ pub fn call(name: &str, request: Value, watch: &Watch<'_>) -> Result<Value, Fail
         "modes" => Ok(modes::modes(&read(name, request)?, watch)?.figures()),
         "optimise" => {
             let of: OptimiseRequest = read(name, request)?;
-            let found = optimise(&of.file, &of.output, of.most_result_gb, watch)?;
-            match found.optimum.stopped {
-                true => Err(Failure::stopped(
-                    "interrupted; the files have what was tried until then",
-                )),
-                false => Ok(found.figures()),
-            }
+            let found = of.optimise(watch)?;
+            found.demand_ended()?;
+            Ok(found.figures())
         }
         "recover" => Ok(recover::figures(&recover::recover(
             &read(name, request)?,

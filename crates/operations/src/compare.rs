@@ -4,26 +4,47 @@ use crate::failure::Failure;
 use gearmesh_report::system_comparison::{SystemSelection, compare_system};
 use gearmesh_report::{ReferenceRecord, SeriesComparison, scene_comparison::compare_scene};
 use gearmesh_scene::ResultFile;
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// What is compared.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CompareRequest {
-    /// Result file.
+    /// Result file
     pub result: PathBuf,
-    /// Folder of a reference record.
+    /// Folder of a reference record (docs/records.md)
     pub reference: PathBuf,
-    /// Multibody results: the result's column of a column of the record.
-    #[serde(default)]
-    pub column: BTreeMap<String, String>,
-    /// Multibody results: begin; the middle of the run where not given.
+    /// Multibody results: which column of the result belongs to a column of data.csv; may be given several times
+    #[arg(long, value_name = "HEAD=COLUMN", value_parser = head_and_column)]
+    #[serde(default, deserialize_with = "pairs")]
+    pub column: Vec<(String, String)>,
+    /// Multibody results: begin at this time [default: the middle of the run]
+    #[arg(long)]
     pub from_s: Option<f64>,
-    /// Multibody results: the record's angle at the start of the run.
+    /// Multibody results: the record's angle at the start of the run [default: 0]
+    #[arg(long, allow_negative_numbers = true)]
     pub start_angle_deg: Option<f64>,
+}
+
+/// Two names with `=` between them.
+///
+/// # Errors
+/// What is allowed.
+pub fn head_and_column(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((head, column)) if !head.is_empty() && !column.is_empty() => {
+            Ok((head.trim().to_owned(), column.trim().to_owned()))
+        }
+        _ => Err("allowed is HEAD=COLUMN, a column of data.csv and one of the result".to_owned()),
+    }
+}
+
+/// Reads names by names.
+fn pairs<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(String, String)>, D::Error> {
+    BTreeMap::deserialize(from).map(|named| named.into_iter().collect())
 }
 
 /// What the comparison came to.
@@ -64,7 +85,7 @@ pub fn compare(a: &CompareRequest) -> Result<Compared, Failure> {
                 )));
             }
             let selection = SystemSelection {
-                columns: a.column.clone(),
+                columns: a.column.iter().cloned().collect(),
                 from_s: a.from_s,
                 start_angle_rad: start_angle_deg.to_radians(),
             };

@@ -34,18 +34,7 @@ impl FieldCase {
         gear: usize,
         (angle_deg, torque_nm): (Option<f64>, Option<f64>),
     ) -> Result<Self, Failure> {
-        let torques = &result.torque_nm;
-        let torque = match torque_nm {
-            None => largest_torque(result),
-            Some(wanted) => {
-                let near = |torque: &f64| (torque - wanted).abs() <= 1e-9 * wanted.abs();
-                torques.iter().position(near).ok_or_else(|| {
-                    Failure::input(format!(
-                        "--field-torque-Nm: found {wanted}, the result has {torques:?}"
-                    ))
-                })?
-            }
-        };
+        let torque = asked_torque(result, "--field-torque-Nm", torque_nm)?;
         let most_n = |angle: usize| {
             let pairs = 0..result.slots;
             let forces = pairs.map(|slot| result.forces(torque, angle, slot).iter().sum::<f64>());
@@ -75,6 +64,24 @@ impl FieldCase {
             result.angle_rad[self.angle].to_degrees()
         )
     }
+}
+
+/// Index of the torque that an option asks for; of the largest one if it names none.
+pub(crate) fn asked_torque(
+    result: &SceneResult,
+    option: &str,
+    torque_nm: Option<f64>,
+) -> Result<usize, Failure> {
+    let Some(wanted) = torque_nm else {
+        return Ok(largest_torque(result));
+    };
+    let torques = &result.torque_nm;
+    let near = |torque: &f64| (torque - wanted).abs() <= 1e-9 * wanted.abs();
+    torques.iter().position(near).ok_or_else(|| {
+        Failure::input(format!(
+            "{option}: found {wanted}, the result has {torques:?}"
+        ))
+    })
 }
 
 /// Index of the torque that is largest by its amount.

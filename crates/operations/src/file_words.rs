@@ -1,4 +1,4 @@
-//! The words of files as values of arguments: sides of the teeth, local contact terms.
+//! Values of arguments: the words of files, as sides of the teeth and local contact terms, and bounded numbers.
 
 use crate::mesh_file::LengthUnit;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -34,6 +34,32 @@ pub(crate) fn local_words() -> impl TypedValueParser<Value = LocalContact> {
             }
         },
     )
+}
+
+/// `wall` and `processor`: whether it is that of the processor.
+pub(crate) fn time_words() -> impl TypedValueParser<Value = bool> {
+    let name = |is_processor| if is_processor { "processor" } else { "wall" };
+    let help = |is_processor| {
+        if is_processor {
+            "Processor time"
+        } else {
+            "Wall time"
+        }
+    };
+    words(&[false, true], name, help)
+}
+
+/// A number that is more than zero.
+///
+/// # Errors
+/// What is allowed.
+pub fn positive(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "no number".to_owned())?;
+    if value > 0.0 && value < 1e9 {
+        Ok(value)
+    } else {
+        Err("allowed is more than 0, less than 1e9".to_owned())
+    }
 }
 
 /// A parser of the names of these values, with a line of help for each.

@@ -28,7 +28,7 @@ pub mod compliance;
 pub mod cross_section;
 pub mod export;
 mod failure;
-mod file_words;
+pub mod file_words;
 pub mod gear_file;
 pub mod import;
 pub mod import_trial;

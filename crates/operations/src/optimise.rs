@@ -1,14 +1,41 @@
 //! Keys of a scene that make its objectives least.
 
 use crate::failure::Failure;
+use crate::file_words::positive;
 use crate::scratch::Scratch;
 use crate::watch::Watch;
 use crate::{overwriting, page_file};
 use gearmesh_model::{csv_cell, write_text};
 use gearmesh_report::optimise_page::optimise_page;
 use gearmesh_scene::optimise::{Optimisation, Optimum, Trial, optimise as seek};
+use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
+
+/// What is sought, and where the files go.
+#[derive(Debug, Clone, clap::Args, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OptimiseRequest {
+    /// File with the scene, what is sought, what scatters, what is to be small
+    pub file: PathBuf,
+    /// Folder for front.csv, tried.csv and the page optimise.html
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Largest result of a trial of a multibody scene
+    #[arg(long = "most-result-GB", default_value = "1", value_parser = positive)]
+    #[serde(rename = "most_result_GB")]
+    pub most_result_gb: f64,
+}
+
+impl OptimiseRequest {
+    /// Seeks the optimum, as [`optimise`].
+    ///
+    /// # Errors
+    /// As [`optimise`].
+    pub fn optimise(&self, watch: &Watch<'_>) -> Result<FoundOptimum, Failure> {
+        optimise(&self.file, &self.output, self.most_result_gb, watch)
+    }
+}
 
 /// What was sought, and what was found.
 pub struct FoundOptimum {
@@ -81,6 +108,19 @@ fn csv(problem: &Optimisation, trials: &[Trial]) -> String {
 }
 
 impl FoundOptimum {
+    /// Demands that the search was not stopped.
+    ///
+    /// # Errors
+    /// [`Failure::stopped`] where it was.
+    pub fn demand_ended(&self) -> Result<(), Failure> {
+        match self.optimum.stopped {
+            true => Err(Failure::stopped(
+                "interrupted; the files have what was tried until then",
+            )),
+            false => Ok(()),
+        }
+    }
+
     /// The front for other programs.
     #[must_use]
     pub fn figures(&self) -> Value {

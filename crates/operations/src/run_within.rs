@@ -11,46 +11,25 @@ use gearmesh_scene::SceneFile;
 use gearmesh_scene::accuracy::{Chosen, choose};
 use gearmesh_scene::study::Subject;
 use serde_json::{Value, json};
-use std::path::PathBuf;
 
-/// A scene, and how exact it is to be.
-#[derive(Debug, Clone)]
-pub struct WithinRequest {
-    /// Scene file.
-    pub scene: PathBuf,
-    /// Largest relative error.
-    pub goal: f64,
-    /// Columns that are to be that exact, as those of a study. None: what the model decides.
-    pub columns: Vec<String>,
-    /// Figures of multibody runs from this time on.
-    pub from_s: f64,
-}
-
-/// Looks for the setting, then runs the scene with it. A goal that cannot be met is a warning; the result is that of
-/// the most exact setting then.
+/// Looks for the setting in which the relative error of the columns is `goal` at most, then runs the scene with it. A
+/// goal that cannot be met is a warning; the result is that of the most exact setting then.
 ///
 /// # Errors
 /// [`Failure`] for a scene or column that is wrong, a scene that is none, and as [`run`].
 pub fn run_within(
-    a: WithinRequest,
+    a: &AccuracyRequest,
+    goal: f64,
     how: &RunHow<'_>,
     watch: &Watch<'_>,
 ) -> Result<(Ran, Chosen), Failure> {
     // A file that is no scene is refused before any setting is run.
     SceneFile::read(&a.scene)?;
-    let request = AccuracyRequest {
-        scene: a.scene,
-        columns: a.columns,
-        from_s: a.from_s,
-        by_processor_time: false,
-        elements: None,
-        output: None,
-    };
     let scratch = Scratch::new()?;
     let reduce = |gear: &_| reduced_for_study(gear, watch);
-    let bench = bench_of(&request, &scratch, &reduce, watch)?;
+    let bench = bench_of(a, &scratch, &reduce, watch)?;
     let task = watch.listener.begin("settings");
-    let found = choose(&bench, a.goal, &|done, count| {
+    let found = choose(&bench, goal, &|done, count| {
         task.advance(done as f64, count as f64)
     });
     drop(task);
@@ -61,7 +40,7 @@ pub fn run_within(
         Subject::System(scene) => SceneFile::System(scene),
         Subject::Bevel(scene) => SceneFile::Bevel(scene),
         Subject::Bearing(_) => {
-            let file = request.scene.display();
+            let file = a.scene.display();
             return Err(Failure::input(format!("{file}: is no scene")));
         }
     };
@@ -73,7 +52,7 @@ pub fn run_within(
         };
         watch.warning(format!(
             "no setting of this scene is known to be within {} %: {off} in the most exact one, which was run",
-            percent(a.goal)
+            percent(goal)
         ));
     }
     Ok((run(scene, how, watch)?, found))

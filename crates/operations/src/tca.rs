@@ -1,7 +1,7 @@
 //! Tooth contact analysis of a bevel pair without load, and its page.
 
 use crate::answer::Answer;
-use crate::bevel_pair::{say, thickness_figures, thickness_words};
+use crate::bevel_pair::{thickness_figures, thickness_words};
 use crate::failure::Failure;
 use crate::tca_sides::{
     NO_MEAN, Side, backlash_words, edge_words, figures, headline, moves, side, vh_rows,
@@ -93,46 +93,34 @@ fn table(
     thicknesses: &[String],
     backlash_m: Option<f64>,
 ) -> Vec<String> {
-    let mut all = Vec::new();
-    let lines = &mut all;
     let side = &sides[0];
-    say(lines, format!("{}: {}", file.title, headline(side)));
-    worth_of_points(side.flanks)
-        .into_iter()
-        .for_each(|line| say(lines, line));
-    thicknesses.iter().for_each(|line| say(lines, line));
+    let mut lines = vec![format!("{}: {}", file.title, headline(side))];
+    lines.extend(worth_of_points(side.flanks));
+    lines.extend_from_slice(thicknesses);
     if let Some(found) = &side.contact {
-        path_table(file, found, lines);
+        path_table(file, found, &mut lines);
         match side.moved.as_ref() {
-            None => say(lines, NO_MEAN),
+            None => lines.push(NO_MEAN.to_owned()),
             Some(moved) => {
-                say(
-                    lines,
-                    "mean contact moves on the gear by     along the tooth   up the flank",
+                lines.push(
+                    "mean contact moves on the gear by     along the tooth   up the flank"
+                        .to_owned(),
                 );
                 for (name, [along, up]) in moves(moved) {
-                    say(lines, format!("{name:<37} {along:>15.4} {up:>14.4}"));
+                    lines.push(format!("{name:<37} {along:>15.4} {up:>14.4}"));
                 }
             }
         }
     }
     for side in sides {
         if let Some(vh) = &side.vh {
-            say(
-                lines,
-                format!(
+            lines.push(format!(
                     "V/H check, {}: further errors that bring the mean contact to a quarter of the face from toe and heel, backlash kept by G",
                     side.name()
-                ),
-            );
-            say(
-                lines,
-                "contact at            gear: L mm     h mm   offset E mm   pinion P mm   gear G mm   shaft angle mrad",
-            );
+                ));
+            lines.push("contact at            gear: L mm     h mm   offset E mm   pinion P mm   gear G mm   shaft angle mrad".to_owned());
             for (name, found) in vh_rows(vh) {
-                say(
-                    lines,
-                    match found {
+                lines.push(match found {
                         Ok(values) => {
                             let [l, h, v, p, g, angle] = values.map(as_printed);
                             format!(
@@ -140,38 +128,35 @@ fn table(
                             )
                         }
                         Err(why) => format!("{name:<20} {why}"),
-                    },
-                );
+                    });
             }
         }
     }
     if let Some(backlash_m) = backlash_m {
-        say(lines, backlash_words(backlash_m));
+        lines.push(backlash_words(backlash_m));
     }
     for other in &sides[1..] {
-        say(lines, format!("the other flanks: {}", headline(other)));
+        lines.push(format!("the other flanks: {}", headline(other)));
     }
     for side in sides {
-        say(
-            lines,
-            format!("ease-off of the pinion, {}: L mm, h mm, um", side.name()),
-        );
+        lines.push(format!(
+            "ease-off of the pinion, {}: L mm, h mm, um",
+            side.name()
+        ));
         for ([cone, height], e) in &side.ease_off {
             let gap = e.map_or_else(|| "-".to_owned(), |e| format!("{:.3}", 1e6 * e.gap_m));
-            say(
-                lines,
-                format!("{:>12.4} {:>9.4} {gap:>9}", 1e3 * cone, 1e3 * height),
-            );
+            lines.push(format!(
+                "{:>12.4} {:>9.4} {gap:>9}",
+                1e3 * cone,
+                1e3 * height
+            ));
         }
     }
-    all
+    lines
 }
 
 fn path_table(file: &PairFile, found: &ToothContact, lines: &mut Vec<String>) {
-    say(
-        lines,
-        "pinion deg   TE urad  with constant   gear: L mm     h mm   ellipse mm: long  short   first   touches",
-    );
+    lines.push("pinion deg   TE urad  with constant   gear: L mm     h mm   ellipse mm: long  short   first   touches".to_owned());
     for p in &found.path {
         let ellipse = p.ellipse.map_or_else(
             || format!("{:>17} {:>6}", "", ""),
@@ -180,18 +165,15 @@ fn path_table(file: &PairFile, found: &ToothContact, lines: &mut Vec<String>) {
                 format!("{a:>17.3} {b:>6.3}")
             },
         );
-        say(
-            lines,
-            format!(
-                "{:>10.4} {:>9.3} {:>14.3} {:>12.4} {:>8.4} {ellipse}   {:<5}   {}",
-                p.pinion_turn_rad.to_degrees(),
-                1e6 * p.error_rad,
-                1e6 * p.lead_rad,
-                1e3 * p.places_m[1][0],
-                1e3 * p.places_m[1][1],
-                if p.leading { "yes" } else { "no" },
-                p.kind.words()
-            ),
-        );
+        lines.push(format!(
+            "{:>10.4} {:>9.3} {:>14.3} {:>12.4} {:>8.4} {ellipse}   {:<5}   {}",
+            p.pinion_turn_rad.to_degrees(),
+            1e6 * p.error_rad,
+            1e6 * p.lead_rad,
+            1e3 * p.places_m[1][0],
+            1e3 * p.places_m[1][1],
+            if p.leading { "yes" } else { "no" },
+            p.kind.words()
+        ));
     }
 }

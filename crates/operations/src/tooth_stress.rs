@@ -67,117 +67,170 @@ fn root_stress(of: &LoadedGear<'_>, root: &[RootFace], u: &[f64]) -> Result<Pair
 
 /// Adds a table and the pictures of a gear; and the figures for other programs.
 pub fn add(section: Section, of: &LoadedGear<'_>) -> Result<(Section, Value), Failure> {
-    let (gear, u) = (of.stressed, of.stressed.displacement_m(of.forces)?);
-    // The loaded tooth whose root on the pressed side carries most.
-    let mut loaded: Vec<(usize, Flank)> = of.forces.iter().map(|f| (f.tooth, f.side)).collect();
-    loaded.sort_unstable_by_key(|(tooth, side)| (*tooth, *side as usize));
-    loaded.dedup();
-    let mut worst: Option<(usize, Flank, Pair)> = None;
-    for (tooth, side) in loaded {
-        let found = root_stress(of, &gear.root(tooth, side)?, &u)?;
-        if worst.is_none_or(|(_, _, most)| found[0].mpa > most[0].mpa) {
-            worst = Some((tooth, side, found));
-        }
-    }
-    let Some((tooth, side, root)) = worst else {
+    let u = of.stressed.displacement_m(of.forces)?;
+    let Some(worst) = WorstTooth::new(of, &u)? else {
         let words = format!("{}: nothing presses on its teeth, {}.", of.name, of.when);
         return Ok((section.push(Text::note(words)), Value::Null));
     };
-    let far = side.opposite();
-    let other = root_stress(of, &gear.root(tooth, far)?, &u)?;
-    let gauges = gear.gauges_on(tooth, &u)?;
+    let section = section.push(worst.table(of));
+    let section = worst.side_pictures(of, &u, section)?;
+    let section = worst.section_pictures(of, &u, section)?;
+    Ok((section, worst.figures(of)))
+}
 
-    let mut table = Table::new(format!("{}, tooth {tooth}, {}", of.name, of.when))
-        .column("", Align::Left)
-        .column("largest", Align::Right)
-        .column("where", Align::Left);
-    for (words, of_root) in [
-        (format!("root, {side} side (pressed)"), root),
-        (format!("root, {far} side"), other),
-    ] {
-        for (quantity, largest) in ["von Mises stress", "first principal stress"]
-            .into_iter()
-            .zip(of_root)
-        {
+/// The loaded tooth whose root on the pressed side carries most.
+struct WorstTooth {
+    tooth: usize,
+    /// The side that is pressed.
+    side: Flank,
+    root: Pair,
+    /// The root of the other side.
+    other: Pair,
+    gauges: Vec<GaugeReading>,
+}
+
+impl WorstTooth {
+    /// None where nothing presses.
+    fn new(of: &LoadedGear<'_>, u: &[f64]) -> Result<Option<Self>, Failure> {
+        let gear = of.stressed;
+        let mut loaded: Vec<(usize, Flank)> = of.forces.iter().map(|f| (f.tooth, f.side)).collect();
+        loaded.sort_unstable_by_key(|(tooth, side)| (*tooth, *side as usize));
+        loaded.dedup();
+        let mut worst: Option<(usize, Flank, Pair)> = None;
+        for (tooth, side) in loaded {
+            let found = root_stress(of, &gear.root(tooth, side)?, u)?;
+            if worst.is_none_or(|(_, _, most)| found[0].mpa > most[0].mpa) {
+                worst = Some((tooth, side, found));
+            }
+        }
+        let Some((tooth, side, root)) = worst else {
+            return Ok(None);
+        };
+        Ok(Some(Self {
+            tooth,
+            side,
+            root,
+            other: root_stress(of, &gear.root(tooth, side.opposite())?, u)?,
+            gauges: gear.gauges_on(tooth, u)?,
+        }))
+    }
+
+    fn table(&self, of: &LoadedGear<'_>) -> Table {
+        let (tooth, side, far) = (self.tooth, self.side, self.side.opposite());
+        let mut table = Table::new(format!("{}, tooth {tooth}, {}", of.name, of.when))
+            .column("", Align::Left)
+            .column("largest", Align::Right)
+            .column("where", Align::Left);
+        for (words, of_root) in [
+            (format!("root, {side} side (pressed)"), self.root),
+            (format!("root, {far} side"), self.other),
+        ] {
+            for ((quantity, _), largest) in QUANTITIES.into_iter().zip(of_root) {
+                table.push_row([
+                    format!("{words}: {quantity}"),
+                    format!("{} MPa", short(largest.mpa)),
+                    of.stressed.place_in_words(largest.at_m),
+                ]);
+            }
+        }
+        for gauge in &self.gauges {
             table.push_row([
-                format!("{words}: {quantity}"),
-                format!("{} MPa", short(largest.mpa)),
-                gear.place_in_words(largest.at_m),
+                format!("gauge `{}`, {} side", gauge.name, gauge.side),
+                format!("{} µε", short(1e6 * gauge.strain)),
+                of.stressed.place_in_words(gauge.at_m),
             ]);
         }
+        table
     }
-    for gauge in &gauges {
-        table.push_row([
-            format!("gauge `{}`, {} side", gauge.name, gauge.side),
-            format!("{} µε", short(1e6 * gauge.strain)),
-            gear.place_in_words(gauge.at_m),
-        ]);
-    }
-    let mut section = section.push(table);
 
-    let frame = gear.frame(tooth, side);
-    let of_gauge = |view: &BodyView, gauge: &GaugeReading| Mark {
+    /// The pictures from the side that is pressed, with the ends of the tooth, its gauges and the largest stress.
+    fn side_pictures(
+        &self,
+        of: &LoadedGear<'_>,
+        u: &[f64],
+        mut section: Section,
+    ) -> Result<Section, Failure> {
+        let (gear, side) = (of.stressed, self.side);
+        let frame = gear.frame(self.tooth, side);
+        let view = seen_along(&frame, FROM_SIDE);
+        let shown = Shown::new(of, self.tooth, u, StressedGear::cell_elements)?;
+        for ((quantity, value), largest) in QUANTITIES.into_iter().zip(self.root) {
+            let title = format!(
+                "{}, tooth {}, {side} side: {quantity}, {}",
+                of.name, self.tooth, of.when
+            );
+            let mut picture = shown.picture(&view, (&title, quantity, value), largest.mpa);
+            for (end, name) in frame.ends_m.iter().zip(gear.end_names()) {
+                picture = picture.mark(Mark {
+                    at_mm: view.place_mm(*end),
+                    words: name.to_owned(),
+                    sign: MarkSign::Words,
+                });
+            }
+            for gauge in self.gauges.iter().filter(|gauge| gauge.side == side) {
+                picture = picture.mark(of_gauge(&view, gauge));
+            }
+            section = section.push(picture.mark(Mark {
+                at_mm: view.place_mm(largest.at_m),
+                words: format!("{} MPa", short(largest.mpa)),
+                sign: MarkSign::Ring,
+            }));
+        }
+        Ok(section)
+    }
+
+    /// The pictures of the cut in the middle of the face, with the gauges that are near it.
+    fn section_pictures(
+        &self,
+        of: &LoadedGear<'_>,
+        u: &[f64],
+        mut section: Section,
+    ) -> Result<Section, Failure> {
+        let (gear, tooth) = (of.stressed, self.tooth);
+        let half = Shown::new(of, tooth, u, StressedGear::half_cell_elements)?;
+        let frame = gear.frame(tooth, self.side);
+        let view = BodyView::new(frame.along, frame.up);
+        for ((quantity, value), largest) in QUANTITIES.into_iter().zip(self.root) {
+            let title = format!(
+                "{}, tooth {tooth}, cut in the middle of the face, seen from the {}: {quantity}",
+                of.name,
+                gear.end_names()[1]
+            );
+            let picture = half.picture(&view, (&title, quantity, value), largest.mpa);
+            let off_cut = |g: &GaugeReading| (gear.share_along_face(g.at_m) - 0.5).abs();
+            let near_cut = self.gauges.iter().filter(|g| off_cut(g) < NEAR_CUT);
+            section = section.push(near_cut.fold(picture, |picture, gauge| {
+                picture.mark(of_gauge(&view, gauge))
+            }));
+        }
+        Ok(section)
+    }
+
+    fn figures(&self, of: &LoadedGear<'_>) -> Value {
+        let (root, other) = (&self.root, &self.other);
+        let place = |largest: &Largest| largest.at_m.map(|x| 1e3 * x);
+        json!({
+            "gear": of.name,
+            "when": of.when,
+            "tooth": self.tooth,
+            "side": self.side.to_string(),
+            "root_von_Mises_MPa": root[0].mpa,
+            "root_von_Mises_at_mm": place(&root[0]),
+            "root_first_principal_MPa": root[1].mpa,
+            "root_first_principal_at_mm": place(&root[1]),
+            "other_side_von_Mises_MPa": other[0].mpa,
+            "other_side_first_principal_MPa": other[1].mpa,
+            "gauges_ustrain": self.gauges.iter().map(|g| json!({ "name": g.name, "side": g.side.to_string(), "strain": 1e6 * g.strain })).collect::<Vec<_>>(),
+        })
+    }
+}
+
+fn of_gauge(view: &BodyView, gauge: &GaugeReading) -> Mark {
+    Mark {
         at_mm: view.place_mm(gauge.at_m),
         words: format!("{}: {} µε", gauge.name, short(1e6 * gauge.strain)),
         sign: MarkSign::Square,
-    };
-    let marks = |mut picture: FieldPicture, view: &BodyView, largest: Largest| {
-        for (end, name) in frame.ends_m.iter().zip(gear.end_names()) {
-            picture = picture.mark(Mark {
-                at_mm: view.place_mm(*end),
-                words: name.to_owned(),
-                sign: MarkSign::Words,
-            });
-        }
-        for gauge in gauges.iter().filter(|gauge| gauge.side == side) {
-            picture = picture.mark(of_gauge(view, gauge));
-        }
-        picture.mark(Mark {
-            at_mm: view.place_mm(largest.at_m),
-            words: format!("{} MPa", short(largest.mpa)),
-            sign: MarkSign::Ring,
-        })
-    };
-    let from_side = seen_along(&frame, FROM_SIDE);
-    let shown = Shown::new(of, tooth, &u, StressedGear::cell_elements)?;
-    for (k, (quantity, value)) in QUANTITIES.into_iter().enumerate() {
-        let title = format!(
-            "{}, tooth {tooth}, {side} side: {quantity}, {}",
-            of.name, of.when
-        );
-        let picture = shown.picture(&from_side, (&title, quantity, value), root[k].mpa);
-        section = section.push(marks(picture, &from_side, root[k]));
     }
-    let half = Shown::new(of, tooth, &u, StressedGear::half_cell_elements)?;
-    let in_section = BodyView::new(frame.along, frame.up);
-    for (k, (quantity, value)) in QUANTITIES.into_iter().enumerate() {
-        let title = format!(
-            "{}, tooth {tooth}, cut in the middle of the face, seen from the {}: {quantity}",
-            of.name,
-            gear.end_names()[1]
-        );
-        let picture = half.picture(&in_section, (&title, quantity, value), root[k].mpa);
-        let off_cut = |g: &GaugeReading| (gear.share_along_face(g.at_m) - 0.5).abs();
-        let near_cut = gauges.iter().filter(|g| off_cut(g) < NEAR_CUT);
-        section = section.push(near_cut.fold(picture, |picture, gauge| {
-            picture.mark(of_gauge(&in_section, gauge))
-        }));
-    }
-    let place = |largest: &Largest| largest.at_m.map(|x| 1e3 * x);
-    let figures = json!({
-        "gear": of.name,
-        "when": of.when,
-        "tooth": tooth,
-        "side": side.to_string(),
-        "root_von_Mises_MPa": root[0].mpa,
-        "root_von_Mises_at_mm": place(&root[0]),
-        "root_first_principal_MPa": root[1].mpa,
-        "root_first_principal_at_mm": place(&root[1]),
-        "other_side_von_Mises_MPa": other[0].mpa,
-        "other_side_first_principal_MPa": other[1].mpa,
-        "gauges_ustrain": gauges.iter().map(|g| json!({ "name": g.name, "side": g.side.to_string(), "strain": 1e6 * g.strain })).collect::<Vec<_>>(),
-    });
-    Ok((section, figures))
 }
 
 /// What is drawn of the six components of a stress \[Pa\].

@@ -1,7 +1,7 @@
 //! Arguments of `gearmesh record`.
 
-use super::head_and_column;
 use clap::{Args, ValueEnum};
+use gearmesh_operations::compare::head_and_column;
 use gearmesh_report::Shaft;
 use std::path::PathBuf;
 

@@ -1,36 +1,20 @@
 //! `gearmesh accuracy`: what accuracy costs in time, for a scene of the user's own.
 
-use crate::arguments::{AccuracyArguments, TimeWord};
+use crate::arguments::Printed;
 use crate::{console, interrupt};
+use gearmesh_operations::Failure;
 use gearmesh_operations::accuracy::{AccuracyRequest, accuracy, demand_kept, figures};
-use gearmesh_operations::{Failure, Watch};
 use gearmesh_report::accuracy_page::{doubts_in_words, goal_in_words};
 use gearmesh_report::short;
 use gearmesh_scene::accuracy::{Accuracy, Advice, EffectFound, JudgedTime, words};
 use gearmesh_scene::study::Effort;
 
 /// Runs the command.
-pub fn run(a: &AccuracyArguments) -> Result<(), Failure> {
+pub fn run(a: &Printed<AccuracyRequest>) -> Result<(), Failure> {
     let stop = interrupt::on_demand();
-    let watch = Watch {
-        stop: &stop.asked,
-        ..console::watch()
-    };
-    let request = AccuracyRequest {
-        scene: a.scene.clone(),
-        columns: a.columns.clone(),
-        from_s: a.from_s,
-        by_processor_time: matches!(a.time, TimeWord::Processor),
-        elements: a.elements.clone(),
-        output: a.output.clone(),
-    };
-    let found = accuracy(&request, &watch)?;
+    let found = accuracy(&a.request, &stop.watch())?;
     drop(stop);
-    if a.json {
-        console::json(&figures(&found));
-    } else {
-        table(&found).into_iter().for_each(console::data);
-    }
+    console::found(a.json, || figures(&found), || table(&found));
     demand_kept(&found)
 }
 
@@ -38,7 +22,7 @@ fn percent(error: f64) -> String {
     short(100.0 * error)
 }
 
-/// Advice first, then all settings.
+/// Advice first, then all settings, then what effects change.
 fn table(found: &Accuracy) -> Vec<String> {
     let reference = &found.tried[0];
     let mut lines = vec![format!(
@@ -58,22 +42,38 @@ fn table(found: &Accuracy) -> Vec<String> {
         ));
         lines.extend(toml.iter().cloned());
     }
-    let heads: String = found
-        .columns
-        .iter()
-        .map(|column| format!("  {column} %"))
-        .collect();
-    let time = match found.time {
+    settings(found, &mut lines);
+    if !found.effects.is_empty() {
+        effects(found, &mut lines);
+    }
+    let left_out = found.left_out.iter();
+    lines.extend(left_out.map(|told| format!("not varied: {told}")));
+    lines.extend(found.failed.iter().map(|told| format!("failed: {told}")));
+    lines
+}
+
+fn heads(found: &Accuracy) -> String {
+    let columns = found.columns.iter();
+    columns.map(|column| format!("  {column} %")).collect()
+}
+
+/// An error of each column, below its head.
+fn cells(found: &Accuracy, errors: &[f64]) -> String {
+    let cells = errors.iter().zip(&found.columns);
+    let cells = cells
+        .map(|(error, column)| format!("  {:>1$}", percent(*error), column.chars().count() + 2));
+    cells.collect()
+}
+
+fn time_head(found: &Accuracy) -> &'static str {
+    match found.time {
         JudgedTime::Wall => "wall time s",
         JudgedTime::Processor => "processor s",
-    };
-    let cells = |errors: &[f64]| {
-        let cells = errors.iter().zip(&found.columns);
-        let cells = cells.map(|(error, column)| {
-            format!("  {:>1$}", percent(*error), column.chars().count() + 2)
-        });
-        cells.collect::<String>()
-    };
+    }
+}
+
+fn settings(found: &Accuracy, lines: &mut Vec<String>) {
+    let (time, heads) = (time_head(found), heads(found));
     let any_reduced = found.tried.iter().any(|one| one.reduction_s > 0.0);
     let reduced = if any_reduced { "    reduce s" } else { "" };
     lines.push(format!(
@@ -89,20 +89,24 @@ fn table(found: &Accuracy) -> Vec<String> {
             "{:>11} {:>11}{reduced}{}  {}",
             short(one.seconds),
             short(one.effort.iterations),
-            cells(&one.errors),
+            cells(found, &one.errors),
             words(&found.knobs, &one.rungs)
         ));
     }
-    if !found.effects.is_empty() {
-        lines.push(
-            "effects: what each changes, in the scene as it is, and what it takes (with / without)"
-                .to_owned(),
-        );
-        lines.push(format!(
-            "{:>15} {:>15} {:>19}{heads}  effect",
-            "states", "calls", time
-        ));
-    }
+}
+
+fn effects(found: &Accuracy, lines: &mut Vec<String>) {
+    lines.push(
+        "effects: what each changes, in the scene as it is, and what it takes (with / without)"
+            .to_owned(),
+    );
+    lines.push(format!(
+        "{:>15} {:>15} {:>19}{}  effect",
+        "states",
+        "calls",
+        time_head(found),
+        heads(found)
+    ));
     for EffectFound {
         effect,
         with,
@@ -113,28 +117,19 @@ fn table(found: &Accuracy) -> Vec<String> {
         let both =
             |of: &dyn Fn(&Effort) -> f64| format!("{} / {}", count(of(with)), count(of(without)));
         let times = [with, without].map(|effort| short(found.time.of(effort)));
+        let has = match effect.present {
+            true => "which the scene has",
+            false => "which it has not",
+        };
         lines.push(format!(
-            "{:>15} {:>15} {:>19}{}  {}, {}",
+            "{:>15} {:>15} {:>19}{}  {}, {has}",
             both(&|e| e.states),
             both(&|e| e.calls),
             times.join(" / "),
-            cells(changes),
-            effect.name,
-            if effect.present {
-                "which the scene has"
-            } else {
-                "which it has not"
-            }
+            cells(found, changes),
+            effect.name
         ));
     }
-    lines.extend(
-        found
-            .left_out
-            .iter()
-            .map(|told| format!("not varied: {told}")),
-    );
-    lines.extend(found.failed.iter().map(|told| format!("failed: {told}")));
-    lines
 }
 
 /// A whole number, or a dash where nothing was counted.

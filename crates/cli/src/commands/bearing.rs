@@ -5,6 +5,8 @@ use crate::arguments::{BearingArguments, ControlWord};
 use crate::console;
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingGeometry;
+use gearmesh_bearings::estimate::Estimate;
+use gearmesh_bearings::frequencies::RollingSizes;
 use gearmesh_bearings::life::Lubrication;
 use gearmesh_bearings::quasi_static::RowLoads;
 use gearmesh_bearings::warnings::Judged;
@@ -24,6 +26,23 @@ pub fn read(path: &Path) -> Result<BearingFromFile, Failure> {
     found.notes.iter().for_each(console::note);
     found.warnings.iter().for_each(console::warning);
     Ok(found)
+}
+
+/// What rolls in a bearing, at its nominal contact angle or that of `--contact-angle-deg`.
+pub fn sizes(
+    found: &BearingFromFile,
+    contact_angle_deg: Option<f64>,
+) -> Result<RollingSizes, Failure> {
+    let mut sizes = found.definition.rolling_sizes();
+    if let Some(degrees) = contact_angle_deg {
+        if !(0.0..90.0).contains(&degrees) {
+            return Err(Failure::input(format!(
+                "--contact-angle-deg: found {degrees}, allowed is 0 up to, not including, 90"
+            )));
+        }
+        sizes.contact_angle_rad = degrees.to_radians();
+    }
+    Ok(sizes)
 }
 
 /// Everything that is printed.
@@ -334,24 +353,8 @@ impl Answer<'_> {
     }
 
     fn table(&self) {
-        let q = self.pose.to_five();
-        if let Some(e) = &self.found.estimate {
-            let [few, many] = e.elements_spread;
-            let [small, large] = e.diameter_spread_m.map(|d| 1e3 * d);
-            let mut text = format!(
-                "estimated: {} elements ({few} to {many}) of {:.3} mm ({small:.3} to {large:.3}) on {:.3} mm",
-                e.elements,
-                1e3 * e.diameter_m,
-                1e3 * e.pitch_m
-            );
-            if e.length_m > 0.0 {
-                let [short, long] = e.length_spread_m.map(|d| 1e3 * d);
-                text += &format!(
-                    ", {:.3} mm long ({short:.3} to {long:.3})",
-                    1e3 * e.length_m
-                );
-            }
-            console::data(text);
+        if let Some(estimate) = &self.found.estimate {
+            console::data(estimate_line(estimate));
         }
         if let Some(clearance) = self.found.definition.operating_clearance() {
             let lines = bearing_clearance::lines(&clearance);
@@ -363,6 +366,7 @@ impl Answer<'_> {
                 1e6 * self.bearing.preload_m
             ));
         }
+        let q = self.pose.to_five();
         console::data(format!(
             "{}: inner ring moves by x {:.4}, y {:.4}, z {:.4} um, tilts by {:.5}, {:.5} mrad; moment {:.4}, {:.4} N m",
             self.found.definition.name,
@@ -383,44 +387,53 @@ impl Answer<'_> {
             k[3][3] + 0.0,
             k[4][4] + 0.0
         ));
-        for (row, list) in self.loads.elements.iter().enumerate() {
-            if self.loads.elements.len() > 1 {
-                console::data(format!("row {}", row + 1));
+        for row in 0..self.loads.elements.len() {
+            self.row_table(row);
+        }
+        console::data(self.ratings_line());
+        console::data(self.life_line());
+        if let Some(friction) = &self.friction {
+            console::data(bearing_friction::line(friction));
+        }
+    }
+
+    /// Loads, contact angles and pressures of each element of a row.
+    fn row_table(&self, row: usize) {
+        if self.loads.elements.len() > 1 {
+            console::data(format!("row {}", row + 1));
+        }
+        console::data(
+            "    deg   load N: inner      outer   angle deg: inner   outer   pressure MPa: inner   outer",
+        );
+        for (number, e) in self.loads.elements[row].iter().enumerate() {
+            let at_deg = e.angle_rad.to_degrees();
+            if !self.bearing.rows[row].has(number) {
+                console::data(format!("{at_deg:>7.2} {:>15}", "missing"));
+                continue;
             }
-            console::data(
-                "    deg   load N: inner      outer   angle deg: inner   outer   pressure MPa: inner   outer",
-            );
-            for (number, e) in list.iter().enumerate() {
-                if !self.bearing.rows[row].has(number) {
-                    console::data(format!(
-                        "{:>7.2} {:>15}",
-                        e.angle_rad.to_degrees(),
-                        "missing"
-                    ));
-                    continue;
-                }
-                let [inner, outer] = self.bearing.rows[row].peak_pressures_pa(e);
+            let [inner, outer] = self.bearing.rows[row].peak_pressures_pa(e);
+            console::data(format!(
+                "{at_deg:>7.2} {:>15.3} {:>10.3} {:>18.4} {:>7.4} {:>21.1} {:>7.1}",
+                e.inner_load_n,
+                e.outer_load_n,
+                rounded(e.inner_contact_angle_rad.to_degrees(), 4),
+                rounded(e.outer_contact_angle_rad.to_degrees(), 4),
+                1e-6 * inner,
+                1e-6 * outer
+            ));
+            if let Some(other) = &e.other_side {
                 console::data(format!(
-                    "{:>7.2} {:>15.3} {:>10.3} {:>18.4} {:>7.4} {:>21.1} {:>7.1}",
-                    e.angle_rad.to_degrees(),
-                    e.inner_load_n,
-                    e.outer_load_n,
-                    rounded(e.inner_contact_angle_rad.to_degrees(), 4),
-                    rounded(e.outer_contact_angle_rad.to_degrees(), 4),
-                    1e-6 * inner,
-                    1e-6 * outer
+                    "  other side {:>12.3} {:>10.3} {:>18.4} {:>7.4}",
+                    other.inner_load_n,
+                    other.outer_load_n,
+                    rounded(other.inner_contact_angle_rad.to_degrees(), 4),
+                    rounded(other.outer_contact_angle_rad.to_degrees(), 4),
                 ));
-                if let Some(other) = &e.other_side {
-                    console::data(format!(
-                        "  other side {:>12.3} {:>10.3} {:>18.4} {:>7.4}",
-                        other.inner_load_n,
-                        other.outer_load_n,
-                        rounded(other.inner_contact_angle_rad.to_degrees(), 4),
-                        rounded(other.outer_contact_angle_rad.to_degrees(), 4),
-                    ));
-                }
             }
         }
+    }
+
+    fn ratings_line(&self) -> String {
         let mut ratings = format!(
             "ratings: C {:.0} N, C0 {:.0} N, Cu {:.0} N",
             self.ratings.dynamic_n, self.ratings.static_n, self.ratings.fatigue_n
@@ -431,7 +444,10 @@ impl Answer<'_> {
                 safety.factor, safety.equivalent_n
             );
         }
-        console::data(ratings);
+        ratings
+    }
+
+    fn life_line(&self) -> String {
         let life = |value: Option<f64>| match value {
             Some(v) if v.is_finite() => format!("{v:.5e}"),
             Some(_) => "unlimited".to_owned(),
@@ -445,9 +461,25 @@ impl Answer<'_> {
         if self.life.modified_mrev.is_some() {
             text += &format!(", L10mr {}", life(self.life.modified_mrev));
         }
-        console::data(text);
-        if let Some(friction) = &self.friction {
-            console::data(bearing_friction::line(friction));
-        }
+        text
     }
+}
+
+fn estimate_line(e: &Estimate) -> String {
+    let [few, many] = e.elements_spread;
+    let [small, large] = e.diameter_spread_m.map(|d| 1e3 * d);
+    let mut text = format!(
+        "estimated: {} elements ({few} to {many}) of {:.3} mm ({small:.3} to {large:.3}) on {:.3} mm",
+        e.elements,
+        1e3 * e.diameter_m,
+        1e3 * e.pitch_m
+    );
+    if e.length_m > 0.0 {
+        let [short, long] = e.length_spread_m.map(|d| 1e3 * d);
+        text += &format!(
+            ", {:.3} mm long ({short:.3} to {long:.3})",
+            1e3 * e.length_m
+        );
+    }
+    text
 }

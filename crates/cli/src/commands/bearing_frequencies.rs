@@ -9,15 +9,7 @@ use serde_json::json;
 /// Runs the command.
 pub fn run(a: &BearingFrequenciesArguments) -> Result<(), Failure> {
     let found = bearing::read(&a.bearing)?;
-    let mut sizes = found.definition.rolling_sizes();
-    if let Some(angle) = a.contact_angle_deg {
-        if !(0.0..90.0).contains(&angle) {
-            return Err(Failure::input(format!(
-                "--contact-angle-deg: found {angle}, allowed is 0 up to, not including, 90"
-            )));
-        }
-        sizes.contact_angle_rad = angle.to_radians();
-    }
+    let sizes = bearing::sizes(&found, a.contact_angle_deg)?;
     let speed = |flag: &str, rpm: f64| {
         if rpm.is_finite() && rpm.abs() <= 1e7 {
             Ok(rpm / 60.0)

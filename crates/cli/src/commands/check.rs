@@ -10,11 +10,7 @@ pub fn run(a: &CheckArguments) -> Result<(), Failure> {
     let found = check(&a.file)?;
     found.notes.iter().for_each(console::note);
     found.slips.iter().for_each(console::warning);
-    if a.json {
-        console::json(&found.figures(&a.file));
-    } else {
-        found.lines(&a.file).into_iter().for_each(console::data);
-    }
+    console::found(a.json, || found.figures(&a.file), || found.lines(&a.file));
     match found.problem {
         Some(problem) => Err(Failure::work(problem)),
         None => Ok(()),

@@ -1,9 +1,9 @@
 //! `gearmesh optimise`: keys of a scene that make its objectives least.
 
-use crate::arguments::OptimiseArguments;
+use crate::arguments::Printed;
 use crate::{console, interrupt};
-use gearmesh_operations::optimise::{names, optimise};
-use gearmesh_operations::{Failure, Watch};
+use gearmesh_operations::Failure;
+use gearmesh_operations::optimise::{OptimiseRequest, names};
 use gearmesh_report::{column_width, short};
 use gearmesh_scene::optimise::{Optimisation, Optimum, Trial};
 
@@ -11,27 +11,13 @@ use gearmesh_scene::optimise::{Optimisation, Optimum, Trial};
 const MOST_LINES: usize = 20;
 
 /// Runs the command.
-pub fn run(a: &OptimiseArguments) -> Result<(), Failure> {
+pub fn run(a: &Printed<OptimiseRequest>) -> Result<(), Failure> {
     let stop = interrupt::on_demand();
-    let watch = Watch {
-        stop: &stop.asked,
-        ..console::watch()
-    };
-    let found = optimise(&a.file, &a.output, a.most_result_gb, &watch)?;
+    let found = a.request.optimise(&stop.watch())?;
     drop(stop);
-    if a.json {
-        console::json(&found.figures());
-    } else {
-        table(&found.problem, &found.optimum)
-            .into_iter()
-            .for_each(console::data);
-    }
-    match found.optimum.stopped {
-        true => Err(Failure::stopped(
-            "interrupted; the files have what was tried until then",
-        )),
-        false => Ok(()),
-    }
+    let lines = || table(&found.problem, &found.optimum);
+    console::found(a.json, || found.figures(), lines);
+    found.demand_ended()
 }
 
 /// The front for people.

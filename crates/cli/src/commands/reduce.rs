@@ -16,10 +16,6 @@ pub fn run(a: &ReduceArguments) -> Result<(), Failure> {
         even_if_memory_is_short: a.even_if_memory_is_short,
     };
     let model = reduce_to(&gear, how, &a.output, &watch)?;
-    if a.json {
-        console::json(&figures(&model));
-    } else {
-        summary(&model).into_iter().for_each(console::data);
-    }
+    console::found(a.json, || figures(&model), || summary(&model));
     Ok(())
 }

@@ -2,9 +2,10 @@
 
 use crate::arguments::RunArguments;
 use crate::{console, interrupt};
+use gearmesh_operations::accuracy::AccuracyRequest;
 use gearmesh_operations::run::{Ran, RunHow, run as run_scene};
-use gearmesh_operations::run_within::{self, WithinRequest, run_within};
-use gearmesh_operations::{Failure, Watch, output_name};
+use gearmesh_operations::run_within::{self, run_within};
+use gearmesh_operations::{Failure, output_name};
 use gearmesh_scene::SceneFile;
 use gearmesh_scene::accuracy::Chosen;
 use std::time::Duration;
@@ -19,20 +20,17 @@ pub fn run(a: &RunArguments) -> Result<(), Failure> {
         checkpoint_interval: Duration::from_secs_f64(a.checkpoint_s),
     };
     let stop = interrupt::on_demand();
-    let watch = Watch {
-        stop: &stop.asked,
-        ..console::watch()
-    };
+    let watch = stop.watch();
     let (ran, found) = match a.accuracy {
         None => (run_scene(SceneFile::read(&a.scene)?, &how, &watch)?, None),
         Some(goal) => {
-            let request = WithinRequest {
+            let request = AccuracyRequest {
                 scene: a.scene.clone(),
-                goal,
                 columns: a.columns.clone(),
                 from_s: a.from_s,
+                ..AccuracyRequest::default()
             };
-            let (ran, found) = run_within(request, &how, &watch)?;
+            let (ran, found) = run_within(&request, goal, &how, &watch)?;
             (ran, Some(found))
         }
     };

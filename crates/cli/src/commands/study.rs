@@ -3,8 +3,9 @@
 use super::study_elsewhere as elsewhere;
 use crate::arguments::StudyArguments;
 use crate::{console, interrupt};
+use gearmesh_operations::Failure;
 use gearmesh_operations::study::{gather, study as run_study};
-use gearmesh_operations::{Failure, Watch};
+
 use gearmesh_report::{column_width, short, study_figures, usual_unit};
 use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, SeriesOver, Study, StudyOutcome};
 use gearmesh_scene::system_run::{Figures, stem};
@@ -25,18 +26,11 @@ pub fn run(a: &StudyArguments) -> Result<(), Failure> {
         Some(failures) => gather(&study, &a.output, &failures, &console::watch())?,
         None => {
             let stop = interrupt::on_demand();
-            let watch = Watch {
-                stop: &stop.asked,
-                ..console::watch()
-            };
-            run_study(&study, &a.output, &watch)?
+            run_study(&study, &a.output, &stop.watch())?
         }
     };
-    if a.json {
-        console::json(&study_figures(&study, &outcome.cases));
-    } else {
-        table(&study, &outcome).into_iter().for_each(console::data);
-    }
+    let figures = || study_figures(&study, &outcome.cases);
+    console::found(a.json, figures, || table(&study, &outcome));
     let failed = outcome.cases.iter().filter(|case| case.figures.is_err());
     match failed.count() {
         0 => Ok(()),

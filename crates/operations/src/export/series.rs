@@ -2,6 +2,7 @@
 
 use super::ExportRequest;
 use crate::answer::Answer;
+use crate::cross_section::asked_torque;
 use crate::failure::Failure;
 use crate::result_scene::scene_of;
 use crate::stressed_gear::{StressedGear, forces_on};
@@ -39,11 +40,9 @@ pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer, Fail
             let rows = chosen(moments.rows(), a, watch);
             let unit = moments.unit;
             let gears = moments.gears();
-            let stressed = match a.stress {
-                true => gears.iter().map(|gear| stressed(gear, watch)).collect(),
-                false => Ok(Vec::new()),
-            };
-            let stressed = stressed?;
+            let asked = gears.iter().filter(|_| a.stress);
+            let stressed: Vec<_> =
+                (asked.map(|gear| stressed(gear, watch))).collect::<Result<_, _>>()?;
             let surfaces: Vec<GearSurface> = match &stressed[..] {
                 [] => gears.iter().map(surface).collect::<Result<_, _>>()?,
                 stressed => {
@@ -72,40 +71,25 @@ fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<An
         let problem = "gears that move are drawn of cylindrical pairs and of runs in time; run the bevel pair as a [[gear_mesh]]";
         return Err(Failure::input(problem));
     }
-    let torques = &result.torque_nm;
-    let torque = match a.torque_Nm {
-        None => (0..torques.len()).max_by(|i, j| torques[*i].abs().total_cmp(&torques[*j].abs())),
-        Some(wanted) => {
-            let near = |t: &f64| (t - wanted).abs() <= 1e-9 * wanted.abs();
-            torques.iter().position(near)
-        }
-    };
-    let torque = torque.ok_or_else(|| {
-        Failure::input(format!(
-            "--torque-Nm: found {}, the result has {torques:?}",
-            a.torque_Nm.unwrap_or_default()
-        ))
-    })?;
+    let torque = asked_torque(result, "--torque-Nm", a.torque_Nm)?;
     let loaded = scene_of(result, &a.result)?;
     let [gear_1, gear_2] = &result.gears;
     let gears = [
         gear_1.definition_in("the result")?,
         gear_2.definition_in("the result")?,
     ];
-    let stressed = match a.stress {
-        true => gears
-            .map(|gear| StressedGear::of_gear(gear, watch))
-            .into_iter()
-            .collect(),
-        false => Ok(Vec::new()),
-    };
-    let stressed = stressed?;
+    let asked = gears.iter().filter(|_| a.stress);
+    let stressed = asked.map(|gear| StressedGear::of_gear(gear, watch));
+    let stressed: Vec<_> = stressed.collect::<Result<_, _>>()?;
     let surfaces = match &stressed[..] {
         [] => pair_surfaces(&loaded, gears).to_vec(),
         stressed => (stressed.iter().map(StressedGear::surface)).collect::<Result<_, _>>()?,
     };
     let angles = chosen((0..result.angles()).collect(), a, watch);
-    watch.note(format!("torque on gear 2: {} N m", torques[torque]));
+    watch.note(format!(
+        "torque on gear 2: {} N m",
+        result.torque_nm[torque]
+    ));
     write_moments((a, watch), &surfaces, "deg", angles.len(), |k| {
         let moment = pair_moment(&loaded, result, gears, (torque, angles[k]));
         with_stress(moment, &stressed)

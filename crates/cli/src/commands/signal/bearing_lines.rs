@@ -11,7 +11,8 @@ const MULTIPLES: usize = 3;
 
 /// Frequencies of a bearing, in the unit of a spectrum's abscissa.
 pub struct BearingLines {
-    lines: [(&'static str, f64); 4],
+    /// Name, that of the amplitude there, place.
+    lines: [(&'static str, &'static str, f64); 4],
 }
 
 impl BearingLines {
@@ -39,36 +40,22 @@ impl BearingLines {
                 ));
             }
         };
-        let mut sizes = bearing::read(path)?.definition.rolling_sizes();
-        if let Some(degrees) = a.contact_angle_deg {
-            if !(0.0..90.0).contains(&degrees) {
-                return Err(Failure::input(format!(
-                    "--contact-angle-deg: found {degrees}, allowed is 0 up to, not including, 90"
-                )));
-            }
-            sizes.contact_angle_rad = degrees.to_radians();
-        }
+        let sizes = bearing::sizes(&bearing::read(path)?, a.contact_angle_deg)?;
         let f = sizes.frequencies(per_turn, 0.0);
         Ok(Some(Self {
             lines: [
-                ("FTF", f.cage_hz.abs()),
-                ("BSF", f.element_hz),
-                ("BPFO", f.outer_race_hz),
-                ("BPFI", f.inner_race_hz),
+                ("FTF", "amplitude at FTF", f.cage_hz.abs()),
+                ("BSF", "amplitude at BSF", f.element_hz),
+                ("BPFO", "amplitude at BPFO", f.outer_race_hz),
+                ("BPFI", "amplitude at BPFI", f.inner_race_hz),
             ],
         }))
     }
 
     /// Tells the largest line within one line of each frequency, and marks them in the page's spectrum.
     pub fn mark(&self, spectrum: &Spectrum, outcome: &mut Outcome, unit: &str, place_unit: &str) {
-        for (name, at) in self.lines {
-            let (where_at, height) = match name {
-                "FTF" => ("FTF", "amplitude at FTF"),
-                "BSF" => ("BSF", "amplitude at BSF"),
-                "BPFO" => ("BPFO", "amplitude at BPFO"),
-                _ => ("BPFI", "amplitude at BPFI"),
-            };
-            outcome.figure(where_at, at, place_unit);
+        for (name, height, at) in self.lines {
+            outcome.figure(name, at, place_unit);
             let line = (at / spectrum.line_spacing).round() as usize;
             let near = line.saturating_sub(1)..=line + 1;
             let largest = near
@@ -83,7 +70,7 @@ impl BearingLines {
 
     fn marks(&self, drawn: &LineSpectrum) -> Vec<(f64, String)> {
         let highest = drawn.places.last().copied().unwrap_or(0.0);
-        let multiples = self.lines.iter().flat_map(|(name, at)| {
+        let multiples = self.lines.iter().flat_map(|(name, _, at)| {
             (1..=MULTIPLES).map(move |m| {
                 let head = if m > 1 {
                     format!("{m} ")

@@ -97,17 +97,7 @@ impl Series {
         let shaft_rad = match shaft {
             None => None,
             Some((body, needed)) => {
-                let column = format!("bodies/{body}/turn_rad");
-                if !names.contains(&&*column) {
-                    let bodies = names
-                        .iter()
-                        .filter_map(|name| name.strip_prefix("bodies/")?.strip_suffix("/turn_rad"));
-                    return Err(Failure::input(format!(
-                        "--shaft: found `{body}`, allowed are {}",
-                        bodies.collect::<Vec<_>>().join(", ")
-                    )));
-                }
-                let all = read(&column)?;
+                let all = turns_of(&result, body)?;
                 if a.from_s.is_none() {
                     let first = Resampler::default().first_row_for(needed, &all, &range);
                     if first < range.start {
@@ -118,18 +108,7 @@ impl Series {
                         ));
                     }
                 }
-                let mut turns = all[range.clone()].to_vec();
-                // Orders do not depend on the sense of turning.
-                if turns.last() < turns.first() {
-                    turns.iter_mut().for_each(|angle| *angle = -*angle);
-                }
-                if let Some(row) = turns.windows(2).position(|pair| pair[1] <= pair[0]) {
-                    return Err(Failure::input(format!(
-                        "--shaft: found that `{body}` stands still or turns back at {} s; orders need a shaft that turns one way: choose another, or --from-s and --to-s",
-                        (range.start + row) as f64 / rate
-                    )));
-                }
-                Some(turns)
+                Some(rising(&all, &range, (body, rate))?)
             }
         };
         let start_s = range.start as f64 / rate;
@@ -227,6 +206,40 @@ impl Series {
         };
         let at = |i: usize| self.start + i as f64 / self.rate;
         Curve::new(name, unit, (0..self.values.len()).map(at).collect())
+    }
+}
+
+/// Angle of a body's shaft at each row \[rad\].
+fn turns_of(result: &SystemResult, body: &str) -> Result<Vec<f64>, Failure> {
+    let column = format!("bodies/{body}/turn_rad");
+    let names = || result.rows.columns().iter().map(|c| &*c.name);
+    if names().any(|name| name == column) {
+        return result.rows.read(&column).map_err(Failure::work);
+    }
+    let bodies = names().filter_map(|name| name.strip_prefix("bodies/")?.strip_suffix("/turn_rad"));
+    Err(Failure::input(format!(
+        "--shaft: found `{body}`, allowed are {}",
+        bodies.collect::<Vec<_>>().join(", ")
+    )))
+}
+
+/// The angles of some rows, as those of a shaft that turns forward.
+fn rising(
+    all: &[f64],
+    rows: &Range<usize>,
+    (body, rate): (&str, f64),
+) -> Result<Vec<f64>, Failure> {
+    let mut turns = all[rows.clone()].to_vec();
+    // Orders do not depend on the sense of turning.
+    if turns.last() < turns.first() {
+        turns.iter_mut().for_each(|angle| *angle = -*angle);
+    }
+    match turns.windows(2).position(|pair| pair[1] <= pair[0]) {
+        None => Ok(turns),
+        Some(row) => Err(Failure::input(format!(
+            "--shaft: found that `{body}` stands still or turns back at {} s; orders need a shaft that turns one way: choose another, or --from-s and --to-s",
+            (rows.start + row) as f64 / rate
+        ))),
     }
 }
 
