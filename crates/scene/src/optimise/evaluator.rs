@@ -1,14 +1,16 @@
 //! What a choice of the variables is worth: the objectives of what scatter makes of it.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fs::create_dir_all;
 use std::sync::{Mutex, PoisonError};
 
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
 use gearmesh_model::write_text;
 use rayon::prelude::*;
 
-use super::file::{Judged, Optimisation};
+use super::file::{Judged, Optimisation, TermTable};
 use crate::pair::warnings::{ColumnPressure, yielding};
 use crate::study::{
     BaseScene, Case, Design, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, Setting,
@@ -81,30 +83,7 @@ impl<'a> Evaluator<'a> {
             tried: Mutex::new(Vec::new()),
             failed: Mutex::new(None),
         };
-        // The middle of all bounds is a sound scene, or the file is at fault.
-        let middle: Vec<f64> = tables
-            .variable
-            .iter()
-            .map(|v| 0.5 * (v.from + v.to))
-            .collect();
-        let scene = this.scene(&middle, 0).map_err(|error| match error {
-            VaryError::Scene(error) => error,
-            VaryError::Key {
-                parameter,
-                problem: told,
-            } => {
-                // A setting is named by its key.
-                let has = |keys: &Vec<String>| keys.contains(&parameter);
-                let at = match tables.variable.iter().position(|v| has(&v.keys)) {
-                    Some(i) => format!("variable.{i}.keys"),
-                    None => {
-                        let scatter = tables.scatter.iter().position(|s| has(&s.keys));
-                        format!("scatter.{}.keys", scatter.unwrap_or_default())
-                    }
-                };
-                problem.document.error(&at, told)
-            }
-        })?;
+        let scene = this.middle(problem)?;
         let torques = match &scene {
             Subject::Pair(scene) => scene.torques_nm.clone(),
             Subject::Bevel(pair) => pair
@@ -126,37 +105,10 @@ impl<'a> Evaluator<'a> {
         for (i, objective) in tables.objective.iter().enumerate() {
             let mut terms = Vec::new();
             for (j, term) in objective.term.iter().enumerate() {
-                let at = |key: &str| format!("objective.{i}.term.{j}.{key}");
-                let wanted = Wanted::of(&term.column);
-                let mut checked = wanted.check(&known, kinds);
-                if kinds != FigureKinds::None && wanted.word.is_empty() && checked.is_ok() {
-                    checked = Err(format!(
-                        "`{}` is a series; say which number of it is to be small: `{}:largest`, `:mean`, `:peak-to-peak` and so on",
-                        term.column, term.column
-                    ));
-                }
-                checked.map_err(|told| problem.document.error(&at("column"), told))?;
-                let torque = match term.torque_Nm {
-                    None => None,
-                    Some(torque) => {
-                        let found = torques.iter().position(|known| *known == torque);
-                        if found.is_none() {
-                            let told = match torques.is_empty() {
-                                true => "belongs to gear pairs, and to bevel pairs with [load]; remove it".to_owned(),
-                                false => format!("found {torque}, the scene has {torques:?}"),
-                            };
-                            return Err(problem.document.error(&at("torque_Nm"), told).into());
-                        }
-                        if matches!(scene, Subject::Bevel(_)) && is_without_load(&wanted.column) {
-                            let told = format!(
-                                "`{}` is a number without load, the same at every torque; remove this key, or name a column under load, as `loaded_te_peak_to_peak_urad`",
-                                term.column
-                            );
-                            return Err(problem.document.error(&at("torque_Nm"), told).into());
-                        }
-                        found
-                    }
-                };
+                let table = format!("objective.{i}.term.{j}");
+                let keys = TableKeys::new(&problem.document, &table);
+                let wanted = wanted_column(&keys, term, (&known, kinds))?;
+                let torque = torque_of(&keys, term, (&scene, &torques), &wanted)?;
                 let column = match this.wanted.iter().position(|one| *one == wanted) {
                     Some(place) => place,
                     None => {
@@ -169,6 +121,31 @@ impl<'a> Evaluator<'a> {
             this.terms.push(terms);
         }
         Ok(this)
+    }
+
+    /// The scene in the middle of all bounds, which is a sound one, or the file is at fault.
+    fn middle(&self, problem: &Optimisation) -> Result<Subject, InputError> {
+        let tables = &problem.tables;
+        let middle = tables.variable.iter().map(|v| 0.5 * (v.from + v.to));
+        let scene = self.scene(&middle.collect::<Vec<f64>>(), 0);
+        scene.map_err(|error| match error {
+            VaryError::Scene(error) => error,
+            VaryError::Key {
+                parameter,
+                problem: told,
+            } => {
+                // A setting is named by its key.
+                let has = |keys: &Vec<String>| keys.contains(&parameter);
+                let at = match tables.variable.iter().position(|v| has(&v.keys)) {
+                    Some(i) => format!("variable.{i}.keys"),
+                    None => {
+                        let scatter = tables.scatter.iter().position(|s| has(&s.keys));
+                        format!("scatter.{}.keys", scatter.unwrap_or_default())
+                    }
+                };
+                problem.document.error(&at, told)
+            }
+        })
     }
 
     /// Number of objectives.
@@ -236,13 +213,7 @@ impl<'a> Evaluator<'a> {
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .clone();
-        tried.sort_by(|a, b| {
-            let pairs = a.values.iter().zip(&b.values);
-            let mut orders = pairs.map(|(x, y)| x.total_cmp(y));
-            orders
-                .find(|order| order.is_ne())
-                .unwrap_or(std::cmp::Ordering::Equal)
-        });
+        tried.sort_by(|a, b| in_order(&a.values, &b.values));
         tried.dedup();
         tried
     }
@@ -353,6 +324,60 @@ impl<'a> Evaluator<'a> {
             parameter: key,
         }
     }
+}
+
+/// The column of a term, which must be a number of the scene.
+fn wanted_column(
+    keys: &TableKeys,
+    term: &TermTable,
+    (known, kinds): (&[String], FigureKinds),
+) -> Result<Wanted, InputError> {
+    let wanted = Wanted::of(&term.column);
+    let mut checked = wanted.check(known, kinds);
+    if kinds != FigureKinds::None && wanted.word.is_empty() && checked.is_ok() {
+        checked = Err(format!(
+            "`{}` is a series; say which number of it is to be small: `{}:largest`, `:mean`, `:peak-to-peak` and so on",
+            term.column, term.column
+        ));
+    }
+    checked.map_err(|told| keys.error("column", told))?;
+    Ok(wanted)
+}
+
+/// Place of a term's torque among those of the scene; none where it says none.
+fn torque_of(
+    keys: &TableKeys,
+    term: &TermTable,
+    (scene, torques): (&Subject, &[f64]),
+    wanted: &Wanted,
+) -> Result<Option<usize>, InputError> {
+    let Some(torque) = term.torque_Nm else {
+        return Ok(None);
+    };
+    let found = torques.iter().position(|known| *known == torque);
+    if found.is_none() {
+        let told = match torques.is_empty() {
+            true => "belongs to gear pairs, and to bevel pairs with [load]; remove it".to_owned(),
+            false => format!("found {torque}, the scene has {torques:?}"),
+        };
+        return Err(keys.error("torque_Nm", told));
+    }
+    if matches!(scene, Subject::Bevel(_)) && is_without_load(&wanted.column) {
+        let told = format!(
+            "`{}` is a number without load, the same at every torque; remove this key, or name a column under load, as `loaded_te_peak_to_peak_urad`",
+            term.column
+        );
+        return Err(keys.error("torque_Nm", told));
+    }
+    Ok(found)
+}
+
+/// Compares row by row of numbers: by the first in which they differ.
+pub(super) fn in_order(a: &[f64], b: &[f64]) -> Ordering {
+    let mut orders = a.iter().zip(b).map(|(x, y)| x.total_cmp(y));
+    orders
+        .find(|order| order.is_ne())
+        .unwrap_or(Ordering::Equal)
 }
 
 fn is_in_time(subject: &Subject) -> bool {

@@ -1,6 +1,6 @@
 //! Which trials no other one beats.
 
-use super::evaluator::Trial;
+use super::evaluator::{Trial, in_order};
 
 /// The Pareto front: trials of which no other one is as small in all objectives and smaller in one; by the first
 /// objective, increasing. Of trials with equal objectives the first one stands for all.
@@ -8,13 +8,7 @@ use super::evaluator::Trial;
 pub fn front(tried: &[Trial]) -> Vec<Trial> {
     let mut sorted: Vec<&Trial> = tried.iter().collect();
     // A trial is beaten by none that comes after it in this order.
-    sorted.sort_by(|a, b| {
-        let pairs = a.objectives.iter().zip(&b.objectives);
-        let mut orders = pairs.map(|(x, y)| x.total_cmp(y));
-        orders
-            .find(|order| order.is_ne())
-            .unwrap_or(std::cmp::Ordering::Equal)
-    });
+    sorted.sort_by(|a, b| in_order(&a.objectives, &b.objectives));
     let mut front: Vec<Trial> = Vec::new();
     for trial in sorted {
         let as_good = |other: &Trial| {

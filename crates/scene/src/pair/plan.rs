@@ -23,13 +23,11 @@ impl Plan {
     pub fn new(loaded: &LoadedScene) -> Self {
         let LoadedScene {
             scene,
-            models: [gear_1, gear_2],
             lines,
             layout,
             ratings,
             ..
         } = loaded;
-        let pair = &lines.pair;
         let positions = scene.positions() * scene.torques_nm.len();
         let unknowns = lines.most_pairs() * layout.slices;
         let mut text = vec![
@@ -40,37 +38,7 @@ impl Plan {
                 scene.positions()
             ),
         ];
-        for (number, gear) in [(1, gear_1), (2, gear_2)] {
-            text.push(format!(
-                "gear {number}     {}: z {}, body `reduced`, {} flank loads, {} repeating sectors, from {} degrees of freedom ({})",
-                gear.name,
-                gear.teeth,
-                gear.grid.len(),
-                gear.sectors,
-                gear.provenance.dofs,
-                gear.provenance.element
-            ));
-        }
-        text.push(format!(
-            "pair       a {:.4} mm, working pressure angle {:.4} deg, contact ratio {:.4}, backlash {:.4} mm, {} flanks",
-            pair.centre_distance_m * 1e3,
-            pair.working_pressure_angle_rad.to_degrees(),
-            pair.contact_ratio(),
-            pair.backlash_m() * 1e3,
-            scene.flank.name()
-        ));
-        text.extend((pair.assembly_words()).map(|words| format!("assembly   {words}")));
-        if pair.is_helical() {
-            text.push(format!(
-                "helix      gear 1 {} hand, gear 2 {} hand, base helix angle {:.4} deg, contact ratio transverse {:.4} + overlap {:.4} = total {:.4}",
-                pair.gear_1.hand(),
-                pair.gear_2.hand(),
-                pair.base_helix_angle_rad().abs().to_degrees(),
-                pair.contact_ratio(),
-                pair.overlap_ratio(layout.reference.width_m),
-                pair.total_contact_ratio(layout.reference.width_m)
-            ));
-        }
+        text.extend(pair_lines(loaded));
         text.push(format!(
             "mesh       `hybrid`, path {}, local `{}`, {} slices, at most {unknowns} unknown forces",
             match scene.edge_radius_m {
@@ -88,33 +56,7 @@ impl Plan {
                 f.reversal_m * 1e6
             ),
         });
-        for (number, gear) in [(1, gear_1), (2, gear_2)] {
-            text.extend(
-                (gear.crack.as_ref())
-                    .map(|crack| format!("fault      gear {number}: {}", crack.description())),
-            );
-        }
-        for (number, microgeometry) in [1, 2].into_iter().zip(&loaded.microgeometry) {
-            text.push(format!("flanks     gear {number}: {microgeometry}"));
-        }
-        for (number, (errors, seat)) in [1, 2]
-            .into_iter()
-            .zip(scene.errors.iter().zip(&scene.eccentricity))
-        {
-            let kinds: Vec<&str> = (errors.iter().map(|error| error.kind()))
-                .chain(seat.map(|_| "eccentricity"))
-                .collect();
-            if !kinds.is_empty() {
-                text.push(format!("errors     gear {number}: {}", kinds.join(", ")));
-            }
-        }
-        if pair.misalignment != Misalignment::default() {
-            text.push(format!(
-                "axes       inclination {:.6} mrad, deviation {:.6} mrad",
-                pair.misalignment.inclination_rad * 1e3,
-                pair.misalignment.deviation_rad * 1e3
-            ));
-        }
+        text.extend(flank_lines(loaded));
         let gauges = scene.gauges_1.len() + scene.gauges_2.len();
         text.push(if gauges == 0 {
             "gauges     not computed".to_string()
@@ -138,4 +80,78 @@ impl Plan {
             proposal: loaded.proposal(&loaded.gauges),
         }
     }
+}
+
+/// The two gears, and the pair that they make.
+fn pair_lines(loaded: &LoadedScene) -> Vec<String> {
+    let [gear_1, gear_2] = &loaded.models;
+    let (scene, layout, pair) = (&loaded.scene, &loaded.layout, &loaded.lines.pair);
+    let mut text = Vec::new();
+    for (number, gear) in [(1, gear_1), (2, gear_2)] {
+        text.push(format!(
+            "gear {number}     {}: z {}, body `reduced`, {} flank loads, {} repeating sectors, from {} degrees of freedom ({})",
+            gear.name,
+            gear.teeth,
+            gear.grid.len(),
+            gear.sectors,
+            gear.provenance.dofs,
+            gear.provenance.element
+        ));
+    }
+    text.push(format!(
+        "pair       a {:.4} mm, working pressure angle {:.4} deg, contact ratio {:.4}, backlash {:.4} mm, {} flanks",
+        pair.centre_distance_m * 1e3,
+        pair.working_pressure_angle_rad.to_degrees(),
+        pair.contact_ratio(),
+        pair.backlash_m() * 1e3,
+        scene.flank.name()
+    ));
+    text.extend((pair.assembly_words()).map(|words| format!("assembly   {words}")));
+    if pair.is_helical() {
+        text.push(format!(
+            "helix      gear 1 {} hand, gear 2 {} hand, base helix angle {:.4} deg, contact ratio transverse {:.4} + overlap {:.4} = total {:.4}",
+            pair.gear_1.hand(),
+            pair.gear_2.hand(),
+            pair.base_helix_angle_rad().abs().to_degrees(),
+            pair.contact_ratio(),
+            pair.overlap_ratio(layout.reference.width_m),
+            pair.total_contact_ratio(layout.reference.width_m)
+        ));
+    }
+    text
+}
+
+/// What is no ideal flank on an ideal axis.
+fn flank_lines(loaded: &LoadedScene) -> Vec<String> {
+    let [gear_1, gear_2] = &loaded.models;
+    let (scene, pair) = (&loaded.scene, &loaded.lines.pair);
+    let mut text = Vec::new();
+    for (number, gear) in [(1, gear_1), (2, gear_2)] {
+        text.extend(
+            (gear.crack.as_ref())
+                .map(|crack| format!("fault      gear {number}: {}", crack.description())),
+        );
+    }
+    for (number, microgeometry) in [1, 2].into_iter().zip(&loaded.microgeometry) {
+        text.push(format!("flanks     gear {number}: {microgeometry}"));
+    }
+    for (number, (errors, seat)) in [1, 2]
+        .into_iter()
+        .zip(scene.errors.iter().zip(&scene.eccentricity))
+    {
+        let kinds: Vec<&str> = (errors.iter().map(|error| error.kind()))
+            .chain(seat.map(|_| "eccentricity"))
+            .collect();
+        if !kinds.is_empty() {
+            text.push(format!("errors     gear {number}: {}", kinds.join(", ")));
+        }
+    }
+    if pair.misalignment != Misalignment::default() {
+        text.push(format!(
+            "axes       inclination {:.6} mrad, deviation {:.6} mrad",
+            pair.misalignment.inclination_rad * 1e3,
+            pair.misalignment.deviation_rad * 1e3
+        ));
+    }
+    text
 }

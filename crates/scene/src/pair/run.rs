@@ -115,21 +115,8 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
 /// As [`load`].
 pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, RunError> {
     demand_gears_that_fit(&scene, shelf)?;
-    let read = |key: &str, path: &Path| -> Result<(ShelvedModel, GearDefinition), RunError> {
-        if !shelf.knows(path) {
-            let problem = format!(
-                "the model {} does not exist; make it with `gearmesh reduce GEAR.toml -o {}`",
-                path.display(),
-                path.display()
-            );
-            return Err(scene.document.error(key, problem).into());
-        }
-        let model = shelf.model(path)?;
-        let gear = model.model.input.definition_in(path.display())?.clone();
-        Ok((model, gear))
-    };
-    let (model_1, mut gear_1) = read("pair.gear_1", &scene.gear_1)?;
-    let (model_2, mut gear_2) = read("pair.gear_2", &scene.gear_2)?;
+    let (model_1, mut gear_1) = gear_of(&scene, shelf, ("pair.gear_1", &scene.gear_1))?;
+    let (model_2, mut gear_2) = gear_of(&scene, shelf, ("pair.gear_2", &scene.gear_2))?;
     let microgeometry = [
         scene.modify_flanks(1, &mut gear_1)?,
         scene.modify_flanks(2, &mut gear_2)?,
@@ -163,36 +150,11 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
     let model_digests = [model_1.digest, model_2.digest];
     let models = [model_1.model, model_2.model];
     let sides = [0, 1].map(|gear| pair.flank_of(gear));
-    for ((key, model), side) in ["pair.gear_1", "pair.gear_2"]
-        .iter()
-        .zip(&models)
-        .zip(sides)
-    {
-        model
-            .flank_index(side)
-            .map_err(|e| scene.document.error(key, e))?;
+    for (key, i) in [("pair.gear_1", 0), ("pair.gear_2", 1)] {
+        let flank = models[i].flank_index(sides[i]);
+        flank.map_err(|e| scene.document.error(key, e))?;
     }
-    let mut gauges = Vec::new();
-    for (gear, names) in [(1, &scene.gauges_1), (2, &scene.gauges_2)] {
-        for (i, name) in names.iter().enumerate() {
-            let known = &models[gear - 1].gauges;
-            let index = known.iter().position(|g| g.name == *name).ok_or_else(|| {
-                let names: Vec<&str> = known.iter().map(|g| g.name.as_str()).collect();
-                scene.document.error(
-                    &format!("gauges.gear_{gear}.{i}"),
-                    format!(
-                        "the model has no gauge `{name}`; it has: {}",
-                        if names.is_empty() {
-                            "none".into()
-                        } else {
-                            names.join(", ")
-                        }
-                    ),
-                )
-            })?;
-            gauges.push((gear, index));
-        }
-    }
+    let gauges = gauge_places(&scene, &models)?;
     let rated = RatedPair {
         scene: &scene,
         pair: &pair,
@@ -235,6 +197,51 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         model_digests,
         condensed: shelf.condensed(),
     })
+}
+
+/// The model of a gear of the scene, and the gear that it was made of.
+fn gear_of(
+    scene: &Scene,
+    shelf: &ModelShelf,
+    (key, path): (&str, &Path),
+) -> Result<(ShelvedModel, GearDefinition), RunError> {
+    if !shelf.knows(path) {
+        let problem = format!(
+            "the model {} does not exist; make it with `gearmesh reduce GEAR.toml -o {}`",
+            path.display(),
+            path.display()
+        );
+        return Err(scene.document.error(key, problem).into());
+    }
+    let model = shelf.model(path)?;
+    let gear = model.model.input.definition_in(path.display())?.clone();
+    Ok((model, gear))
+}
+
+/// Gear and index of each gauge that the scene names.
+fn gauge_places(
+    scene: &Scene,
+    models: &[Arc<ReducedGear>; 2],
+) -> Result<Vec<(usize, usize)>, InputError> {
+    let mut places = Vec::new();
+    for (gear, names) in [(1, &scene.gauges_1), (2, &scene.gauges_2)] {
+        let known = &models[gear - 1].gauges;
+        for (i, name) in names.iter().enumerate() {
+            let index = known.iter().position(|g| g.name == *name).ok_or_else(|| {
+                let names: Vec<&str> = known.iter().map(|g| g.name.as_str()).collect();
+                let known = match names.is_empty() {
+                    true => "none".to_owned(),
+                    false => names.join(", "),
+                };
+                let problem = format!("the model has no gauge `{name}`; it has: {known}");
+                scene
+                    .document
+                    .error(&format!("gauges.gear_{gear}.{i}"), problem)
+            })?;
+            places.push((gear, index));
+        }
+    }
+    Ok(places)
 }
 
 /// Where models are not there yet, the gear files of the same names beside them say whether the gears run together: told

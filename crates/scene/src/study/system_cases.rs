@@ -80,8 +80,13 @@ pub(super) fn run_case(
     folder: &Path,
     stop: &AtomicBool,
 ) -> Result<Option<PathBuf>, StudyError> {
+    waiting(|| run_unless_there(scene.clone(), folder, stop))
+}
+
+/// Tries again while another process has the case in hand.
+fn waiting<T>(attempt: impl Fn() -> Result<T, StudyError>) -> Result<T, StudyError> {
     loop {
-        match run_unless_there(scene.clone(), folder, stop) {
+        match attempt() {
             Err(StudyError::Run(SystemRunError::File(FileError::InUse { .. }))) => {
                 std::thread::sleep(WAITING);
             }
@@ -144,7 +149,7 @@ pub(super) fn run_sent(
     stop: &AtomicBool,
 ) -> Result<Option<bool>, StudyError> {
     let file = folder.join(&case.file);
-    loop {
+    waiting(|| {
         if is_there(&file, &case.identity) {
             return Ok(Some(false));
         }
@@ -154,13 +159,8 @@ pub(super) fn run_sent(
         let mut job = RunJob::from_scene(scene.clone().load()?)?;
         job.head.scene_toml.clone_from(&case.text);
         job.head.inputs.clone_from(&case.inputs);
-        match run_into(job, &file, stop) {
-            Err(StudyError::Run(SystemRunError::File(FileError::InUse { .. }))) => {
-                std::thread::sleep(WAITING);
-            }
-            outcome => return Ok(outcome?.then_some(true)),
-        }
-    }
+        Ok(run_into(job, &file, stop)?.then_some(true))
+    })
 }
 
 /// False where it was stopped.
@@ -211,10 +211,18 @@ fn say(error: FileError) -> String {
 fn told(one: &Wanted, unit: &str, figures: Figures) -> Selected {
     let value = one.figure().and_then(|figure| figure.value(&figures));
     Selected {
+        value: value.map_or(SelectedValue::Series(figures), SelectedValue::Single),
+        ..single(one, unit, 0.0)
+    }
+}
+
+/// One number, which is that of all torques.
+fn single(one: &Wanted, unit: &str, value: f64) -> Selected {
+    Selected {
         column: one.name(),
         unit: unit.to_owned(),
         torque_nm: None,
-        value: value.map_or(SelectedValue::Series(figures), SelectedValue::Single),
+        value: SelectedValue::Single(value),
     }
 }
 
@@ -233,12 +241,7 @@ fn of_set(result: &SystemResult, one: &Wanted) -> Result<Selected, String> {
     for found in result.sets().map_err(say)? {
         for (name, unit, value) in found.figures() {
             if set_column(&found.set.name, name) == one.column {
-                return Ok(Selected {
-                    column: one.name(),
-                    unit: unit.to_owned(),
-                    torque_nm: None,
-                    value: SelectedValue::Single(value),
-                });
+                return Ok(single(one, unit, value));
             }
         }
     }
@@ -253,12 +256,7 @@ fn of_rating(result: &SystemResult, one: &Wanted) -> Result<Selected, String> {
     for rated in &result.ratings {
         let mut figures = rated.figures.iter();
         if let Some(f) = figures.find(|f| rating_column(&rated.name, f.name) == one.column) {
-            return Ok(Selected {
-                column: one.name(),
-                unit: f.unit.to_owned(),
-                torque_nm: None,
-                value: SelectedValue::Single(f.value),
-            });
+            return Ok(single(one, f.unit, f.value));
         }
         if let Some(problem) = &rated.problem
             && one.column.starts_with(&rating_column(&rated.name, ""))
@@ -330,12 +328,8 @@ fn of_rows(result: &SystemResult, one: &Wanted, from_s: f64) -> Result<Selected,
         if let Some(problem) = result.folded_in_words(&one.column) {
             return Err(problem);
         }
-        return Ok(Selected {
-            column: one.name(),
-            unit: column.unit.clone(),
-            torque_nm: None,
-            value: SelectedValue::Single(line_amplitude(values, interval_s, hz)),
-        });
+        let amplitude = line_amplitude(values, interval_s, hz);
+        return Ok(single(one, &column.unit, amplitude));
     }
     Ok(told(one, &column.unit, Figures::of(values)))
 }
@@ -359,22 +353,12 @@ fn of_sweep(result: &SystemResult, one: &Wanted) -> Result<Selected, String> {
                 .map(|(window, f)| (rpm(window), f.peak_to_peak()))
                 .collect();
             let (speeds, swings): (Vec<f64>, Vec<f64>) = all.into_iter().unzip();
-            Ok(Selected {
-                column: one.name(),
-                unit: "1/min".to_owned(),
-                torque_nm: None,
-                value: SelectedValue::Single(resonance(&speeds, &swings)),
-            })
+            Ok(single(one, "1/min", resonance(&speeds, &swings)))
         }
         // The largest swing at one speed, not that over all speeds.
         Some(Figure::PeakToPeak) => {
             let most = windows().map(|f| f.peak_to_peak()).fold(0.0, f64::max);
-            Ok(Selected {
-                column: one.name(),
-                unit: unit.clone(),
-                torque_nm: None,
-                value: SelectedValue::Single(most),
-            })
+            Ok(single(one, unit, most))
         }
         _ => {
             let count = sweep.figures.len() as f64;
