@@ -131,6 +131,7 @@ impl Record for PlanetarySet {
         }
         f.text("carrier", &mut members.carrier, "body of the carrier")?;
         f.lines("planets", &mut self.planets, "bodies of the planets")?;
+        self.partner_fields(f)?;
         let what = "meshes of sun and planets";
         f.lines("sun_meshes", &mut self.sun_meshes, what)?;
         let what = "meshes of planets and ring";
@@ -147,6 +148,29 @@ impl Record for PlanetarySet {
         }
         self.axis = axis.try_into().unwrap_or([0.0, 0.0, 1.0]);
         Ok(())
+    }
+}
+
+impl PlanetarySet {
+    /// Of meshed planets; files of older programs have none.
+    fn partner_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let is_there = match f.is_reading() {
+            true => f.has("partners"),
+            false => f.is_listing() || self.teeth.is_meshed,
+        };
+        if !is_there {
+            return Ok(());
+        }
+        self.teeth.is_meshed = true;
+        let it = &mut self.partners;
+        let what = "of meshed planets: bodies of the partners";
+        f.lines("partners", &mut it.bodies, what)?;
+        let what = "of meshed planets: meshes of planets and partners";
+        f.lines("pair_meshes", &mut it.meshes, what)?;
+        let what = "of meshed planets: how far partners are ahead of their planets";
+        f.number("partner_ahead_rad", &mut it.ahead_rad, "rad", what)?;
+        let what = "of meshed planets: distance of the partners' pins from the axis";
+        f.number("partner_distance_m", &mut it.distance_m, "m", what)
     }
 }
 

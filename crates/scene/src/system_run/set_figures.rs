@@ -3,7 +3,7 @@
 //! ```text
 //! s_n = N M_n/Σ_k M_k           share of planet n: moment of its mesh on sun or ring over the mean of all N
 //! K_γ = max_n max_rows s_n      mesh load factor (ISO 6336-1: uneven load of several paths)
-//! e   = φ_c − (z_s φ_s + z_r φ_r)/(z_s + z_r)      transmission error of the carrier, after Willis
+//! e   = φ_c − (φ_r − i φ_s)/(1 − i)      transmission error of the carrier, after Willis; i: ratio with the carrier held
 //! ```
 //!
 //! [`SystemResult::planet_shares`] has the shares row by row, over the turn of the carrier.
@@ -53,12 +53,16 @@ pub struct SetFigures {
     pub over: String,
     /// Sun meshes; none where they are not recorded or do not carry.
     pub sun: Option<MeshShares>,
+    /// Meshes of planets and partners, by the moments on planets; none of planets without.
+    pub pair: Option<MeshShares>,
     /// Ring meshes.
     pub ring: Option<MeshShares>,
     /// Largest distance of the sun from the middle of its orbit \[m\], of a sun that is recorded.
     pub sun_orbit_m: Option<f64>,
     /// Radial force of the pin on each planet, largest of the rows \[N\]: of its bearings together, or of its joint.
     pub pin_force_n: Option<Vec<f64>>,
+    /// The same of the partners.
+    pub partner_pin_force_n: Option<Vec<f64>>,
     /// Peak-to-peak transmission error of the carrier \[rad\].
     pub transmission_error_rad: Option<f64>,
 }
@@ -138,9 +142,11 @@ impl SystemResult {
         let of_set = |set: &PlanetarySet| {
             Ok(SetFigures {
                 sun: columns.shares(&set.sun_meshes, SUN_CHANNEL)?,
+                pair: columns.shares(&set.partners.meshes, SUN_CHANNEL)?,
                 ring: columns.shares(&set.ring_meshes, RING_CHANNEL)?,
                 sun_orbit_m: columns.orbit_m(set)?,
-                pin_force_n: columns.pin_forces_n(set)?,
+                pin_force_n: columns.pin_forces_n(set, &set.planets)?,
+                partner_pin_force_n: columns.pin_forces_n(set, &set.partners.bodies)?,
                 transmission_error_rad: columns.transmission_error_rad(set)?,
                 over: over.clone(),
                 set: set.clone(),
@@ -244,9 +250,13 @@ impl Columns<'_> {
         }))
     }
 
-    fn pin_forces_n(&self, set: &PlanetarySet) -> Result<Option<Vec<f64>>, FileError> {
+    fn pin_forces_n(
+        &self,
+        set: &PlanetarySet,
+        planets: &[String],
+    ) -> Result<Option<Vec<f64>>, FileError> {
         let mut forces = Vec::new();
-        for planet in &set.planets {
+        for planet in planets {
             let of =
                 |columns: &dyn Fn(&str) -> String| self.read_all(AXES.map(columns).into_iter());
             let mut parts = of(&|axis| format!("joints/{planet} pin/force_world_{axis}_N"))?;
@@ -268,7 +278,7 @@ impl Columns<'_> {
             let radial = |row: usize| set.across([0, 1, 2].map(|i| parts[i][row]));
             forces.push((0..self.rows.len()).map(radial).fold(0.0, f64::max));
         }
-        Ok(Some(forces))
+        Ok(Some(forces).filter(|forces| !forces.is_empty()))
     }
 
     fn transmission_error_rad(&self, set: &PlanetarySet) -> Result<Option<f64>, FileError> {

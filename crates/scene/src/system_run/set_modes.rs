@@ -125,7 +125,8 @@ fn kind(mode: &NaturalMode, bodies: &[String], set: &PlanetarySet) -> SetModeKin
         Some(&members.carrier),
     ];
     let [moves, turns, out] = largest(&mut central.into_iter().flatten());
-    let [planet_moves, planet_turns, planet_out] = largest(&mut set.planets.iter());
+    let [planet_moves, planet_turns, planet_out] =
+        largest(&mut set.planets.iter().chain(&set.partners.bodies));
     let out = out.max(planet_out);
     let in_plane = moves.max(turns).max(planet_moves).max(planet_turns);
     let still = STILL * in_plane.max(out);

@@ -32,6 +32,7 @@ pub(super) fn settle_phases(
     // A gear that an earlier mesh has turned, or turned others against, stays.
     let mut meshed: Vec<usize> = Vec::new();
     let mut closed: Vec<&PreparedMesh> = Vec::new();
+    let mut turned_by: Vec<Option<&PreparedMesh>> = vec![None; bodies.list.len()];
     for mesh in meshes {
         let Some(teeth) = &mesh.mesh else {
             continue;
@@ -45,6 +46,7 @@ pub(super) fn settle_phases(
         let gap = |bodies: &Bodies, side: Flank| least_gap_m(mesh, bodies, side, &keys);
         let name = &mesh.name;
         if let Some(i) = turned {
+            turned_by[mesh.bodies[i]] = Some(mesh);
             let mut least = gap(bodies, side)?;
             for _ in 0..100 {
                 if !least.is_finite() || least.abs() < TOUCHING_M {
@@ -142,7 +144,7 @@ pub(super) fn settle_phases(
         meshed.extend(mesh.bodies);
     }
     if seeks_rest {
-        press_sets(bodies, meshes, &closed, document)?;
+        press_sets(bodies, &turned_by, &closed, document)?;
     }
     Ok(())
 }
@@ -166,12 +168,14 @@ fn least_gap_m(
     Ok(gaps.fold(f64::INFINITY, f64::min))
 }
 
-/// Turns the rings of planetary sets so that all planets overlap with them, and the planets so that sun and ring have
-/// the same overlap. From planets that are open an equilibrium is not found: nothing holds them. `closed`: meshes whose
-/// gears were turned by others.
+/// Presses teeth of planetary sets into each other. Of gears in a circle of meshes that which was turned last, such as
+/// the ring, is turned so that it overlaps with all planets; what is between it and the gear at which the circle begins
+/// is turned so that all meshes have the same part of the overlap. From planets that are open an equilibrium is not
+/// found: nothing holds them. `turned_by`: the mesh in which each body was turned; `closed`: meshes whose gears were
+/// turned in others.
 fn press_sets(
     bodies: &mut Bodies,
-    meshes: &[PreparedMesh],
+    turned_by: &[Option<&PreparedMesh>],
     closed: &[&PreparedMesh],
     document: &InputDocument,
 ) -> Result<(), InputError> {
@@ -179,38 +183,83 @@ fn press_sets(
         let keys = TableKeys::new(document, &mesh.key);
         least_gap_m(mesh, bodies, driven_side(mesh, bodies), &keys)
     };
-    // How far a gap grows with a turn of gear 1 or gear 2.
-    let slope = |mesh: &PreparedMesh, bodies: &Bodies, gear: usize| {
+    // How far a gap grows with a turn of one of its gears.
+    let slope = |mesh: &PreparedMesh, bodies: &Bodies, body: usize| {
         let hand = mesh.mesh.as_ref().map_or(0.0, |teeth| {
             teeth.kinematics().hand(driven_side(mesh, bodies))
         });
-        hand * mesh.base_radii_m[gear]
+        hand * mesh.base_radii_m[usize::from(mesh.bodies[1] == body)]
     };
-    let is_of_set = |mesh: &PreparedMesh| mesh.touching_at_start.is_some();
-    let mut rings: Vec<usize> = Vec::new();
-    for mesh in closed.iter().filter(|mesh| is_of_set(mesh)) {
-        let ring = mesh.bodies[1];
-        if rings.contains(&ring) || !bodies.list[ring].turn_is_free {
-            continue;
-        }
-        rings.push(ring);
-        let mut widest_m = 0.0_f64;
-        for other in closed.iter().filter(|other| other.bodies[1] == ring) {
-            widest_m = widest_m.max(gap(other, bodies)?);
-        }
-        if widest_m.is_finite() {
-            let slope = slope(mesh, bodies, 1);
-            bodies.list[ring].turn(-(widest_m + PRESSED_M) / slope);
+    let mate = |mesh: &PreparedMesh, body: usize| mesh.bodies[usize::from(mesh.bodies[0] == body)];
+    let depth = |body: usize| {
+        let next = |body: &usize| Some(mate(turned_by[*body]?, *body));
+        std::iter::successors(Some(body), next).count()
+    };
+    let mut ends: Vec<(usize, Vec<&PreparedMesh>)> = Vec::new();
+    for mesh in closed
+        .iter()
+        .filter(|mesh| mesh.touching_at_start.is_some())
+    {
+        let [one, other] = mesh.bodies.map(depth);
+        let last = mesh.bodies[usize::from(other >= one)];
+        match ends.iter_mut().find(|(end, _)| *end == last) {
+            Some((_, meshes)) => meshes.push(mesh),
+            None => ends.push((last, turned_by[last].into_iter().chain([*mesh]).collect())),
         }
     }
-    let of_rings = |mesh: &&PreparedMesh| is_of_set(mesh) && rings.contains(&mesh.bodies[1]);
-    for mesh in meshes.iter().filter(of_rings) {
-        let overlap_m = -gap(mesh, bodies)?;
-        let planet = mesh.bodies[0];
-        if overlap_m > 0.0 && bodies.list[planet].turn_is_free {
-            let slope = slope(mesh, bodies, 0);
-            bodies.list[planet].turn(0.5 * overlap_m / slope);
+    ends.sort_by_key(|(end, _)| depth(*end));
+    let mut pressed: Vec<usize> = Vec::new();
+    for (end, meshes) in ends {
+        let senses = meshes.iter().map(|mesh| slope(mesh, bodies, end).signum());
+        let senses: Vec<f64> = senses.collect();
+        // What is pressed from two sides is no end.
+        if !bodies.list[end].turn_is_free || senses.iter().any(|sense| *sense != senses[0]) {
+            continue;
         }
+        // Meshes one after the other, each with the gear behind it that a turn takes out of it and into the next.
+        let path = |first: &'_ PreparedMesh| {
+            let mut path = Vec::new();
+            let mut body = mate(first, end);
+            let mut mesh = first;
+            while let Some(next) = turned_by[body].filter(|_| !pressed.contains(&body)) {
+                let both = slope(mesh, bodies, body) * slope(next, bodies, body);
+                if both >= 0.0 {
+                    break;
+                }
+                path.push((body, next));
+                (body, mesh) = (mate(next, body), next);
+            }
+            path
+        };
+        let paths: Vec<_> = meshes.iter().map(|mesh| (*mesh, path(mesh))).collect();
+        let open_m =
+            |bodies: &Bodies, (first, path): &(&PreparedMesh, Vec<(usize, &PreparedMesh)>)| {
+                let mut sum_m = gap(first, bodies)?;
+                for (_, mesh) in path {
+                    sum_m += gap(mesh, bodies)?;
+                }
+                Ok::<f64, InputError>(sum_m)
+            };
+        let mut widest_m = 0.0_f64;
+        for path in &paths {
+            widest_m = widest_m.max(open_m(bodies, path)?);
+        }
+        if !widest_m.is_finite() {
+            continue;
+        }
+        let turn_rad = -(widest_m + PRESSED_M) / slope(meshes[0], bodies, end);
+        bodies.list[end].turn(turn_rad);
+        for path in &paths {
+            let share_m = -open_m(bodies, path)? / (path.1.len() + 1) as f64;
+            let mut mesh = path.0;
+            for (body, next) in &path.1 {
+                let turn_rad = -(share_m + gap(mesh, bodies)?) / slope(mesh, bodies, *body);
+                bodies.list[*body].turn(turn_rad);
+                pressed.push(*body);
+                mesh = next;
+            }
+        }
+        pressed.push(end);
     }
     Ok(())
 }

@@ -4,7 +4,9 @@
 //! (ω_a − ω_c) u_a = (ω_b − ω_c) u_b,      u = z/z_p of the gear and the planet in mesh with it, negative of a ring
 //! ```
 //!
-//! The planet meets a and b, itself or by a second gear that is fixed to it.
+//! The planet meets a and b, itself or by a second gear that is fixed to it. Planets of one carrier that mesh with each
+//! other turn as (ω_2 − ω_c) = −(z_1/z_2)(ω_1 − ω_c); with ω_p − ω_c = k (ω_1 − ω_c) the ratio of what meets planet p
+//! counts u/k.
 
 use super::bodies::Bodies;
 use super::carriers::Carried;
@@ -20,34 +22,58 @@ struct Central {
     teeth_ratio: f64,
 }
 
-/// Meshes of planets by the planet, which bears what is fixed to it, with what takes it round.
+/// Meshes of planets by the planet, which bears what is fixed to it, or by one of those in mesh with each other, with
+/// what takes it round.
 pub(super) struct Planets(Vec<(usize, usize, Vec<Central>)>);
 
 impl Planets {
     /// Those of all meshes.
     pub(super) fn find(bodies: &Bodies, carried: &[Carried], meshes: &[PreparedMesh]) -> Self {
-        let mut found: Vec<(usize, usize, Vec<Central>)> = Vec::new();
         let mut above = vec![None; bodies.list.len()];
         for one in carried {
             above[one.body] = one.carrier;
         }
-        for mesh in meshes {
+        let ends: Vec<[Option<(usize, usize)>; 2]> = meshes
+            .iter()
+            .map(|mesh| mesh.bodies.map(|body| taken_round(bodies, &above, body)))
+            .collect();
+        // Each planet's first one, and k.
+        let mut leads: Vec<(usize, f64)> = (0..bodies.list.len()).map(|body| (body, 1.0)).collect();
+        let mut found: Vec<(usize, usize, Vec<Central>)> = Vec::new();
+        let is_of_planets = |ends: &[Option<(usize, usize)>; 2]| matches!(ends, [Some((_, one)), Some((_, other))] if one == other);
+        for (mesh, ends) in meshes
+            .iter()
+            .zip(&ends)
+            .filter(|(_, ends)| is_of_planets(ends))
+        {
+            if let [Some((one, _)), Some((other, _))] = *ends {
+                let [(first, k), (last, other_k)] = [leads[one], leads[other]];
+                let share = -k / (mesh.ratio() * other_k);
+                if first != last {
+                    let following = leads.iter_mut().filter(|(lead, _)| *lead == last);
+                    following.for_each(|(lead, k)| (*lead, *k) = (first, *k * share));
+                }
+            }
+        }
+        for (mesh, ends) in meshes
+            .iter()
+            .zip(&ends)
+            .filter(|(_, ends)| !is_of_planets(ends))
+        {
             for (planet, central) in [(0, 1), (1, 0)] {
-                let Some((own, carrier)) = taken_round(bodies, &above, mesh.bodies[planet]) else {
+                let Some((own, carrier)) = ends[planet] else {
                     continue;
                 };
-                // What the same carrier takes round is a planet, too.
-                let gear = mesh.bodies[central];
-                let other = taken_round(bodies, &above, gear);
-                if other.is_some_and(|(_, other)| other == carrier) {
-                    continue;
-                }
+                let (lead, k) = leads[own];
                 let ratio = mesh.ratio();
-                let teeth_ratio = if central == 1 { ratio } else { 1.0 / ratio };
-                let central = Central { gear, teeth_ratio };
-                match found.iter_mut().find(|(known, ..)| *known == own) {
+                let teeth_ratio = if central == 1 { ratio } else { 1.0 / ratio } / k;
+                let central = Central {
+                    gear: mesh.bodies[central],
+                    teeth_ratio,
+                };
+                match found.iter_mut().find(|(known, ..)| *known == lead) {
                     Some((_, _, centrals)) => centrals.push(central),
-                    None => found.push((own, carrier, vec![central])),
+                    None => found.push((lead, carrier, vec![central])),
                 }
             }
         }

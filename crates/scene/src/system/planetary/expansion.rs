@@ -4,14 +4,19 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::definition::greatest_common_divisor;
 use gearmesh_geometry::input::{DerivedTable, InputDocument, TableKeys};
 use nalgebra::{Rotation3, Vector3};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::{Table, Value};
 
-use super::gears::{SetGears, teeth_of};
-use super::{PlanetarySet, SetMembers, keys};
+use super::gears::{Heights, SetGear, SetGears};
+use super::layout::fitted;
+use super::partners::{OtherSet, Partners};
+use super::pins::PlanetRow;
+use super::room::Room;
+use super::{PartnerLayout, PlanetarySet, SetMembers, keys};
 use crate::model_shelf::ModelShelf;
 use crate::system::names;
 use crate::system::tables::MM;
@@ -55,7 +60,7 @@ pub(in crate::system) fn expand(
     let tables = document.parse::<Sets>()?.planetary;
     let raw = document.table()?;
     let mut gears = gears_of_bodies(&raw);
-    let (mut items, mut sets) = (Vec::new(), Vec::new());
+    let (mut items, mut known) = (Vec::new(), Vec::<Known>::new());
     for (i, table) in tables.iter().enumerate() {
         let key = format!("planetary.{i}");
         let raw = item(&raw, "planetary", i).cloned().unwrap_or_default();
@@ -67,10 +72,11 @@ pub(in crate::system) fn expand(
             axes: axes(table.axis, &TableKeys::new(&document, &key))?,
             items: Vec::new(),
         };
-        let set = expansion.run(&mut gears, files)?;
+        let set = expansion.run((&mut gears, &known), files)?;
         items.append(&mut expansion.items);
-        sets.push(set);
+        known.push(set);
     }
+    let sets = known.into_iter().map(|known| known.set).collect();
     Ok((document.with_derived(items)?, sets))
 }
 
@@ -88,6 +94,20 @@ fn gears_of_bodies(raw: &Table) -> BTreeMap<String, Option<PathBuf>> {
         .collect()
 }
 
+/// A set that has been expanded, for sets that follow.
+#[derive(Debug, Clone)]
+pub(super) struct Known {
+    pub set: PlanetarySet,
+    pub gears: SetGears,
+    pub planets: PlanetRow,
+    /// Neither stepped nor meshed planets.
+    pub is_simple: bool,
+    pub heights: Heights,
+    /// Middle of the set in the world \[m\].
+    pub middle_m: Vector3<f64>,
+    pub axes: Rotation3<f64>,
+}
+
 /// A set on its way.
 pub(super) struct Expansion<'a> {
     pub table: &'a PlanetaryTable,
@@ -96,7 +116,7 @@ pub(super) struct Expansion<'a> {
     pub keys: TableKeys<'a>,
     key: &'a str,
     /// Axes of the set in the world.
-    axes: Rotation3<f64>,
+    pub axes: Rotation3<f64>,
     items: Vec<DerivedTable>,
 }
 
@@ -154,37 +174,36 @@ impl Expansion<'_> {
         format!("{} {part}", self.table.name)
     }
 
-    /// The part of the table below a key.
-    pub(super) fn below(&self, key: &str) -> Table {
-        let part = self.raw.get(key).and_then(Value::as_table);
-        part.cloned().unwrap_or_default()
-    }
-
     fn run(
         &mut self,
-        gears: &mut BTreeMap<String, Option<PathBuf>>,
-        (folder, models): (&Path, &ModelShelf),
-    ) -> Result<PlanetarySet, InputError> {
+        (gears, known): (&mut BTreeMap<String, Option<PathBuf>>, &[Known]),
+        files: (&Path, &ModelShelf),
+    ) -> Result<Known, InputError> {
         let table = self.table;
         keys::check(table, &self.keys)?;
-        let members = SetMembers {
+        let mut members = SetMembers {
             sun: self.member_name("sun", table.sun.as_ref(), gears)?,
             ring: self.member_name("ring", table.ring.as_ref(), gears)?,
             carrier: self
                 .member_name("carrier", Some(&table.carrier), gears)?
                 .unwrap_or_default(),
         };
+        let mut partners = self.partners(known, &members, files)?;
+        let (folder, models) = files;
         let of_member = |name: &Option<String>, key: &str| {
             let Some(name) = name else { return Ok(None) };
             let key = format!("{key}.gear");
             match gears.get(name).cloned().flatten() {
-                Some(file) => teeth_of(&folder.join(file), (&self.keys, &key), models).map(Some),
+                Some(file) => {
+                    SetGear::read(&folder.join(file), (&self.keys, &key), models).map(Some)
+                }
                 None => Err(self
                     .keys
                     .error(&key, format!("missing; `{name}` needs teeth"))),
             }
         };
-        let of_planet = |file: &Path, key| teeth_of(&folder.join(file), (&self.keys, key), models);
+        let of_planet =
+            |file: &Path, key| SetGear::read(&folder.join(file), (&self.keys, key), models);
         let second = table.planets.second.as_ref();
         let teeth = SetGears {
             sun: of_member(&members.sun, "sun")?,
@@ -194,36 +213,104 @@ impl Expansion<'_> {
                 .map(|second| of_planet(&second.gear, "planets.second.gear"))
                 .transpose()?,
         };
-        let angles_rad = self.angles(&teeth)?;
-        teeth.check(table, &angles_rad, &self.keys)?;
-        for (key, member) in [
-            ("sun", table.sun.as_ref()),
-            ("ring", table.ring.as_ref()),
-            ("carrier", Some(&table.carrier)),
+        let distance_m = MM * f64::from(table.centre_distance_mm);
+        let room = Room::of(&teeth, distance_m, partners.as_ref()).equal_angles();
+        let angles_rad = self.angles(&teeth, partners.as_ref(), room)?;
+        let height_m = |member: &Option<MemberTable>, planet_m: f64| {
+            let own_mm = member.as_ref().and_then(|member| member.z_mm);
+            MM * (own_mm.unwrap_or(0.0) + planet_m)
+        };
+        let heights = Heights {
+            sun_m: height_m(&table.sun, 0.0),
+            ring_m: height_m(&table.ring, second.map_or(0.0, |second| second.z_mm)),
+        };
+        teeth.check(table, (partners.as_ref(), heights), &angles_rad, &self.keys)?;
+        for (key, member, height_m) in [
+            ("sun", table.sun.as_ref(), heights.sun_m),
+            ("ring", table.ring.as_ref(), heights.ring_m),
+            ("carrier", Some(&table.carrier), 0.0),
         ] {
             if let Some(member) = member.filter(|member| member.body.is_none()) {
-                self.add_member(key, member)?;
+                self.add_member(key, member, height_m / MM)?;
             }
         }
-        let planets: Vec<String> = (1..=angles_rad.len())
-            .map(|n| self.called(&format!("planet {n}")))
-            .collect();
-        for (planet, angle_rad) in angles_rad.iter().enumerate() {
-            self.add_planet(&planets[planet], &members.carrier, (planet, *angle_rad))?;
+        let called = |part: &str| -> Vec<String> {
+            let numbers = 1..=angles_rad.len();
+            numbers
+                .map(|n| self.called(&format!("{part} {n}")))
+                .collect()
+        };
+        let planets = PlanetRow {
+            key: "planets",
+            raw: self.below("planets"),
+            gear: teeth.planet.clone(),
+            distance_m,
+            support: table.planets.support,
+            bearings: table.planets.bearings.clone(),
+            bore: table.planets.bore,
+            deviation: table.planets.deviation.clone(),
+            bodies: called("planet"),
+        };
+        let own_partners = partners.as_mut().filter(|own| own.other().is_none());
+        if let Some(own) = own_partners {
+            own.row.bodies = called("partner");
         }
-        let sun_meshes = self.add_sun_meshes(&members, &planets, &teeth);
-        let ring_meshes = self.add_ring_meshes(&members, &planets, &teeth);
-        Ok(PlanetarySet {
+        self.add_planets(&planets, &members.carrier, &angles_rad)?;
+        let mut layout = PartnerLayout::default();
+        if let Some(partners) = &partners {
+            let angles = angles_rad.iter().map(|angle| angle + partners.ahead_rad);
+            if partners.other().is_none() {
+                let angles: Vec<f64> = angles.collect();
+                self.add_planets(&partners.row, &members.carrier, &angles)?;
+            }
+            layout = PartnerLayout {
+                bodies: partners.row.bodies.clone(),
+                ahead_rad: partners.ahead_rad,
+                distance_m: partners.row.distance_m,
+                meshes: Vec::new(),
+            };
+        }
+        let meshes = self.add_meshes(&members, (&planets, partners.as_ref()), &teeth);
+        let [sun_meshes, pair_meshes, mut ring_meshes] = meshes;
+        layout.meshes = pair_meshes;
+        if let Some(other) = partners.as_ref().and_then(Partners::other) {
+            members.ring.clone_from(&other.known.set.members.ring);
+            ring_meshes.clone_from(&other.known.set.ring_meshes);
+        }
+        let set = PlanetarySet {
             name: table.name.clone(),
-            teeth: teeth.teeth(),
+            teeth: teeth.teeth(partners.as_ref()),
             angles_rad,
-            centre_distance_m: MM * f64::from(table.centre_distance_mm),
+            centre_distance_m: distance_m,
             members,
             axis: (self.axes * Vector3::z()).into(),
-            planets,
+            planets: planets.bodies.clone(),
+            partners: layout,
             sun_meshes,
             ring_meshes,
+        };
+        Ok(Known {
+            set,
+            is_simple: partners.is_none() && teeth.second.is_none(),
+            gears: teeth,
+            planets,
+            heights,
+            middle_m: self.middle_m(),
+            axes: self.axes,
         })
+    }
+
+    fn add_planets(
+        &mut self,
+        row: &PlanetRow,
+        carrier: &str,
+        angles_rad: &[f64],
+    ) -> Result<(), InputError> {
+        row.check_deviations(angles_rad.len(), &self.keys)?;
+        for planet in angles_rad.iter().copied().enumerate() {
+            self.add_planet(row, carrier, planet)?;
+        }
+        Ok(())
     }
 
     /// Name of the body that is a member; its gear is put among the known ones.
@@ -260,9 +347,44 @@ impl Expansion<'_> {
         }
     }
 
-    /// The angles of the planets, where they fit \[rad\].
-    fn angles(&self, gears: &SetGears) -> Result<Vec<f64>, InputError> {
+    /// The angles of the planets, where they fit \[rad\]; `room`: how many have room at equal ones.
+    fn angles(
+        &self,
+        gears: &SetGears,
+        partners: Option<&Partners>,
+        room: usize,
+    ) -> Result<Vec<f64>, InputError> {
         let planets = &self.table.planets;
+        let own_places = gears.teeth(partners).places();
+        if let Some(partners) = partners
+            && let Some(OtherSet { known, .. }) = partners.other()
+        {
+            let name = &known.set.name;
+            let key = match (planets.count, &planets.angles_deg) {
+                (Some(_), _) => "planets.count",
+                (None, Some(_)) => "planets.angles_deg",
+                (None, None) => "",
+            };
+            if !key.is_empty() {
+                let problem = format!(
+                    "is not used with planets_of: the angles follow from those of `{name}`; remove it"
+                );
+                return Err(self.keys.error(key, problem));
+            }
+            // Both sets are to fit.
+            let both = known.set.teeth.places().zip(own_places);
+            let places = both.map(|(one, other)| greatest_common_divisor(one, other));
+            let angles = fitted(&known.set.angles_rad, places.or(own_places), room);
+            let angles = angles.map_err(|misfit| {
+                let problem =
+                    format!("{misfit}; angles are those of `{name}`, where both sets fit");
+                self.keys.error("planets.partner.planets_of", problem)
+            })?;
+            return Ok(angles
+                .iter()
+                .map(|angle| angle - partners.ahead_rad)
+                .collect());
+        }
         let (key, angles): (_, Vec<f64>) = match (planets.count, &planets.angles_deg) {
             (Some(count), None) => {
                 let angle = |n| n as f64 / count.get() as f64 * std::f64::consts::TAU;
@@ -281,35 +403,21 @@ impl Expansion<'_> {
                 return Err(self.keys.error("planets", problem));
             }
         };
-        for (i, deviation) in planets.deviation.iter().enumerate() {
-            let number = deviation.planet.get();
-            let twice = planets.deviation[..i]
-                .iter()
-                .any(|other| other.planet.get() == number);
-            if number > angles.len() || twice {
-                let problem = match twice {
-                    true => format!("planet {number} has a deviation already; join the two"),
-                    false => format!("found {number}, the set has planets 1 to {}", angles.len()),
-                };
-                return Err(self
-                    .keys
-                    .error(&format!("planets.deviation.{i}.planet"), problem));
-            }
-        }
-        let fitted = gears.teeth().fitted(
-            &angles,
-            gears.room(MM * f64::from(self.table.centre_distance_mm)),
-        );
-        fitted.map_err(|misfit| self.keys.error(key, misfit))
+        fitted(&angles, own_places, room).map_err(|misfit| self.keys.error(key, misfit))
     }
 
-    /// A point of the set's axes, z = 0 in the sun's mid-face, in the world \[mm\].
+    /// Middle of the set in the world \[m\].
+    pub(super) fn middle_m(&self) -> Vector3<f64> {
+        MM * Vector3::from(self.table.position_mm.unwrap_or_default())
+    }
+
+    /// A point of the set's axes, z = 0 in its middle, in the world \[mm\].
     pub(super) fn in_world_mm(&self, point_mm: Vector3<f64>) -> [f64; 3] {
         let middle_mm = Vector3::from(self.table.position_mm.unwrap_or_default());
         (middle_mm + self.axes * point_mm).into()
     }
 
-    /// The point of the axis at a height above the sun's mid-face, in the world \[mm\].
+    /// The point of the axis at a height above the middle, in the world \[mm\].
     pub(super) fn axis_mm(&self, z_mm: f64) -> [f64; 3] {
         self.in_world_mm(Vector3::new(0.0, 0.0, z_mm))
     }
@@ -320,11 +428,15 @@ impl Expansion<'_> {
         (angles != [0.0; 2]).then(|| numbers(&angles))
     }
 
-    fn add_member(&mut self, key: &'static str, member: &MemberTable) -> Result<(), InputError> {
+    fn add_member(
+        &mut self,
+        key: &'static str,
+        member: &MemberTable,
+        z_mm: f64,
+    ) -> Result<(), InputError> {
         let name = self.called(key);
         let raw = self.below(key);
-        let second = self.table.planets.second.as_ref().filter(|_| key == "ring");
-        let at_mm = self.axis_mm(second.map_or(0.0, |second| second.z_mm));
+        let at_mm = self.axis_mm(z_mm);
         let mut body = copied(&raw, &BODY_KEYS);
         body.insert("name".to_owned(), name.clone().into());
         body.insert("position_mm".to_owned(), numbers(&at_mm));

@@ -1,6 +1,5 @@
 //! The gears of a planetary set, and whether they fit between each other.
 
-use std::f64::consts::TAU;
 use std::path::Path;
 
 use gearmesh_geometry::input::TableKeys;
@@ -9,72 +8,111 @@ use gearmesh_geometry::{
 };
 
 use super::layout::SetTeeth;
+use super::partners::{OtherSet, Partners};
+use super::room::Room;
 use crate::model_shelf::ModelShelf;
 use crate::system::tables::planetary::{MemberTable, PlanetaryTable, SupportWord};
 use crate::system::tables::{MM, UM};
 
-/// The teeth of a set.
-pub(super) struct SetGears {
-    pub sun: Option<ToothGeometry>,
-    pub planet: ToothGeometry,
-    /// Of stepped planets.
-    pub second: Option<ToothGeometry>,
-    pub ring: Option<ToothGeometry>,
+/// A gear of a set.
+#[derive(Debug, Clone)]
+pub(super) struct SetGear {
+    pub teeth: ToothGeometry,
+    face_width_m: f64,
 }
 
-/// The teeth of a gear file or a reduced gear.
-pub(super) fn teeth_of(
-    path: &Path,
-    (keys, key): (&TableKeys<'_>, &str),
-    models: &ModelShelf,
-) -> Result<ToothGeometry, InputError> {
-    let is_gear_file = path.extension().is_some_and(|ending| ending == "toml");
-    if !models.knows(path) {
-        let problem = format!("the gear {} does not exist", path.display());
-        return Err(keys.error(key, problem));
+/// The gears of a set.
+#[derive(Debug, Clone)]
+pub(super) struct SetGears {
+    pub sun: Option<SetGear>,
+    pub planet: SetGear,
+    /// Of stepped planets.
+    pub second: Option<SetGear>,
+    pub ring: Option<SetGear>,
+}
+
+/// Mid-faces of sun and ring above that of the planets \[m\].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Heights {
+    pub sun_m: f64,
+    pub ring_m: f64,
+}
+
+impl SetGear {
+    /// That of a gear file or a reduced gear.
+    pub fn read(
+        path: &Path,
+        (keys, key): (&TableKeys<'_>, &str),
+        models: &ModelShelf,
+    ) -> Result<Self, InputError> {
+        let is_gear_file = path.extension().is_some_and(|ending| ending == "toml");
+        if !models.knows(path) {
+            let problem = format!("the gear {} does not exist", path.display());
+            return Err(keys.error(key, problem));
+        }
+        let of = |definition: &GearDefinition| Self {
+            teeth: definition.profile.clone(),
+            face_width_m: definition.tooth.face_width_m,
+        };
+        if !is_gear_file {
+            let shelved = models.model(path).map_err(|e| keys.error(key, e))?;
+            return Ok(of(shelved.model.input.definition_in(path.display())?));
+        }
+        Ok(of(&GearDefinition::read(path)?))
     }
-    if !is_gear_file {
-        let shelved = models.model(path).map_err(|e| keys.error(key, e))?;
-        let definition = shelved.model.input.definition_in(path.display())?;
-        return Ok(definition.profile.clone());
+
+    /// Whether its face is beside that of another gear, whose mid-face is above its own by so much.
+    fn is_beside(&self, other: &Self, above_m: f64) -> bool {
+        above_m.abs() < 0.5 * (self.face_width_m + other.face_width_m)
     }
-    Ok(GearDefinition::read(path)?.profile)
 }
 
 impl SetGears {
-    pub(super) fn teeth(&self) -> SetTeeth {
-        let count = |gear: &Option<ToothGeometry>| gear.as_ref().map(|gear| gear.teeth);
+    /// Numbers of teeth; `partner` is that of meshed planets.
+    pub(super) fn teeth(&self, partners: Option<&Partners>) -> SetTeeth {
+        let count = |gear: &SetGear| gear.teeth.teeth;
+        let to_ring = partners.map_or(self.to_ring(), |partners| &partners.row.gear);
+        let other = partners.and_then(Partners::other);
+        let ring = self
+            .ring
+            .as_ref()
+            .or(other.and_then(|other| other.known.gears.ring.as_ref()));
         SetTeeth {
-            sun: count(&self.sun),
-            planet: self.planet.teeth,
-            planet_to_ring: self.to_ring().teeth,
-            ring: count(&self.ring),
+            sun: self.sun.as_ref().map(count),
+            planet: count(&self.planet),
+            planet_to_ring: count(to_ring),
+            is_meshed: partners.is_some(),
+            ring: ring.map(count),
         }
     }
 
-    fn to_ring(&self) -> &ToothGeometry {
+    fn to_ring(&self) -> &SetGear {
         self.second.as_ref().unwrap_or(&self.planet)
     }
 
-    /// That sun and planet, planet and ring run together at the set's one centre distance, that planets do not touch
-    /// each other, and that no pin is displaced by more than the backlash lets through.
+    /// That gears in mesh run together at their distances, that gears not in mesh do not touch each other, and that no
+    /// pin is displaced by more than the backlash lets through (of sets whose planets have no partners).
     ///
     /// # Errors
     /// [`InputError`] with the number that is missed.
     pub(super) fn check(
         &self,
         table: &PlanetaryTable,
+        (partners, heights): (Option<&Partners>, Heights),
         angles_rad: &[f64],
         keys: &TableKeys<'_>,
     ) -> Result<(), InputError> {
+        let own = partners.filter(|partners| partners.other().is_none());
+        let own = own.map(|partners| partners.row.gear.clone());
         for (key, gear, is_ring) in [
             ("sun.gear", &self.sun, false),
             ("planets.gear", &Some(self.planet.clone()), false),
             ("planets.second.gear", &self.second, false),
+            ("planets.partner.gear", &own, false),
             ("ring.gear", &self.ring, true),
         ] {
             if let Some(gear) = gear
-                && gear.internal != is_ring
+                && gear.teeth.internal != is_ring
             {
                 let [found, allowed] = match is_ring {
                     true => [
@@ -88,26 +126,62 @@ impl SetGears {
             }
         }
         let distance_m = MM * f64::from(table.centre_distance_mm);
-        self.check_neighbours(distance_m, angles_rad, keys)?;
+        let room = Room::of(self, distance_m, partners);
+        room.check(angles_rad, keys)?;
+        let own_distance = "centre_distance_mm";
+        let to_ring = match partners {
+            Some(own) => (
+                &own.row.gear,
+                own.row.distance_m,
+                "planets.partner.centre_distance_mm",
+            ),
+            None => (self.to_ring(), distance_m, own_distance),
+        };
+        let sun = self.sun.as_ref().map(|sun| {
+            (
+                sun,
+                &self.planet,
+                distance_m,
+                own_distance,
+                ["planet", "sun"],
+            )
+        });
+        let which = match partners {
+            Some(_) => ["partner", "ring"],
+            None => ["planet", "ring"],
+        };
+        let ring = self
+            .ring
+            .as_ref()
+            .map(|ring| (ring, to_ring.0, to_ring.1, to_ring.2, which));
+        let pair = partners.map(|p| {
+            let key = "planets.partner.pair_distance_mm";
+            (
+                &p.row.gear,
+                &self.planet,
+                p.pair_distance_m,
+                key,
+                ["planet", "partner"],
+            )
+        });
         let mut free_m = 0.0;
-        let pairs = [
-            (&self.sun, &self.planet, "sun"),
-            (&self.ring, self.to_ring(), "ring"),
-        ];
-        for (central, planet, which) in pairs {
-            let Some(central) = central else { continue };
+        for (mate, planet, distance_m, key, [one, other]) in [sun, ring, pair].into_iter().flatten()
+        {
             let pair = GearPair::new(
-                planet.clone(),
-                central.clone(),
+                planet.teeth.clone(),
+                mate.teeth.clone(),
                 distance_m,
                 Misalignment::default(),
             );
             let pair = pair.map_err(|error: PairError| {
                 let problem =
-                    format!("planet and {which} do not run together at this distance: {error}");
-                keys.error("centre_distance_mm", problem)
+                    format!("{one} and {other} do not run together at this distance: {error}");
+                keys.error(key, problem)
             })?;
             free_m += pair.backlash_m();
+        }
+        if let Some(partners) = partners {
+            return self.check_beside(distance_m, partners, heights, keys);
         }
         let is_rigid = |member: &Option<MemberTable>| {
             let support = member.as_ref().and_then(MemberTable::support);
@@ -119,41 +193,67 @@ impl SetGears {
         Ok(())
     }
 
-    /// How far the axes of planets are apart whose tip circles touch \[m\].
-    fn planets_apart_m(&self) -> f64 {
-        let second_m = self.second.iter().map(|gear| gear.tip_radius_m);
-        2.0 * second_m.fold(self.planet.tip_radius_m, f64::max)
-    }
-
-    /// How many planets stand at equal angles without touching each other.
-    pub(super) fn room(&self, distance_m: f64) -> usize {
-        let share = 0.5 * self.planets_apart_m() / distance_m;
-        let angle_rad = 2.0 * share.min(1.0).asin();
-        (TAU / angle_rad * (1.0 - 1e-12)).floor() as usize
-    }
-
-    fn check_neighbours(
+    /// That a sun does not touch planets, nor a ring, with which it is not in mesh, where their faces are beside each
+    /// other.
+    fn check_beside(
         &self,
         distance_m: f64,
-        angles_rad: &[f64],
+        partners: &Partners,
+        heights: Heights,
         keys: &TableKeys<'_>,
     ) -> Result<(), InputError> {
-        let needed_m = self.planets_apart_m();
-        for (i, first) in angles_rad.iter().enumerate() {
-            for (k, second) in angles_rad.iter().enumerate().skip(i + 1) {
-                let found_m = 2.0 * distance_m * (0.5 * (second - first)).sin().abs();
-                if found_m <= needed_m {
-                    let problem = format!(
-                        "planets {} and {} touch each other: their axes are {:.4} mm apart, their tip circles need more than {:.4} mm; at equal angles \
-                         {} planets or fewer have room",
-                        i + 1,
-                        k + 1,
-                        found_m / MM,
-                        needed_m / MM,
-                        self.room(distance_m)
-                    );
-                    return Err(keys.error("planets", problem));
-                }
+        let (planets, partner) = ((&self.planet, distance_m), &partners.row);
+        let other = partners.other();
+        // Partners, and what is of the set to which they belong, are above the planets of this one by so much.
+        let above_m = other.map_or(0.0, |other| other.above_m);
+        let (ring, ring_m) = match other {
+            Some(other) => (
+                &other.known.gears.ring,
+                above_m + other.known.heights.ring_m,
+            ),
+            None => (&self.ring, heights.ring_m),
+        };
+        let partner = (&partner.gear, partner.distance_m);
+        let mut beside = vec![
+            (
+                &self.sun,
+                partner,
+                heights.sun_m - above_m,
+                ["the partners", "the sun"],
+            ),
+            (ring, planets, ring_m, ["the planets", "the ring"]),
+        ];
+        if let Some(OtherSet { known, .. }) = other {
+            let sun_m = above_m + known.heights.sun_m;
+            beside.push((
+                &known.gears.sun,
+                planets,
+                sun_m,
+                ["the planets", "the other sun"],
+            ));
+        }
+        for (central, (planet, axes_m), height_m, [one, two]) in beside {
+            let Some(central) = central
+                .as_ref()
+                .filter(|gear| gear.is_beside(planet, height_m))
+            else {
+                continue;
+            };
+            let (tip_m, own_m) = (central.teeth.tip_radius_m, planet.teeth.tip_radius_m);
+            let clear_m = match central.teeth.internal {
+                true => tip_m - axes_m - own_m,
+                false => axes_m - tip_m - own_m,
+            };
+            if clear_m <= 0.0 {
+                let problem = format!(
+                    "{one} reach {:.4} mm into {two}, with which they do not mesh: axes {:.4} mm apart, tip diameters {:.4} and {:.4} mm; change distances \
+                     or teeth, or set the faces apart",
+                    -clear_m / MM,
+                    axes_m / MM,
+                    2.0 * own_m / MM,
+                    2.0 * tip_m / MM
+                );
+                return Err(keys.error("planets.partner", problem));
             }
         }
         Ok(())

@@ -19,6 +19,10 @@ pub(super) fn check(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), 
     }
     check_mesh(("sun", sun), ("sun_mesh", &table.sun_mesh), keys)?;
     check_mesh(("ring", ring), ("ring_mesh", &table.ring_mesh), keys)?;
+    check_partner(table, keys)?;
+    if ring.is_none() && table.ring_torque.is_some() {
+        return Err(keys.error("ring_torque", "is not used without a ring; remove it"));
+    }
     let has_waves = |member: &MemberTable| !member.out_of_round.is_empty();
     let housing = planets.bearings.iter().position(|b| b.housing.is_some());
     let housing_key = format!("planets.bearings.{}.housing", housing.unwrap_or(0));
@@ -35,6 +39,11 @@ pub(super) fn check(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), 
             "a carrier has no teeth of this set; remove it, and fix the gear's own [[body]] to the carrier by a [[joint]]",
         ),
         (
+            "carrier.z_mm",
+            table.carrier.z_mm.is_some(),
+            "is that of sun or ring; remove it",
+        ),
+        (
             "planets.second",
             planets.second.is_some() && ring.is_none(),
             "meshes with a ring, which the set has not; remove it",
@@ -42,6 +51,81 @@ pub(super) fn check(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), 
         (
             "planets.support",
             matches!(planets.support, Some(SupportWord::Held | SupportWord::Free)),
+            "found \"held\" or \"free\", allowed are \"turning\", \"floating\" and \"bearings\"",
+        ),
+        (
+            &housing_key,
+            housing.is_some(),
+            "is not used by planets; remove it",
+        ),
+    ];
+    refuse(&faults, keys)
+}
+
+/// Partners of planets, and their mesh with them.
+fn check_partner(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
+    let Some(partner) = &table.planets.partner else {
+        if table.pair_mesh.is_some() {
+            return Err(keys.error(
+                "pair_mesh",
+                "is not used without planets.partner; remove it",
+            ));
+        }
+        return Ok(());
+    };
+    check_teeth(("pair_mesh", &table.pair_mesh), &[1, 2], keys)?;
+    keys.needed("pair_mesh", table.pair_mesh.as_ref(), "`planets.partner`")?;
+    keys.needed(
+        "sun",
+        table.sun.as_ref(),
+        "a set whose planets have partners",
+    )?;
+    let of_other = partner.planets_of.is_some();
+    if !of_other {
+        keys.needed(
+            "ring",
+            table.ring.as_ref(),
+            "a set whose planets have partners",
+        )?;
+    }
+    let stated = "is not used with planets_of: that set states its planets; remove it";
+    let p = partner;
+    let housing = p.bearings.iter().position(|b| b.housing.is_some());
+    let housing_key = format!("planets.partner.bearings.{}.housing", housing.unwrap_or(0));
+    let at = |key: &str| format!("planets.partner.{key}");
+    let of_planets = [
+        ("gear", p.gear.is_some()),
+        ("centre_distance_mm", p.centre_distance_mm.is_some()),
+        ("microgeometry", p.microgeometry.is_some()),
+        ("mass_kg", p.mass_kg.is_some()),
+        ("inertia_kg_m2", p.inertia_kg_m2.is_some()),
+        ("flexibility", p.flexibility.is_some()),
+        ("coupling", p.coupling.is_some()),
+        ("bore", p.bore.is_some()),
+        ("modes_up_to_Hz", p.modes_up_to_hz.is_some()),
+        ("modal_damping_ratio", p.modal_damping_ratio.is_some()),
+        ("support", p.support.is_some()),
+        ("bearings", !p.bearings.is_empty()),
+        ("errors", !p.errors.is_empty()),
+        ("deviation", !p.deviation.is_empty()),
+    ];
+    if let Some((key, _)) = of_planets.iter().find(|(_, given)| *given && of_other) {
+        return Err(keys.error(&at(key), stated));
+    }
+    let faults = [
+        (
+            "planets.second",
+            table.planets.second.is_some(),
+            "is not used with partner: planets are stepped or meshed; remove one of the two",
+        ),
+        (
+            "ring",
+            of_other && table.ring.is_some(),
+            "is not used with planets_of: the ring is that of the other set; remove it",
+        ),
+        (
+            "planets.partner.support",
+            matches!(partner.support, Some(SupportWord::Held | SupportWord::Free)),
             "found \"held\" or \"free\", allowed are \"turning\", \"floating\" and \"bearings\"",
         ),
         (
@@ -74,30 +158,41 @@ fn check_mesh(
         }
         _ => {}
     }
+    let of_planet: &[usize] = if key == "sun" { &[2] } else { &[1] };
+    check_teeth((mesh_key, mesh), of_planet, keys)
+}
+
+/// Teeth of meshes: `of_planets` are the gears, 1 or 2, whose errors stand elsewhere.
+fn check_teeth(
+    (mesh_key, mesh): (&str, &Option<SetMeshTable>),
+    of_planets: &[usize],
+    keys: &TableKeys<'_>,
+) -> Result<(), InputError> {
     let Some(teeth) = mesh.as_ref().and_then(|mesh| mesh.teeth.as_ref()) else {
         return Ok(());
     };
     let at = |name: &str| format!("{mesh_key}.teeth.{name}");
-    let (planet, errors, eccentricity) = match key {
-        "sun" => (2, &teeth.errors_2, &teeth.eccentricity_2),
-        _ => (1, &teeth.errors_1, &teeth.eccentricity_1),
-    };
-    let faults = [
-        (
-            &*at(&format!("errors_{planet}")),
-            !errors.is_empty(),
-            OF_PLANETS,
-        ),
-        (
-            &*at(&format!("eccentricity_{planet}")),
-            eccentricity.is_some(),
-            OF_PLANETS,
-        ),
-        (
-            &*at("touching_at_start"),
-            teeth.touching_at_start.is_some(),
-            "follows from the torque on the sun; state sun_torque instead",
-        ),
-    ];
-    refuse(&faults, keys)
+    let touching = teeth.touching_at_start.is_some();
+    let follows = "follows from the torque on the sun; state sun_torque instead";
+    refuse(&[(&at("touching_at_start"), touching, follows)], keys)?;
+    for planet in of_planets {
+        let (errors, eccentricity) = match planet {
+            1 => (&teeth.errors_1, &teeth.eccentricity_1),
+            _ => (&teeth.errors_2, &teeth.eccentricity_2),
+        };
+        let faults = [
+            (
+                &*at(&format!("errors_{planet}")),
+                !errors.is_empty(),
+                OF_PLANETS,
+            ),
+            (
+                &*at(&format!("eccentricity_{planet}")),
+                eccentricity.is_some(),
+                OF_PLANETS,
+            ),
+        ];
+        refuse(&faults, keys)?;
+    }
+    Ok(())
 }

@@ -2,7 +2,9 @@
 //!
 //! ```text
 //! κ = (z_s z_2 + z_r z_1)/gcd(z_1, z_2)       planets fit at ψ with κ ψ/2π a whole number; z_1 = z_2: κ = z_s + z_r
-//! γ_s = z_s ψ/2π,   γ_r = −z_r ψ/2π            how far sun and ring meshes of a planet at ψ run ahead, in mesh periods
+//! κ = z_r − z_s                                the same of meshed planets
+//! γ_s = z_s ψ/2π,   γ_r = −z_r ψ/2π            how far sun and ring meshes of a planet at ψ run ahead, in mesh periods;
+//!                                              γ_r = z_r ψ/2π of meshed planets
 //! T_l = |Σ_n e^{2πi l γ_n}|/N,   F_l = max_± |Σ_n e^{2πi l γ_n ± iψ_n}|/N
 //! ```
 //!
@@ -27,8 +29,10 @@ pub struct SetTeeth {
     pub sun: Option<usize>,
     /// Of the planet's gear that meshes with the sun.
     pub planet: usize,
-    /// Of the planet's gear that meshes with the ring: the same, but of stepped planets.
+    /// Of the planet's gear that meshes with the ring: the same, but of stepped and of meshed planets.
     pub planet_to_ring: usize,
+    /// Whether planets are meshed: that with the ring is another one, which meshes with that at the sun.
+    pub is_meshed: bool,
     /// Of the ring, where there is one.
     pub ring: Option<usize>,
 }
@@ -101,41 +105,11 @@ impl SetTeeth {
     #[must_use]
     pub fn places(&self) -> Option<usize> {
         let (sun, ring) = (self.sun?, self.ring?);
+        if self.is_meshed {
+            return (ring != sun).then_some(ring.abs_diff(sun));
+        }
         let common = greatest_common_divisor(self.planet, self.planet_to_ring);
         Some((sun * self.planet_to_ring + ring * self.planet) / common)
-    }
-
-    /// The angles, moved to the places from which they differ by rounding; `room`: how many planets do not touch at
-    /// equal angles.
-    ///
-    /// # Errors
-    /// [`Misfit`] where one differs by more.
-    pub fn fitted(&self, angles_rad: &[f64], room: usize) -> Result<Vec<f64>, Misfit> {
-        let (Some(places), Some(&first)) = (self.places(), angles_rad.first()) else {
-            return Ok(angles_rad.to_vec());
-        };
-        let place = |angle: &f64| ((angle - first) / TAU * places as f64).round();
-        let nearest = |angle: &f64| first + place(angle) * TAU / places as f64;
-        let misfit = |angle: &f64| ((angle - first) / TAU * places as f64 - place(angle)).abs();
-        let Some(planet) = angles_rad
-            .iter()
-            .position(|angle| misfit(angle) > ROUNDING_PITCHES)
-        else {
-            return Ok(angles_rad.iter().map(nearest).collect());
-        };
-        let rounded = |angle: f64| (angle.to_degrees() * 1e6).round() / 1e6;
-        Err(Misfit {
-            planet: planet + 1,
-            found_deg: (angles_rad[planet] - first).to_degrees(),
-            places,
-            nearest_deg: angles_rad
-                .iter()
-                .map(|angle| rounded(nearest(angle)))
-                .collect(),
-            counts: (2..=room.min(12))
-                .filter(|count| places.is_multiple_of(*count))
-                .collect(),
-        })
     }
 
     /// How far the sun meshes run ahead of that of the first planet, in mesh periods from 0 to below 1; none without a
@@ -149,29 +123,69 @@ impl SetTeeth {
     /// The same of the ring meshes.
     #[must_use]
     pub fn ring_phases(&self, angles_rad: &[f64]) -> Vec<f64> {
+        let sense = if self.is_meshed { 1.0 } else { -1.0 };
         self.ring
-            .map_or_else(Vec::new, |z| phases(-(z as f64), angles_rad))
+            .map_or_else(Vec::new, |z| phases(sense * z as f64, angles_rad))
     }
 
     /// Mesh periods of the sun after which all teeth of a simple set meet again as before, seen from the carrier; none
     /// of stepped planets, whose two meshes have different periods.
     #[must_use]
     pub fn hunting_periods(&self) -> Option<usize> {
-        (self.planet == self.planet_to_ring).then(|| {
-            let least = |a: usize, b: usize| a / greatest_common_divisor(a, b) * b;
-            least(
-                self.planet,
-                least(self.sun.unwrap_or(1), self.ring.unwrap_or(1)),
-            )
-        })
+        let gears = [
+            self.planet,
+            self.planet_to_ring,
+            self.sun.unwrap_or(1),
+            self.ring.unwrap_or(1),
+        ];
+        let least = |a: usize, b: usize| a / greatest_common_divisor(a, b) * b;
+        let is_simple = self.is_meshed || self.planet == self.planet_to_ring;
+        is_simple.then(|| gears.into_iter().fold(1, least))
     }
 
-    /// Turns of the ring for a turn of the sun with the carrier held, −z_s z_2/(z_1 z_r); none without both.
+    /// Turns of the ring for a turn of the sun with the carrier held, −z_s z_2/(z_1 z_r), of meshed planets z_s/z_r;
+    /// none without both.
     #[must_use]
     pub fn carrier_held_ratio(&self) -> Option<f64> {
         let (sun, ring) = (self.sun? as f64, self.ring? as f64);
+        if self.is_meshed {
+            return Some(sun / ring);
+        }
         Some(-sun * self.planet_to_ring as f64 / (self.planet as f64 * ring))
     }
+}
+
+/// The angles, moved to the places from which they differ by rounding; `places`: how many there are around, none where
+/// planets fit anywhere; `room`: how many planets do not touch at equal angles.
+///
+/// # Errors
+/// [`Misfit`] where one differs by more.
+pub fn fitted(angles_rad: &[f64], places: Option<usize>, room: usize) -> Result<Vec<f64>, Misfit> {
+    let (Some(places), Some(&first)) = (places, angles_rad.first()) else {
+        return Ok(angles_rad.to_vec());
+    };
+    let place = |angle: &f64| ((angle - first) / TAU * places as f64).round();
+    let nearest = |angle: &f64| first + place(angle) * TAU / places as f64;
+    let misfit = |angle: &f64| ((angle - first) / TAU * places as f64 - place(angle)).abs();
+    let Some(planet) = angles_rad
+        .iter()
+        .position(|angle| misfit(angle) > ROUNDING_PITCHES)
+    else {
+        return Ok(angles_rad.iter().map(nearest).collect());
+    };
+    let rounded = |angle: f64| (angle.to_degrees() * 1e6).round() / 1e6;
+    Err(Misfit {
+        planet: planet + 1,
+        found_deg: (angles_rad[planet] - first).to_degrees(),
+        places,
+        nearest_deg: angles_rad
+            .iter()
+            .map(|angle| rounded(nearest(angle)))
+            .collect(),
+        counts: (2..=room.min(12))
+            .filter(|count| places.is_multiple_of(*count))
+            .collect(),
+    })
 }
 
 fn phases(teeth: f64, angles_rad: &[f64]) -> Vec<f64> {

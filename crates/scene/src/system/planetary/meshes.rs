@@ -1,26 +1,53 @@
-//! The meshes of a set with sun and ring, with the errors of their gears.
+//! The meshes of a set, with the errors of their gears.
 
 use toml::{Table, Value};
 
 use super::SetMembers;
 use super::expansion::{Expansion, made, numbers};
 use super::gears::SetGears;
+use super::partners::Partners;
+use super::pins::PlanetRow;
 use crate::system::tables::function::FunctionTable;
 use crate::system::tables::mesh_model::MeshKind;
 use crate::system::tables::planetary::{MemberTable, OutOfRoundTable, SenseWord, SetMeshTable};
 
+/// The gears of a kind of mesh, whose numbers are 1 and 2: a member, or a planet of a row.
+#[derive(Clone, Copy)]
+enum End<'a> {
+    Member(&'a str),
+    Planets(&'a PlanetRow),
+    /// The second gears of stepped planets: what errors planets have is of the first ones.
+    Seconds(&'a PlanetRow),
+}
+
+impl End<'_> {
+    fn body(self, planet: usize) -> String {
+        match self {
+            Self::Member(name) => name.to_owned(),
+            Self::Planets(row) => row.bodies[planet].clone(),
+            Self::Seconds(row) => format!("{} second", row.bodies[planet]),
+        }
+    }
+}
+
+/// Sides of the teeth, by the sign of what turns: the sun pushed counter-clockwise pushes with left flanks.
+fn side(is_left: bool) -> &'static str {
+    if is_left { "left" } else { "right" }
+}
+
 impl Expansion<'_> {
-    /// The sense of the torque on the sun at the start.
-    fn sun_pushes_counter_clockwise(&self) -> bool {
+    /// The sense of the torque on the sun at the start; `ratio`: turns of the ring for one of the sun, carrier held.
+    fn sun_pushes_counter_clockwise(&self, ratio: Option<f64>) -> bool {
         if let Some(sense) = self.table.sun_torque {
             return sense == SenseWord::Positive;
         }
+        // T_s + i T_r = 0, T_s + T_r + T_c = 0.
+        let ratio = ratio.unwrap_or(-1.0);
         let members = [
             (self.table.sun.as_ref(), 1.0),
-            (self.table.ring.as_ref(), 1.0),
-            (Some(&self.table.carrier), -1.0),
+            (self.table.ring.as_ref(), -ratio),
+            (Some(&self.table.carrier), 1.0 / (1.0 / ratio - 1.0)),
         ];
-        // Torques on sun and ring have the sense of that on the sun, the carrier's the other: T_s/z_s = T_r/z_r, sum 0.
         let of = |part: fn(&MemberTable) -> Option<&FunctionTable>| {
             members.iter().find_map(|(member, sense)| {
                 let value = part((*member)?)?.first_value()?;
@@ -33,123 +60,130 @@ impl Expansion<'_> {
             > 0.0
     }
 
-    pub(super) fn add_sun_meshes(
+    /// The meshes of sun and planets, of planets and partners, and of these or planets and the ring.
+    pub(super) fn add_meshes(
         &mut self,
         members: &SetMembers,
-        planets: &[String],
+        (planets, partners): (&PlanetRow, Option<&Partners>),
         gears: &SetGears,
-    ) -> Vec<String> {
-        let (Some(sun), Some(mesh)) = (&members.sun, &self.table.sun_mesh) else {
-            return Vec::new();
+    ) -> [Vec<String>; 3] {
+        let teeth = gears.teeth(partners);
+        let sun_turns = self.sun_pushes_counter_clockwise(teeth.carrier_held_ratio());
+        // A planet is pressed on one side of its teeth and presses with the other, and so does its partner. Sides are
+        // counted by the ring's torque where that is stated.
+        let ring_turns = match self.table.ring_torque {
+            Some(sense) => sense == SenseWord::Positive,
+            None => sun_turns != partners.is_some(),
         };
-        // The sun's torque counter-clockwise: it pushes with left flanks.
-        let side = if self.sun_pushes_counter_clockwise() {
-            "left"
-        } else {
-            "right"
+        let table = self.table;
+        let own = partners.filter(|partners| partners.other().is_none());
+        let to_ring = match (own, &table.planets.second) {
+            (Some(own), _) => ("partner", End::Planets(&own.row)),
+            (None, Some(_)) => ("planet", End::Seconds(planets)),
+            (None, None) => ("planet", End::Planets(planets)),
         };
-        let mut names = Vec::new();
-        for (planet, body) in planets.iter().enumerate() {
-            let name = format!("{} sun-planet {}", self.table.name, planet + 1);
-            let ends = [sun.as_str(), body];
-            let table = self.mesh_table(
-                ("sun_mesh", mesh),
-                (&name, ends, side),
-                (2, planet, gears.planet.teeth),
-            );
-            self.push("gear_mesh", table);
-            names.push(name);
-        }
-        names
-    }
-
-    pub(super) fn add_ring_meshes(
-        &mut self,
-        members: &SetMembers,
-        planets: &[String],
-        gears: &SetGears,
-    ) -> Vec<String> {
-        let (Some(ring), Some(mesh), Some(teeth)) =
-            (&members.ring, &self.table.ring_mesh, &gears.ring)
-        else {
-            return Vec::new();
-        };
-        // A planet is pressed on one side of its teeth and presses with the other.
-        let side = if self.sun_pushes_counter_clockwise() {
-            "right"
-        } else {
-            "left"
-        };
-        let waves = self
-            .table
-            .ring
-            .as_ref()
-            .map_or(&[][..], |ring| &ring.out_of_round);
-        let waves: Vec<Value> = waves
-            .iter()
-            .flat_map(|wave| {
-                out_of_round(
-                    wave,
-                    teeth.teeth,
-                    (teeth.base_radius_m / teeth.reference_radius_m).acos(),
-                )
-            })
-            .collect();
-        let mut names = Vec::new();
-        for (planet, body) in planets.iter().enumerate() {
-            let name = format!("{} planet {}-ring", self.table.name, planet + 1);
-            let (gear, of_planet) = match &self.table.planets.second {
-                Some(_) => (format!("{body} second"), None),
-                None => (body.clone(), Some(planet)),
+        let waves = self.waves(gears);
+        let sun = members.sun.as_ref().zip(table.sun_mesh.as_ref());
+        let sun = sun.map(|(sun, mesh)| {
+            let ends = [End::Member(sun), End::Planets(planets)];
+            (("sun_mesh", mesh), ends, side(sun_turns), "sun-planet {}")
+        });
+        let pair = partners.zip(table.pair_mesh.as_ref());
+        let pair = pair.map(|(partners, mesh)| {
+            let ends = [End::Planets(planets), End::Planets(&partners.row)];
+            (
+                ("pair_mesh", mesh),
+                ends,
+                side(!sun_turns),
+                "planet {}-partner",
+            )
+        });
+        let ring = members.ring.as_ref().zip(table.ring_mesh.as_ref());
+        let ring = ring.map(|(ring, mesh)| {
+            let name = match to_ring.0 {
+                "partner" => "partner {}-ring",
+                _ => "planet {}-ring",
             };
-            let ends = [gear.as_str(), ring];
-            let numbers = (1, of_planet.unwrap_or(usize::MAX), gears.planet.teeth);
-            let mut table = self.mesh_table(("ring_mesh", mesh), (&name, ends, side), numbers);
-            if !waves.is_empty() {
-                append(teeth_table(&mut table), "errors_2", waves.clone());
+            let ends = [to_ring.1, End::Member(ring)];
+            (("ring_mesh", mesh), ends, side(!ring_turns), name)
+        });
+        let mut names = [Vec::new(), Vec::new(), Vec::new()];
+        let mut kinds = [sun, pair, ring]
+            .into_iter()
+            .enumerate()
+            .collect::<Vec<_>>();
+        if partners.is_some_and(|partners| partners.other().is_some()) {
+            // Planets of another set are in mesh with that already: these are turned to fit them, then the sun.
+            kinds.swap(0, 1);
+        }
+        for (kind, mesh) in kinds {
+            let Some((mesh, ends, side, name)) = mesh else {
+                continue;
+            };
+            for planet in 0..planets.bodies.len() {
+                let name = name.replace("{}", &(planet + 1).to_string());
+                let name = format!("{} {name}", table.name);
+                let mut made = self.mesh_table(mesh, (&name, side), (ends, planet));
+                if kind == 2 && !waves.is_empty() {
+                    append(teeth_table(&mut made), "errors_2", waves.clone());
+                }
+                self.push("gear_mesh", made);
+                names[kind].push(name);
             }
-            self.push("gear_mesh", table);
-            names.push(name);
         }
         names
     }
 
-    /// A mesh with what the planet has: `gear` its number in the mesh.
+    /// The ring's errors that are waves of its pitch circle.
+    fn waves(&self, gears: &SetGears) -> Vec<Value> {
+        let (Some(ring), Some(gear)) = (&self.table.ring, &gears.ring) else {
+            return Vec::new();
+        };
+        let teeth = &gear.teeth;
+        let angle_rad = (teeth.base_radius_m / teeth.reference_radius_m).acos();
+        let waves = ring.out_of_round.iter();
+        waves
+            .flat_map(|wave| out_of_round(wave, teeth.teeth, angle_rad))
+            .collect()
+    }
+
+    /// A mesh with what its planets have.
     fn mesh_table(
         &self,
         (key, mesh): (&str, &SetMeshTable),
-        (name, ends, side): (&str, [&str; 2], &str),
-        (gear, planet, teeth): (usize, usize, usize),
+        (name, side): (&str, &str),
+        (ends, planet): ([End<'_>; 2], usize),
     ) -> Table {
         let mut table = self.below(key);
         table.insert("name".to_owned(), name.into());
-        table.insert("gear_1".to_owned(), ends[0].into());
-        table.insert("gear_2".to_owned(), ends[1].into());
+        for (end, key) in ends.iter().zip(["gear_1", "gear_2"]) {
+            table.insert(key.to_owned(), end.body(planet).into());
+        }
         if mesh.model.kind() == MeshKind::Kinematic {
             return table;
         }
         let own = teeth_table(&mut table);
         own.insert("touching_at_start".to_owned(), side.into());
-        if planet == usize::MAX {
-            return table;
-        }
-        let raw = self.below("planets");
-        let errors = raw.get("errors").and_then(Value::as_array).cloned();
-        let mut errors = errors.unwrap_or_default();
-        if let Some(deviation) = self.deviation(planet) {
-            if deviation.removed_um != 0.0 {
-                let all = vec![deviation.removed_um; teeth];
-                errors.extend(["left", "right"].map(|side| pitch(side, &all)));
+        for (end, gear) in ends.iter().zip(1..) {
+            let End::Planets(row) = end else { continue };
+            let errors = row.raw.get("errors").and_then(Value::as_array).cloned();
+            let mut errors = errors.unwrap_or_default();
+            if let Some(deviation) = row.deviation(planet) {
+                if deviation.removed_um != 0.0 {
+                    let all = vec![deviation.removed_um; row.gear.teeth.teeth];
+                    errors.extend(["left", "right"].map(|side| pitch(side, &all)));
+                }
+                let written = row.raw.get("deviation").and_then(Value::as_array);
+                let number = |d: &&Value| {
+                    d.get("planet").and_then(Value::as_integer) == Some(planet as i64 + 1)
+                };
+                let written = written.and_then(|all| all.iter().find(number));
+                if let Some(eccentricity) = written.and_then(|d| d.get("eccentricity")) {
+                    own.insert(format!("eccentricity_{gear}"), eccentricity.clone());
+                }
             }
-            let written = raw.get("deviation").and_then(Value::as_array);
-            let number =
-                |d: &&Value| d.get("planet").and_then(Value::as_integer) == Some(planet as i64 + 1);
-            let written = written.and_then(|all| all.iter().find(number));
-            if let Some(eccentricity) = written.and_then(|d| d.get("eccentricity")) {
-                own.insert(format!("eccentricity_{gear}"), eccentricity.clone());
-            }
+            append(own, &format!("errors_{gear}"), errors);
         }
-        append(own, &format!("errors_{gear}"), errors);
         table
     }
 }

@@ -4,6 +4,8 @@
 //! | --- | --- |
 //! | angles at which planets fit, phases of the meshes | `layout.rs` |
 //! | gears of the set and whether they fit between each other | `gears.rs` |
+//! | whether planets touch each other | `room.rs` |
+//! | meshed planets: their partners | `partners.rs` |
 //! | keys that contradict each other | `keys.rs` |
 //! | bodies, joints, bearings and meshes as a scene would state them | `expansion.rs`, `pins.rs`, `meshes.rs` |
 
@@ -12,7 +14,9 @@ mod gears;
 mod keys;
 pub mod layout;
 mod meshes;
+mod partners;
 mod pins;
+mod room;
 
 pub(super) use expansion::expand;
 
@@ -45,10 +49,25 @@ pub struct PlanetarySet {
     pub members: SetMembers,
     /// Bodies of the planets.
     pub planets: Vec<String>,
+    /// Partners of meshed planets; empty of others.
+    pub partners: PartnerLayout,
     /// Meshes of the sun, by planet; none without a sun.
     pub sun_meshes: Vec<String>,
     /// Meshes of the ring, by planet; none without a ring.
     pub ring_meshes: Vec<String>,
+}
+
+/// The partners of meshed planets.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PartnerLayout {
+    /// Their bodies, by planet.
+    pub bodies: Vec<String>,
+    /// Meshes of planets and partners, by planet.
+    pub meshes: Vec<String>,
+    /// How far they are ahead of their planets, counter-clockwise about the axis \[rad\].
+    pub ahead_rad: f64,
+    /// Distance of their pins from the axis \[m\].
+    pub distance_m: f64,
 }
 
 /// Names of the central bodies.
@@ -73,6 +92,7 @@ impl Default for PlanetarySet {
             axis: [0.0, 0.0, 1.0],
             members: SetMembers::default(),
             planets: Vec::new(),
+            partners: PartnerLayout::default(),
             sun_meshes: Vec::new(),
             ring_meshes: Vec::new(),
         }
@@ -92,25 +112,38 @@ impl PlanetarySet {
     pub fn words(&self) -> String {
         let teeth = &self.teeth;
         let planet = match (teeth.planet, teeth.planet_to_ring) {
-            (a, b) if a == b => format!("{a}"),
-            (a, b) => format!("{a} and {b}"),
+            (a, b) if teeth.is_meshed => format!("{a} (planet), {b} (partner)"),
+            (a, b) if a == b => format!("{a} (planet)"),
+            (a, b) => format!("{a} and {b} (planet)"),
         };
         let count = |teeth: Option<usize>| teeth.map_or("none".to_owned(), |z| z.to_string());
         let mut words = vec![format!(
-            "z {} (sun), {planet} (planet), {} (ring), {} planets at {} deg",
+            "z {} (sun), {planet}, {} (ring), {} planets at {} deg",
             count(teeth.sun),
             count(teeth.ring),
             self.angles_rad.len(),
             list(self.angles_rad.iter().map(|angle| angle.to_degrees()))
         )];
+        if teeth.is_meshed {
+            words.push(format!(
+                "partners {} deg ahead of their planets, {} mm from the axis",
+                list([self.partners.ahead_rad.to_degrees()].into_iter()),
+                list([1e3 * self.partners.distance_m].into_iter())
+            ));
+        }
         if let Some(ratio) = teeth.carrier_held_ratio() {
             words.push(format!(
                 "ratio {:.6} from sun to carrier with the ring held, {ratio:.6} turns of the ring for one of the sun with the carrier held",
                 1.0 - 1.0 / ratio
             ));
         }
+        let with_pairs = if teeth.is_meshed {
+            "sun and pair"
+        } else {
+            "sun"
+        };
         for (which, phases) in [
-            ("sun", teeth.sun_phases(&self.angles_rad)),
+            (with_pairs, teeth.sun_phases(&self.angles_rad)),
             ("ring", teeth.ring_phases(&self.angles_rad)),
         ] {
             if !phases.is_empty() {
@@ -163,9 +196,20 @@ impl PlanetarySet {
     /// Where a planet stands in the set, from its axis \[m\].
     #[must_use]
     pub fn planet_at_m(&self, planet: usize) -> [f64; 2] {
-        let (sin, cos) = (self.angles_rad[planet] % TAU).sin_cos();
-        [self.centre_distance_m * cos, self.centre_distance_m * sin]
+        at_m(self.centre_distance_m, self.angles_rad[planet])
     }
+
+    /// Where the partner of a planet stands in the set, from its axis \[m\].
+    #[must_use]
+    pub fn partner_at_m(&self, planet: usize) -> [f64; 2] {
+        let angle_rad = self.angles_rad[planet] + self.partners.ahead_rad;
+        at_m(self.partners.distance_m, angle_rad)
+    }
+}
+
+fn at_m(distance_m: f64, angle_rad: f64) -> [f64; 2] {
+    let (sin, cos) = (angle_rad % TAU).sin_cos();
+    [distance_m * cos, distance_m * sin]
 }
 
 fn list(values: impl Iterator<Item = f64>) -> String {

@@ -1,45 +1,104 @@
 //! Planets on their pins: places and tilts, bodies, joints and bearings.
 
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
 use nalgebra::Vector3;
-use toml::Value;
+use toml::{Table, Value};
 
 use super::expansion::{BODY_KEYS, Expansion, copied, made, numbers};
+use super::gears::SetGear;
+use crate::system::tables::MM;
 use crate::system::tables::body::BoreHold;
 use crate::system::tables::planetary::{PlanetDeviationTable, SetBearingTable, SupportWord};
 
 /// Where a pin is, in the set's axes.
 struct Pin {
-    /// Its middle at the sun's mid-face \[mm\].
+    /// Its middle at the middle of the set \[mm\].
     at_mm: [f64; 2],
     /// Its axis (t_x, t_y, 1).
     lean: [f64; 2],
 }
 
 impl Pin {
-    /// The point of its axis at a height above the sun's mid-face \[mm\].
+    /// The point of its axis at a height above the middle of the set \[mm\].
     fn above_mm(&self, z_mm: f64) -> Vector3<f64> {
         let ([x, y], [t_x, t_y]) = (self.at_mm, self.lean);
         Vector3::new(x + t_x * z_mm, y + t_y * z_mm, z_mm)
     }
 }
 
-impl Expansion<'_> {
-    pub(super) fn deviation(&self, planet: usize) -> Option<&PlanetDeviationTable> {
-        let mut all = self.table.planets.deviation.iter();
+/// Planets of a kind, each on a pin: those that mesh with the sun, or their partners.
+#[derive(Debug, Clone)]
+pub(super) struct PlanetRow {
+    /// Where they are stated: `planets`, `planets.partner`.
+    pub key: &'static str,
+    /// Their table as written.
+    pub raw: Table,
+    pub gear: SetGear,
+    /// Distance of the pins from the axis of the set \[m\].
+    pub distance_m: f64,
+    pub support: Option<SupportWord>,
+    pub bearings: Vec<SetBearingTable>,
+    pub bore: Option<BoreHold>,
+    pub deviation: Vec<PlanetDeviationTable>,
+    /// Names of their bodies.
+    pub bodies: Vec<String>,
+}
+
+impl PlanetRow {
+    pub fn deviation(&self, planet: usize) -> Option<&PlanetDeviationTable> {
+        let mut all = self.deviation.iter();
         all.find(|deviation| deviation.planet.get() == planet + 1)
     }
 
+    /// That deviations are of planets that there are, and of each once.
+    pub fn check_deviations(&self, count: usize, keys: &TableKeys<'_>) -> Result<(), InputError> {
+        for (i, deviation) in self.deviation.iter().enumerate() {
+            let number = deviation.planet.get();
+            let twice = self.deviation[..i]
+                .iter()
+                .any(|other| other.planet.get() == number);
+            if number > count || twice {
+                let problem = match twice {
+                    true => format!("planet {number} has a deviation already; join the two"),
+                    false => format!("found {number}, the set has planets 1 to {count}"),
+                };
+                return Err(keys.error(&format!("{}.deviation.{i}.planet", self.key), problem));
+            }
+        }
+        Ok(())
+    }
+
+    /// The joint between carrier and planet; none where bearings alone hold it.
+    fn joint(&self, keys: &TableKeys<'_>) -> Result<Option<&'static str>, InputError> {
+        let refusal =
+            |key: &str, problem: &str| Err(keys.error(&format!("{}.{key}", self.key), problem));
+        match (self.support, self.bearings.is_empty()) {
+            (Some(SupportWord::Floating), _) => Ok(Some("planar")),
+            (Some(SupportWord::Bearings) | None, false) => Ok(None),
+            (Some(SupportWord::Bearings), true) => refusal(
+                "support",
+                "found \"bearings\", which needs bearings; give one or more",
+            ),
+            (_, false) => refusal(
+                "bearings",
+                "is not used by support = \"turning\"; remove it",
+            ),
+            (_, true) => Ok(Some("revolute")),
+        }
+    }
+}
+
+impl Expansion<'_> {
     /// Where the pin of a planet is.
-    fn pin(&self, planet: usize, angle_rad: f64) -> Pin {
-        let table = self.table;
+    fn pin(&self, row: &PlanetRow, (planet, angle_rad): (usize, f64)) -> Pin {
         let (sin, cos) = angle_rad.sin_cos();
-        let deviation = self.deviation(planet);
+        let deviation = row.deviation(planet);
         let of = |part: fn(&PlanetDeviationTable) -> f64| 1e-3 * deviation.map_or(0.0, part);
         let turned = |out: f64, on: f64| [cos * out - sin * on, sin * out + cos * on];
-        let out_mm = f64::from(table.centre_distance_mm) + of(|d| d.radial_um);
+        let out_mm = row.distance_m / MM + of(|d| d.radial_um);
         let [x, y] = turned(out_mm, of(|d| d.tangential_um));
-        let shift = table.carrier_eccentricity.map_or([0.0; 2], |e| {
+        let shift = self.table.carrier_eccentricity.map_or([0.0; 2], |e| {
             let (sin, cos) = e.direction_deg.to_radians().sin_cos();
             [1e-3 * e.offset_um * cos, 1e-3 * e.offset_um * sin]
         });
@@ -51,16 +110,15 @@ impl Expansion<'_> {
 
     pub(super) fn add_planet(
         &mut self,
-        name: &str,
+        row: &PlanetRow,
         carrier: &str,
         (planet, angle_rad): (usize, f64),
     ) -> Result<(), InputError> {
-        let planets = &self.table.planets;
-        let pin = self.pin(planet, angle_rad);
-        let raw = self.below("planets");
-        let mut bodies = vec![(name.to_owned(), copied(&raw, &BODY_KEYS), 0.0)];
-        let second = raw.get("second").and_then(Value::as_table);
-        if let (Some(second), Some(own)) = (&planets.second, second) {
+        let name = &row.bodies[planet];
+        let pin = self.pin(row, (planet, angle_rad));
+        let mut bodies = vec![(name.clone(), copied(&row.raw, &BODY_KEYS), 0.0)];
+        let second = row.raw.get("second").and_then(Value::as_table);
+        if let (Some(second), Some(own)) = (&self.table.planets.second, second) {
             bodies.push((
                 format!("{name} second"),
                 copied(own, &BODY_KEYS),
@@ -89,35 +147,17 @@ impl Expansion<'_> {
                 joint(format!("{name} shaft"), "fixed", name, second),
             );
         }
-        if let Some(kind) = self.planet_joint()? {
+        if let Some(kind) = row.joint(&self.keys)? {
             self.push("joint", joint(format!("{name} pin"), kind, carrier, name));
         }
         let place = |b: &SetBearingTable| self.in_world_mm(pin.above_mm(b.z_mm));
-        let places = planets.bearings.iter().map(place);
+        let places = row.bearings.iter().map(place);
         // Rollers that press on the planet's bore run in it as in their outer ring.
-        let ends = match planets.bore {
-            Some(BoreHold::Rollers) => (Some(name), carrier),
-            Some(BoreHold::Bonded | BoreHold::Sliding) | None => (Some(carrier), name),
+        let ends = match row.bore {
+            Some(BoreHold::Rollers) => (Some(&name[..]), carrier),
+            Some(BoreHold::Bonded | BoreHold::Sliding) | None => (Some(carrier), &name[..]),
         };
-        self.add_bearings(name, ends, places.collect(), &raw);
+        self.add_bearings(name, ends, places.collect(), &row.raw);
         Ok(())
-    }
-
-    /// The joint between carrier and planet; none where bearings alone hold it.
-    fn planet_joint(&self) -> Result<Option<&'static str>, InputError> {
-        let planets = &self.table.planets;
-        match (planets.support, planets.bearings.is_empty()) {
-            (Some(SupportWord::Floating), _) => Ok(Some("planar")),
-            (Some(SupportWord::Bearings) | None, false) => Ok(None),
-            (Some(SupportWord::Bearings), true) => Err(self.keys.error(
-                "planets.support",
-                "found \"bearings\", which needs bearings; give one or more",
-            )),
-            (_, false) => Err(self.keys.error(
-                "planets.bearings",
-                "is not used by support = \"turning\"; remove it",
-            )),
-            (_, true) => Ok(Some("revolute")),
-        }
     }
 }

@@ -22,7 +22,8 @@ use super::mesh_model::{HertzTable, MeshModel};
 pub struct PlanetaryTable {
     /// Name. The parts are called after it: `NAME sun`, `NAME ring`, `NAME carrier`, `NAME planet 1`.
     pub name: String,
-    /// Mid-face of the sun on the axis of the set; [0, 0, 0] where not given.
+    /// Middle of the set on its axis: mid-face of the planets, and of sun and ring but for their `z_mm`; [0, 0, 0] where
+    /// not given.
     pub position_mm: Option<[f64; 3]>,
     /// Axis of the set; z where not given.
     pub axis: Option<[f64; 3]>,
@@ -32,6 +33,9 @@ pub struct PlanetaryTable {
     /// "negative". Where not given, it follows from the torques, else from the speeds that `sun`, `ring` and `carrier`
     /// state.
     pub sun_torque: Option<SenseWord>,
+    /// Torque on the ring at the start, where it does not follow from the sun's: in trains in which more than one torque
+    /// comes to the planets, such as Ravigneaux sets.
+    pub ring_torque: Option<SenseWord>,
     /// The sun; a set has a sun, a ring or both.
     pub sun: Option<MemberTable>,
     /// The ring.
@@ -44,7 +48,9 @@ pub struct PlanetaryTable {
     pub planets: PlanetsTable,
     /// Meshes of the sun (gear 1) with each planet (gear 2); needed with a sun.
     pub sun_mesh: Option<SetMeshTable>,
-    /// Meshes of each planet (gear 1) with the ring (gear 2); needed with a ring.
+    /// Meshes of each planet (gear 1) with its partner (gear 2); needed with `planets.partner`.
+    pub pair_mesh: Option<SetMeshTable>,
+    /// Meshes of each planet, or of its partner, (gear 1) with the ring (gear 2); needed with a ring.
     pub ring_mesh: Option<SetMeshTable>,
 }
 
@@ -68,6 +74,8 @@ pub struct MemberTable {
     pub body: Option<String>,
     /// Sun and ring: gear file (.toml) or reduced gear (.h5), relative to the scene.
     pub gear: Option<PathBuf>,
+    /// Sun and ring: its mid-face above that of the planets; 0 where not given.
+    pub z_mm: Option<f64>,
     /// Microgeometry of the gear in all its meshes.
     pub microgeometry: Option<MicrogeometryTable>,
     /// Mass; from the gear where not given.
@@ -149,7 +157,7 @@ impl SupportWord {
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetBearingTable {
-    /// Place along the axis, from the sun's mid-face; 0 where not given.
+    /// Place along the axis, from the middle of the set; 0 where not given.
     #[serde(default)]
     pub z_mm: f64,
     /// Model, as of `[[bearing]]`.
@@ -218,6 +226,8 @@ pub struct PlanetsTable {
     pub bearings: Vec<SetBearingTable>,
     /// A second gear on each planet, fixed to the first, which meshes with the ring: stepped planets.
     pub second: Option<SecondGearTable>,
+    /// A second planet beside each, which meshes with it and, in its place, with the ring: meshed planets.
+    pub partner: Option<PartnerTable>,
     /// Errors and faults of all planets.
     #[serde(default)]
     pub errors: Vec<FlankErrorTable>,
@@ -232,7 +242,7 @@ pub struct PlanetsTable {
 pub struct SecondGearTable {
     /// Gear file (.toml) or reduced gear (.h5), relative to the scene.
     pub gear: PathBuf,
-    /// Its mid-face, from the sun's; that of the ring, too.
+    /// Its mid-face, from the middle of the set; that of the ring, too, but for its own `z_mm`.
     pub z_mm: f64,
     /// Mass; from the gear where not given.
     pub mass_kg: Option<f64>,
@@ -244,6 +254,65 @@ pub struct SecondGearTable {
     pub coupling: Option<Coupling>,
     /// How its bore is held.
     pub bore: Option<BoreHold>,
+}
+
+/// `planets.partner`: the second planets of meshed planets (sun, planet, partner, ring). Keys of the body are those of
+/// `[[body]]`; deviations of pins are counted as those of the planets.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PartnerTable {
+    /// Gear file (.toml) or reduced gear (.h5), relative to the scene; or `planets_of`.
+    pub gear: Option<PathBuf>,
+    /// Another planetary set, which stands before this one and has a ring: its planets are the partners, and its ring is
+    /// that of this set, too. Both make a Ravigneaux set. Where these planets stand is stated there.
+    pub planets_of: Option<String>,
+    /// Distance of the partners' pins from the axis; not with `planets_of`.
+    pub centre_distance_mm: Option<Bounded<Positive>>,
+    /// Centre distance of planet and partner.
+    pub pair_distance_mm: Bounded<Positive>,
+    /// On which side of its planet a partner is: "ahead" (counter-clockwise about the set's axis) or "behind"; "ahead"
+    /// where not given.
+    #[serde(default)]
+    pub side: PartnerSide,
+    /// Microgeometry of the partners in all meshes.
+    pub microgeometry: Option<MicrogeometryTable>,
+    /// Mass; from the gear where not given.
+    pub mass_kg: Option<f64>,
+    /// Inertia about the centre of mass; from the gear where not given.
+    pub inertia_kg_m2: Option<Vec<f64>>,
+    /// How the gear deflects.
+    pub flexibility: Option<Flexibility>,
+    /// Whose forces its meshes feel in it.
+    pub coupling: Option<Coupling>,
+    /// How its bore is held.
+    pub bore: Option<BoreHold>,
+    /// With "modal": modes up to this frequency.
+    #[serde(rename = "modes_up_to_Hz")]
+    pub modes_up_to_hz: Option<f64>,
+    /// With "modal": damping ratio of all modes.
+    pub modal_damping_ratio: Option<f64>,
+    /// As of `planets`.
+    pub support: Option<SupportWord>,
+    /// With "bearings" and "floating": bearings between carrier and partner.
+    #[serde(default)]
+    pub bearings: Vec<SetBearingTable>,
+    /// Errors and faults of all partners.
+    #[serde(default)]
+    pub errors: Vec<FlankErrorTable>,
+    /// Partners that differ from the others.
+    #[serde(default)]
+    pub deviation: Vec<PlanetDeviationTable>,
+}
+
+/// `side` of a partner.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PartnerSide {
+    /// Counter-clockwise of its planet.
+    #[default]
+    Ahead,
+    /// Clockwise of it.
+    Behind,
 }
 
 /// How one planet differs.
@@ -271,7 +340,7 @@ pub struct PlanetDeviationTable {
     pub eccentricity: Option<EccentricityTable>,
 }
 
-/// `sun_mesh` and `ring_mesh`: what all meshes of a kind have. Errors and eccentricities are those of the sun
+/// `sun_mesh`, `ring_mesh` and `pair_mesh`: what all meshes of a kind have. Errors and eccentricities are those of the sun
 /// (`errors_1`, `eccentricity_1`) or of the ring (`errors_2`, `eccentricity_2`); those of planets stand in `planets`.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

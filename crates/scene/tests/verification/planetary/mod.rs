@@ -3,9 +3,11 @@
 mod bearings;
 mod coupling;
 mod errors;
+mod meshed;
 mod modes;
 mod motion;
 mod positions;
+mod ravigneaux;
 mod refusals;
 mod shared;
 mod sharing;
@@ -60,6 +62,18 @@ fn scene(run: &str, distance_mm: f64, [sun, ring, carrier, planets, more]: [&str
          [planetary.sun]\ngear = \"sun.toml\"\n{sun}\n[planetary.ring]\ngear = \"ring.toml\"\n{ring}\n\
          [planetary.carrier]\nmass_kg = 5.43\n{carrier}\n[planetary.planets]\ngear = \"planet.toml\"\n{planets}\n"
     )
+}
+
+/// The sets of docs/planetary.md of which the first has this name, after the tables of a run.
+fn documented(name: &str, run: &str) -> String {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/planetary.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let begin = format!("[[planetary]]\nname = \"{name}\"\n");
+    let mut blocks = page
+        .split("```toml\n")
+        .filter(|block| block.starts_with(&begin));
+    let (text, _) = blocks.next().unwrap().split_once("```").unwrap();
+    format!("title = \"documented\"\n[run]\n{run}\n{text}")
 }
 
 fn run(text: &str, folder: &Path) -> SystemResult {
