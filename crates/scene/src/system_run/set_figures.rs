@@ -3,7 +3,7 @@
 //! ```text
 //! s_n = N M_n/Σ_k M_k           share of planet n: moment of its mesh on sun or ring over the mean of all N
 //! K_γ = max_n max_rows s_n      mesh load factor (ISO 6336-1: uneven load of several paths)
-//! e   = φ_c − (φ_r − i φ_s)/(1 − i)      transmission error of the carrier, after Willis; i: ratio with the carrier held
+//! e   = φ_c − (φ_r − i φ_s)/(1 − i)   transmission error of the carrier, after Willis; i: ratio, carrier held
 //! ```
 //!
 //! [`SystemResult::planet_shares`] has the shares row by row, over the turn of the carrier.

@@ -3,7 +3,7 @@
 //! ```text
 //! κ = (z_s z_2 + z_r z_1)/gcd(z_1, z_2)       planets fit at ψ with κ ψ/2π a whole number; z_1 = z_2: κ = z_s + z_r
 //! κ = z_r − z_s                                the same of meshed planets
-//! γ_s = z_s ψ/2π,   γ_r = −z_r ψ/2π            how far sun and ring meshes of a planet at ψ run ahead, in mesh periods;
+//! γ_s = z_s ψ/2π,   γ_r = −z_r ψ/2π            how far meshes of a planet at ψ run ahead, in mesh periods;
 //!                                              γ_r = z_r ψ/2π of meshed planets
 //! T_l = |Σ_n e^{2πi l γ_n}|/N,   F_l = max_± |Σ_n e^{2πi l γ_n ± iψ_n}|/N
 //! ```

@@ -1,5 +1,5 @@
-//! Meshed planets: each planet has a partner, which meshes with it and with the ring. Partners are of the set itself, or
-//! they are the planets of another one; both are then a Ravigneaux set.
+//! Meshed planets: each planet has a partner, which meshes with it and with the ring. Partners are of the set itself,
+//! or they are the planets of another one; both are then a Ravigneaux set.
 //!
 //! ```text
 //! cos δ = (a_1² + a_2² − d²)/(2 a_1 a_2)      δ: angle from a planet to its partner, seen from the axis of the set

@@ -22,8 +22,8 @@ use super::mesh_model::{HertzTable, MeshModel};
 pub struct PlanetaryTable {
     /// Name. The parts are called after it: `NAME sun`, `NAME ring`, `NAME carrier`, `NAME planet 1`.
     pub name: String,
-    /// Middle of the set on its axis: mid-face of the planets, and of sun and ring but for their `z_mm`; [0, 0, 0] where
-    /// not given.
+    /// Middle of the set on its axis: mid-face of the planets, and of sun and ring but for their `z_mm`; [0, 0, 0]
+    /// where not given.
     pub position_mm: Option<[f64; 3]>,
     /// Axis of the set; z where not given.
     pub axis: Option<[f64; 3]>,
@@ -33,8 +33,8 @@ pub struct PlanetaryTable {
     /// "negative". Where not given, it follows from the torques, else from the speeds that `sun`, `ring` and `carrier`
     /// state.
     pub sun_torque: Option<SenseWord>,
-    /// Torque on the ring at the start, where it does not follow from the sun's: in trains in which more than one torque
-    /// comes to the planets, such as Ravigneaux sets.
+    /// Torque on the ring at the start, where it does not follow from the sun's: in trains in which more than one
+    /// torque comes to the planets, such as Ravigneaux sets.
     pub ring_torque: Option<SenseWord>,
     /// The sun; a set has a sun, a ring or both.
     pub sun: Option<MemberTable>,
@@ -263,8 +263,8 @@ pub struct SecondGearTable {
 pub struct PartnerTable {
     /// Gear file (.toml) or reduced gear (.h5), relative to the scene; or `planets_of`.
     pub gear: Option<PathBuf>,
-    /// Another planetary set, which stands before this one and has a ring: its planets are the partners, and its ring is
-    /// that of this set, too. Both make a Ravigneaux set. Where these planets stand is stated there.
+    /// Another planetary set, which stands before this one and has a ring: its planets are the partners, and its ring
+    /// is that of this set, too. Both make a Ravigneaux set. Where these planets stand is stated there.
     pub planets_of: Option<String>,
     /// Distance of the partners' pins from the axis; not with `planets_of`.
     pub centre_distance_mm: Option<Bounded<Positive>>,
@@ -340,8 +340,9 @@ pub struct PlanetDeviationTable {
     pub eccentricity: Option<EccentricityTable>,
 }
 
-/// `sun_mesh`, `ring_mesh` and `pair_mesh`: what all meshes of a kind have. Errors and eccentricities are those of the sun
-/// (`errors_1`, `eccentricity_1`) or of the ring (`errors_2`, `eccentricity_2`); those of planets stand in `planets`.
+/// `sun_mesh`, `ring_mesh` and `pair_mesh`: what all meshes of a kind have. Errors and eccentricities are those of the
+/// sun (`errors_1`, `eccentricity_1`) or of the ring (`errors_2`, `eccentricity_2`); those of planets stand in
+/// `planets`.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetMeshTable {

@@ -99,9 +99,9 @@ fn speeds_of_meshed_planets_follow_willis() {
     assert!((found + 0.5).abs() < 1e-9, "documented: {found}");
 }
 
-/// By hand: a pair that is taken round by ψ with the sun standing has its partner turned by −z_s ψ/z_2 against the pair,
-/// up to whole pitches; the ring asks for −z_r ψ/z_2. 48 places of 24 and 72 teeth, of which three pairs have room at
-/// equal angles, five do not fit and four touch.
+/// By hand: a pair that is taken round by ψ with the sun standing has its partner turned by −z_s ψ/z_2 against the
+/// pair, up to whole pitches; the ring asks for −z_r ψ/z_2. 48 places of 24 and 72 teeth, of which three pairs have
+/// room at equal angles, five do not fit and four touch.
 #[test]
 fn meshed_planets_stand_where_both_gears_fit() {
     let folder = tempfile::tempdir().unwrap();
@@ -218,8 +218,8 @@ fn unit_forces(angle_rad: f64, ahead_rad: f64, arms_m: [f64; 3], sense: f64) -> 
     [from_sun - on_partner, on_partner - on_ring]
 }
 
-/// At rest all pairs carry the same, each mesh of a pair as much as the other two; T_r = −T_s z_r/z_s, and pins bear what
-/// is left of the forces of two meshes. With partners behind their planets everything is mirrored.
+/// At rest all pairs carry the same, each mesh of a pair as much as the other two; T_r = −T_s z_r/z_s, and pins bear
+/// what is left of the forces of two meshes. With partners behind their planets everything is mirrored.
 #[test]
 fn forces_of_meshed_planets_are_in_equilibrium() {
     let folder = tempfile::tempdir().unwrap();
@@ -306,9 +306,9 @@ fn forces_of_meshed_planets_are_in_equilibrium() {
     }
 }
 
-/// A displaced pin opens the three meshes of its pair, springs of k/3 together, by its displacement along the force that
-/// the meshes have on the planet: F_n = F + K (mean of E − E_n). The change of the pressure angles by 20 µm is of the
-/// second order, e²/2a: 1e-3 of the gap, and turns its direction by e/a.
+/// A displaced pin opens the three meshes of its pair, springs of k/3 together, by its displacement along the force
+/// that the meshes have on the planet: F_n = F + K (mean of E − E_n). The change of the pressure angles by 20 µm is of
+/// the second order, e²/2a: 1e-3 of the gap, and turns its direction by e/a.
 #[test]
 fn pairs_share_the_load_as_springs_do() {
     let folder = tempfile::tempdir().unwrap();
@@ -363,8 +363,8 @@ fn pairs_share_the_load_as_springs_do() {
     }
 }
 
-/// Each kind of mesh alone has a stiffness that varies; the first harmonic of its force runs ahead of the first pair's by
-/// the phases that are stated, as the sun turns backwards against the carrier. 25 and 73 teeth: sequential.
+/// Each kind of mesh alone has a stiffness that varies; the first harmonic of its force runs ahead of the first pair's
+/// by the phases that are stated, as the sun turns backwards against the carrier. 25 and 73 teeth: sequential.
 #[test]
 fn meshes_of_pairs_follow_each_other_in_the_stated_phases() {
     let folder = tempfile::tempdir().unwrap();

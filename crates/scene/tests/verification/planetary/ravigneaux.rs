@@ -143,8 +143,8 @@ fn speeds_of_a_ravigneaux_set_follow_willis() {
     }
 }
 
-/// Torques of all gears at rest in several positions, equal forces of all planets, and the balance of power: what drives
-/// gives what the others take.
+/// Torques of all gears at rest in several positions, equal forces of all planets, and the balance of power: what
+/// drives gives what the others take.
 #[test]
 fn torques_of_a_ravigneaux_set_are_in_equilibrium() {
     let folder = tempfile::tempdir().unwrap();
