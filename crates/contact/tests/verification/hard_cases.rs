@@ -3,7 +3,7 @@
 
 use crate::nlcp_common;
 
-use gearmesh_contact::nlcp::{Params, Workspace, solve_load, solve_position};
+use gearmesh_contact::nlcp::{LocalLaw, Params, Workspace, solve_load, solve_position};
 use nalgebra::{DMatrix, DVector};
 use nlcp_common::Data;
 use nlcp_common::families::{FAMILIES, Family, problem};
@@ -312,4 +312,91 @@ fn given_load_agrees_with_projected_gauss_seidel() {
     }
     println!("{compared} problems compared");
     assert!(compared > 60, "only {compared} problems compared");
+}
+
+/// Linear complementarity problems w = M z + q ≥ 0, z ≥ 0, wᵀz = 0 that are published with the Siconos software
+/// (numerics/src/LCP/test/data, whose own licence is Apache 2.0), those of its collection whose M is symmetric: name,
+/// rows of M, q, an answer or none where there are many.
+type Published = (
+    &'static str,
+    &'static [f64],
+    &'static [f64],
+    Option<&'static [f64]>,
+);
+
+const PUBLISHED: [Published; 2] = [
+    // Cottle, Pang, Stone, The Linear Complementarity Problem, remark 4.1.14: every z₁ + z₂ = 1 is an answer.
+    ("lcp_CPS_1", &[1.0, 1.0, 1.0, 1.0], &[-1.0, -1.0], None),
+    (
+        "lcp_deudeu",
+        &[2.0, 1.0, 1.0, 2.0],
+        &[-5.0, -6.0],
+        Some(&[4.0 / 3.0, 7.0 / 3.0]),
+    ),
+];
+
+/// The converter: q = e − a with slices of equal closing, a the approach, e ≥ 0.
+fn of_linear_problem(m: &[f64], q: &[f64]) -> (Data, f64) {
+    let n = q.len();
+    let least = q.iter().copied().fold(f64::INFINITY, f64::min);
+    let data = Data {
+        compliance: m.to_vec(),
+        local: vec![LocalLaw::none(); n],
+        separation: q.iter().map(|q| q - least).collect(),
+        closing: vec![1.0; n],
+        lever: vec![1.0; n],
+    };
+    (data, -least)
+}
+
+/// Fathi's problems: M = L Lᵀ with ones on the diagonal of L and twos below, q = −1, symmetric and positive definite.
+/// The answer is zᵀ = (1, 0, …, 0), and Lemke's and Murty's methods take 2ⁿ − 1 pivots for it (Y. Fathi, Math.
+/// Program. 17 (1979) 335-344).
+fn of_fathi(n: usize) -> (Vec<f64>, Vec<f64>) {
+    let below = |i: usize, j: usize| match i.cmp(&j) {
+        std::cmp::Ordering::Less => 0.0,
+        std::cmp::Ordering::Equal => 1.0,
+        std::cmp::Ordering::Greater => 2.0,
+    };
+    let entry = |at: usize| (0..n).map(|k| below(at / n, k) * below(at % n, k)).sum();
+    ((0..n * n).map(entry).collect(), vec![-1.0; n])
+}
+
+/// Published linear complementarity problems with symmetric matrices, as contacts at a given approach: a singular one
+/// of which every z₁ + z₂ = 1 is an answer, and Fathi's, on which pivoting methods take exponentially many steps.
+/// Residual at most 1e-10, the known answers, and no more corrections than slices.
+#[test]
+fn published_linear_complementarity_problems() {
+    let mut work = Workspace::new(32);
+    let mut solve = |name: &str, m: &[f64], q: &[f64]| {
+        let (data, approach) = of_linear_problem(m, q);
+        work.reset();
+        let info = solve_position(&data.problem(), approach, &Params::default(), &mut work)
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        let residual = data.residual(work.forces(), approach, None);
+        println!(
+            "{name}: residual {residual:.1e}, {} corrections",
+            info.iterations
+        );
+        assert!(residual <= RESIDUAL, "{name}: {residual:e}");
+        assert!(info.iterations <= q.len().max(3), "{name}: {info:?}");
+        work.forces().to_vec()
+    };
+    for (name, m, q, answer) in PUBLISHED {
+        let z = solve(name, m, q);
+        match answer {
+            Some(answer) => assert!(force_difference(&z, answer) < 1e-12, "{name}: {z:?}"),
+            None => assert!((z.iter().sum::<f64>() - 1.0).abs() < 1e-10, "{name}: {z:?}"),
+        }
+    }
+    for n in [2, 4, 8, 16, 32] {
+        let (m, q) = of_fathi(n);
+        let z = solve(&format!("Fathi, n {n}"), &m, &q);
+        let mut answer = vec![0.0; n];
+        answer[0] = 1.0;
+        assert!(
+            force_difference(&z, &answer) < FORCE_TOLERANCE,
+            "{n}: {z:?}"
+        );
+    }
 }
