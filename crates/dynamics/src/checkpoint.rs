@@ -11,14 +11,15 @@ use crate::simulation::{RunInfo, Simulation};
 use crate::state::State;
 use crate::system::System;
 
-/// Counts that checkpoints of earlier versions have.
+/// Scalars and counts that checkpoints of earlier versions have.
+const OLD_SCALARS: usize = 20;
 const OLD_COUNTS: usize = 8;
 
 /// Arrays of a run. Each may be stored as it is; names say what they hold.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Checkpoint {
     /// time, step length, step length of the factors \[s\], shortest and longest step \[s\], largest violations (2),
-    /// energies (13).
+    /// energies (13), what rounding has left out of the time \[s\] (left out by earlier versions: none).
     pub scalars: Vec<f64>,
     /// steps, rejected, unconverged, iterations, factorisations, pivotings, evaluations, steps of the present length,
     /// steps to come that begin with new factors (left out by earlier versions: none).
@@ -57,6 +58,7 @@ impl Simulation {
             info.largest_violation_rate,
         ];
         scalars.extend(info.energy.numbers());
+        scalars.push(point.clock_rest_s);
         let mut internal = Vec::new();
         for joint in self.system.joints() {
             joint.save(&mut internal);
@@ -136,8 +138,10 @@ impl Simulation {
         let c = checkpoint;
         let fresh_steps = c.counts.get(OLD_COUNTS).copied();
         let counts = OLD_COUNTS + usize::from(fresh_steps.is_some());
+        let clock_rest_s = c.scalars.get(OLD_SCALARS).copied();
+        let scalars = OLD_SCALARS + usize::from(clock_rest_s.is_some());
         for (what, found, expected) in [
-            ("scalars", c.scalars.len(), 20),
+            ("scalars", c.scalars.len(), scalars),
             ("counts", c.counts.len(), counts),
             ("positions_m", c.positions_m.len(), 3 * bodies),
             ("quaternions", c.quaternions.len(), 4 * bodies),
@@ -156,9 +160,15 @@ impl Simulation {
                 });
             }
         }
+        let clock_rest_s = clock_rest_s.unwrap_or_default();
         for (what, found, is_fine) in [
             ("its time", c.scalars[0], c.scalars[0] >= 0.0),
             ("its step", c.scalars[1], c.scalars[1] > 0.0),
+            (
+                "the rest of its clock",
+                clock_rest_s,
+                clock_rest_s.abs() < c.scalars[1],
+            ),
         ] {
             if !(is_fine && found.is_finite()) {
                 return Err(DynamicsError::CheckpointNumber { what, found });
@@ -191,9 +201,10 @@ impl Simulation {
             algorithmic: vector(2),
             jerk: vector(3),
             lambda: c.reactions.clone(),
+            clock_rest_s,
         };
         let mut energies = [0.0; 13];
-        energies.copy_from_slice(&c.scalars[7..20]);
+        energies.copy_from_slice(&c.scalars[7..OLD_SCALARS]);
         Ok(Self {
             other: now.clone(),
             info: RunInfo {

@@ -67,6 +67,9 @@ pub(crate) struct Point {
     /// v̈, by differences.
     pub jerk: Vec<f64>,
     pub lambda: Vec<f64>,
+    /// What rounding has left out of the time so far \[s\], by which the next step is longer (W. Kahan, Commun. ACM 8
+    /// (1965) 40): after 10⁷ steps of 10 µs a plain sum is off by 20 ns.
+    pub clock_rest_s: f64,
 }
 
 /// What a step needed.
@@ -304,7 +307,9 @@ impl Integrator {
         }
         to.state
             .set_moved(&from.state, &self.increment, &system.layout);
-        to.state.time_s = from.state.time_s + h;
+        let passed_s = h + from.clock_rest_s;
+        to.state.time_s = from.state.time_s + passed_s;
+        to.clock_rest_s = passed_s - (to.state.time_s - from.state.time_s);
     }
 
     pub(crate) fn evaluate(

@@ -191,6 +191,7 @@ impl Simulation {
             lambda: first.lambda,
             jerk,
             state,
+            clock_rest_s: 0.0,
         };
         let work_rate_w = system.work_rate_w(
             &now.state,

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod hard_cases;
+mod hard_many_bodies;
 mod hard_masses;
 mod mechanisms;
 #[path = "../../../../tests/support/property_cases.rs"]
