@@ -14,7 +14,7 @@ mod sparse;
 mod strayed_iterates;
 
 #[path = "../../problems"]
-mod problems {
+pub mod problems {
     pub mod andrews;
     pub mod chain;
     pub mod distance_sensor;
