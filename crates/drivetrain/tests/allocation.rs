@@ -1,9 +1,14 @@
 //! A mesh must not allocate once it is warm: counted by the global allocator of this test program.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout)] // the figures are printed
 
 #[path = "../../../tests/support/counting_allocator.rs"]
 mod counting_allocator;
+#[path = "allocation/hard_long_runs.rs"]
+mod hard_long_runs;
 mod mesh_common;
+#[allow(dead_code)] // what the verification program uses of it
+#[path = "verification/pairs_in_time/scene.rs"]
+mod scene;
 
 use counting_allocator::allocations;
 use gearmesh_drivetrain::*;

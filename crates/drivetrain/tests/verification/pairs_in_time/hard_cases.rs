@@ -32,7 +32,7 @@ pub fn damped_on(
 }
 
 /// Undamped pairs of teeth that touch in the middle of the face, on the rigid path: the one at the pitch point is alone at any depth.
-fn power_law(pair: &GearPair, stiffness: PowerStiffness) -> GearMesh {
+pub fn power_law(pair: &GearPair, stiffness: PowerStiffness) -> GearMesh {
     let law = Impact::new(stiffness, 0.0, 1e-6, 1).unwrap();
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
     let none = [Vec::new(), Vec::new()];
@@ -58,12 +58,12 @@ pub fn backlash_m(pair: &GearPair) -> f64 {
 }
 
 /// A mesh of both sides without damping.
-fn mesh_of(name: &str, pair: &GearPair) -> GearMesh {
+pub fn mesh_of(name: &str, pair: &GearPair) -> GearMesh {
     mesh(name, pair, kinematics(pair))
 }
 
 /// The root of a growing function between 0 and `most`.
-fn root(f: impl Fn(f64) -> f64, most: f64) -> f64 {
+pub fn root(f: impl Fn(f64) -> f64, most: f64) -> f64 {
     let (mut low, mut high) = (0.0, most);
     for _ in 0..200 {
         let middle = 0.5 * (low + high);

@@ -5,13 +5,14 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // the figures are printed
 
 mod conservation;
-mod friction_reversal;
 mod hard_cases;
+mod hard_friction;
+mod hard_impacts;
+mod hard_resonance;
 mod helical;
 mod instability;
 mod newton;
 mod overloaded_flanks;
-mod resonance;
 mod root_crack;
 mod scene;
 mod seed_003;

@@ -34,6 +34,11 @@ pub struct Scene<'a> {
     pub moved_m: Vector3<f64>,
     /// Tilt of gear 2's axis in the scene \[rad\].
     pub tilt: Vector3<f64>,
+    /// Way that gear 2's axis stands nearer to gear 1's than the pair's centre distance \[m\].
+    pub nearer_m: f64,
+    /// Flanks that the drive presses together and te_m is of. Left ones: the mirror image, all turns and torques of
+    /// the other sign.
+    pub side: Flank,
 }
 
 impl<'a> Scene<'a> {
@@ -50,6 +55,8 @@ impl<'a> Scene<'a> {
             turned: UnitQuaternion::identity(),
             moved_m: Vector3::zeros(),
             tilt: Vector3::zeros(),
+            nearer_m: 0.0,
+            side: Flank::Right,
         }
     }
 
@@ -74,18 +81,24 @@ impl<'a> Scene<'a> {
     pub fn system(&self, mesh: GearMesh) -> System {
         let pair = self.pair;
         let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
-        let phi = angles(pair, Flank::Right, 0.0, self.te_m);
+        let phi = angles(pair, self.side, 0.0, self.te_m);
+        let hand = if self.side == Flank::Right { 1.0 } else { -1.0 };
         let speed_2 = (r1 * self.speed_rad_per_s + self.te_rate_m_per_s) / r2;
         let mut builder = System::builder();
         let mut gears = Vec::new();
         let parts = [
             ("gear 1", &pair.gear_1, 0.0, -self.speed_rad_per_s),
-            ("gear 2", &pair.gear_2, pair.centre_distance_m, speed_2),
+            (
+                "gear 2",
+                &pair.gear_2,
+                pair.centre_distance_m - self.nearer_m,
+                speed_2,
+            ),
         ];
         for (i, (name, gear, x, speed)) in parts.into_iter().enumerate() {
             let tilt = [Vector3::zeros(), self.tilt][i];
             let axis = self.turned * UnitQuaternion::from_scaled_axis(tilt);
-            let mut body = disc(name, gear, self.width_m, (x, phi[i], speed));
+            let mut body = disc(name, gear, self.width_m, (x, phi[i], hand * speed));
             body.position_m = self.turned * body.position_m + self.moved_m;
             let housing = Marker::ground(body.position_m.into()).oriented(axis);
             body.orientation = axis * body.orientation;
@@ -94,8 +107,8 @@ impl<'a> Scene<'a> {
             builder.joint(Joint::new(&bearing, JointKind::Revolute, housing, marker).unwrap());
             let torque = [&self.torque_1, &self.torque_2][i];
             if let Some(torque) = torque {
-                // Either torque turns its gear clockwise.
-                let direction = (Axes::World, (axis * -Vector3::z()).into());
+                // Either torque turns its gear clockwise; in the mirror image counter-clockwise.
+                let direction = (Axes::World, (axis * (-hand * Vector3::z())).into());
                 let load = torque.clone();
                 let name = format!("torque on {name}");
                 let load = AppliedLoad::new(&name, marker.body, LoadKind::Torque, direction, load);
@@ -104,7 +117,11 @@ impl<'a> Scene<'a> {
             if let Some(speed) = self.drive.as_ref().filter(|_| i == 0) {
                 // Seen from the gear the housing turns counter-clockwise.
                 let drive = JointKind::Rotation(Motion::Speed(speed.clone()));
-                builder.joint(Joint::new("drive", drive, marker, housing).unwrap());
+                let [from, to] = match self.side {
+                    Flank::Right => [marker, housing],
+                    Flank::Left => [housing, marker],
+                };
+                builder.joint(Joint::new("drive", drive, from, to).unwrap());
             }
             gears.push(marker);
         }
