@@ -24,12 +24,13 @@ fn of_set(found: &SetFigures) -> Vec<String> {
         factor(&found.sun),
         factor(&found.ring)
     ));
-    let row = |cells: [String; 7]| {
-        let [name, rest @ ..] = cells;
+    let row = |cells: Vec<String>| {
+        let (name, rest) = cells.split_first().map_or(("", &[][..]), |(n, r)| (n, r));
         let rest = rest.iter().map(|cell| format!(" {cell:>13}"));
         format!("{name:<10}{}", rest.collect::<String>())
     };
-    let heads = [
+    let is_meshed = found.set.teeth.is_meshed;
+    let mut heads = vec![
         "planet",
         "sun share",
         "largest",
@@ -38,25 +39,37 @@ fn of_set(found: &SetFigures) -> Vec<String> {
         "ring force N",
         "pin force N",
     ];
-    lines.push(row(heads.map(str::to_owned)));
+    if is_meshed {
+        heads.extend(["pair share", "pair force N", "partner pin N"]);
+    }
+    lines.push(row(heads.into_iter().map(str::to_owned).collect()));
+    let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), short);
     for planet in 0..found.set.planets.len() {
         let of = |shares: &Option<MeshShares>, part: fn(&MeshShares) -> &Vec<f64>| {
-            let value = shares.as_ref().and_then(|shares| part(shares).get(planet));
-            value.map_or_else(|| "-".to_owned(), |value| short(*value))
+            cell(
+                shares
+                    .as_ref()
+                    .and_then(|shares| part(shares).get(planet).copied()),
+            )
         };
-        let pin = found
-            .pin_force_n
-            .as_ref()
-            .map(|forces| short(forces[planet]));
-        lines.push(row([
+        let pin = |forces: &Option<Vec<f64>>| cell(forces.as_ref().map(|forces| forces[planet]));
+        let mut cells = vec![
             (planet + 1).to_string(),
             of(&found.sun, |s| &s.mean),
             of(&found.sun, |s| &s.largest),
             of(&found.sun, |s| &s.normal_force_n),
             of(&found.ring, |s| &s.mean),
             of(&found.ring, |s| &s.normal_force_n),
-            pin.unwrap_or_else(|| "-".to_owned()),
-        ]));
+            pin(&found.pin_force_n),
+        ];
+        if is_meshed {
+            cells.extend([
+                of(&found.pair, |s| &s.mean),
+                of(&found.pair, |s| &s.normal_force_n),
+                pin(&found.partner_pin_force_n),
+            ]);
+        }
+        lines.push(row(cells));
     }
     let orbit = found
         .sun_orbit_m
@@ -92,11 +105,16 @@ pub fn json(result: &SystemResult) -> Result<Value, Failure> {
         })
     };
     let of_set = |found: &SetFigures| {
-        let value = json!({
+        let mut value = json!({
             "over": found.over, "planets": found.set.planets, "sun": shares(&found.sun), "ring": shares(&found.ring),
             "pin_force_N": found.pin_force_n, "sun_orbit_um": found.sun_orbit_m.map(|r| 1e6 * r),
             "transmission_error_urad": found.transmission_error_rad.map(|te| 1e6 * te),
         });
+        if found.set.teeth.is_meshed {
+            value["partners"] = json!(found.set.partners.bodies);
+            value["pair"] = json!(shares(&found.pair));
+            value["partner_pin_force_N"] = json!(found.partner_pin_force_n);
+        }
         (found.set.name.clone(), value)
     };
     Ok(Value::Object(

@@ -48,7 +48,8 @@ fn table(found: &SetFigures) -> Table {
         factor(&found.ring)
     );
     let mut table = Table::new(title).column("planet", Align::Left);
-    for head in [
+    let is_meshed = found.set.teeth.is_meshed;
+    let mut heads = vec![
         "share of the sun meshes",
         "largest",
         "normal force, N",
@@ -56,7 +57,16 @@ fn table(found: &SetFigures) -> Table {
         "largest",
         "normal force, N",
         "pin force, N",
-    ] {
+    ];
+    if is_meshed {
+        heads.extend([
+            "share of the pair meshes",
+            "largest",
+            "normal force, N",
+            "pin force of the partner, N",
+        ]);
+    }
+    for head in heads {
         table = table.column(head, Align::Right);
     }
     for (planet, name) in found.set.planets.iter().enumerate() {
@@ -67,9 +77,15 @@ fn table(found: &SetFigures) -> Table {
                 .map(|s| [s.mean[planet], s.largest[planet], s.normal_force_n[planet]]);
             [0, 1, 2].map(|part: usize| of(parts.map(|parts| parts[part])))
         };
-        let pin = found.pin_force_n.as_ref().map(|forces| forces[planet]);
-        let cells = [of_meshes(&found.sun), of_meshes(&found.ring)].concat();
-        table.push_row([vec![name.clone()], cells, vec![of(pin)]].concat());
+        let pin = |forces: &Option<Vec<f64>>| of(forces.as_ref().map(|forces| forces[planet]));
+        let mut cells = vec![name.clone()];
+        cells.extend([of_meshes(&found.sun), of_meshes(&found.ring)].concat());
+        cells.push(pin(&found.pin_force_n));
+        if is_meshed {
+            cells.extend(of_meshes(&found.pair));
+            cells.push(pin(&found.partner_pin_force_n));
+        }
+        table.push_row(cells);
     }
     table
 }
@@ -100,17 +116,37 @@ impl Drawing {
     }
 }
 
+/// The force of the mesh at the nearer of two angles around a planet, or of the one that there is.
+fn half(
+    one: f64,
+    other: f64,
+    forces: [&Option<Vec<f64>>; 2],
+    planet: usize,
+) -> impl Fn(f64) -> f64 {
+    let [first, second] = forces.map(|forces| forces.as_ref().map(|forces| forces[planet]));
+    move |angle| {
+        let is_nearer = (angle - one).cos() > (angle - other).cos();
+        let [own, rest] = match is_nearer {
+            true => [first, second],
+            false => [second, first],
+        };
+        own.or(rest).unwrap_or(0.0)
+    }
+}
+
 /// Sun, planets and ring on their pitch circles at the start, each part in the colour of the nearest mesh's force; none
 /// where forces are not recorded.
 fn picture(found: &SetFigures) -> Option<FieldPicture> {
     let set = &found.set;
     let force = |shares: &Option<MeshShares>| shares.as_ref().map(|s| s.normal_force_n.clone());
-    let (sun, ring) = (force(&found.sun), force(&found.ring));
-    let forces = [&sun, &ring].into_iter().flatten().flatten();
+    let [sun, pair, ring] = [&found.sun, &found.pair, &found.ring].map(force);
+    let forces = [&sun, &pair, &ring].into_iter().flatten().flatten();
     if forces.fold(0.0_f64, |most, force| most.max(*force)) <= 0.0 {
         return None;
     }
     let (teeth, a_mm) = (&set.teeth, 1e3 * set.centre_distance_m);
+    let partner_mm = 1e3 * set.partners.distance_m;
+    let to_ring_mm = if teeth.is_meshed { partner_mm } else { a_mm };
     let [z1, z2] = [teeth.planet, teeth.planet_to_ring].map(|z| z as f64);
     let nearest = |angle: f64| {
         let off = |planet: &usize| (angle - set.angles_rad[*planet]).cos();
@@ -130,8 +166,10 @@ fn picture(found: &SetFigures) -> Option<FieldPicture> {
         });
     }
     if let (Some(z), Some(ring)) = (teeth.ring, &ring) {
-        let radius = a_mm * z as f64 / (z as f64 - z2);
-        planet_mm = planet_mm.max(radius - a_mm);
+        let radius = to_ring_mm * z as f64 / (z as f64 - z2);
+        if !teeth.is_meshed {
+            planet_mm = planet_mm.max(radius - a_mm);
+        }
         drawing.disc([0.0; 2], [radius, OUTSIDE * radius], |angle| {
             ring[nearest(angle)]
         });
@@ -143,20 +181,29 @@ fn picture(found: &SetFigures) -> Option<FieldPicture> {
     );
     for planet in 0..set.planets.len() {
         let at_mm = set.planet_at_m(planet).map(|x| 1e3 * x);
-        // The side towards the ring has the ring's force.
-        let value = |angle: f64| {
-            let outwards = (angle - set.angles_rad[planet]).cos() > 0.0;
-            let [own, other] = if outwards {
-                [&ring, &sun]
-            } else {
-                [&sun, &ring]
-            };
-            own.as_ref().or(other.as_ref()).map_or(0.0, |f| f[planet])
-        };
-        drawing.disc(at_mm, [BORE * planet_mm, planet_mm], value);
+        let words = format!("{}", planet + 1);
+        let angle = set.angles_rad[planet];
+        if teeth.is_meshed {
+            let partner_at_mm = set.partner_at_m(planet).map(|x| 1e3 * x);
+            let [x, y] = [0, 1].map(|i| partner_at_mm[i] - at_mm[i]);
+            let pair_mm = x.hypot(y) / (z1 + z2);
+            let (to_partner, partner_angle) = (y.atan2(x), angle + set.partners.ahead_rad);
+            let of_sun = half(angle + PI, to_partner, [&sun, &pair], planet);
+            drawing.disc(at_mm, [BORE * pair_mm * z1, pair_mm * z1], of_sun);
+            let of_ring = half(partner_angle, to_partner + PI, [&ring, &pair], planet);
+            drawing.disc(partner_at_mm, [BORE * pair_mm * z2, pair_mm * z2], of_ring);
+            picture = picture.mark(Mark {
+                at_mm: partner_at_mm,
+                words: words.clone(),
+                sign: MarkSign::Words,
+            });
+        } else {
+            let value = half(angle, angle + PI, [&ring, &sun], planet);
+            drawing.disc(at_mm, [BORE * planet_mm, planet_mm], value);
+        }
         picture = picture.mark(Mark {
             at_mm,
-            words: format!("{}", planet + 1),
+            words,
             sign: MarkSign::Words,
         });
     }
