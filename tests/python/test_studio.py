@@ -282,7 +282,8 @@ def test_something_new(browser, tmp_path):
         it.until("document.querySelector('#pair')?.hidden === false && globalThis.gearmeshStudio?.times?.length > 0", seconds=120)
         assert (tmp_path / "pair/pinion.h5").exists()
         assert len(it.answer()["figures"]["rows"]) == 3
-        assert all("422" in one for one in it.complaints), it.complaints
+        # What was refused, and an answer that a newer one has overtaken.
+        assert all("422" in one or "409" in one for one in it.complaints), it.complaints
 
 
 def test_a_bevel_pair_and_a_gearbox_from_nothing(browser, tmp_path):
