@@ -28,8 +28,8 @@ pub struct AccuracyRequest {
     pub scene: PathBuf,
     /// What is to be exact: columns of a study of the scene, of series COLUMN:FIGURE, with mean, deviation, rms,
     /// peak-to-peak, largest, least; of runs in time line-250Hz; of sweeps resonance-rpm. Where none is named:
-    /// deviations and peaks of teeth, gauges and bearings in motion; of pairs at rest peak-to-peak, pressure, K_Hbeta
-    /// and strain
+    /// deviations and peaks of teeth, gauges and bearings in motion, and the first three mesh orders where the speed
+    /// stays; of pairs at rest peak-to-peak, pressure, K_Hbeta and strain
     #[arg(long, value_delimiter = ',')]
     #[serde(default, deserialize_with = "crate::one_or_many::read")]
     pub columns: Vec<String>,

@@ -30,8 +30,8 @@ def accuracy(
 ) -> dict[str, Any]:
     """What accuracy costs in time, for columns of a scene: every knob of it against a reference (docs/accuracy-cost.md).
 
-    columns: those of a study; of series COLUMN:FIGURE; none: deviations and peaks in motion, of pairs at rest peak-to-peak,
-    pressure, K_Hbeta and strain. from_s: figures from this time on, of multibody runs. page: also write the page with the picture. elements: folder for models, where the gears' elements and element lengths are varied,
+    columns: those of a study; of series COLUMN:FIGURE; none: deviations, peaks and mesh orders in motion, of pairs at rest
+    peak-to-peak, pressure, K_Hbeta and strain. from_s: figures from this time on, of multibody runs. page: also write the page with the picture. elements: folder for models, where the gears' elements and element lengths are varied,
     too. time: what stands for cost. progress: see gearmesh.progress.Progress. Returns what `gearmesh accuracy --json`
     prints: the errors and seconds of each setting and what is advised for 1 %, 0.1 % and interactive work. Takes minutes.
     """

@@ -7,6 +7,7 @@ use std::time::Instant;
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::{ReducedGear, write_text};
 
+use super::column_errors::ColumnErrors;
 use super::default_columns::default_columns;
 use super::effects::{Effect, of_scene};
 use super::element_knob;
@@ -17,7 +18,7 @@ use crate::pair::warnings::ColumnPressure;
 use crate::study::{
     BaseScene, Case, Effort, Evaluated, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch,
     Setting, StudyError, StudyOptions, Subject, VaryError, Wanted, evaluate, known_columns,
-    make_files, number,
+    make_files, number, steady_meshes,
 };
 
 /// Runs of a setting at most.
@@ -58,7 +59,7 @@ pub type Reduce<'a> = &'a (dyn Fn(&GearDefinition) -> Result<ReducedGear, String
 
 /// How a scene is tried.
 pub struct BenchOptions<'a> {
-    /// What is to be exact; where empty, what the model decides: in motion deviations and peaks.
+    /// What is to be exact; where empty, what the model decides: in motion deviations, peaks and lines at mesh orders.
     pub wanted: Vec<Wanted>,
     /// Runs in time: figures from this time on \[s\].
     pub from_s: f64,
@@ -99,6 +100,7 @@ pub struct Bench<'a> {
     rest: RestCases,
     scratch: Scratch<'a>,
     options: BenchOptions<'a>,
+    errors: ColumnErrors,
 }
 
 impl<'a> Bench<'a> {
@@ -112,6 +114,7 @@ impl<'a> Bench<'a> {
             folder: scene.parent().unwrap_or(Path::new("")).to_owned(),
             rest: RestCases::default(),
             scratch: Scratch::new(options.scratch, options.stop),
+            errors: ColumnErrors::new(&options.wanted),
             options,
         };
         let error = |problem: String| {
@@ -129,7 +132,12 @@ impl<'a> Bench<'a> {
         }
         let (known, kinds) = known_columns(&subject, &this.rest)?;
         if this.options.wanted.is_empty() {
-            this.options.wanted = default_columns(&known, kinds);
+            let steady = match &subject {
+                Subject::System(scene) => steady_meshes(scene, this.options.from_s)?,
+                _ => Vec::new(),
+            };
+            this.options.wanted = default_columns(&known, kinds, &steady);
+            this.errors = ColumnErrors::new(&this.options.wanted);
         }
         if this.options.wanted.is_empty() {
             let told = "none is named, and the scene has no teeth, gauges or bearings in motion, nor a pair of gears, whose columns would be judged; name what is to be exact";
@@ -236,6 +244,16 @@ impl<'a> Bench<'a> {
     #[must_use]
     pub fn time(&self) -> JudgedTime {
         self.options.time
+    }
+
+    /// Errors of values against a reference, column by column.
+    pub(super) fn errors(&self, values: &[f64], reference: &[f64]) -> Vec<f64> {
+        self.errors.of(values, reference)
+    }
+
+    /// What errors are relative to.
+    pub(super) fn scales(&self, reference: &[f64]) -> Vec<f64> {
+        self.errors.scales(reference)
     }
 
     /// Names of the figures, in the order of the values.

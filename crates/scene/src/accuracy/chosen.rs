@@ -2,7 +2,7 @@
 //! exact enough, and climbs until one rung more of every knob changes the columns by little enough.
 
 use super::bench::{Bench, Measured};
-use super::column_errors::{errors, largest};
+use super::column_errors::largest;
 use super::doubt::in_one_direction;
 use super::fronts;
 use super::knobs::{Knob, case_of};
@@ -92,13 +92,12 @@ pub fn choose(
             Ok(outcome) => Ok(Some(outcome)),
         }
     };
-    let count = bench.names().len();
     let mut below = measured(&rungs)?;
-    let mut found = vec![f64::INFINITY; count];
+    let mut found = vec![f64::INFINITY; bench.names().len()];
     while rungs != top {
         let higher = one_rung_more(&knobs, &rungs);
         let above = measured(&higher)?;
-        found = changes(below.as_ref(), above.as_ref(), count);
+        found = changes(bench, below.as_ref(), above.as_ref());
         found.iter_mut().for_each(|change| *change *= LEFT);
         if largest(&found) <= goal {
             break;
@@ -114,7 +113,7 @@ pub fn choose(
         } else {
             measured(&lower)?
         };
-        found = changes(below.as_ref(), above.as_ref(), count);
+        found = changes(bench, below.as_ref(), above.as_ref());
     }
     let case = case_of(&knobs, &rungs);
     Ok(Chosen {
@@ -148,9 +147,9 @@ fn one_rung_less(knobs: &[Knob]) -> Vec<usize> {
     knobs.iter().map(less).collect()
 }
 
-fn changes(below: Option<&Measured>, above: Option<&Measured>, count: usize) -> Vec<f64> {
+fn changes(bench: &Bench<'_>, below: Option<&Measured>, above: Option<&Measured>) -> Vec<f64> {
     match (below, above) {
-        (Some(below), Some(above)) => errors(&below.values, &above.values, count),
-        _ => vec![f64::INFINITY; count],
+        (Some(below), Some(above)) => bench.errors(&below.values, &above.values),
+        _ => vec![f64::INFINITY; bench.names().len()],
     }
 }

@@ -2,7 +2,7 @@
 //! each other.
 
 use super::bench::{Bench, Measured};
-use super::column_errors::{errors, largest};
+use super::column_errors::largest;
 use super::knobs::{Knob, case_of};
 use super::ladder::{Accuracy, top_of};
 use crate::study::StudyError;
@@ -35,29 +35,29 @@ pub(super) fn spread(
             return Ok(Vec::new());
         };
         all.push(bench.measure(&beside)?.values);
-        if number == 1 && largest(&errors(&all[1], &all[0], reference.values.len())) < PARTED {
+        if number == 1 && largest(&bench.errors(&all[1], &all[0])) < PARTED {
             return Ok(Vec::new());
         }
     }
-    let (means, spreads) = (0..reference.values.len())
-        .map(|column| mean_and_spread(all.iter().map(|values| values[column])))
+    let (means, deviations): (Vec<f64>, Vec<f64>) = (0..reference.values.len())
+        .map(|column| mean_and_deviation(all.iter().map(|values| values[column])))
         .unzip();
+    let over = |(deviation, scale): (&f64, f64)| match *deviation {
+        0.0 => 0.0,
+        deviation => deviation / scale,
+    };
+    let spreads = deviations.iter().zip(bench.scales(&means)).map(over);
+    let spreads = spreads.collect();
     reference.values = means;
     Ok(spreads)
 }
 
-/// Mean, and standard deviation of a sample over it.
-fn mean_and_spread(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+/// Mean and standard deviation of a sample.
+fn mean_and_deviation(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let count = values.clone().count() as f64;
     let mean = values.clone().sum::<f64>() / count;
     let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
-    let deviation = (squares / (count - 1.0)).sqrt();
-    let spread = if deviation == 0.0 {
-        0.0
-    } else {
-        deviation / mean.abs()
-    };
-    (mean, spread)
+    (mean, (squares / (count - 1.0)).sqrt())
 }
 
 impl Accuracy {
@@ -137,9 +137,9 @@ mod tests {
     }
 
     #[test]
-    fn spread_is_that_of_a_sample() {
-        let (mean, spread) = mean_and_spread([9.0, 10.0, 11.0].into_iter());
-        assert_eq!((mean, spread), (10.0, 0.1));
-        assert_eq!(mean_and_spread([0.0, 0.0].into_iter()), (0.0, 0.0));
+    fn deviation_is_that_of_a_sample() {
+        let found = mean_and_deviation([9.0, 10.0, 11.0].into_iter());
+        assert_eq!(found, (10.0, 1.0));
+        assert_eq!(mean_and_deviation([0.0, 0.0].into_iter()), (0.0, 0.0));
     }
 }

@@ -5,7 +5,7 @@
 //! is reported of them is measured, not predicted.
 
 use super::bench::{Bench, JudgedTime, Measured};
-use super::column_errors::{errors, largest};
+use super::column_errors::largest;
 use super::doubt;
 use super::effects::Effect;
 use super::knobs::{Knob, case_of};
@@ -126,7 +126,7 @@ pub fn accuracy(
     let mut reference = settled_reference(bench, &mut knobs)?;
     let spread = doubt::spread(bench, &knobs, &mut reference)?;
     let top = top_of(&knobs);
-    let judge = |measured: &Measured| errors(&measured.values, &reference.values, columns.len());
+    let judge = |measured: &Measured| bench.errors(&measured.values, &reference.values);
     let mut found = Accuracy {
         kind: bench.kind(),
         tried: vec![tried(
@@ -135,7 +135,7 @@ pub fn accuracy(
             None,
             (&reference, judge(&reference)),
         )],
-        columns: columns.clone(),
+        columns,
         left_out,
         failed: Vec::new(),
         advice: Vec::new(),
@@ -212,7 +212,7 @@ pub fn accuracy(
                         false => (&as_it_is, &other),
                     };
                     found.effects.push(EffectFound {
-                        changes: errors(&with.values, &without.values, columns.len()),
+                        changes: bench.errors(&with.values, &without.values),
                         without: without.effort,
                         with: with.effort,
                         effect,
@@ -235,7 +235,6 @@ pub(super) fn top_of(knobs: &[Knob]) -> Vec<usize> {
 /// The scene with every knob at its top. Knobs with further rungs get as many as it takes for the last step to change
 /// the columns by less than [`SETTLED`].
 fn settled_reference(bench: &Bench<'_>, knobs: &mut [Knob]) -> Result<Measured, StudyError> {
-    let columns = bench.names().len();
     let mut reference = bench.measure(&case_of(knobs, &top_of(knobs)))?;
     for number in 0..knobs.len() {
         if knobs[number].further.is_empty() || knobs[number].rungs.len() < 2 {
@@ -245,7 +244,7 @@ fn settled_reference(bench: &Bench<'_>, knobs: &mut [Knob]) -> Result<Measured, 
         lower[number] -= 1;
         stopped(bench)?;
         let mut below = bench.measure(&case_of(knobs, &lower))?;
-        while largest(&errors(&below.values, &reference.values, columns)) > SETTLED
+        while largest(&bench.errors(&below.values, &reference.values)) > SETTLED
             && !knobs[number].further.is_empty()
         {
             stopped(bench)?;
@@ -455,15 +454,5 @@ mod tests {
         // A reference that may be off by 2 % leaves 1 % of 3; by 4 %, nothing can be said.
         assert_eq!(choice(Goal::Within(0.03), 0.02), Some(vec![1, 1]));
         assert_eq!(choice(Goal::Within(0.03), 0.04), None);
-    }
-
-    #[test]
-    fn an_error_is_the_largest_over_the_torques() {
-        let reference = [10.0, -20.0, 1.0, 0.0];
-        assert_eq!(errors(&[11.0, -20.0, 1.0, 0.0], &reference, 2), [0.1, 0.0]);
-        assert_eq!(
-            errors(&[10.0, -25.0, 1.0, 1e-9], &reference, 2),
-            [0.25, 1.0]
-        );
     }
 }

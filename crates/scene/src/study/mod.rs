@@ -52,6 +52,6 @@ pub use rest_cases::{RestCases, RestFigures};
 pub use scatter::{NormalTable, SpacedTable, UniformTable};
 pub use study_file::{ParameterTable, Study, StudyTables};
 pub use subject::{BearingSubject, SeriesOver, Subject};
-pub(crate) use system_cases::result_size;
+pub(crate) use system_cases::{SteadyMesh, result_size, steady_meshes};
 pub(crate) use varied_once::demand_each_once;
 pub use varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};

@@ -16,8 +16,8 @@ use crate::pair::warnings::yielding;
 use crate::rating::figure_names;
 use crate::system::{SystemScene, unknown};
 use crate::system_run::{
-    Figures, Outcome, PartFolder, ResultKind, ResultSize, RunHead, RunJob, RunKind, RunOptions,
-    SetFigures, SystemResult, SystemRunError, Window, inputs, recorded_columns, run,
+    Figures, LOW_PASS_BAND, Outcome, PartFolder, ResultKind, ResultSize, RunHead, RunJob, RunKind,
+    RunOptions, SetFigures, SystemResult, SystemRunError, Window, inputs, recorded_columns, run,
 };
 
 /// Wall time between checkpoints of a case.
@@ -60,6 +60,55 @@ pub(super) fn column_names(scene: &SystemScene) -> Result<(Vec<String>, FigureKi
     let all = columns.map(|column| column.name).chain(of_ratings);
     let all = all.chain(of_sets);
     Ok((all.collect(), kinds))
+}
+
+/// Mesh periods at least over which lines at mesh orders are judged: Hann's window tells what is three of its spacings
+/// apart.
+const LEAST_PERIODS: f64 = 8.0;
+
+/// A mesh whose frequency stays, and what of its spectrum the rows of a run tell.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SteadyMesh {
+    /// Name of the element.
+    pub name: String,
+    /// Mesh frequency \[Hz\].
+    pub hz: f64,
+    /// Highest frequency at which spectra of the rows are right, whatever the step \[Hz\].
+    pub most_hz: f64,
+}
+
+/// The meshes of a recorded motion whose frequency stays from `from_s` on (0: from where its statistics begin), over
+/// enough periods.
+///
+/// # Errors
+/// [`StudyError`] for a scene that cannot be built.
+pub(crate) fn steady_meshes(
+    scene: &SystemScene,
+    from_s: f64,
+) -> Result<Vec<SteadyMesh>, StudyError> {
+    let loaded = scene.clone().load()?;
+    let meshes = loaded.build()?.meshes;
+    let RunKind::Transient(run) = RunJob::from_scene(loaded)?.kind else {
+        return Ok(Vec::new());
+    };
+    let from_s = if from_s == 0.0 {
+        run.statistics_from_s
+    } else {
+        from_s
+    };
+    // Earlier than statistics begin, speeds may change.
+    if from_s < run.statistics_from_s {
+        return Ok(Vec::new());
+    }
+    let steady = meshes.into_iter().filter_map(|mesh| {
+        let hz = mesh.steady_hz?;
+        ((run.end_s - from_s) * hz >= LEAST_PERIODS).then(|| SteadyMesh {
+            name: mesh.name,
+            hz,
+            most_hz: 0.5 * LOW_PASS_BAND / run.interval_s,
+        })
+    });
+    Ok(steady.collect())
 }
 
 /// Rows and columns of the result of a multibody scene; none where it keeps none.

@@ -83,6 +83,9 @@ pub struct BuiltMesh {
     /// The highest frequency of the mesh \[Hz\] at the speeds of the start and those to which motions go in a run in
     /// time.
     pub highest_hz: f64,
+    /// The frequency of the mesh \[Hz\] at speeds that motions keep from the time on from which statistics of a
+    /// recorded motion count; none where they change, or no motion drives the mesh.
+    pub steady_hz: Option<f64>,
     /// Speeds of gear 1 and gear 2 about their z at the start \[rad/s\].
     pub speeds_rad_per_s: [f64; 2],
     /// The stage at a glance; none of bevel pairs.

@@ -7,10 +7,17 @@ use crate::system::built::BuiltMesh;
 use crate::system::stage_summary::StageSummary;
 
 impl PreparedMesh {
-    /// The mesh for plans and results; `fastest`: its bodies at the highest speeds of a run in time.
-    pub(super) fn describe(&self, bodies: &Bodies, fastest: Option<&Bodies>) -> BuiltMesh {
+    /// The mesh for plans and results; `fastest`: its bodies at the highest speeds of a run in time, `steady`: at those
+    /// that motions keep while it is judged.
+    pub(super) fn describe(
+        &self,
+        bodies: &Bodies,
+        fastest: Option<&Bodies>,
+        steady: Option<&Bodies>,
+    ) -> BuiltMesh {
         let at_start_hz = frequency_hz(self, bodies);
         let later_hz = fastest.map_or(0.0, |fastest| frequency_hz(self, fastest));
+        let steady_hz = steady.map(|steady| frequency_hz(self, steady));
         let of = |body: usize| &bodies.list[body].body;
         BuiltMesh {
             name: self.name.clone(),
@@ -20,6 +27,7 @@ impl PreparedMesh {
             model: self.model.name(),
             frequency_hz: at_start_hz,
             highest_hz: later_hz.max(at_start_hz),
+            steady_hz: steady_hz.filter(|hz| *hz > 0.0),
             speeds_rad_per_s: self
                 .bodies
                 .map(|body| of(body).angular_velocity_rad_per_s.z),

@@ -84,6 +84,9 @@ pub(super) fn add_joints(
 /// How often a function is looked at for its fastest speed.
 const LOOKS: u32 = 1000;
 
+/// Share by which a steady speed may change: a thousand periods later a line is a thousandth of a period off.
+const STEADY: f64 = 1e-6;
+
 /// A motion with its joint.
 pub(super) struct PlacedMotion {
     name: String,
@@ -107,10 +110,15 @@ impl PlacedMotion {
         if self.stated_spin.is_some() {
             return self.stated_spin;
         }
+        self.spin_at(0.0)
+    }
+
+    /// Speed about the joint's axis at a time \[rad/s\], where the angle is driven.
+    fn spin_at(&self, time_s: f64) -> Option<f64> {
         match (&self.motion, self.driven) {
             (_, Driven::Place) => None,
-            (Motion::Speed(f), Driven::Angle) => Some(f.at(0.0).value),
-            (Motion::Position(f), Driven::Angle) => Some(f.at(0.0).rate),
+            (Motion::Speed(f), Driven::Angle) => Some(f.at(time_s).value),
+            (Motion::Position(f), Driven::Angle) => Some(f.at(time_s).rate),
         }
     }
 
@@ -118,11 +126,7 @@ impl PlacedMotion {
     /// that of the values which the run gives the motion, or the largest of its function, looked at often. Of
     /// the motion of a static series it is 1 rad/s.
     pub(super) fn fastest_spin(&self, run: &Run) -> Option<f64> {
-        let at = |time_s: f64| match (&self.motion, self.driven) {
-            (_, Driven::Place) => None,
-            (Motion::Speed(f), Driven::Angle) => Some(f.at(time_s).value),
-            (Motion::Position(f), Driven::Angle) => Some(f.at(time_s).rate),
-        };
+        let at = |time_s: f64| self.spin_at(time_s);
         let varied = run.varied_motion() == Some(&self.name);
         let stated: Vec<f64> = match run {
             Run::SpeedSweep(sweep) if varied => vec![sweep.from_rad_per_s, sweep.to_rad_per_s],
@@ -143,6 +147,18 @@ impl PlacedMotion {
             .into_iter()
             .max_by(|a, b| a.abs().total_cmp(&b.abs()));
         fastest.filter(|speed| speed.is_finite())
+    }
+
+    /// The speed about the joint's axis that the motion has from one time to another \[rad/s\]: none where it drives a
+    /// place, not a number where the speed changes by more than [`STEADY`] of itself.
+    pub(super) fn steady_spin(&self, [from_s, end_s]: [f64; 2]) -> Option<f64> {
+        let at = |time_s: f64| self.spin_at(time_s);
+        let last = at(end_s)?;
+        let share = |i: u32| f64::from(i) / f64::from(LOOKS);
+        let times = (0..LOOKS).map(|i| from_s + (end_s - from_s) * share(i));
+        let stays = |spin: f64| (spin - last).abs() <= STEADY * last.abs();
+        let steady = times.filter_map(at).all(stays);
+        Some(if steady { last } else { f64::NAN })
     }
 
     /// Takes another function, of the same kind of coordinate: other speeds, or the angles of a static series.

@@ -193,6 +193,15 @@ impl LoadedSystem {
         matches!(self.scene.run, Run::Static { .. } | Run::Eigen { .. })
     }
 
+    /// What of a recorded motion is judged: the time from which its statistics count to its end \[s\].
+    fn judged_s(&self) -> Option<[f64; 2]> {
+        let Run::Transient { end_s } = self.scene.run else {
+            return None;
+        };
+        let from_s = self.scene.output.statistics_from_s;
+        Some([from_s.unwrap_or(0.5 * end_s), end_s])
+    }
+
     /// Whether an equilibrium is sought before anything moves.
     fn seeks_rest(&self) -> bool {
         self.is_at_rest() || self.scene.solver.start == Start::Equilibrium
@@ -267,6 +276,16 @@ impl LoadedSystem {
         start_speeds::refuse_missed_ratios(&bodies, &meshes, document)?;
         // What motions drive is not held at the speeds of the start.
         fastest.free_speeds();
+        let steady = self.judged_s().and_then(|window_s| {
+            let steady_of = |motion: &PlacedMotion| motion.steady_spin(window_s);
+            let mut spins = motions.iter().filter_map(steady_of);
+            let mut steady = fastest.clone();
+            let moved = (&motions[..], &steady_of as &_);
+            (spins.all(|spin| spin.is_finite())).then(|| {
+                start_speeds::settle_speeds(&mut steady, holds, moved, &meshes, &mut Vec::new());
+                steady
+            })
+        });
         let fastest_of = |motion: &PlacedMotion| motion.fastest_spin(&self.scene.run);
         let moved = (&motions[..], &fastest_of as &_);
         start_speeds::settle_speeds(&mut fastest, holds, moved, &meshes, &mut Vec::new());
@@ -338,7 +357,7 @@ impl LoadedSystem {
         let ratings = ratings::build(&self.scene, &bodies, &meshes, &gauges)?;
         let in_time = self.scene.run.simulated_s().is_some();
         let built_meshes = (meshes.iter())
-            .map(|mesh| mesh.describe(&bodies, in_time.then_some(&fastest)))
+            .map(|mesh| mesh.describe(&bodies, in_time.then_some(&fastest), steady.as_ref()))
             .collect();
         let mut groups = Groups::new(&tables.body, document, &bodies, (&meshes, seated))?;
         let mut left: Vec<Vec<MeshOfGroup>> = groups.meshes.iter().map(|_| Vec::new()).collect();

@@ -343,6 +343,76 @@ fn columns_by_default_are_those_that_settings_decide() {
     assert_eq!(found.columns, expected);
 }
 
+/// Seed 002's pair without friction, for 20 mesh periods; the pinion's speed as given.
+fn pair_in_motion(folder: &Path, speed: &str) -> SystemScene {
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models");
+    for file in ["pinion_25_m2.toml", "wheel_30_m2.toml"] {
+        std::fs::copy(shipped.join(file), folder.join(file)).unwrap();
+    }
+    let text = std::fs::read_to_string(shipped.join("dynamics_25_30.toml")).unwrap();
+    let (text, _) = text.split_once("[gear_mesh.teeth.friction]").unwrap();
+    let mut text = text.to_owned();
+    for (old, new) in [
+        ("end_s = 0.4", "end_s = 0.08"),
+        ("step_s = 2e-6", "step_s = 1e-5"),
+        ("interval_s = 2e-5", "interval_s = 1e-4"),
+        ("end_s = 0.1,", "end_s = 0.02,"),
+        ("joint = \"pinion axis\"\nspeed_rpm = -600.0", speed),
+    ] {
+        assert!(text.contains(old), "{old}");
+        text = text.replace(old, new);
+    }
+    std::fs::write(folder.join("scene.toml"), &text).unwrap();
+    SystemScene::from_document(InputDocument::new("own", text), folder).unwrap()
+}
+
+/// Mesh frequencies are steady where motions keep their speeds while the run is judged, its second half. Lines at the
+/// first orders are then judged, too, and only then.
+#[test]
+fn lines_at_mesh_orders_are_judged_where_the_mesh_frequency_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let joint = "joint = \"pinion axis\"\nspeed_rpm = ";
+    let slows_down = |end_s: &str| {
+        format!(
+            "{joint}{{ step = {{ start_s = 0.0, from = -600.0, end_s = {end_s}, to = -500.0 }} }}"
+        )
+    };
+    let place = "joint = \"pinion axis\"\nangle_deg = { linear = { slope_per_s = -3600.0 } }";
+    for (motion, steady_hz) in [
+        (format!("{joint}-600.0"), Some(250.0)),
+        (slows_down("0.03"), Some(500.0 / 60.0 * 25.0)),
+        (slows_down("0.07"), None),
+        (place.to_owned(), Some(250.0)),
+    ] {
+        let scene = pair_in_motion(folder.path(), &motion);
+        let built = scene.load().unwrap().build().unwrap();
+        let found = built.meshes[0].steady_hz;
+        let near = |hz: f64| steady_hz.is_some_and(|known: f64| (hz / known - 1.0).abs() < 1e-9);
+        assert!(
+            found.map_or(steady_hz.is_none(), near),
+            "{motion}: {found:?}"
+        );
+    }
+    let columns = |motion: &str| {
+        pair_in_motion(folder.path(), motion);
+        let chosen = bench_in(folder.path(), &[], |bench| {
+            gearmesh_scene::accuracy::choose(bench, 10.0, &|_, _| ())
+        });
+        chosen.unwrap().columns
+    };
+    let steady = columns(&format!("{joint}-600.0"));
+    for column in ["transmission_error_m", "normal_force_right_N"] {
+        let lines: Vec<&String> = (steady.iter())
+            .filter(|name| name.starts_with(&format!("elements/mesh/{column}:line-")))
+            .collect();
+        let expected =
+            ["250", "500", "750"].map(|hz| format!("elements/mesh/{column}:line-{hz}Hz"));
+        assert_eq!(lines, expected.iter().collect::<Vec<_>>(), "{steady:?}");
+    }
+    let unsteady = columns(&slows_down("0.07"));
+    assert_eq!(unsteady.len() + 6, steady.len(), "{unsteady:?}");
+}
+
 /// Positions of a tooth contact analysis are doubled until the last step matters no more; the rungs below are kept.
 #[test]
 fn the_reference_is_refined_until_its_last_step_is_small() {
