@@ -180,7 +180,7 @@ fn a_helix_of_45_degrees() {
     // The tooth ahead is the one behind in the mirror.
     let apart = [(0, 0), (1, teeth - 1), (teeth - 1, 1)]
         .map(|(a, b)| deflection(&model, a) / deflection(&mirrored, b) - 1.0);
-    println!("cyclic {symmetry:.1e}; mirror image apart by {apart:.1e?}");
+    println!("cyclic {symmetry:.1e}; mirror image apart by {apart:?}");
     assert!(apart.iter().all(|off| off.abs() < 1e-6), "{apart:?}");
 }
 
@@ -207,7 +207,7 @@ fn five_teeth_and_five_hundred() {
         println!("{teeth} teeth: {:.1} s", clock.elapsed().as_secs_f64());
         [0, 1, teeth / 2].map(|tooth| deflection(&model, tooth))
     });
-    println!("{found:e?}");
+    println!("deflections {found:?} m/N");
     for tooth in [0, 1] {
         let changes = [0, 1].map(|k: usize| (found[k + 1][tooth] / found[k][tooth] - 1.0).abs());
         // First order in 1/z: half from one to the next.
