@@ -16,7 +16,7 @@ pub fn page(schema: &Value, kind: &str) -> String {
     let _ = write!(
         page.text,
         "# Keys of {kind} files\n\nMade by `gearmesh schema {kind} --markdown` from what the program reads; units are part of the names of the keys. \
-         Keys in **bold** must be given.\n"
+         Keys in **bold** must be given. Of a table with kinds, keys above the first kind belong to all.\n"
     );
     match schema["anyOf"].as_array() {
         None => page.table("Top level", "", schema),
