@@ -49,12 +49,17 @@ pub(super) fn default_columns(
             let of_mesh = name.strip_prefix(&format!("elements/{}/", mesh.name));
             let orders = LINES.iter().find(|(column, _)| of_mesh == Some(column));
             let orders = 1..=orders.map_or(0, |(_, orders)| *orders);
-            let lines = orders.map(|order| f64::from(order) * mesh.hz);
+            let lines = orders.map(|order| shown(f64::from(order) * mesh.hz));
             let told = lines.filter(|hz| *hz <= mesh.most_hz);
             wanted.extend(told.map(|hz| Wanted::of(&format!("{name}:line-{hz}Hz"))));
         }
     }
     wanted
+}
+
+/// A frequency without what rounding leaves behind its twelfth digit: the name of its column shows all digits.
+fn shown(hz: f64) -> f64 {
+    format!("{hz:.11e}").parse().unwrap_or(hz)
 }
 
 #[cfg(test)]
