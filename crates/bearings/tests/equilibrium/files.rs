@@ -87,11 +87,7 @@ fn values_out_of_range_are_answered_with_the_range() {
         ("balls = 16", "balls = 18"),
         &["balls", "found 18", "3 to 17"],
     );
-    refused(
-        B218,
-        ("balls = 16\n", ""),
-        &["balls", "missing"],
-    );
+    refused(B218, ("balls = 16\n", ""), &["balls", "missing"]);
     refused(
         B218,
         ("inner_conformity = 0.5232", "inner_conformity = 0.5"),
