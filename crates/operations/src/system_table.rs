@@ -25,13 +25,13 @@ const MOST_SHARES: usize = 3;
 /// The figures for people.
 pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let mut lines = vec![format!("{}: {}", result.head.title, result.kind)];
+    lines.extend(sets::lines(result)?);
     lines.extend(match result.kind {
         ResultKind::Transient => columns(result)?,
         ResultKind::SpeedSweep => sweep(result),
         ResultKind::Static => [equilibria(result)?, mesh_axes::lines(result)?].concat(),
         ResultKind::Eigen => result.eigen.iter().flat_map(|p| modes(result, p)).collect(),
     });
-    lines.extend(sets::lines(result)?);
     lines.extend(stages::lines(result)?);
     lines.extend(losses::lines(result)?);
     lines.extend(ratings::lines(&result.ratings));

@@ -15,7 +15,7 @@ const CELLS: [usize; 2] = [160, 120];
 
 /// The picture and the space round it for the axes, in its own units.
 const SIZE: [f64; 2] = [640.0, 360.0];
-const MARGIN: f64 = 76.0;
+const MARGIN: f64 = 100.0;
 
 /// Decades below the largest value that are told apart, and colours of a decade.
 const DECADES: usize = 4;
