@@ -28,6 +28,10 @@ fn report_loads_nothing() {
         .chars()
         .filter(|c| !c.is_whitespace() && *c != '"' && *c != '\'')
         .collect();
+    // The picture in space unpacks its scripts from the page itself, into blobs.
+    let unpacked = "import((awaitaddresses)(name))";
+    assert!(tight.contains("url.createobjecturl(") && tight.matches(unpacked).count() == 1);
+    let tight = tight.replace(unpacked, "");
     for load in [
         "src=http",
         "href=http",

@@ -251,7 +251,7 @@ impl MapChart {
                     8.0 + high - high * y / top,
                 ]
             };
-            let runs = points.split(|p| !within(&p)).filter(|run| run.len() > 1);
+            let mut runs = points.split(|p| !within(&p)).filter(|run| run.len() > 1);
             for run in runs.clone() {
                 let text = run.iter().fold(String::new(), |mut text, point| {
                     let [x, y] = place(*point);
@@ -265,7 +265,8 @@ impl MapChart {
                 );
             }
             // A name where it meets no other one.
-            let end = runs.last().and_then(|run| run.last()).map(|p| place(*p));
+            let last = runs.next_back();
+            let end = last.and_then(|run| run.last()).map(|p| place(*p));
             let Some([x, y]) = end.map(|[x, y]| [x - 6.0, (y - 6.0).max(24.0)]) else {
                 continue;
             };
@@ -292,7 +293,7 @@ impl MapChart {
                 "<span class=\"entry\"><span class=\"key\" style=\"background: {}\"></span> {}{}</span> ",
                 colour(level(value, largest)),
                 if decade == DECADES { "up to " } else { "" },
-                short(value)
+                html(&short(value))
             );
         }
         let _ = writeln!(

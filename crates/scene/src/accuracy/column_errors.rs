@@ -61,7 +61,7 @@ impl ColumnErrors {
             let relative = |at: usize| match (values[at], reference[at], scales[at]) {
                 (value, known, _) if !known.is_finite() && !value.is_finite() => 0.0,
                 (value, known, _) if !known.is_finite() || !value.is_finite() => f64::INFINITY,
-                (value, _, 0.0) if value == 0.0 => 0.0,
+                (0.0, _, 0.0) => 0.0,
                 (_, _, 0.0) => 1.0,
                 (value, known, scale) => (value - known).abs() / scale,
             };

@@ -44,10 +44,13 @@ pub struct BevelScene {
     made: Made,
 }
 
+/// Settings and flanks with the checks of the teeth of both members.
+type CheckedDesign = (PairDesign, [ToothCheck; 2]);
+
 /// What follows from a pair file, made once, when it is first asked for; clones share it.
 #[derive(Debug, Clone, Default)]
 struct Made {
-    design: Arc<OnceLock<Result<(PairDesign, [ToothCheck; 2]), InputError>>>,
+    design: Arc<OnceLock<Result<CheckedDesign, InputError>>>,
     assembled: Arc<OnceLock<Result<AssembledPair, BevelError>>>,
 }
 
