@@ -87,7 +87,7 @@ pub(crate) fn relax(
             let ratio = measure(system, &correction.values[..n], size).0;
             walk.to((10.0 * SHORT / ratio).min(1.0), system, state, lambda);
             let at = standing(state, &rest, lambda, load_factor);
-            if walk.is_clear((at, Detail::Forces), system, &mut found) {
+            if walk.is_clear(at, system, &mut found) {
                 weight *= EASED;
                 break;
             }

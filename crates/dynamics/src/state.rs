@@ -14,10 +14,6 @@ use crate::body::{Body, BodyId, GROUND};
 use crate::rotation;
 use crate::unknown::{Unknown, UnknownKind};
 
-/// A motion is carried on by so many times what it moved last, at most, and so far.
-const MOST_TIMES: f64 = 4.0;
-const FARTHEST_RAD: f64 = 0.2;
-
 /// Where the numbers of each body stand.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
@@ -177,35 +173,6 @@ impl State {
         for ((place, old), change) in self.unknowns.iter_mut().zip(&from.unknowns).zip(changes) {
             *place = old + change;
         }
-    }
-
-    /// Configuration at the own time of a motion that goes on from `before` to `last`, and further at that pace
-    /// (linear in time, rotations about one axis); false, and nothing changed, where that is much farther than from
-    /// `before` to `last`, or far.
-    pub(crate) fn go_on(&mut self, [before, last]: [&Self; 2], layout: &Layout) -> bool {
-        let share = (self.time_s - last.time_s) / (last.time_s - before.time_s);
-        if !(0.0..=MOST_TIMES).contains(&share) {
-            return false;
-        }
-        let mut increment = Vec::with_capacity(layout.degrees_of_freedom());
-        let mut is_near = true;
-        for body in 0..layout.bodies() {
-            let shift = last.positions_m[body] - before.positions_m[body];
-            let turn =
-                rotation::log(&(before.orientations[body].inverse() * last.orientations[body]));
-            is_near &= share * turn.norm() <= FARTHEST_RAD;
-            increment.extend((share * shift).iter().chain(&(share * turn)));
-            let first = layout.modal_start(body);
-            for i in first..layout.modal_start(body + 1) {
-                increment.push(share * (last.modal[i] - before.modal[i]));
-            }
-        }
-        let unknowns = last.unknowns.iter().zip(&before.unknowns);
-        increment.extend(unknowns.map(|(last, before)| share * (last - before)));
-        if is_near {
-            self.set_moved(last, &increment, layout);
-        }
-        is_near
     }
 
     /// The state between two accepted ones by cubic Hermite interpolation (rotations: of the rotation vector from `from`),

@@ -86,13 +86,8 @@ impl Walk<'_> {
     }
 
     /// Whether nothing stiff has been run into; a motion that an element refuses is too far away, too.
-    pub fn is_clear(
-        &self,
-        (at, detail): (At<'_>, Detail),
-        system: &mut System,
-        equations: &mut Equations,
-    ) -> bool {
-        let found = system.evaluate(at, detail, equations);
+    pub fn is_clear(&self, at: At<'_>, system: &mut System, equations: &mut Equations) -> bool {
+        let found = system.evaluate(at, Detail::Forces, equations);
         found.is_ok() && in_masses(system, &equations.residual) <= self.most_force
     }
 }

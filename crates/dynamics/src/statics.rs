@@ -87,8 +87,6 @@ impl Default for StaticParams {
 pub struct Equilibrium {
     /// Places in equilibrium; velocities as given.
     pub state: State,
-    /// The equilibrium before it on a way through time.
-    pub before: Option<State>,
     /// Reactions λ, one for each joint equation.
     pub lambda: Vec<f64>,
     /// Iterations of all steps, those that were given up included.
@@ -108,39 +106,21 @@ pub fn equilibrium(
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
     system.begin(start);
-    let mut state = start.clone();
-    // Nothing inside an element moves at rest.
-    state.velocity[system.layout.first_unknown()..].fill(0.0);
-    let begin = Equilibrium {
-        state,
-        before: None,
-        // Reactions at release, so that the stiffness of tensioned joints is there from the first iteration.
-        lambda: system.accelerations(start)?.lambda,
-        iterations: 0,
-        held: Vec::new(),
-    };
-    follow(system, begin, Path::Loads, params)
+    follow(system, start, Path::Loads, params)
 }
 
-/// The equilibrium at another time, from one before: joints and elements go on from the motion that they were last
-/// committed to, in as many steps of time as are needed. For a series of equilibria in which turns are counted and
-/// couplings hold. From the second step on the search begins where the system would be if it went on as in the last
-/// one.
+/// The equilibrium at another time, from the one at `from`: joints and elements go on from the motion that they were last committed to, in as
+/// many steps of time as are needed. For a series of equilibria in which turns are counted and couplings hold.
 ///
 /// # Errors
 /// As [`equilibrium`].
 pub fn next_equilibrium(
     system: &mut System,
-    from: Equilibrium,
+    from: &State,
     time_s: f64,
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
-    let begin = Equilibrium {
-        iterations: 0,
-        ..from
-    };
-    let from_s = begin.state.time_s;
-    follow(system, begin, Path::Time([from_s, time_s]), params)
+    follow(system, from, Path::Time(time_s), params)
 }
 
 /// What is brought up on the way to an equilibrium.
@@ -148,19 +128,28 @@ pub fn next_equilibrium(
 enum Path {
     /// Applied loads and weights from nothing.
     Loads,
-    /// Time from one to another \[s\]: motions and loads that are functions of it.
-    Time([f64; 2]),
+    /// Time from that of the start: motions and loads that are functions of it.
+    Time(f64),
 }
 
 /// Goes along a path in steps that become shorter where no equilibrium is found and longer again where one is.
 fn follow(
     system: &mut System,
-    begin: Equilibrium,
+    from: &State,
     path: Path,
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
     let (mut equations, form) = (Equations::new(system), form_of(system));
-    let mut found = begin;
+    let mut start = from.clone();
+    // Nothing inside an element moves at rest.
+    start.velocity[system.layout.first_unknown()..].fill(0.0);
+    let mut found = Equilibrium {
+        state: start,
+        // Reactions at release, so that the stiffness of tensioned joints is there from the first iteration.
+        lambda: system.accelerations(from)?.lambda,
+        iterations: 0,
+        held: Vec::new(),
+    };
     let whole = 1.0 / params.load_steps.max(1) as f64;
     let (mut done, mut stride) = (0.0, whole);
     let mut relaxes = true;
@@ -171,28 +160,22 @@ fn follow(
         } else {
             done + stride
         };
-        let mut start = found.clone();
+        let mut trial = found.clone();
         let load_factor = match path {
             Path::Loads => target,
-            Path::Time([from_s, to_s]) => {
-                start.state.time_s = from_s + target * (to_s - from_s);
+            Path::Time(time_s) => {
+                trial.state.time_s = from.time_s + target * (time_s - from.time_s);
                 1.0
             }
         };
-        let mut trial = start.clone();
-        let goes_on = goes_on(system, &found, &mut trial.state, &mut equations);
-        let mut search = |system: &mut System, trial: &mut Equilibrium| {
-            settle(system, trial, load_factor, params, (&mut equations, &form))
-        };
-        let mut settled = search(system, &mut trial);
-        if goes_on && settled.is_err() {
-            // Not as it went so far: from where it was.
-            trial = Equilibrium {
-                iterations: trial.iterations,
-                ..start.clone()
-            };
-            settled = search(system, &mut trial);
-        }
+        let start = trial.clone();
+        let mut settled = settle(
+            system,
+            &mut trial,
+            load_factor,
+            params,
+            (&mut equations, &form),
+        );
         if relaxes && matches!(settled, Err(DynamicsError::NoEquilibrium { .. })) {
             // Newton's method goes to and fro where contacts come and go: down the forces first, then once more.
             let iterations = trial.iterations;
@@ -222,9 +205,6 @@ fn follow(
         match settled {
             Ok(()) => {
                 system.commit(&trial.state)?;
-                if matches!(path, Path::Time(_)) {
-                    trial.before = Some(found.state);
-                }
                 found = trial;
                 done = target;
                 stride = (2.0 * stride).min(whole);
@@ -238,35 +218,6 @@ fn follow(
         }
     }
     Ok(found)
-}
-
-/// Moves a state to where the system would be at its time if it went on as in the last step; false, and nothing
-/// moved, where there was none, or where joints hold less well there than where the last step ended.
-fn goes_on(
-    system: &mut System,
-    found: &Equilibrium,
-    state: &mut State,
-    equations: &mut Equations,
-) -> bool {
-    let Some(before) = &found.before else {
-        return false;
-    };
-    let mut further = state.clone();
-    if !further.go_on([before, &found.state], &system.layout) {
-        return false;
-    }
-    let rest = vec![0.0; system.degrees_of_freedom()];
-    let mut missed = |state: &State| {
-        let at = standing(state, &rest, &found.lambda, 1.0);
-        system.evaluate_without_elements(at, Detail::Forces, equations);
-        let violations = equations.violation.iter();
-        violations.fold(0.0_f64, |most, x| most.max(x.abs()))
-    };
-    let is_nearer = missed(&further) <= missed(state);
-    if is_nearer {
-        *state = further;
-    }
-    is_nearer
 }
 
 impl Path {
@@ -322,20 +273,15 @@ fn settle(
         lambda,
         iterations,
         held,
-        ..
     } = found;
     let mut push = FIRST_PUSH;
     let mut pushed = false;
     let mut moved = None;
-    // Whether the equations are those of the motion, with tangents.
-    let mut evaluated = false;
     for iteration in 1..=params.most_iterations.max(1) {
         *iterations += 1;
-        if !evaluated {
-            let at = standing(state, &rest, lambda, load_factor);
-            let outcome = system.evaluate(at, Detail::Tangents, equations);
-            outcome.map_err(|error| on_the_way(error, system, load_factor, moved))?;
-        }
+        let at = standing(state, &rest, lambda, load_factor);
+        let evaluated = system.evaluate(at, Detail::Tangents, equations);
+        evaluated.map_err(|error| on_the_way(error, system, load_factor, moved))?;
         if pushed {
             // Along a free motion bodies may go where no element can follow them.
             system.admits(state)?;
@@ -397,18 +343,10 @@ fn settle(
                     .max(COMPARED * in_masses(system, &pushing)),
         };
         let whole = (LONGEST / ratio).min(1.0);
-        evaluated = false;
         let mut is_clear = |share: f64| {
             walk.to(share, system, state, lambda);
             let at = standing(state, &rest, lambda, load_factor);
-            // Most whole corrections are made: what the next one needs is computed with them.
-            let detail = match share < whole || settled {
-                true => Detail::Forces,
-                false => Detail::Tangents,
-            };
-            let is_clear = walk.is_clear((at, detail), system, equations);
-            evaluated = is_clear && detail == Detail::Tangents;
-            is_clear
+            walk.is_clear(at, system, equations)
         };
         let first = |length: f64| whole.min(length / ratio);
         let mut share = first(FIRST_PUSH);

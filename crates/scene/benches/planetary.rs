@@ -78,8 +78,7 @@ fn result(text: &str, folder: &Path) -> (SystemResult, Duration) {
     };
     let start = Instant::now();
     run(job, &options).unwrap();
-    let wall = start.elapsed();
-    (SystemResult::open(&output).unwrap(), wall)
+    (SystemResult::open(&output).unwrap(), start.elapsed())
 }
 
 fn print_steps(name: &str, scene: &str, folder: &Path) {
