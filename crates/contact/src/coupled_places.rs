@@ -39,12 +39,6 @@ impl CoupledPlaces<'_> {
         }
     }
 
-    /// Whether slices stand beside their own middles along the tooth.
-    #[inline(always)]
-    pub(crate) fn is_walked(&self) -> bool {
-        self.places.iter().all(|place| place.walked.is_some())
-    }
-
     /// Where both stand along the tooth.
     #[inline(always)]
     fn walked(&self) -> [Option<&WalkedSlice>; 2] {
@@ -79,9 +73,8 @@ impl CoupledPlaces<'_> {
         whole
     }
 
-    /// What comes to the blocks, with its changes.
     #[inline(always)]
-    pub(crate) fn more(&self, slices: [usize; 2]) -> Coupling {
+    fn more(&self, slices: [usize; 2]) -> Coupling {
         let mut sum = Coupling::default();
         if self.neighboured {
             sum += self.shared(slices);

@@ -10,7 +10,7 @@
 use crate::axial_spread::AxialSpread;
 use crate::placed_slice::ToothPlace;
 use crate::slice_compliance::{blocks_of_all, loads_of_slices};
-use crate::station_blocks::{CombinedBlocks, StationBlocks};
+use crate::station_blocks::{Coupling, StationBlocks};
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 
 /// Compliance of one gear between slices of two meshes.
@@ -60,13 +60,13 @@ impl CrossCompliance {
         })
     }
 
-    /// What slices at a place of the first mesh and at one of the second deflect each other by.
-    #[inline(always)]
+    /// C of a slice at a place of the first mesh and one of the second \[m/N\], and how it changes with both places.
     #[must_use]
-    pub(crate) fn at<'a>(&'a self, places: [&'a ToothPlace; 2]) -> CombinedBlocks<'a> {
+    pub fn between(&self, places: [&ToothPlace; 2], slices: [usize; 2]) -> Coupling {
         let [a, b] = places;
         let (tooth, response) = a.with_response(b.tooth, self.teeth);
         let pair = tooth * self.teeth + response;
-        self.blocks.at(pair, [&a.place, &b.place])
+        let blocks = self.blocks.at(pair, [&a.place, &b.place]);
+        blocks.between_with_rates(slices)
     }
 }

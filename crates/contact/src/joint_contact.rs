@@ -12,11 +12,9 @@ use std::sync::Arc;
 use crate::bore_bending::BoreBending;
 use crate::contact_error::ContactError;
 use crate::cross_compliance::CrossCompliance;
-use crate::nlcp::ldl::dot;
 use crate::nlcp::{Info, LocalLaw, Params, Problem, Workspace, solve_position};
-use crate::profile_shares::SHARES;
 use crate::slice_contact::SliceContact;
-use crate::station_blocks::{LANES, SummedBlocks, whole};
+use crate::station_blocks::Coupling;
 
 /// Two sides on one body.
 #[derive(Debug, Clone)]
@@ -33,14 +31,14 @@ pub struct MeshLink {
 /// and [`Self::couple`] for each side and link, [`Self::solve`].
 #[derive(Debug, Clone)]
 pub struct JointContact {
-    /// What the processor has for the loops over coupled places; results do not depend on it.
-    arch: pulp::Arch,
-    parts: [[f64; SHARES]; LANES],
-    sum: SummedBlocks,
     links: Vec<MeshLink>,
     /// First contact of each side, and the end of the last one.
     starts: Vec<usize>,
     c: Vec<f64>,
+    /// What [`Self::couple`] found, for [`Self::walk`]: contact by contact of one side and the other, link after link.
+    couplings: Vec<Coupling>,
+    /// Where those of each link begin.
+    coupling_starts: Vec<usize>,
     local: Vec<LocalLaw>,
     separation_m: Vec<f64>,
     closing: Vec<f64>,
@@ -50,10 +48,11 @@ pub struct JointContact {
     params: Params,
     /// −∂F/∂gap, `[force][gap]`.
     stiffness: Vec<f64>,
-    inverse: Vec<f64>,
+    unit: Vec<f64>,
+    change: Vec<f64>,
     /// Σ_B C_AB F_B of each contact \[m\].
     felt_m: Vec<f64>,
-    /// See [`Self::energy_by_u`].
+    /// How the energy between sides changes as a contact walks over the flank of gear 0 or 1 \[J per u\].
     energy_by_u: Vec<[f64; 2]>,
     /// Bodies that bend over their bores.
     bores: Vec<BoreBending>,
@@ -67,24 +66,21 @@ impl JointContact {
     pub fn new(links: Vec<MeshLink>, capacity: usize) -> Self {
         let empty = || Vec::with_capacity(capacity);
         Self {
-            arch: pulp::Arch::new(),
-            parts: [[0.0; SHARES]; LANES],
-            sum: SummedBlocks::default(),
+            coupling_starts: vec![0; links.len()],
             links,
             starts: Vec::new(),
             c: Vec::with_capacity(capacity * capacity),
+            couplings: Vec::with_capacity(capacity * capacity),
             local: Vec::with_capacity(capacity),
             separation_m: empty(),
             closing: empty(),
             lever_m: empty(),
             begin_n: empty(),
             work: Workspace::new(capacity),
-            params: Params {
-                keeps_factor: true,
-                ..Params::default()
-            },
+            params: Params::default(),
             stiffness: Vec::with_capacity(capacity * capacity),
-            inverse: Vec::with_capacity(capacity * capacity),
+            unit: empty(),
+            change: empty(),
             felt_m: empty(),
             energy_by_u: Vec::with_capacity(capacity),
             bores: Vec::new(),
@@ -132,6 +128,8 @@ impl JointContact {
         }
         self.c.clear();
         self.c.resize(end * end, 0.0);
+        self.couplings.clear();
+        self.coupling_starts.fill(0);
         self.local.clear();
         for values in [
             &mut self.separation_m,
@@ -182,15 +180,23 @@ impl JointContact {
 
     /// Takes what the body of a link deflects between its sides.
     pub fn couple(&mut self, link: usize, contacts: [&SliceContact; 2]) {
-        let (n, own) = (self.size(), &self.links[link]);
-        self.arch.dispatch(Couple {
-            link: own,
-            contacts,
-            starts: own.sides.map(|side| self.starts[side]),
-            c: &mut self.c,
-            size: n,
-            parts: &mut self.parts,
-        });
+        let MeshLink { sides, gears, .. } = self.links[link];
+        let compliance = Arc::clone(&self.links[link].compliance);
+        let starts = sides.map(|side| self.starts[side]);
+        let n = self.size();
+        self.coupling_starts[link] = self.couplings.len();
+        for i in 0..contacts[0].prepared().separation_m.len() {
+            for j in 0..contacts[1].prepared().separation_m.len() {
+                let a = contacts[0].stands(i, gears[0]);
+                let b = contacts[1].stands(j, gears[1]);
+                let found = compliance.between([a.place, b.place], [a.slice, b.slice]);
+                self.couplings.push(found);
+                let value = a.along_normal * b.along_normal * found.value;
+                let (here, across) = (starts[0] + i, starts[1] + j);
+                self.c[here * n + across] += value;
+                self.c[across * n + here] += value;
+            }
+        }
     }
 
     /// Solves for all forces where the gaps stand; `goes_on`: from those of the last solution, if it was of as many
@@ -199,17 +205,17 @@ impl JointContact {
     /// # Errors
     /// [`ContactError::Nlcp`].
     pub fn solve(&mut self, goes_on: bool) -> Result<Info, ContactError> {
+        let (mut c, mut separation_m) = (&self.c, &self.separation_m);
         if !self.bores.is_empty() {
             let (softened, shifted) = &mut self.softened;
-            softened.clone_from(&self.c);
-            shifted.clone_from(&self.separation_m);
+            softened.clone_from(c);
+            shifted.clone_from(separation_m);
             for bore in &self.bores {
                 bore.soften(softened, shifted);
             }
+            (c, separation_m) = (softened, shifted);
         }
-        let (c, separation_m) = soft(&self.bores, (&self.c, &self.separation_m), &self.softened);
-        let balance = (&self.closing[..], &self.lever_m[..]);
-        let problem = Problem::of_symmetric(c, &self.local, separation_m, balance)?;
+        let problem = Problem::new(c, &self.local, separation_m, &self.closing, &self.lever_m)?;
         let known = self.begin_n.iter().any(|force| *force > 0.0);
         match goes_on && self.work.forces().len() == self.begin_n.len() {
             true => {}
@@ -223,8 +229,8 @@ impl JointContact {
             let own = self.starts[side]..self.starts[side + 1];
             for i in own.clone() {
                 let row = &self.c[i * n..][..n];
-                let before = dot(&row[..own.start], &forces[..own.start]);
-                self.felt_m[i] = before + dot(&row[own.end..], &forces[own.end..]);
+                let others = (0..n).filter(|j| !own.contains(j));
+                self.felt_m[i] = others.map(|j| row[j] * forces[j]).sum();
             }
         }
         Ok(info)
@@ -232,15 +238,25 @@ impl JointContact {
 
     /// After [`Self::solve`]: how the energy between the sides of a link changes as contacts walk.
     pub fn walk(&mut self, link: usize, contacts: [&SliceContact; 2]) {
-        let own = &self.links[link];
-        self.arch.dispatch(Walk {
-            link: own,
-            contacts,
-            starts: own.sides.map(|side| self.starts[side]),
-            forces_n: self.work.forces(),
-            energy_by_u: &mut self.energy_by_u,
-            sum: &mut self.sum,
-        });
+        let MeshLink { sides, gears, .. } = self.links[link];
+        let starts = sides.map(|side| self.starts[side]);
+        let [on_a, on_b] = sides.map(|side| self.contacts_of(side));
+        let couplings = &self.couplings[self.coupling_starts[link]..];
+        for (i, at_a) in on_a.enumerate() {
+            for (j, at_b) in on_b.clone().enumerate() {
+                let forces = self.work.forces();
+                let both = forces[at_a] * forces[at_b];
+                if both == 0.0 {
+                    continue;
+                }
+                let a = contacts[0].stands(i, gears[0]);
+                let b = contacts[1].stands(j, gears[1]);
+                let found = couplings[i * on_b.len() + j];
+                let both = both * a.along_normal * b.along_normal;
+                self.energy_by_u[starts[0] + i][gears[0]] += both * found.by_a;
+                self.energy_by_u[starts[1] + j][gears[1]] += both * found.by_b;
+            }
+        }
     }
 
     /// After [`Self::solve`]: the same of the energy between flanks and bores.
@@ -262,42 +278,42 @@ impl JointContact {
         &self.felt_m
     }
 
-    /// ∂E*/∂u on gear 0 and gear 1 \[J per u\], the part between sides: that of contacts at one place in sum, at the
-    /// first of them that carries.
+    /// Of each contact ∂E*/∂u on gear 0 and gear 1 \[J per u\], the part between sides.
     #[must_use]
     pub fn energy_by_u(&self) -> &[[f64; 2]] {
         &self.energy_by_u
     }
 
     /// K a: by how much forces \[N\] are smaller for gaps that are felt wider by a \[m\].
-    ///
-    /// # Errors
-    /// [`ContactError::Nlcp`].
-    pub fn drag(&mut self, ahead_m: &[f64], drag_n: &mut Vec<f64>) -> Result<(), ContactError> {
+    pub fn drag(&mut self, ahead_m: &[f64], drag_n: &mut Vec<f64>) {
         drag_n.clear();
         drag_n.resize(self.size(), 0.0);
-        if self.work.active().is_empty() || ahead_m.iter().all(|ahead| *ahead == 0.0) {
-            return Ok(());
+        if !self.work.active().is_empty() && ahead_m.iter().any(|ahead| *ahead != 0.0) {
+            self.work.apply_tangent(ahead_m, drag_n);
+            drag_n.iter_mut().for_each(|force| *force = -*force);
         }
-        let (c, separation_m) = soft(&self.bores, (&self.c, &self.separation_m), &self.softened);
-        let balance = (&self.closing[..], &self.lever_m[..]);
-        let problem = Problem::known(c, &self.local, separation_m, balance);
-        (self.work).apply_present_tangent(&problem, ahead_m, drag_n)?;
-        drag_n.iter_mut().for_each(|force| *force = -*force);
-        Ok(())
     }
 
     /// Computes −∂F/∂gap of all contacts.
-    ///
-    /// # Errors
-    /// [`ContactError::Nlcp`].
-    pub fn fill_stiffness(&mut self) -> Result<(), ContactError> {
-        let (c, separation_m) = soft(&self.bores, (&self.c, &self.separation_m), &self.softened);
-        let balance = (&self.closing[..], &self.lever_m[..]);
-        let problem = Problem::known(c, &self.local, separation_m, balance);
-        self.work.factor_present(&problem)?;
-        (self.work).stiffness(&mut self.inverse, &mut self.stiffness);
-        Ok(())
+    pub fn fill_stiffness(&mut self) {
+        let n = self.size();
+        self.stiffness.clear();
+        self.stiffness.resize(n * n, 0.0);
+        self.unit.clear();
+        self.unit.resize(n, 0.0);
+        self.change.clear();
+        self.change.resize(n, 0.0);
+        for j in 0..n {
+            if self.work.forces()[j] <= 0.0 {
+                continue;
+            }
+            self.unit[j] = -1.0;
+            self.work.apply_tangent(&self.unit, &mut self.change);
+            self.unit[j] = 0.0;
+            for (i, change) in self.change.iter().enumerate() {
+                self.stiffness[i * n + j] = *change;
+            }
+        }
     }
 
     /// −∂F/∂gap of one force by all gaps \[N/m\], after [`Self::fill_stiffness`].
@@ -305,109 +321,5 @@ impl JointContact {
     pub fn stiffness_of(&self, contact: usize) -> &[f64] {
         let n = self.size();
         &self.stiffness[contact * n..][..n]
-    }
-}
-
-/// Compliance and separations with what bores make of them.
-fn soft<'a>(
-    bores: &[BoreBending],
-    (c, separation_m): (&'a [f64], &'a [f64]),
-    (softened, shifted): &'a (Vec<f64>, Vec<f64>),
-) -> (&'a [f64], &'a [f64]) {
-    match bores.is_empty() {
-        true => (c, separation_m),
-        false => (softened, shifted),
-    }
-}
-
-/// [`JointContact::couple`], to be compiled for what the processor has.
-struct Couple<'a> {
-    link: &'a MeshLink,
-    contacts: [&'a SliceContact; 2],
-    starts: [usize; 2],
-    c: &'a mut [f64],
-    size: usize,
-    parts: &'a mut [[f64; SHARES]; LANES],
-}
-
-impl pulp::NullaryFnOnce for Couple<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let MeshLink {
-            gears, compliance, ..
-        } = self.link;
-        let [first, second] = self.contacts;
-        for a in first.runs_on(gears[0]) {
-            for b in second.runs_on(gears[1]) {
-                let blocks = compliance.at([a.place, b.place]);
-                let weights = blocks.weights();
-                let along = a.along_normal * b.along_normal;
-                for (i, slice) in a.patches.clone().zip(a.slices) {
-                    let here = self.starts[0] + i;
-                    let mut across = self.starts[1] + b.patches.start;
-                    for others in b.slices.chunks(LANES) {
-                        blocks.compliances(&weights, *slice, others, self.parts);
-                        for parts in &self.parts[..others.len()] {
-                            let value = along * whole(parts);
-                            self.c[here * self.size + across] += value;
-                            self.c[across * self.size + here] += value;
-                            across += 1;
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// [`JointContact::walk`], to be compiled for what the processor has: ½ Fᵀ ∂C F of all contacts at two places by Σ
-/// F_i F_j T_ij.
-struct Walk<'a> {
-    link: &'a MeshLink,
-    contacts: [&'a SliceContact; 2],
-    starts: [usize; 2],
-    forces_n: &'a [f64],
-    energy_by_u: &'a mut [[f64; 2]],
-    sum: &'a mut SummedBlocks,
-}
-
-impl pulp::NullaryFnOnce for Walk<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let MeshLink {
-            gears, compliance, ..
-        } = self.link;
-        let [first, second] = self.contacts;
-        for a in first.runs_on(gears[0]) {
-            let forces_a = &self.forces_n[self.starts[0]..][a.patches.clone()];
-            let Some(at_a) = forces_a.iter().position(|force| *force > 0.0) else {
-                continue;
-            };
-            for b in second.runs_on(gears[1]) {
-                let forces_b = &self.forces_n[self.starts[1]..][b.patches.clone()];
-                let Some(at_b) = forces_b.iter().position(|force| *force > 0.0) else {
-                    continue;
-                };
-                let blocks = compliance.at([a.place, b.place]);
-                *self.sum = SummedBlocks::default();
-                for (slice, force_a) in a.slices.iter().zip(forces_a) {
-                    for (other, force_b) in b.slices.iter().zip(forces_b) {
-                        let both = force_a * force_b;
-                        if both > 0.0 {
-                            blocks.add_to(self.sum, both, [*slice, *other]);
-                        }
-                    }
-                }
-                let along = a.along_normal * b.along_normal;
-                let [by_a, by_b] = blocks.rates_of(self.sum);
-                let (at_a, at_b) = (a.patches.start + at_a, b.patches.start + at_b);
-                self.energy_by_u[self.starts[0] + at_a][gears[0]] += along * by_a;
-                self.energy_by_u[self.starts[1] + at_b][gears[1]] += along * by_b;
-            }
-        }
     }
 }

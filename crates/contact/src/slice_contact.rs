@@ -14,10 +14,8 @@ use crate::nlcp::{
     solve_position,
 };
 use crate::placed_slice::ToothPlace;
-use crate::profile_shares::SHARES;
 use crate::slice_compliance::{LocalDepth, SliceCompliance};
 use crate::slice_contact::kept_compliance::KeptCompliance;
-use crate::station_blocks::{LANES, SummedBlocks};
 use gearmesh_model::{Flank, ReducedGear};
 
 mod compliance;
@@ -79,17 +77,6 @@ pub struct Standing<'a> {
     pub along_normal: f64,
 }
 
-/// Patches one after the other that stand at one place on a gear.
-#[derive(Debug, Clone)]
-pub(crate) struct StandingRun<'a> {
-    pub patches: std::ops::Range<usize>,
-    /// Their slices.
-    pub slices: &'a [usize],
-    pub place: &'a ToothPlace,
-    /// Component of their normal along that of the flank.
-    pub along_normal: f64,
-}
-
 /// Two elastic gears in contact, with all memory that a solve needs.
 #[derive(Debug, Clone)]
 pub struct SliceContact {
@@ -110,11 +97,6 @@ pub struct SliceContact {
     rates: [Vec<f64>; 2],
     /// The same along the teeth, of gears on which slices walk that way; else empty.
     along: [Vec<f64>; 2],
-    /// What [`Self::energy_by_u`] says of the compliance where patches share places, `[patch][gear]`.
-    walk: Vec<[f64; 2]>,
-    /// Of both gears.
-    parts: [[[f64; SHARES]; LANES]; 2],
-    sums: [SummedBlocks; 2],
     kept: KeptCompliance,
     /// Whether the rates are those of the patches that were prepared, without [`Self::fill_rates`].
     rates_are_known: bool,
@@ -206,9 +188,6 @@ impl SliceContact {
             c: square(),
             rates: [square(), square()],
             along: walks.map(|walks| if walks { square() } else { Vec::new() }),
-            walk: Vec::with_capacity(capacity),
-            parts: [[[0.0; SHARES]; LANES]; 2],
-            sums: Default::default(),
             kept: KeptCompliance::with_capacity(if keeps { capacity } else { 0 }),
             rates_are_known: false,
             own_compliance: empty(),
@@ -272,17 +251,6 @@ impl SliceContact {
             slice: self.slice[patch],
             along_normal: run.along_normals[gear],
         }
-    }
-
-    /// The patches that were prepared by their places on gear 0 or 1.
-    #[inline(always)]
-    pub(crate) fn runs_on(&self, gear: usize) -> impl Iterator<Item = StandingRun<'_>> {
-        self.runs.iter().map(move |run| StandingRun {
-            patches: run.patches[0]..run.patches[1],
-            slices: &self.slice[run.patches[0]..run.patches[1]],
-            place: &run.places[gear],
-            along_normal: run.along_normals[gear],
-        })
     }
 
     /// Takes forces \[N\] that were found with those of other contacts as the solution of the patches that were

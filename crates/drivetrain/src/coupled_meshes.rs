@@ -17,13 +17,11 @@ use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
 use gearmesh_dynamics::{BodyId, ElementFailure};
 use gearmesh_model::ReducedGear;
 
-use self::cross_tangents::CrossTangents;
 use self::group::{Group, SideOfMesh, links, sides_of_bore};
 use self::roller_bore::RollerBore;
 use crate::error::DrivetrainError;
 use crate::mesh_element::MeshElement;
 
-mod cross_tangents;
 mod group;
 mod roller_bore;
 
@@ -124,7 +122,6 @@ impl CoupledMeshes {
             known: Vec::with_capacity(bodies.len()),
             ahead_m: Vec::with_capacity(capacity),
             drag_n: Vec::with_capacity(capacity),
-            cross: CrossTangents::with_capacity(capacity, bodies.len()),
             meshes: elements,
         }));
         let each = |name: &str, bodies, part| CoupledPart {
@@ -196,7 +193,7 @@ impl ForceElement for CoupledMeshes {
             element.push(motion, element.gear_bodies().map(place), loads);
         }
         if tangents {
-            group.add_cross_tangents(&self.places, loads);
+            group.add_cross_tangents(place, loads);
         }
         group.push_bores(view, place, loads);
         Ok(())

@@ -10,13 +10,6 @@ use super::{NlcpError, Params, Problem, Workspace};
 /// improve eight times is either cycling or much slower than the descent.
 const STALL_LIMIT: usize = 8;
 
-/// Corrections by a kept factor must leave less than this share of the residual, or a new one is made.
-const SHRINKS: f64 = 0.05;
-
-/// They end at this share of the tolerance, where Newton's method comes by itself, or where rounding keeps them from
-/// it.
-const EXACT: f64 = 1e-3;
-
 /// Newton corrections on the active set until nothing is on the wrong side; ends unconverged when it cycles.
 pub(super) fn active_set(
     problem: &Problem,
@@ -28,24 +21,17 @@ pub(super) fn active_set(
     let mut evaluation = work.evaluate(problem);
     let mut fewest_wrong = usize::MAX;
     let mut stalled = 0;
-    let mut last = f64::INFINITY;
     for _ in 0..params.max_corrections {
-        let residual = evaluation.residual(load);
-        let shrinks = residual <= SHRINKS * last;
-        let goes_on = params.keeps_factor && shrinks && residual > EXACT * params.tolerance;
-        if residual <= params.tolerance && !goes_on {
+        if evaluation.residual(load) <= params.tolerance {
             break;
         }
-        last = residual;
         let entered = enter_penetrating(params.tolerance, work);
         if work.list.is_empty() {
             // Under load something must touch: the slice that closes first does.
             enter_first(problem, work);
         }
         effort.iterations += 1;
-        if !(params.keeps_factor && shrinks && work.factor_is_of_set()) {
-            effort.factor(work, problem)?;
-        }
+        effort.factor(work, problem)?;
         work.correct_forces();
         if let Some(load) = load
             && !work.balance_correction(problem, load - evaluation.load)

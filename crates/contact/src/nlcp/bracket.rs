@@ -31,7 +31,6 @@ pub(super) fn balance(
     let params = Params {
         tolerance,
         max_corrections: CORRECTIONS_A_POINT,
-        keeps_factor: false,
     };
     let mut evaluation = Evaluation {
         gap_residual: f64::INFINITY,

@@ -16,8 +16,6 @@ const SHIFT: f64 = 1e-12;
 /// Factor of a symmetric positive definite matrix.
 #[derive(Debug, Clone)]
 pub(crate) struct Ldl {
-    /// What the processor has for the loops; results do not depend on it.
-    arch: pulp::Arch,
     order: usize,
     /// Order × order in rows; right of the diagonal row k is `d_k (Lᵀ)_k`, the rest is not used.
     upper: Vec<f64>,
@@ -43,7 +41,6 @@ pub(crate) enum Shifted {
 impl Ldl {
     pub(crate) fn new(capacity: usize) -> Self {
         Ldl {
-            arch: pulp::Arch::new(),
             order: 0,
             upper: vec![0.0; capacity * capacity],
             inverse_pivot: vec![0.0; capacity],
@@ -78,60 +75,13 @@ impl Ldl {
             // Kept for the test of the pivot.
             self.inverse_pivot[i] = row[i];
         }
-        self.arch.dispatch(Eliminate {
-            upper: &mut self.upper[..n * n],
-            inverse_pivot: &mut self.inverse_pivot[..n],
-            noise,
-        })
-    }
-
-    /// Overwrites the first `order` of `values` by the solution.
-    pub(crate) fn solve(&self, values: &mut [f64]) {
-        let n = self.order;
-        self.arch.dispatch(Substitute {
-            upper: &self.upper[..n * n],
-            inverse_pivot: &self.inverse_pivot[..n],
-            values: &mut values[..n],
-        });
-    }
-
-    /// Writes the inverse, order × order, both triangles.
-    pub(crate) fn invert(&self, inverse: &mut [f64]) {
-        let n = self.order;
-        self.arch.dispatch(Invert {
-            upper: &self.upper[..n * n],
-            inverse_pivot: &self.inverse_pivot[..n],
-            inverse: &mut inverse[..n * n],
-        });
-    }
-}
-
-/// The elimination, in place.
-struct Eliminate<'a> {
-    upper: &'a mut [f64],
-    /// The diagonal before; the inverse pivots after.
-    inverse_pivot: &'a mut [f64],
-    noise: f64,
-}
-
-impl pulp::NullaryFnOnce for Eliminate<'_> {
-    type Output = Result<(), BadPivot>;
-
-    #[inline(always)]
-    fn call(self) -> Self::Output {
-        let Self {
-            upper,
-            inverse_pivot,
-            noise,
-        } = self;
-        let n = inverse_pivot.len();
-        let mut rest = upper;
+        let mut rest = &mut self.upper[..n * n];
         // Two pivots at a time: every row below is loaded and stored once for both.
         for k in (0..n).step_by(2) {
             let (first, below) = rest.split_at_mut(n);
             let first = &first[..n];
-            let first_inverse = checked_inverse(k, first[k], inverse_pivot[k], noise)?;
-            inverse_pivot[k] = first_inverse;
+            let first_inverse = checked_inverse(k, first[k], self.inverse_pivot[k], noise)?;
+            self.inverse_pivot[k] = first_inverse;
             if k + 1 == n {
                 break;
             }
@@ -143,8 +93,8 @@ impl pulp::NullaryFnOnce for Eliminate<'_> {
                 &first[k + 1..],
             );
             let second_inverse =
-                checked_inverse(k + 1, second[k + 1], inverse_pivot[k + 1], noise)?;
-            inverse_pivot[k + 1] = second_inverse;
+                checked_inverse(k + 1, second[k + 1], self.inverse_pivot[k + 1], noise)?;
+            self.inverse_pivot[k + 1] = second_inverse;
             rest = below;
             for (i, other) in (k + 2..n).zip(rest.chunks_exact_mut(n)) {
                 let (p, q) = (first[i] * first_inverse, second[i] * second_inverse);
@@ -155,87 +105,30 @@ impl pulp::NullaryFnOnce for Eliminate<'_> {
         }
         Ok(())
     }
-}
 
-/// Both substitutions, in place.
-struct Substitute<'a> {
-    upper: &'a [f64],
-    inverse_pivot: &'a [f64],
-    values: &'a mut [f64],
-}
-
-impl pulp::NullaryFnOnce for Substitute<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let (values, n) = (self.values, self.inverse_pivot.len());
-        let rows = self.upper.chunks_exact(n.max(1)).zip(self.inverse_pivot);
+    /// Overwrites the first `order` of `values` by the solution.
+    pub(crate) fn solve(&self, values: &mut [f64]) {
+        let n = self.order;
+        let values = &mut values[..n];
+        let rows = self.upper[..n * n]
+            .chunks_exact(n.max(1))
+            .zip(&self.inverse_pivot);
         for (k, (row, inverse)) in rows.clone().enumerate() {
             let factor = values[k] * inverse;
             subtract(&mut values[k + 1..], factor, &row[k + 1..]);
         }
         for (k, (row, inverse)) in rows.enumerate().rev() {
-            values[k] = (values[k] - dot(&row[k + 1..], &values[k + 1..])) * inverse;
-        }
-    }
-}
-
-/// A⁻¹ = L⁻ᵀ D⁻¹ L⁻¹, n³/3 products: rows of L⁻¹ from the first on, then rows of the inverse from the last on, their
-/// left halves only.
-struct Invert<'a> {
-    upper: &'a [f64],
-    inverse_pivot: &'a [f64],
-    inverse: &'a mut [f64],
-}
-
-impl pulp::NullaryFnOnce for Invert<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self {
-            upper,
-            inverse_pivot,
-            inverse,
-        } = self;
-        let n = inverse_pivot.len();
-        if n == 0 {
-            return;
-        }
-        inverse.fill(0.0);
-        for k in 0..n {
-            inverse[k * n + k] = 1.0;
-            let (above, below) = inverse.split_at_mut((k + 1) * n);
-            let own = &above[k * n..][..k + 1];
-            for (i, other) in (k + 1..n).zip(below.chunks_exact_mut(n)) {
-                subtract(
-                    &mut other[..k + 1],
-                    upper[k * n + i] * inverse_pivot[k],
-                    own,
-                );
-            }
-        }
-        for k in (0..n).rev() {
-            let (above, below) = inverse.split_at_mut((k + 1) * n);
-            let own = &mut above[k * n..][..k + 1];
-            for value in own.iter_mut() {
-                *value *= inverse_pivot[k];
-            }
-            for (i, other) in (k + 1..n).zip(below.chunks_exact(n)) {
-                subtract(own, upper[k * n + i] * inverse_pivot[k], &other[..k + 1]);
-            }
-        }
-        for k in 0..n {
-            for i in k + 1..n {
-                inverse[k * n + i] = inverse[i * n + k];
-            }
+            let known: f64 = row[k + 1..]
+                .iter()
+                .zip(&values[k + 1..])
+                .map(|(a, b)| a * b)
+                .sum();
+            values[k] = (values[k] - known) * inverse;
         }
     }
 }
 
 /// The inverse of a pivot that is positive and above `noise` of its diagonal entry.
-#[inline(always)]
 fn checked_inverse(index: usize, pivot: f64, diagonal: f64, noise: f64) -> Result<f64, BadPivot> {
     // NaN fails too.
     if pivot > noise * diagonal {
@@ -250,34 +143,11 @@ fn checked_inverse(index: usize, pivot: f64, diagonal: f64, noise: f64) -> Resul
 }
 
 /// `target −= factor × row`.
-#[inline(always)]
+#[inline]
 fn subtract(target: &mut [f64], factor: f64, row: &[f64]) {
     for (value, entry) in target.iter_mut().zip(row) {
         *value -= factor * entry;
     }
-}
-
-/// Σ a_i b_i in eight sums side by side, which no sum has to wait for.
-#[inline(always)]
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 8];
-    let ends = a.len() - a.len() % 8;
-    for (a, b) in a[..ends].chunks_exact(8).zip(b[..ends].chunks_exact(8)) {
-        for k in 0..8 {
-            sums[k] += a[k] * b[k];
-        }
-    }
-    let mut rest = 0.0;
-    for (a, b) in a[ends..].iter().zip(&b[ends..]) {
-        rest += a * b;
-    }
-    let pairs = [
-        sums[0] + sums[4],
-        sums[1] + sums[5],
-        sums[2] + sums[6],
-        sums[3] + sums[7],
-    ];
-    (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]) + rest
 }
 
 #[cfg(test)]
@@ -312,28 +182,6 @@ mod tests {
             let product: f64 = (0..6).map(|j| hilbert(i, j) * x[j]).sum();
             // Backward stable: relative to ‖A‖‖x‖, whatever the condition (1.5e7).
             assert!((product - right[i]).abs() <= 1e-15 * size);
-        }
-    }
-
-    #[test]
-    fn the_inverse_is_what_solutions_of_units_are() {
-        for order in [1, 2, 7, 8, 21] {
-            let entry = |i: usize, j: usize| {
-                let apart = i.abs_diff(j) as f64;
-                (-0.3 * apart).exp() + if i == j { 1.0 + i as f64 } else { 0.0 }
-            };
-            let ldl = factored(order, entry).unwrap().0;
-            let mut inverse = vec![f64::NAN; order * order];
-            ldl.invert(&mut inverse);
-            for j in 0..order {
-                let mut unit = vec![0.0; order];
-                unit[j] = 1.0;
-                ldl.solve(&mut unit);
-                for i in 0..order {
-                    let found = inverse[i * order + j];
-                    assert!((found - unit[i]).abs() < 1e-14, "{order} {i} {j}: {found}");
-                }
-            }
         }
     }
 

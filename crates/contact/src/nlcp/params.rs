@@ -12,11 +12,6 @@ pub struct Params {
     pub tolerance: f64,
     /// Newton corrections of the active set method before the descent takes over. Default 60; a warm solve needs 1 to 4.
     pub max_corrections: usize,
-    /// Whether corrections are made by the factor at hand as long as it is of the same active set and they shrink
-    /// fast, from one solve to the next that goes on from it, too. Many slices cost n³ for a factor and n² for a
-    /// correction. The tangents in [`super::Info`] and [`super::Workspace::force_rates`] are then zero. Default
-    /// false.
-    pub keeps_factor: bool,
 }
 
 impl Default for Params {
@@ -24,7 +19,6 @@ impl Default for Params {
         Params {
             tolerance: 1e-10,
             max_corrections: 60,
-            keeps_factor: false,
         }
     }
 }

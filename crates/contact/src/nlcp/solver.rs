@@ -161,39 +161,25 @@ fn solve(
             size: work.size,
         });
     }
-    finish(
-        problem,
-        (residual, last.load),
-        params,
-        descent,
-        effort,
-        work,
-    )
+    finish(problem, residual, last.load, descent, effort, work)
 }
 
 /// Tangent and counters at the solution.
 fn finish(
     problem: &Problem,
-    (residual, load): (f64, f64),
-    params: &Params,
+    residual: f64,
+    load: f64,
     descent: bool,
     mut effort: Effort,
     work: &mut Workspace,
 ) -> Result<Info, NlcpError> {
     work.collect();
-    let mut stiffness = 0.0;
+    effort.factor(work, problem)?;
+    let stiffness = work.differentiate(problem);
     work.force_rate[..work.size].fill(0.0);
-    if !params.keeps_factor {
-        effort.factor(work, problem)?;
-        stiffness = work.differentiate(problem);
-        for (&slice, rate) in work.list.iter().zip(&work.per_approach) {
-            work.force_rate[slice] = *rate;
-        }
-    } else if !work.factor_is_of_set() {
-        effort.factor(work, problem)?;
-    }
     let (mut floor_hits, mut cap_hits) = (0, 0);
-    for &slice in &work.list {
+    for (k, &slice) in work.list.iter().enumerate() {
+        work.force_rate[slice] = work.per_approach[k];
         let (law, force) = (&problem.local[slice], work.force[slice]);
         floor_hits += usize::from(law.is_below_floor(force));
         cap_hits += usize::from(law.is_above_cap(force));

@@ -30,48 +30,6 @@ impl Evaluation {
     }
 }
 
-/// C F into the gaps and |C| F into the scales, by the columns of the loaded slices, two at a time: every gap is
-/// loaded and stored once for both. C is symmetric, its rows are contiguous.
-struct Deflect<'a> {
-    compliance: &'a [f64],
-    force: &'a [f64],
-    gap: &'a mut [f64],
-    scale: &'a mut [f64],
-}
-
-impl pulp::NullaryFnOnce for Deflect<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let (gap, scale, n) = (self.gap, self.scale, self.force.len());
-        gap.fill(0.0);
-        scale.fill(0.0);
-        let mut first: Option<(&[f64], f64)> = None;
-        for (column, &force) in self.compliance.chunks_exact(n.max(1)).zip(self.force) {
-            if force == 0.0 {
-                continue;
-            }
-            let Some((before, other)) = first.take() else {
-                first = Some((column, force));
-                continue;
-            };
-            for (((gap, scale), a), b) in gap.iter_mut().zip(&mut *scale).zip(before).zip(column) {
-                let terms = [a * other, b * force];
-                *gap += terms[0] + terms[1];
-                *scale += terms[0].abs() + terms[1].abs();
-            }
-        }
-        if let Some((column, force)) = first {
-            for ((gap, scale), c) in gap.iter_mut().zip(&mut *scale).zip(column) {
-                let term = c * force;
-                *gap += term;
-                *scale += term.abs();
-            }
-        }
-    }
-}
-
 impl Workspace {
     /// Takes the size and the shifted separations of `problem`.
     pub(super) fn load_problem(&mut self, problem: &Problem) -> Result<(), NlcpError> {
@@ -114,14 +72,25 @@ impl Workspace {
         let n = self.size;
         let (gap, scale) = (&mut self.gap[..n], &mut self.scale[..n]);
         let (force, slope, shifted) = (&self.force[..n], &mut self.slope[..n], &self.shifted[..n]);
-        self.arch.dispatch(Deflect {
-            compliance: problem.compliance,
-            force,
-            gap,
-            scale,
-        });
-        let loads = force.iter().zip(problem.lever);
-        let load = loads.map(|(force, lever)| force * lever).sum();
+        gap.fill(0.0);
+        scale.fill(0.0);
+        let mut load = 0.0;
+        // C F and |C| F by the columns of the loaded slices; C is symmetric, its rows are contiguous.
+        for ((column, &force), lever) in problem
+            .compliance
+            .chunks_exact(n)
+            .zip(force)
+            .zip(problem.lever)
+        {
+            if force != 0.0 {
+                load += lever * force;
+                for ((gap, scale), c) in gap.iter_mut().zip(&mut *scale).zip(column) {
+                    let term = c * force;
+                    *gap += term;
+                    *scale += term.abs();
+                }
+            }
+        }
         let mut gap_residual: f64 = 0.0;
         for i in 0..n {
             let (local, local_slope) = problem.local[i].evaluate(force[i]);
@@ -146,7 +115,6 @@ impl Workspace {
     /// Factors `C + diag δ'` of the listed slices.
     pub(super) fn factor_active(&mut self, problem: &Problem) -> Result<Shifted, NlcpError> {
         let n = self.size;
-        self.factored.clear();
         let (list, slope) = (&self.list[..], &self.slope[..n]);
         let fill_row = |i: usize, row: &mut [f64]| {
             let entries = &problem.compliance[list[i] * n..][..n];
@@ -155,15 +123,13 @@ impl Workspace {
             }
             row[0] += slope[list[i]];
         };
-        let shifted = (self.factor.factor(list.len(), fill_row)).map_err(|bad| {
-            NlcpError::NotPositiveDefinite {
+        self.factor
+            .factor(list.len(), fill_row)
+            .map_err(|bad| NlcpError::NotPositiveDefinite {
                 slice: self.list[bad.index],
                 pivot: bad.pivot,
                 diagonal: bad.diagonal,
-            }
-        })?;
-        self.factored.extend_from_slice(&self.list);
-        Ok(shifted)
+            })
     }
 
     /// Newton correction of the listed forces at fixed approach, `−(C + diag δ')⁻¹ g`, into `correction`.

@@ -1,13 +1,6 @@
 //! The memory of the solver: allocated once, read after each solve, start of the next one.
 
-use super::ldl::{Ldl, dot};
-use super::{NlcpError, Problem};
-
-/// What an improved tangent may miss, of the largest change of a separation.
-const IMPROVED: f64 = 1e-9;
-
-/// Improvements after which a new factor is made.
-const MOST_IMPROVEMENTS: usize = 4;
+use super::ldl::Ldl;
 
 /// All arrays that a solve needs, for up to a fixed number of slices.
 ///
@@ -15,8 +8,6 @@ const MOST_IMPROVEMENTS: usize = 4;
 /// the next solve of the same size. After an error they are undefined and the next solve starts cold.
 #[derive(Debug, Clone)]
 pub struct Workspace {
-    /// What the processor has for the loops; results do not depend on it.
-    pub(super) arch: pulp::Arch,
     pub(super) capacity: usize,
     pub(super) size: usize,
     /// Whether forces, active set and deflection are those of a solved problem.
@@ -33,8 +24,6 @@ pub struct Workspace {
     /// Indices of the active slices, ascending.
     pub(super) list: Vec<usize>,
     pub(super) factor: Ldl,
-    /// The active slices that the factor is of; empty where it is of none.
-    pub(super) factored: Vec<usize>,
     /// Active block of the correction at fixed approach.
     pub(super) correction: Vec<f64>,
     /// Active block of `(C + diag δ')⁻¹ w`.
@@ -50,7 +39,6 @@ impl Workspace {
     pub fn new(capacity: usize) -> Self {
         let zeros = || vec![0.0; capacity];
         Workspace {
-            arch: pulp::Arch::new(),
             capacity,
             size: 0,
             warm: false,
@@ -62,7 +50,6 @@ impl Workspace {
             active: vec![false; capacity],
             list: Vec::with_capacity(capacity),
             factor: Ldl::new(capacity),
-            factored: Vec::with_capacity(capacity),
             correction: zeros(),
             per_approach: zeros(),
             force_rate: zeros(),
@@ -79,12 +66,6 @@ impl Workspace {
     /// Forgets the last solution: the next solve starts cold.
     pub fn reset(&mut self) {
         self.warm = false;
-        self.factored.clear();
-    }
-
-    /// Whether the factor is of the active slices, as they are listed.
-    pub(super) fn factor_is_of_set(&self) -> bool {
-        !self.factored.is_empty() && self.factored == self.list
     }
 
     /// Lets the next position solve, which must be of as many slices, start from these forces \[N\]; slices without force start open.
@@ -97,7 +78,6 @@ impl Workspace {
             *own = force.max(0.0);
             *active = *force > 0.0;
         }
-        self.factored.clear();
         self.warm = true;
         assert!(self.size <= self.capacity, "more forces than the capacity");
     }
@@ -144,69 +124,6 @@ impl Workspace {
         force_change.fill(0.0);
         for (value, &slice) in self.correction.iter().zip(&self.list) {
             force_change[slice] = *value;
-        }
-    }
-
-    /// The same where the factor is an old one ([`super::Params::keeps_factor`]): improved until it is that of the
-    /// present forces.
-    ///
-    /// # Errors
-    /// [`NlcpError::NotPositiveDefinite`].
-    ///
-    /// # Panics
-    /// As [`Self::apply_tangent`].
-    pub(crate) fn apply_present_tangent(
-        &mut self,
-        problem: &Problem<'_>,
-        separation_change: &[f64],
-        force_change: &mut [f64],
-    ) -> Result<(), NlcpError> {
-        self.apply_tangent(separation_change, force_change);
-        let most = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let wanted = most(separation_change) * IMPROVED;
-        for _ in 0..MOST_IMPROVEMENTS {
-            let mut missing = 0.0_f64;
-            for (value, &slice) in self.correction.iter_mut().zip(&self.list) {
-                let row = &problem.compliance[slice * self.size..][..self.size];
-                let made = dot(row, force_change) + self.slope[slice] * force_change[slice];
-                *value = -(separation_change[slice] + made);
-                missing = missing.max(value.abs());
-            }
-            if missing <= wanted {
-                return Ok(());
-            }
-            self.factor.solve(&mut self.correction);
-            for (value, &slice) in self.correction.iter().zip(&self.list) {
-                force_change[slice] += value;
-            }
-        }
-        self.factor_active(problem)?;
-        self.apply_tangent(separation_change, force_change);
-        Ok(())
-    }
-
-    /// Makes the factor that of the present forces.
-    ///
-    /// # Errors
-    /// [`NlcpError::NotPositiveDefinite`].
-    pub(crate) fn factor_present(&mut self, problem: &Problem<'_>) -> Result<(), NlcpError> {
-        self.factor_active(problem).map(|_| ())
-    }
-
-    /// −∂F/∂e of all slices \[N/m\], `[force][separation]`: (C + diag δ')⁻¹ on the active set, zero elsewhere, by the
-    /// factor of the last solve. `inverse`: memory.
-    pub fn stiffness(&self, inverse: &mut Vec<f64>, stiffness: &mut Vec<f64>) {
-        let (n, m) = (self.size, self.list.len());
-        inverse.clear();
-        inverse.resize(m * m, 0.0);
-        self.factor.invert(inverse);
-        stiffness.clear();
-        stiffness.resize(n * n, 0.0);
-        for (&slice, row) in self.list.iter().zip(inverse.chunks_exact(m.max(1))) {
-            let own = &mut stiffness[slice * n..][..n];
-            for (&other, value) in self.list.iter().zip(row) {
-                own[other] = *value;
-            }
         }
     }
 }

@@ -4,7 +4,6 @@ use crate::contact_patch::ContactPatch;
 use crate::local_contact::LocalContact;
 use crate::placed_slice::ToothPlace;
 use crate::slice_compliance::LocalDepth;
-use crate::station_blocks::{Coupling, LANES, whole};
 
 use super::{Elastic, Run, SliceContact};
 
@@ -13,7 +12,6 @@ pub(super) enum Part {
     Compliance,
     WithRates,
     Rates,
-    Walk,
 }
 
 /// A loop over coupled places, to be compiled for what the processor has: everything in it is part of it (`inline(always)`), for a function that is called was compiled
@@ -29,7 +27,6 @@ impl pulp::NullaryFnOnce for Filling<'_> {
             Part::Compliance => self.1.fill_compliance(),
             Part::WithRates => self.1.fill_pairs_with_rates(),
             Part::Rates => self.1.fill_carrying_rates(),
-            Part::Walk => self.1.walk_runs(),
         }
     }
 }
@@ -128,40 +125,12 @@ impl SliceContact {
                     a.along_normals[0] * b.along_normals[0],
                     a.along_normals[1] * b.along_normals[1],
                 ];
-                if on_1.is_walked() || on_2.is_walked() {
-                    for i in a.patches[0]..a.patches[1] {
-                        for j in b.patches[0].max(i)..b.patches[1] {
-                            let slices = [self.slice[i], self.slice[j]];
-                            let of_1 = along[0] * on_1.value(slices);
-                            let value = of_1 + along[1] * on_2.value(slices);
-                            self.c[i * n + j] = value;
-                            self.c[j * n + i] = value;
-                        }
-                    }
-                    continue;
-                }
-                let weights = [on_1.blocks.weights(), on_2.blocks.weights()];
-                let [parts_1, parts_2] = &mut self.parts;
                 for i in a.patches[0]..a.patches[1] {
-                    let mut j = b.patches[0].max(i);
-                    for others in self.slice[j..b.patches[1]].chunks(LANES) {
-                        let own = self.slice[i];
-                        (on_1.blocks).compliances(&weights[0], own, others, parts_1);
-                        (on_2.blocks).compliances(&weights[1], own, others, parts_2);
-                        let parts = parts_1.iter().zip(&*parts_2);
-                        for (other, (part_1, part_2)) in others.iter().zip(parts) {
-                            let (mut of_1, mut of_2) = (whole(part_1), whole(part_2));
-                            if on_1.has_more {
-                                of_1 += on_1.more([own, *other]).value;
-                            }
-                            if on_2.has_more {
-                                of_2 += on_2.more([own, *other]).value;
-                            }
-                            let value = along[0] * of_1 + along[1] * of_2;
-                            self.c[i * n + j] = value;
-                            self.c[j * n + i] = value;
-                            j += 1;
-                        }
+                    for j in b.patches[0].max(i)..b.patches[1] {
+                        let slices = [self.slice[i], self.slice[j]];
+                        let value = along[0] * on_1.value(slices) + along[1] * on_2.value(slices);
+                        self.c[i * n + j] = value;
+                        self.c[j * n + i] = value;
                     }
                 }
             }
@@ -171,66 +140,7 @@ impl SliceContact {
     /// Fills the changes of C with the places between the patches that carry: of the others nobody feels them. Those of half spaces are known
     /// with C.
     pub(super) fn fill_rates(&mut self) {
-        let part = match self.shares_places() {
-            true => Part::Walk,
-            false => Part::Rates,
-        };
-        self.arch.dispatch(Filling(part, self));
-    }
-
-    /// What [`SliceContact::energy_by_u`] says of the compliance, for runs of patches: Σ F_i F_j ∂C_ij of two runs by
-    /// Σ F_i F_j T_ij, all of them at the first patch of a run that carries.
-    #[inline(always)]
-    fn walk_runs(&mut self) {
-        let Elastic::Reduced(flanks) = &self.elastic else {
-            return;
-        };
-        let [flank_1, flank_2] = &**flanks;
-        let forces = self.work.forces();
-        self.walk.clear();
-        self.walk.resize(forces.len(), [0.0; 2]);
-        for (number, a) in self.runs.iter().enumerate() {
-            let Some(at_a) = first_that_carries(forces, a) else {
-                continue;
-            };
-            for b in &self.runs[number..] {
-                let Some(at_b) = first_that_carries(forces, b) else {
-                    continue;
-                };
-                let on_1 = flank_1.between(&a.places[0], &b.places[0]);
-                let on_2 = flank_2.between(&a.places[1], &b.places[1]);
-                let [sum_1, sum_2] = &mut self.sums;
-                (*sum_1, *sum_2) = Default::default();
-                let (mut more_1, mut more_2) = ([0.0; 2], [0.0; 2]);
-                for i in (a.patches[0]..a.patches[1]).filter(|i| forces[*i] > 0.0) {
-                    for j in (b.patches[0].max(i)..b.patches[1]).filter(|j| forces[*j] > 0.0) {
-                        let slices = [self.slice[i], self.slice[j]];
-                        let mut both = forces[i] * forces[j];
-                        if i == j {
-                            // Half of it for each of the two places, which are one.
-                            both *= 0.5;
-                            if self.local_contact == LocalContact::None {
-                                both /= self.shares[i];
-                            }
-                        }
-                        on_1.blocks.add_to(sum_1, both, slices);
-                        on_2.blocks.add_to(sum_2, both, slices);
-                        if on_1.has_more {
-                            add_rates(&mut more_1, both, on_1.more(slices));
-                        }
-                        if on_2.has_more {
-                            add_rates(&mut more_2, both, on_2.more(slices));
-                        }
-                    }
-                }
-                let rates_1 = on_1.blocks.rates_of(sum_1);
-                let rates_2 = on_2.blocks.rates_of(sum_2);
-                self.walk[at_a][0] += rates_1[0] + more_1[0];
-                self.walk[at_b][0] += rates_1[1] + more_1[1];
-                self.walk[at_a][1] += rates_2[0] + more_2[0];
-                self.walk[at_b][1] += rates_2[1] + more_2[1];
-            }
-        }
+        self.arch.dispatch(Filling(Part::Rates, self));
     }
 
     #[inline(always)]
@@ -298,18 +208,4 @@ impl SliceContact {
             self.c[own] /= share;
         }
     }
-}
-
-/// The first patch of a run that carries.
-#[inline(always)]
-fn first_that_carries(forces: &[f64], run: &Run) -> Option<usize> {
-    let [first, end] = run.patches;
-    let mut patches = first..end;
-    patches.find(|patch| forces[*patch] > 0.0)
-}
-
-#[inline(always)]
-fn add_rates(sum: &mut [f64; 2], factor: f64, coupling: Coupling) {
-    sum[0] += factor * coupling.by_a;
-    sum[1] += factor * coupling.by_b;
 }

@@ -10,9 +10,7 @@ use crate::local_contact::{LawRate, LocalContact};
 use super::{Run, SliceContact, dot};
 
 impl SliceContact {
-    /// ∂E*/∂u \[J per u\] at the forces of the last solve as a patch walks over the flank of gear 0 or 1; of patches
-    /// at one place, which walk together, what the first that carries says of the compliance is that of all. Prepare
-    /// with rates.
+    /// ∂E*/∂u \[J per u\] at the forces of the last solve as a patch walks over the flank of gear 0 or 1. Prepare with rates.
     ///
     /// # Panics
     /// If there is no such patch.
@@ -21,11 +19,9 @@ impl SliceContact {
         let (own, n) = (forces[patch], forces.len());
         let Run { law, rates, .. } = &self.runs[self.run[patch]];
         let rate = rates[gear];
-        let by_compliance = match self.shares_places() {
-            true => self.walk[patch][gear],
-            false => own * dot(&self.rates[gear][patch * n..][..n], forces),
-        };
-        let mut sum = law.complementary_energy_rate(own, rate.alpha, rate.cap) + by_compliance;
+        let along = &self.rates[gear][patch * n..][..n];
+        let mut sum =
+            law.complementary_energy_rate(own, rate.alpha, rate.cap) + own * dot(along, forces);
         if rate.beta != 0.0 {
             sum += rate.beta * law.complementary_energy_by_beta(own);
         }

@@ -6,7 +6,7 @@ use crate::nlcp_common;
 use crate::pair_common;
 
 use gearmesh_contact::Drive;
-use gearmesh_contact::nlcp::{Params, Workspace, solve_load, solve_position};
+use gearmesh_contact::nlcp::{Params, Workspace, solve_load};
 use nlcp_common::random::{Kind, Random, case, compliance, weber};
 
 #[test]
@@ -34,46 +34,6 @@ fn effort_of_warm_steps_is_unchanged() {
         iterations.push(info.iterations);
     }
     assert_eq!(iterations, WARM_STEPS);
-}
-
-/// A solve that goes on from the last one takes its factor, too, while the same slices touch; forces and tangents are
-/// those of new factors.
-#[test]
-fn kept_factors_serve_the_solves_that_go_on() {
-    let mut random = Random::new(43);
-    let n = 40;
-    let compliance = compliance(Kind::GearLike, n, &mut random);
-    let local: Vec<_> = (0..n).map(|_| weber(100.0, &mut random)).collect();
-    let keeping = Params {
-        keeps_factor: true,
-        ..Params::default()
-    };
-    let (mut kept, mut anew) = (Workspace::new(n), Workspace::new(n));
-    let mut made = Vec::new();
-    for step in 0..8 {
-        let separation = (0..n)
-            .map(|i| 4e-6 * (0.002 * f64::from(step) + 0.3 * i as f64).sin() - 8e-6)
-            .collect();
-        let data = nlcp_common::Data {
-            compliance: compliance.clone(),
-            local: local.clone(),
-            separation,
-            closing: vec![1.0; n],
-            lever: vec![0.07; n],
-        };
-        let info = solve_position(&data.problem(), 0.0, &keeping, &mut kept).unwrap();
-        let exact = solve_position(&data.problem(), 0.0, &Params::default(), &mut anew).unwrap();
-        assert!(info.active > n / 2 && info.active == exact.active);
-        made.push(info.factorisations);
-        let largest = anew.forces().iter().fold(0.0, |most: f64, f| most.max(*f));
-        for (a, b) in kept.forces().iter().zip(anew.forces()) {
-            assert!((a - b).abs() < 1e-10 * largest, "{step}: {a} {b}");
-        }
-    }
-    assert!(
-        made[0] > 0 && made[1..].iter().all(|made| *made == 0),
-        "{made:?}"
-    );
 }
 
 #[test]

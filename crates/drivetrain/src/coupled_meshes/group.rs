@@ -10,7 +10,6 @@ use gearmesh_dynamics::{BodyId, BodyMotion, GROUND, Iterate, RelativeMotion};
 use gearmesh_geometry::Flank;
 use gearmesh_model::{RadialMotions, ReducedGear};
 
-use super::cross_tangents::{ContactOfMesh, CrossTangents};
 use super::roller_bore::RollerBore;
 use crate::error::DrivetrainError;
 use crate::flank_modes::ModalMotion;
@@ -50,7 +49,6 @@ pub(super) struct Group {
     /// How far gaps are felt ahead, and what that makes of the forces.
     pub ahead_m: Vec<f64>,
     pub drag_n: Vec<f64>,
-    pub cross: CrossTangents,
 }
 
 /// One cross compliance for all links that are alike.
@@ -214,20 +212,20 @@ impl Group {
             }
         }
         self.joint.walk_bores();
+        self.feel_ahead();
         if tangents {
-            self.joint.fill_stiffness()?;
+            self.joint.fill_stiffness();
             for (bore, bending) in self.bores.iter_mut().zip(self.joint.bores()) {
                 bore.sum_up();
                 bore.follow_ring(bending, self.joint.size());
             }
         }
-        self.feel_ahead()?;
         self.hand_out(tangents);
         Ok(())
     }
 
     /// What the gaps that damping lets be felt ahead make of all forces.
-    fn feel_ahead(&mut self) -> Result<(), DrivetrainError> {
+    fn feel_ahead(&mut self) {
         self.ahead_m.clear();
         self.ahead_m.resize(self.joint.size(), 0.0);
         for (number, at) in self.sides.iter().enumerate() {
@@ -241,7 +239,7 @@ impl Group {
                 }
             }
         }
-        Ok(self.joint.drag(&self.ahead_m, &mut self.drag_n)?)
+        self.joint.drag(&self.ahead_m, &mut self.drag_n);
     }
 
     /// Gives each side its part of the solution.
@@ -266,38 +264,34 @@ impl Group {
         }
     }
 
-    /// Adds how the loads of each mesh change with the motion of the others; `places`: where the degrees of freedom of
-    /// each of the bodies begin.
-    pub fn add_cross_tangents(&mut self, places: &[usize], loads: &mut Loads) {
-        self.cross.clear();
-        for (number, at) in self.sides.iter().enumerate() {
-            let element = &self.meshes[at.mesh];
-            let Some(side) = element.mesh().coupled_side(at.side) else {
-                continue;
-            };
-            let start = self.joint.contacts_of(number).start;
-            let of_body = |body: BodyId| self.bodies.iter().position(|own| *own == body);
-            let bodies = element
-                .gear_bodies()
-                .map(|body| of_body(body).unwrap_or_default());
-            for (i, contact) in side.contacts.iter().enumerate() {
-                let Some(patch) = side.model.patch_of(i) else {
+    /// How the loads of each mesh change with the motion of the others; `places`: where the bodies' degrees of freedom
+    /// begin.
+    pub fn add_cross_tangents(&self, places: impl Fn(BodyId) -> usize, loads: &mut Loads) {
+        for (a, of_a) in self.sides.iter().enumerate() {
+            for (b, of_b) in self.sides.iter().enumerate() {
+                if of_a.mesh == of_b.mesh {
+                    continue;
+                }
+                let Some([by_pose, by_rates]) = self.cross_block([(a, of_a), (b, of_b)]) else {
                     continue;
                 };
-                if self.joint.forces_n()[start + patch] > 0.0 {
-                    self.cross.add(&ContactOfMesh {
-                        mesh: at.mesh,
-                        number: start + patch,
-                        bodies,
-                        motion: (&self.motions[at.mesh], &self.jacobians[at.mesh]),
-                        direction: &side.directions[i],
-                        gradient: &contact.gradient,
-                        felt_by: side.felt.felt(i).0,
-                    });
+                let both = [of_a.mesh, of_b.mesh];
+                let [left, right] = both.map(|mesh| &self.jacobians[mesh]);
+                let at = both.map(|mesh| self.meshes[mesh].gear_bodies().map(&places));
+                let turned = self.motions[of_b.mesh].rate_jacobian(right);
+                let blocks = [
+                    left.tr_mul(&(by_pose * right + by_rates * turned)),
+                    left.tr_mul(&(by_rates * right)),
+                ];
+                for (i, j) in (0..12).flat_map(|i| (0..12).map(move |j| (i, j))) {
+                    let (row, column) = (at[0][i / 6] + i % 6, at[1][j / 6] + j % 6);
+                    loads.add_by_position(row, column, blocks[0][(i, j)]);
+                    if by_rates != Matrix6::zeros() {
+                        loads.add_by_velocity(row, column, blocks[1][(i, j)]);
+                    }
                 }
             }
         }
-        self.cross.add_to(&self.joint, places, loads);
     }
 
     /// Adds the loads of the bearings in bores, and how they and the meshes change with each other's motion.
@@ -368,6 +362,35 @@ impl Group {
             on_mesh -= side.directions[i] * felt.transpose();
         }
         Some([on_ring, on_mesh])
+    }
+
+    /// How the load of one side changes with pose and rates of another mesh; none where nothing carries.
+    fn cross_block(&self, [a, b]: [(usize, &SideOfMesh); 2]) -> Option<[Matrix6; 2]> {
+        let side = |at: &SideOfMesh| self.meshes[at.mesh].mesh().coupled_side(at.side);
+        let (of_a, of_b) = (side(a.1)?, side(b.1)?);
+        let starts = [a.0, b.0].map(|number| self.joint.contacts_of(number).start);
+        let (mut by_pose, mut by_rates) = (Matrix6::zeros(), Matrix6::zeros());
+        let mut carries = false;
+        for i in 0..of_a.contacts.len() {
+            let Some(row) = of_a.model.patch_of(i) else {
+                continue;
+            };
+            let stiffness = self.joint.stiffness_of(starts[0] + row);
+            for (j, contact) in of_b.contacts.iter().enumerate() {
+                let Some(column) = of_b.model.patch_of(j) else {
+                    continue;
+                };
+                let k = stiffness[starts[1] + column];
+                if k != 0.0 {
+                    carries = true;
+                    let ([by_gap, by_rate], _) = of_b.felt.felt(j);
+                    let rank_one = of_a.directions[i] * contact.gradient.transpose();
+                    by_pose -= k * by_gap * rank_one;
+                    by_rates -= k * by_rate * rank_one;
+                }
+            }
+        }
+        carries.then_some([by_pose, by_rates])
     }
 }
 
