@@ -6,8 +6,9 @@
 //! likewise, both of harmonic k,
 //!
 //! ```text
-//! [ K_cc(k)  K_cb(k) ]                                      K(k) = E(k)ᴴ S E(k),   E(k) (c, b) = the part's displacements, e^{ikα} ahead where
-//! [ K_bc(k)  K_bb(k) ]                                      they are the next part's, α = 2π/N
+//! [ K_cc(k)  K_cb(k) ]
+//! [ K_bc(k)  K_bb(k) ] = K(k) = E(k)ᴴ S E(k),   E(k) (c, b) = the part's displacements,
+//!                        e^{ikα} ahead where they are the next part's, α = 2π/N
 //! ```
 //!
 //! one Hermitian matrix for each 0 ≤ k ≤ N/2. With K_cc = Λ Λᴴ and X = Λ⁻¹ K_cb

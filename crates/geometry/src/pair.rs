@@ -367,12 +367,14 @@ impl GearPair {
     /// gear 1's tooth p with gear 2's tooth −p, on left flanks the mirror image, tooth −p with tooth p. With a ring both
     /// turn the same way: tooth p with tooth p, on left flanks −p with −p.
     pub fn teeth_of(&self, pair: i64) -> [usize; 2] {
+        // Wide enough to be turned round, whatever a file says.
+        let pair = i128::from(pair);
         let pair = match self.flank {
             Flank::Right => pair,
             Flank::Left => -pair,
         };
         let of_2 = if self.has_ring() { pair } else { -pair };
-        let wrap = |tooth: i64, teeth: usize| tooth.rem_euclid(teeth as i64) as usize;
+        let wrap = |tooth: i128, teeth: usize| tooth.rem_euclid(teeth as i128) as usize;
         [wrap(pair, self.gear_1.teeth), wrap(of_2, self.gear_2.teeth)]
     }
 

@@ -136,8 +136,8 @@ impl ToothGeometry {
         Ok(tooth)
     }
 
-    /// Ends the fillet where the involute starts: the rack's straight flank ends where the rounding begins, whose contact
-    /// point that is, or the trochoid crosses the involute.
+    /// Ends the fillet where the involute starts: the rack's straight flank ends where the rounding begins, whose
+    /// contact point that is, or the trochoid crosses the involute.
     fn end_fillet(
         &mut self,
         d: &ToothDefinition,

@@ -1,4 +1,5 @@
-//! The parts of a gear's definition in a file but the blank (`blank_record.rs`) and microgeometry. Lengths in metres, angles in radians.
+//! The parts of a gear's definition in a file but the blank (`blank_record.rs`) and microgeometry. Lengths in metres,
+//! angles in radians.
 
 use gearmesh_geometry::{
     Blank, BoreMotions, CrackDefinition, Element, Flank, GaugeDefinition, GearDefinition,

@@ -18,7 +18,8 @@
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
 //! | compliance and its checks; what gauges read | `flank_compliance.rs`; `asked_gauges.rs` |
 //! | C_hub of a body that does not repeat, by patterns | `hub_patterns.rs`, `single_sector.rs` |
-//! | the reduction | `reduce.rs`, of a bevel gear `bevel/`; the steps of both `reduction_steps.rs`, their wall time `stages.rs` |
+//! | the reduction | `reduce.rs`, of a bevel gear `bevel/` |
+//! | the steps of both, their wall time | `reduction_steps.rs`, `stages.rs` |
 //! | a gear that was meshed elsewhere | `import.rs`, `imported_mesh.rs` |
 //! | whether its mesh fits; the outlines found in it | `imported_check.rs`, `imported_error.rs`; `imported_outline.rs` |
 //! | points in the frame of a tooth | `tooth_frame.rs` |

@@ -11,7 +11,7 @@ use crate::page::packed::{floats, scaled, scaled_signed};
 /// Pressures that a picture has at most, torques together: two bytes each, and six more for a place.
 const MOST_PRESSURES: usize = 40_000;
 
-/// Positions that a picture has at least: a pitch is told by them.
+/// Positions that a picture has at least; with fewer a pitch is not seen.
 const FEWEST_POSITIONS: usize = 8;
 
 /// The picture; none of bevel pairs, rings, and results of older programs that do not say where the slices touch.

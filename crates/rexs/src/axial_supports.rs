@@ -44,7 +44,8 @@ impl AxialForces {
             };
             for (torque_nm, i) in torques.into_iter().zip(gears) {
                 let seated = &train.gears[i];
-                // F = T tan β / r at the reference circle, along z: a right hand pushed clockwise by its shaft goes to -z.
+                // F = T tan β / r at the reference circle, along z: a right hand pushed clockwise by its shaft goes to
+                // -z.
                 let radius_m = 0.5e-3 * seated.gear.reference_diameter_mm();
                 let force_n = torque_nm * seated.gear.helix_deg.to_radians().tan() / radius_m;
                 // A ring that is held is on no shaft.

@@ -7,8 +7,8 @@ use crate::columns::{ColumnsSession, StretchAsked};
 use crate::problem::Problem;
 
 impl ColumnsSession {
-    /// The shares of all planetary sets in a stretch, by their least and largest values. Where the carrier stands, or turns
-    /// back, they are over what the rows run over.
+    /// The shares of all planetary sets in a stretch, by their least and largest values. Where the carrier stands, or
+    /// turns back, they are over what the rows run over.
     ///
     /// # Errors
     /// [`Problem`] for a result that cannot be read.

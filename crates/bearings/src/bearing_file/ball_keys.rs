@@ -43,8 +43,9 @@ pub(super) struct DeepGrooveKeys {
     radial_clearance_um: Option<f64>,
     /// Diameters of the grooves' bottoms, inner and outer, instead of the clearance.
     raceway_diameters_mm: Option<[f64; 2]>,
-    /// Heights of the shoulders above the bottoms of the inner and outer groove, of the higher one where they differ; estimated where not given (0.2 of the
-    /// ball's diameter or 30° beyond the contact angle). Contact ellipses that reach beyond are warned of.
+    /// Heights of the shoulders above the bottoms of the inner and outer groove, of the higher one where they differ;
+    /// estimated where not given (0.2 of the ball's diameter or 30° beyond the contact angle). Contact ellipses that
+    /// reach beyond are warned of.
     shoulder_heights_mm: Option<[f64; 2]>,
 }
 
@@ -116,8 +117,8 @@ impl Balls {
         }
     }
 
-    /// α₀ and the interference \[mm\] of grooves whose bottoms have these diameters: cos α₀ = 1 − P_d/(2A). Balls of a
-    /// deep-groove bearing may be a little too large for them.
+    /// α₀ and the interference \[mm\] of grooves whose bottoms have these diameters: cos α₀ = 1 − P_d/(2A). Balls of
+    /// a deep-groove bearing may be a little too large for them.
     fn of_raceways(
         &self,
         [bottom_inner, bottom_outer]: [f64; 2],
@@ -166,17 +167,29 @@ impl Balls {
         }
         Ok((free, interference))
     }
+
+    /// Balls and grooves with shoulders; what follows from diameters of raceways is noted.
+    fn in_grooves(
+        &self,
+        kind: BallBearingKind,
+        free: (f64, f64),
+        (raceways_mm, shoulders_mm): (Option<[f64; 2]>, Option<[f64; 2]>),
+        (keys, notes): (&TableKeys<'_>, &mut Vec<String>),
+    ) -> Result<BallGeometry, InputError> {
+        let heights = shoulder_heights_m(shoulders_mm, keys, self.row.diameter_mm)?;
+        let geometry = self.geometry(kind, free, heights);
+        if raceways_mm.is_some() {
+            notes.push(format!(
+                "the raceways leave a radial clearance of {:.1} um: contact angle {:.3} deg without load",
+                geometry.radial_clearance_m() / UM,
+                geometry.free_angle_rad.to_degrees()
+            ));
+        }
+        Ok(geometry)
+    }
 }
 
-/// The note on what follows from diameters of raceways.
-fn note_on_raceways(geometry: &BallGeometry) -> String {
-    format!(
-        "the raceways leave a radial clearance of {:.1} um: contact angle {:.3} deg without load",
-        geometry.radial_clearance_m() / UM,
-        geometry.free_angle_rad.to_degrees()
-    )
-}
-
+/// What is wrong with a key beside diameters of raceways.
 const TWICE: &str =
     "is given together with raceway_diameters_mm, from which it follows; remove one of the two";
 
@@ -200,13 +213,8 @@ pub(super) fn deep_groove(
             angle_of_clearance(clearance_mm, distance_mm)
         }
     };
-    let heights = shoulder_heights_m(own.shoulder_heights_mm, keys, balls.row.diameter_mm)?;
-    let geometry = balls.geometry(BallBearingKind::DeepGroove, free, heights);
-    notes.extend(
-        own.raceway_diameters_mm
-            .map(|_| note_on_raceways(&geometry)),
-    );
-    Ok(geometry)
+    let stated = (own.raceway_diameters_mm, own.shoulder_heights_mm);
+    balls.in_grooves(BallBearingKind::DeepGroove, free, stated, (keys, notes))
 }
 
 /// An angular-contact bearing.
@@ -228,13 +236,8 @@ pub(super) fn angular_contact(
             (degrees.to_radians(), 0.0)
         }
     };
-    let heights = shoulder_heights_m(own.shoulder_heights_mm, keys, balls.row.diameter_mm)?;
-    let geometry = balls.geometry(BallBearingKind::AngularContact, free, heights);
-    notes.extend(
-        own.raceway_diameters_mm
-            .map(|_| note_on_raceways(&geometry)),
-    );
-    Ok(geometry)
+    let stated = (own.raceway_diameters_mm, own.shoulder_heights_mm);
+    balls.in_grooves(BallBearingKind::AngularContact, free, stated, (keys, notes))
 }
 
 /// A four-point bearing.

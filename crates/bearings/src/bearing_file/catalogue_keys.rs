@@ -27,7 +27,8 @@ pub(super) struct CatalogueKeys {
     designation: Option<String>,
     /// Type, where no designation is given.
     r#type: Option<CatalogueType>,
-    /// Contact angle without load of angular-contact, four-point and spherical roller bearings; of tapered ones the angle of the outer race.
+    /// Contact angle without load of angular-contact, four-point and spherical roller bearings; of tapered ones the
+    /// angle of the outer race.
     contact_angle_deg: Option<f64>,
     /// Play across the axis from one side to the other; negative: interference, as fits leave it; 0 where not given.
     radial_clearance_um: Option<f64>,
@@ -47,7 +48,8 @@ pub(super) struct CatalogueKeys {
     roller_diameter_mm: Option<Bounded<Positive>>,
     /// Roller bearings: length of the rollers that carries, where it is known.
     roller_length_mm: Option<Bounded<Positive>>,
-    /// Diameter of the circle of the balls' or rollers' middles, where it is known; the middle between bore and outside diameter otherwise.
+    /// Diameter of the circle of the balls' or rollers' middles, where it is known; the middle between bore and outside
+    /// diameter otherwise.
     pitch_diameter_mm: Option<Bounded<Positive>>,
 }
 

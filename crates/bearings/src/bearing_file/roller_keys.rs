@@ -57,7 +57,8 @@ pub(super) struct TaperedRollerKeys {
     profile: Option<ProfileTable>,
     /// Radius of the roller's spherical end over the distance of that end from the apex; 0.95 where not given.
     end_radius_ratio: Option<Bounded<EndRadiusRatio>>,
-    /// Height of the contact with the rib above the inner race's edge; a fifth of the roller's large radius where not given.
+    /// Height of the contact with the rib above the inner race's edge; a fifth of the roller's large radius where not
+    /// given.
     rib_height_mm: Option<f64>,
 }
 

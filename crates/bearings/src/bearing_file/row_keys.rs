@@ -12,7 +12,8 @@ use crate::definition::{Arrangement, Preload};
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RowKeys {
-    /// Two rows: "O" (back to back), "X" (face to face) or "tandem"; one row where not given. "catalogue" with two rows in its rings: "O" where not given.
+    /// Two rows: "O" (back to back), "X" (face to face) or "tandem"; one row where not given. "catalogue" with two rows
+    /// in its rings: "O" where not given.
     pub arrangement: Option<ArrangementWord>,
     /// Distance of the two rows. "catalogue" with two rows in its rings: half the width where not given.
     pub row_distance_mm: Option<Bounded<Positive>>,
@@ -73,7 +74,8 @@ impl RowKeys {
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub(super) struct PreloadKeys {
-    /// Axial force that the rows of a pair carry at rest without load; of a single row that which its place without load stands for.
+    /// Axial force that the rows of a pair carry at rest without load; of a single row that which its place without
+    /// load stands for.
     preload_N: Option<Bounded<NotNegative>>,
     /// Axial displacement by which each row's inner ring is pressed in; negative for play.
     preload_um: Option<Bounded<Within<-1000, 1000>>>,

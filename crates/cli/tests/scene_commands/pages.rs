@@ -270,10 +270,7 @@ fn pages_read_as_in_print() {
     for (name, html) in every_kind(&desk) {
         demand_words(&name, &html);
         demand_headings(&name, &html);
-        // Left: charts of several kinds of lengths at once, as of seed 003, name their axis `length`.
-        if name != "run-up" {
-            demand_axes(&name, &html);
-        }
+        demand_axes(&name, &html);
         demand_drawings(&name, &html);
         // A caption beside its table is not cut where the table scrolls.
         assert!(!html.contains("<caption>"), "{name}");

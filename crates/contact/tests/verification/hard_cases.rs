@@ -349,8 +349,8 @@ fn of_linear_problem(m: &[f64], q: &[f64]) -> (Data, f64) {
     (data, -least)
 }
 
-/// Fathi's problems: M = L Lᵀ with ones on the diagonal of L and twos below, q = −1, symmetric and positive definite.
-/// The answer is zᵀ = (1, 0, …, 0); on such problems the number of pivots of Lemke's and Murty's methods grows
+/// Fathi's problems: M = L Lᵀ with ones on the diagonal of L and twos below, q = −1, symmetric and positive
+/// definite. The answer is zᵀ = (1, 0, …, 0); on such problems the number of pivots of Lemke's and Murty's methods grows
 /// exponentially with n (Y. Fathi, Math. Program. 17 (1979) 335-344).
 fn of_fathi(n: usize) -> (Vec<f64>, Vec<f64>) {
     let below = |i: usize, j: usize| match i.cmp(&j) {

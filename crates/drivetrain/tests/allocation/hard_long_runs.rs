@@ -94,8 +94,8 @@ fn long_run(steps: u64) {
         "{time_s}"
     );
     assert_eq!(allocated, 0);
-    // What Newton's iteration leaves of the joints, here 1e-8 rad or half a nanometre at most, does not add up: the last
-    // step's is all that the angle is off by.
+    // What Newton's iteration leaves of the joints, here 1e-8 rad or half a nanometre at most, does not add up: the
+    // last step's is all that the angle is off by.
     assert!(apart_rad.abs() < 1e-8, "{apart_rad:e}");
     assert!(info.largest_violation < 1e-8, "{info:?}");
     let te_off = (last.te_m / first.te_m - 1.0).abs();

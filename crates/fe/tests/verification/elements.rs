@@ -92,8 +92,8 @@ fn zero_modes(element: Element, rule: &[WeightedPoint]) -> usize {
     zeros.count()
 }
 
-/// The test of six zero modes can fail. One point in a trilinear hexahedron adds twelve hourglass modes; 2×2×2 points in
-/// a quadratic one give 48 strains for 60 − 6 deformations: six too many. The full rules have none.
+/// The test of six zero modes can fail. One point in a trilinear hexahedron adds twelve hourglass modes; 2×2×2 points
+/// in a quadratic one give 48 strains for 60 − 6 deformations: six too many. The full rules have none.
 #[test]
 fn reduced_quadrature_has_zero_modes_too_many() {
     let (eight, full) = (
@@ -205,8 +205,8 @@ fn energy(
     energy
 }
 
-/// Conformance of every element: K = Σ |J| Bᵀ D B with its own strain operator. For the incompatible element this ties
-/// strain recovery to the condensed stiffness.
+/// Conformance of every element: K = Σ |J| Bᵀ D B with its own strain operator. For the incompatible element this
+/// ties strain recovery to the condensed stiffness.
 #[test]
 fn stiffness_is_the_energy_of_the_strain_operator() {
     let material = Material::new(210e9, 0.3).unwrap();

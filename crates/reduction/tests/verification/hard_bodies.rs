@@ -150,8 +150,8 @@ fn the_fewest_elements_across_the_face() {
     );
 }
 
-/// A helix of almost 45°, from which on helices are refused, of either hand: the cyclic solution is that of the whole gear, the mirror image (other hand, other
-/// flanks) deflects alike.
+/// A helix of almost 45°, from which on helices are refused, of either hand: the cyclic solution is that of the whole
+/// gear, the mirror image (other hand, other flanks) deflects alike.
 #[test]
 fn a_helix_of_almost_45_degrees() {
     let body = |hand: &str, flank: &str| {
@@ -177,7 +177,7 @@ fn a_helix_of_almost_45_degrees() {
     let apart = [(0, 0), (1, teeth - 1), (teeth - 1, 1)]
         .map(|(a, b)| deflection(&model, a) / deflection(&mirrored, b) - 1.0);
     println!("cyclic {symmetry:.1e}; mirror image apart by {apart:?}");
-    // The plane mesh of a sector is not its own mirror image.
+    // The plane mesh of a sector is not its own mirror image: both flanks of a spur gear differ by 2.5e-4 on it.
     assert!(apart.iter().all(|off| off.abs() < 1e-3), "{apart:?}");
 }
 

@@ -54,8 +54,7 @@ pub fn touching_points_m(pair: &GearPair, result: &SceneResult) -> Vec<[f64; 2]>
         if places.width_m[at] <= 0.0 {
             return [0.0; 2];
         }
-        // Few enough to be turned round, whatever a file says.
-        let [number, _] = pair.teeth_of(i64::from(result.pair[at / result.slices] as i32));
+        let [number, _] = pair.teeth_of(result.pair[at / result.slices] as i64);
         let turn =
             TAU * number as f64 / tooth.teeth as f64 + places.z_m[at] * tooth.twist_rad_per_m();
         let (s, c) = turn.sin_cos();

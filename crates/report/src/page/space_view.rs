@@ -61,3 +61,51 @@ pub(super) fn modules() -> String {
         "<script>\n/* three 0.184.0, packed below\n{THREE_LICENCE}*/\n</script>\n<script type=\"text/plain\" id=\"modules\">{packed}</script>\n"
     )
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::{Block, Page, Section, Text};
+    use super::*;
+    use base64::Engine as _;
+
+    /// Only a page with bodies in space carries three, and only there a script may come out of a blob. What it
+    /// carries is what was published.
+    #[test]
+    fn bodies_in_space_bring_their_modules() {
+        let section = |block: Block| Section {
+            heading: "s".into(),
+            blocks: vec![block],
+        };
+        let page = |block: Block| Page::new("t").section(section(block)).render().unwrap();
+        let without = page(Text::paragraph("words").into());
+        let with = page(SpaceView::new("gears", json!({"gears": []})).into());
+        assert!(!without.contains("blob:;") && !without.contains("id=\"modules\""));
+        assert!(with.contains("script-src 'unsafe-inline' blob:; img-src"));
+        for forbidden in ["src=", "@import", "url(", "fetch(", "<link"] {
+            assert!(!with.contains(forbidden), "{forbidden}");
+        }
+        let (_, packed) = with.split_once("id=\"modules\">").unwrap();
+        let (packed, _) = packed.split_once('<').unwrap();
+        let packed = base64::engine::general_purpose::STANDARD
+            .decode(packed)
+            .unwrap();
+        let unpacked = flate2::read::GzDecoder::new(&packed[..]);
+        let texts: Value = serde_json::from_reader(unpacked).unwrap();
+        assert_eq!(texts["three.core.min.js"], THREE_CORE);
+        assert_eq!(texts["three.module.min.js"], THREE_MODULE);
+        // All that they import is there.
+        for (name, text) in texts.as_object().unwrap() {
+            let text = text.as_str().unwrap().replace("from \"./", "from\"./");
+            for named in text.split("from\"./").skip(1) {
+                let named = named.split('"').next().unwrap();
+                assert!(texts.get(named).is_some(), "{name}: {named}");
+            }
+        }
+        assert!(
+            with.len() - without.len() < 300_000,
+            "{}",
+            with.len() - without.len()
+        );
+    }
+}

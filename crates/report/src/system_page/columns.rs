@@ -135,6 +135,7 @@ impl Group {
     pub(super) fn ordinate(&self) -> &str {
         match &self.columns[..] {
             [(_, curve)] if self.is_of_elements() => curve,
+            [(column, _), ..] if column.starts_with("bodies/") && self.unit == "m" => "place",
             _ => quantity(&self.unit),
         }
     }

@@ -100,7 +100,6 @@ pub struct Bench<'a> {
     rest: RestCases,
     scratch: Scratch<'a>,
     options: BenchOptions<'a>,
-    errors: ColumnErrors,
 }
 
 impl<'a> Bench<'a> {
@@ -114,7 +113,6 @@ impl<'a> Bench<'a> {
             folder: scene.parent().unwrap_or(Path::new("")).to_owned(),
             rest: RestCases::default(),
             scratch: Scratch::new(options.scratch, options.stop),
-            errors: ColumnErrors::new(&options.wanted),
             options,
         };
         let error = |problem: String| {
@@ -137,7 +135,6 @@ impl<'a> Bench<'a> {
                 _ => Vec::new(),
             };
             this.options.wanted = default_columns(&known, kinds, &steady);
-            this.errors = ColumnErrors::new(&this.options.wanted);
         }
         if this.options.wanted.is_empty() {
             let told = "none is named, and the scene has no teeth, gauges or bearings in motion, nor a pair of gears, whose columns would be judged; name what is to be exact";
@@ -248,12 +245,12 @@ impl<'a> Bench<'a> {
 
     /// Errors of values against a reference, column by column.
     pub(super) fn errors(&self, values: &[f64], reference: &[f64]) -> Vec<f64> {
-        self.errors.of(values, reference)
+        ColumnErrors::new(&self.options.wanted).of(values, reference)
     }
 
     /// What errors are relative to.
     pub(super) fn scales(&self, reference: &[f64]) -> Vec<f64> {
-        self.errors.scales(reference)
+        ColumnErrors::new(&self.options.wanted).scales(reference)
     }
 
     /// Names of the figures, in the order of the values.

@@ -42,7 +42,7 @@ impl RunJob {
                 start,
                 end_s,
                 interval_s: scene.output.interval_s.unwrap_or(end_s),
-                statistics_from_s: scene.output.statistics_from_s.unwrap_or(0.5 * end_s),
+                statistics_from_s: scene.output.statistics_begin_s(end_s),
                 windows,
             })
         };

@@ -147,7 +147,7 @@ fn blows_that_graze() {
     }
 }
 
-/// What is told of a fall that ends in rest.
+/// Figures of a fall that ends in rest.
 #[derive(Debug)]
 struct Rest {
     blows: usize,

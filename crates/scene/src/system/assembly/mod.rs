@@ -12,6 +12,7 @@
 //! | bearings that are linear about an operating point | `operating_point.rs` |
 //! | how often teeth come into mesh, and whether steps follow it | `mesh_frequency.rs` |
 //! | what a plan says of a mesh | `described_mesh.rs` |
+//! | speeds that stay, whose mesh orders are judged | `steady_speeds.rs` |
 //! | speeds that contradict a joint, stiffnesses that no run resolves | `stated_speeds.rs`, `stiffness.rs` |
 //! | joints and motions, loads and springs, bearings | `joints.rs`, `elements.rs`, `bearings/` |
 //! | which meshes are solved together | `coupled.rs` |
@@ -53,6 +54,7 @@ mod start;
 mod start_at_rest;
 mod start_speeds;
 mod stated_speeds;
+mod steady_speeds;
 mod stiffness;
 mod willis;
 
@@ -193,15 +195,6 @@ impl LoadedSystem {
         matches!(self.scene.run, Run::Static { .. } | Run::Eigen { .. })
     }
 
-    /// What of a recorded motion is judged: the time from which its statistics count to its end \[s\].
-    fn judged_s(&self) -> Option<[f64; 2]> {
-        let Run::Transient { end_s } = self.scene.run else {
-            return None;
-        };
-        let from_s = self.scene.output.statistics_from_s;
-        Some([from_s.unwrap_or(0.5 * end_s), end_s])
-    }
-
     /// Whether an equilibrium is sought before anything moves.
     fn seeks_rest(&self) -> bool {
         self.is_at_rest() || self.scene.solver.start == Start::Equilibrium
@@ -276,16 +269,7 @@ impl LoadedSystem {
         start_speeds::refuse_missed_ratios(&bodies, &meshes, document)?;
         // What motions drive is not held at the speeds of the start.
         fastest.free_speeds();
-        let steady = self.judged_s().and_then(|window_s| {
-            let steady_of = |motion: &PlacedMotion| motion.steady_spin(window_s);
-            let mut spins = motions.iter().filter_map(steady_of);
-            let mut steady = fastest.clone();
-            let moved = (&motions[..], &steady_of as &_);
-            (spins.all(|spin| spin.is_finite())).then(|| {
-                start_speeds::settle_speeds(&mut steady, holds, moved, &meshes, &mut Vec::new());
-                steady
-            })
-        });
+        let steady = steady_speeds::find(&self.scene, &fastest, holds, (&motions, &meshes));
         let fastest_of = |motion: &PlacedMotion| motion.fastest_spin(&self.scene.run);
         let moved = (&motions[..], &fastest_of as &_);
         start_speeds::settle_speeds(&mut fastest, holds, moved, &meshes, &mut Vec::new());

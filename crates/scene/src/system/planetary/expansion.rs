@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::definition::greatest_common_divisor;
-use gearmesh_geometry::input::{DerivedTable, InputDocument, TableKeys};
+use gearmesh_geometry::input::{Beside, DerivedTable, InputDocument, TableKeys};
 use nalgebra::{Rotation3, Vector3};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -18,9 +18,8 @@ use super::pins::PlanetRow;
 use super::room::Room;
 use super::{PartnerLayout, PlanetarySet, SetMembers, keys};
 use crate::model_shelf::ModelShelf;
-use crate::system::names;
 use crate::system::tables::MM;
-use crate::system::tables::planetary::{MemberTable, PlanetaryTable, SupportWord};
+use crate::system::tables::planetary::{MemberTable, PlanetaryTable};
 
 /// Keys of `[[body]]` that members and planets have.
 pub(super) const BODY_KEYS: [&str; 10] = [
@@ -170,7 +169,7 @@ impl Expansion<'_> {
         });
     }
 
-    fn called(&self, part: &str) -> String {
+    pub(super) fn called(&self, part: &str) -> String {
         format!("{} {part}", self.table.name)
     }
 
@@ -180,6 +179,7 @@ impl Expansion<'_> {
         files: (&Path, &ModelShelf),
     ) -> Result<Known, InputError> {
         let table = self.table;
+        self.refuse_beside_planets_of()?;
         keys::check(table, &self.keys)?;
         let mut members = SetMembers {
             sun: self.member_name("sun", table.sun.as_ref(), gears)?,
@@ -204,11 +204,11 @@ impl Expansion<'_> {
         };
         let of_planet =
             |file: &Path, key| SetGear::read(&folder.join(file), (&self.keys, key), models);
-        let second = table.planets.second.as_ref();
+        let second = table.planets.1.second.as_ref();
         let teeth = SetGears {
             sun: of_member(&members.sun, "sun")?,
             ring: of_member(&members.ring, "ring")?,
-            planet: of_planet(&table.planets.gear, "planets.gear")?,
+            planet: of_planet(&table.planets.1.gear, "planets.gear")?,
             second: second
                 .map(|second| of_planet(&second.gear, "planets.second.gear"))
                 .transpose()?,
@@ -245,10 +245,7 @@ impl Expansion<'_> {
             raw: self.below("planets"),
             gear: teeth.planet.clone(),
             distance_m,
-            support: table.planets.support,
-            bearings: table.planets.bearings.clone(),
-            bore: table.planets.bore,
-            deviation: table.planets.deviation.clone(),
+            pinned: table.planets.0.clone(),
             bodies: called("planet"),
         };
         let own_partners = partners.as_mut().filter(|own| own.other().is_none());
@@ -313,40 +310,6 @@ impl Expansion<'_> {
         Ok(())
     }
 
-    /// Name of the body that is a member; its gear is put among the known ones.
-    fn member_name(
-        &self,
-        key: &str,
-        member: Option<&MemberTable>,
-        gears: &mut BTreeMap<String, Option<PathBuf>>,
-    ) -> Result<Option<String>, InputError> {
-        let Some(member) = member else {
-            return Ok(None);
-        };
-        let Some(body) = &member.body else {
-            let name = self.called(key);
-            gears.insert(name.clone(), member.gear.clone());
-            return Ok(Some(name));
-        };
-        if !gears.contains_key(body) {
-            let known: Vec<&String> = gears.keys().collect();
-            let problem = names::unknown("body", body, &known);
-            return Err(self.keys.error(&format!("{key}.body"), problem));
-        }
-        let own = self.below(key);
-        let others = own
-            .keys()
-            .find(|other| !["body", "out_of_round"].contains(&other.as_str()));
-        match others {
-            None => Ok(Some(body.clone())),
-            Some(other) => {
-                let problem =
-                    format!("is not used with `body`: `{body}` states it; remove one of the two");
-                Err(self.keys.error(&format!("{key}.{other}"), problem))
-            }
-        }
-    }
-
     /// The angles of the planets, where they fit \[rad\]; `room`: how many have room at equal ones.
     fn angles(
         &self,
@@ -354,7 +317,7 @@ impl Expansion<'_> {
         partners: Option<&Partners>,
         room: usize,
     ) -> Result<Vec<f64>, InputError> {
-        let planets = &self.table.planets;
+        let Beside(_, planets) = &self.table.planets;
         let own_places = gears.teeth(partners).places();
         if let Some(partners) = partners
             && let Some(OtherSet { known, .. }) = partners.other()
@@ -426,114 +389,5 @@ impl Expansion<'_> {
     pub(super) fn cardan_deg(&self, direction: Vector3<f64>) -> Option<Value> {
         let angles = cardan_rad(self.axes * direction).map(f64::to_degrees);
         (angles != [0.0; 2]).then(|| numbers(&angles))
-    }
-
-    fn add_member(
-        &mut self,
-        key: &'static str,
-        member: &MemberTable,
-        z_mm: f64,
-    ) -> Result<(), InputError> {
-        let name = self.called(key);
-        let raw = self.below(key);
-        let at_mm = self.axis_mm(z_mm);
-        let mut body = copied(&raw, &BODY_KEYS);
-        body.insert("name".to_owned(), name.clone().into());
-        body.insert("position_mm".to_owned(), numbers(&at_mm));
-        let cardan = self.cardan_deg(Vector3::z());
-        body.extend(cardan.map(|cardan| ("cardan_deg".to_owned(), cardan)));
-        self.push("body", body);
-        let support = member.support().unwrap_or(SupportWord::Bearings);
-        let used = |key: &str, users: &[SupportWord]| {
-            if raw.contains_key(key) && !users.contains(&support) {
-                let problem = format!("is not used by support = \"{}\"; remove it", support.name());
-                return Err(self.keys.error(
-                    &format!("{}.{key}", &name[self.table.name.len() + 1..]),
-                    problem,
-                ));
-            }
-            Ok(())
-        };
-        use SupportWord::{Bearings, Floating, Free, Held, Turning};
-        used("bearings", &[Bearings, Floating])?;
-        used("speed_rpm", &[Turning, Floating])?;
-        used("torque_Nm", &[Turning, Floating, Bearings, Free])?;
-        if support == Bearings && member.bearings.is_empty() {
-            return Err(self.keys.error(
-                key,
-                "support = \"bearings\" needs bearings; give one or more",
-            ));
-        }
-        let joint = self.called(&format!("{key} axis"));
-        let kind = match support {
-            Held => Some("fixed"),
-            Turning => Some("revolute"),
-            Floating => Some("planar"),
-            Bearings | Free => None,
-        };
-        if let Some(kind) = kind {
-            self.push(
-                "joint",
-                made([
-                    ("name", joint.clone().into()),
-                    ("kind", kind.into()),
-                    ("body_2", name.clone().into()),
-                ]),
-            );
-        }
-        let places = member
-            .bearings
-            .iter()
-            .map(|b| self.axis_mm(b.z_mm))
-            .collect();
-        self.add_bearings(&name, (None, &name), places, &raw);
-        if let Some(speed) = raw.get("speed_rpm") {
-            let motion = self.called(&format!("{key} speed"));
-            self.push(
-                "motion",
-                made([
-                    ("name", motion.into()),
-                    ("joint", joint.into()),
-                    ("speed_rpm", speed.clone()),
-                ]),
-            );
-        }
-        if let Some(torque) = raw.get("torque_Nm") {
-            let load = self.called(&format!("{key} torque"));
-            self.push(
-                "load",
-                made([
-                    ("name", load.into()),
-                    ("body", name.into()),
-                    ("torque_Nm", torque.clone()),
-                ]),
-            );
-        }
-        Ok(())
-    }
-
-    /// The bearings of a body, `owner`, between two at places in the world \[mm\]; `raw`: its table.
-    pub(super) fn add_bearings(
-        &mut self,
-        owner: &str,
-        (on, body): (Option<&str>, &str),
-        places: Vec<[f64; 3]>,
-        raw: &Table,
-    ) {
-        let written = raw.get("bearings").and_then(Value::as_array);
-        let written = written.into_iter().flatten().filter_map(Value::as_table);
-        for (i, (own, at_mm)) in written.zip(places).enumerate() {
-            let mut bearing = copied(own, &["model", "housing"]);
-            bearing.insert(
-                "name".to_owned(),
-                format!("{owner} bearing {}", i + 1).into(),
-            );
-            bearing.insert("body_2".to_owned(), body.into());
-            bearing.insert("at_mm".to_owned(), numbers(&at_mm));
-            if let Some(on) = on {
-                bearing.insert("body_1".to_owned(), on.into());
-            }
-            self.push("bearing", bearing);
-        }
     }
 }

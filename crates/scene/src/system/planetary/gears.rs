@@ -266,10 +266,10 @@ impl SetGears {
 /// hence where
 /// |2t − x| ≤ (j_s + j_r)/2. Two planets have the same x: 2 |t_1 − t_2| ≤ j_s + j_r, and thinner teeth add to it.
 fn check_pins(table: &PlanetaryTable, free_m: f64, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    let deviations = &table.planets.deviation;
+    let deviations = &table.planets.0.deviation;
     // Planets that no table names stand where they should.
-    let count = table.planets.count.map_or(0, |n| n.get());
-    let count = count.max(table.planets.angles_deg.as_ref().map_or(0, Vec::len));
+    let count = table.planets.1.count.map_or(0, |n| n.get());
+    let count = count.max(table.planets.1.angles_deg.as_ref().map_or(0, Vec::len));
     let others = (deviations.len() < count).then_some((0.0, 0.0));
     let all = deviations.iter().map(|d| (d.tangential_um, d.removed_um));
     let all: Vec<(f64, f64)> = all.chain(others).collect();

@@ -1,9 +1,11 @@
 //! Keys of `[[planetary]]` that need or exclude each other, beyond what their types say.
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{Beside, TableKeys};
 
-use crate::system::tables::planetary::{MemberTable, PlanetaryTable, SetMeshTable, SupportWord};
+use crate::system::tables::planetary::{
+    MemberTable, PinnedKeys, PlanetaryTable, SetMeshTable, SupportWord,
+};
 
 const OF_PLANETS: &str = "is that of planets: state it in planets.errors or planets.deviation";
 const OF_RING: &str = "belongs to the ring; remove it";
@@ -13,7 +15,8 @@ const OF_RING: &str = "belongs to the ring; remove it";
 /// # Errors
 /// [`InputError`] at the key that is missing or not used.
 pub(super) fn check(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    let (sun, ring, planets) = (&table.sun, &table.ring, &table.planets);
+    let (sun, ring) = (&table.sun, &table.ring);
+    let Beside(pinned, planets) = &table.planets;
     if sun.is_none() && ring.is_none() {
         return Err(keys.error("", "has neither sun nor ring; give one of them or both"));
     }
@@ -24,8 +27,6 @@ pub(super) fn check(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), 
         return Err(keys.error("ring_torque", "is not used without a ring; remove it"));
     }
     let has_waves = |member: &MemberTable| !member.out_of_round.is_empty();
-    let housing = planets.bearings.iter().position(|b| b.housing.is_some());
-    let housing_key = format!("planets.bearings.{}.housing", housing.unwrap_or(0));
     let faults = [
         (
             "sun.out_of_round",
@@ -48,13 +49,22 @@ pub(super) fn check(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), 
             planets.second.is_some() && ring.is_none(),
             "meshes with a ring, which the set has not; remove it",
         ),
+    ];
+    refuse(&faults, keys)?;
+    check_pinned("planets", pinned, keys)
+}
+
+/// How pins hold planets or partners.
+fn check_pinned(at: &str, pinned: &PinnedKeys, keys: &TableKeys<'_>) -> Result<(), InputError> {
+    let housing = pinned.bearings.iter().position(|b| b.housing.is_some());
+    let faults = [
         (
-            "planets.support",
-            matches!(planets.support, Some(SupportWord::Held | SupportWord::Free)),
+            &*format!("{at}.support"),
+            matches!(pinned.support, Some(SupportWord::Held | SupportWord::Free)),
             "found \"held\" or \"free\", allowed are \"turning\", \"floating\" and \"bearings\"",
         ),
         (
-            &housing_key,
+            &*format!("{at}.bearings.{}.housing", housing.unwrap_or(0)),
             housing.is_some(),
             "is not used by planets; remove it",
         ),
@@ -64,7 +74,7 @@ pub(super) fn check(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), 
 
 /// Partners of planets, and their mesh with them.
 fn check_partner(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    let Some(partner) = &table.planets.partner else {
+    let Some(Beside(pinned, partner)) = &table.planets.1.partner else {
         if table.pair_mesh.is_some() {
             return Err(keys.error(
                 "pair_mesh",
@@ -88,34 +98,10 @@ fn check_partner(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), Inp
             "a set whose planets have partners",
         )?;
     }
-    let stated = "is not used with planets_of: that set states its planets; remove it";
-    let p = partner;
-    let housing = p.bearings.iter().position(|b| b.housing.is_some());
-    let housing_key = format!("planets.partner.bearings.{}.housing", housing.unwrap_or(0));
-    let at = |key: &str| format!("planets.partner.{key}");
-    let of_planets = [
-        ("gear", p.gear.is_some()),
-        ("centre_distance_mm", p.centre_distance_mm.is_some()),
-        ("microgeometry", p.microgeometry.is_some()),
-        ("mass_kg", p.mass_kg.is_some()),
-        ("inertia_kg_m2", p.inertia_kg_m2.is_some()),
-        ("flexibility", p.flexibility.is_some()),
-        ("coupling", p.coupling.is_some()),
-        ("bore", p.bore.is_some()),
-        ("modes_up_to_Hz", p.modes_up_to_hz.is_some()),
-        ("modal_damping_ratio", p.modal_damping_ratio.is_some()),
-        ("support", p.support.is_some()),
-        ("bearings", !p.bearings.is_empty()),
-        ("errors", !p.errors.is_empty()),
-        ("deviation", !p.deviation.is_empty()),
-    ];
-    if let Some((key, _)) = of_planets.iter().find(|(_, given)| *given && of_other) {
-        return Err(keys.error(&at(key), stated));
-    }
     let faults = [
         (
             "planets.second",
-            table.planets.second.is_some(),
+            table.planets.1.second.is_some(),
             "is not used with partner: planets are stepped or meshed; remove one of the two",
         ),
         (
@@ -123,18 +109,9 @@ fn check_partner(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), Inp
             of_other && table.ring.is_some(),
             "is not used with planets_of: the ring is that of the other set; remove it",
         ),
-        (
-            "planets.partner.support",
-            matches!(partner.support, Some(SupportWord::Held | SupportWord::Free)),
-            "found \"held\" or \"free\", allowed are \"turning\", \"floating\" and \"bearings\"",
-        ),
-        (
-            &housing_key,
-            housing.is_some(),
-            "is not used by planets; remove it",
-        ),
     ];
-    refuse(&faults, keys)
+    refuse(&faults, keys)?;
+    check_pinned("planets.partner", pinned, keys)
 }
 
 fn refuse(faults: &[(&str, bool, &str)], keys: &TableKeys<'_>) -> Result<(), InputError> {

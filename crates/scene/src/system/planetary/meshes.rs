@@ -77,7 +77,7 @@ impl Expansion<'_> {
         };
         let table = self.table;
         let own = partners.filter(|partners| partners.other().is_none());
-        let to_ring = match (own, &table.planets.second) {
+        let to_ring = match (own, &table.planets.1.second) {
             (Some(own), _) => ("partner", End::Planets(&own.row)),
             (None, Some(_)) => ("planet", End::Seconds(planets)),
             (None, None) => ("planet", End::Planets(planets)),

@@ -7,12 +7,13 @@
 //! | whether planets touch each other | `room.rs` |
 //! | meshed planets: their partners | `partners.rs` |
 //! | keys that contradict each other | `keys.rs` |
-//! | bodies, joints, bearings and meshes as a scene would state them | `expansion.rs`, `pins.rs`, `meshes.rs` |
+//! | bodies, joints, bearings and meshes as a scene would state them | `expansion.rs`, `members.rs`, `pins.rs`, `meshes.rs` |
 
 mod expansion;
 mod gears;
 mod keys;
 pub mod layout;
+mod members;
 mod meshes;
 mod partners;
 mod pins;

@@ -10,6 +10,7 @@
 use std::path::Path;
 
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::Beside;
 use nalgebra::Vector3;
 use toml::Table;
 
@@ -20,7 +21,10 @@ use super::pins::PlanetRow;
 use crate::model_shelf::ModelShelf;
 use crate::system::names;
 use crate::system::tables::MM;
-use crate::system::tables::planetary::{PartnerSide, PartnerTable};
+use crate::system::tables::planetary::{PartnerKeys, PartnerSide};
+
+/// What a partner that is a planet of another set states.
+const BESIDE_PLANETS_OF: [&str; 3] = ["planets_of", "pair_distance_mm", "side"];
 
 /// Sets whose axes or places differ by less have one axis: rounding \[m\].
 const ON_AXIS_M: f64 = 1e-9;
@@ -61,6 +65,19 @@ impl Partners {
 }
 
 impl Expansion<'_> {
+    /// Keys of partners that another set states.
+    pub(super) fn refuse_beside_planets_of(&self) -> Result<(), InputError> {
+        let own = self.below("planets.partner");
+        let mut keys = own.keys().map(String::as_str);
+        match keys.find(|key| !BESIDE_PLANETS_OF.contains(key)) {
+            Some(key) if own.contains_key("planets_of") => {
+                let problem = "is not used with planets_of: that set states its planets; remove it";
+                Err(self.keys.error(&format!("planets.partner.{key}"), problem))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The partners, where the set has any; their bodies have no names yet where they are its own.
     pub(super) fn partners(
         &self,
@@ -68,7 +85,7 @@ impl Expansion<'_> {
         members: &SetMembers,
         (folder, models): (&Path, &ModelShelf),
     ) -> Result<Option<Partners>, InputError> {
-        let Some(table) = &self.table.planets.partner else {
+        let Some(Beside(pinned, table)) = &self.table.planets.1.partner else {
             return Ok(None);
         };
         let (row, from) = match &table.planets_of {
@@ -92,10 +109,7 @@ impl Expansion<'_> {
                             table.centre_distance_mm,
                             needed_by,
                         )?),
-                    support: table.support,
-                    bearings: table.bearings.clone(),
-                    bore: table.bore,
-                    deviation: table.deviation.clone(),
+                    pinned: pinned.clone(),
                     bodies: Vec::new(),
                 };
                 (row, Origin::Own)
@@ -111,7 +125,7 @@ impl Expansion<'_> {
     }
 
     /// δ.
-    fn ahead_rad(&self, table: &PartnerTable, partner_m: f64) -> Result<f64, InputError> {
+    fn ahead_rad(&self, table: &PartnerKeys, partner_m: f64) -> Result<f64, InputError> {
         let own_m = MM * f64::from(self.table.centre_distance_mm);
         let apart_m = MM * f64::from(table.pair_distance_mm);
         let cos =

@@ -9,7 +9,9 @@ use super::expansion::{BODY_KEYS, Expansion, copied, made, numbers};
 use super::gears::SetGear;
 use crate::system::tables::MM;
 use crate::system::tables::body::BoreHold;
-use crate::system::tables::planetary::{PlanetDeviationTable, SetBearingTable, SupportWord};
+use crate::system::tables::planetary::{
+    PinnedKeys, PlanetDeviationTable, SetBearingTable, SupportWord,
+};
 
 /// Where a pin is, in the set's axes.
 struct Pin {
@@ -37,25 +39,24 @@ pub(super) struct PlanetRow {
     pub gear: SetGear,
     /// Distance of the pins from the axis of the set \[m\].
     pub distance_m: f64,
-    pub support: Option<SupportWord>,
-    pub bearings: Vec<SetBearingTable>,
-    pub bore: Option<BoreHold>,
-    pub deviation: Vec<PlanetDeviationTable>,
+    /// How the pins hold them.
+    pub pinned: PinnedKeys,
     /// Names of their bodies.
     pub bodies: Vec<String>,
 }
 
 impl PlanetRow {
     pub fn deviation(&self, planet: usize) -> Option<&PlanetDeviationTable> {
-        let mut all = self.deviation.iter();
+        let mut all = self.pinned.deviation.iter();
         all.find(|deviation| deviation.planet.get() == planet + 1)
     }
 
     /// That deviations are of planets that there are, and of each once.
     pub fn check_deviations(&self, count: usize, keys: &TableKeys<'_>) -> Result<(), InputError> {
-        for (i, deviation) in self.deviation.iter().enumerate() {
+        let deviations = &self.pinned.deviation;
+        for (i, deviation) in deviations.iter().enumerate() {
             let number = deviation.planet.get();
-            let twice = self.deviation[..i]
+            let twice = deviations[..i]
                 .iter()
                 .any(|other| other.planet.get() == number);
             if number > count || twice {
@@ -73,7 +74,7 @@ impl PlanetRow {
     fn joint(&self, keys: &TableKeys<'_>) -> Result<Option<&'static str>, InputError> {
         let refusal =
             |key: &str, problem: &str| Err(keys.error(&format!("{}.{key}", self.key), problem));
-        match (self.support, self.bearings.is_empty()) {
+        match (self.pinned.support, self.pinned.bearings.is_empty()) {
             (Some(SupportWord::Floating), _) => Ok(Some("planar")),
             (Some(SupportWord::Bearings) | None, false) => Ok(None),
             (Some(SupportWord::Bearings), true) => refusal(
@@ -118,7 +119,7 @@ impl Expansion<'_> {
         let pin = self.pin(row, (planet, angle_rad));
         let mut bodies = vec![(name.clone(), copied(&row.raw, &BODY_KEYS), 0.0)];
         let second = row.raw.get("second").and_then(Value::as_table);
-        if let (Some(second), Some(own)) = (&self.table.planets.second, second) {
+        if let (Some(second), Some(own)) = (&self.table.planets.1.second, second) {
             bodies.push((
                 format!("{name} second"),
                 copied(own, &BODY_KEYS),
@@ -151,9 +152,9 @@ impl Expansion<'_> {
             self.push("joint", joint(format!("{name} pin"), kind, carrier, name));
         }
         let place = |b: &SetBearingTable| self.in_world_mm(pin.above_mm(b.z_mm));
-        let places = row.bearings.iter().map(place);
+        let places = row.pinned.bearings.iter().map(place);
         // Rollers that press on the planet's bore run in it as in their outer ring.
-        let ends = match row.bore {
+        let ends = match row.pinned.bore {
             Some(BoreHold::Rollers) => (Some(&name[..]), carrier),
             Some(BoreHold::Bonded | BoreHold::Sliding) | None => (Some(carrier), &name[..]),
         };

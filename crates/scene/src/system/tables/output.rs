@@ -41,6 +41,13 @@ pub struct Output {
     pub elements: Option<Vec<String>>,
 }
 
+impl Output {
+    /// Begin of the statistics of a run of this length \[s\]: as stated, else its middle.
+    pub fn statistics_begin_s(&self, end_s: f64) -> f64 {
+        self.statistics_from_s.unwrap_or(0.5 * end_s)
+    }
+}
+
 impl OutputTable {
     /// Checks the table for a run.
     ///

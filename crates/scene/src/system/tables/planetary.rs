@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use gearmesh_geometry::gear_file::MicrogeometryTable;
-use gearmesh_geometry::input::{Bounded, Count, Positive};
+use gearmesh_geometry::input::{Beside, Bounded, Count, Positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -191,17 +191,11 @@ pub struct CarrierEccentricityTable {
     pub direction_deg: f64,
 }
 
-/// `planets`. Keys of the body are those of `[[body]]`.
+/// Keys of planets and of their partners: of the body, as of `[[body]]`, and how the pin holds it.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct PlanetsTable {
-    /// Gear file (.toml) or reduced gear (.h5), relative to the scene.
-    pub gear: PathBuf,
-    /// Number of planets at equal angles, the first one on x; or `angles_deg`.
-    pub count: Option<Count<1, 24>>,
-    /// Angles of the planets, counter-clockwise from x.
-    pub angles_deg: Option<Vec<f64>>,
-    /// Microgeometry of the planets in all meshes.
+pub struct PinnedKeys {
+    /// Microgeometry in all meshes.
     pub microgeometry: Option<MicrogeometryTable>,
     /// Mass; from the gear where not given.
     pub mass_kg: Option<f64>,
@@ -221,19 +215,34 @@ pub struct PlanetsTable {
     /// "turning" on the pin, "floating" on it (turns and moves across the axis), or "bearings"; "turning" where not
     /// given, "bearings" where bearings are.
     pub support: Option<SupportWord>,
-    /// With "bearings" and "floating": bearings between carrier and planet.
+    /// With "bearings" and "floating": bearings between carrier and gear.
     #[serde(default)]
     pub bearings: Vec<SetBearingTable>,
+    /// Errors and faults of all.
+    #[serde(default)]
+    pub errors: Vec<FlankErrorTable>,
+    /// Those that differ from the others.
+    #[serde(default)]
+    pub deviation: Vec<PlanetDeviationTable>,
+}
+
+/// `planets`.
+pub type PlanetsTable = Beside<PinnedKeys, PlanetKeys>;
+
+/// Keys of planets alone.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlanetKeys {
+    /// Gear file (.toml) or reduced gear (.h5), relative to the scene.
+    pub gear: PathBuf,
+    /// Number of planets at equal angles, the first one on x; or `angles_deg`.
+    pub count: Option<Count<1, 24>>,
+    /// Angles of the planets, counter-clockwise from x.
+    pub angles_deg: Option<Vec<f64>>,
     /// A second gear on each planet, fixed to the first, which meshes with the ring: stepped planets.
     pub second: Option<SecondGearTable>,
     /// A second planet beside each, which meshes with it and, in its place, with the ring: meshed planets.
     pub partner: Option<PartnerTable>,
-    /// Errors and faults of all planets.
-    #[serde(default)]
-    pub errors: Vec<FlankErrorTable>,
-    /// Planets that differ from the others.
-    #[serde(default)]
-    pub deviation: Vec<PlanetDeviationTable>,
 }
 
 /// `planets.second`: the gear of stepped planets that meshes with the ring.
@@ -256,11 +265,14 @@ pub struct SecondGearTable {
     pub bore: Option<BoreHold>,
 }
 
-/// `planets.partner`: the second planets of meshed planets (sun, planet, partner, ring). Keys of the body are those of
-/// `[[body]]`; deviations of pins are counted as those of the planets.
+/// `planets.partner`: the second planets of meshed planets (sun, planet, partner, ring); deviations of pins are counted
+/// as those of the planets.
+pub type PartnerTable = Beside<PinnedKeys, PartnerKeys>;
+
+/// Keys of partners alone.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct PartnerTable {
+pub struct PartnerKeys {
     /// Gear file (.toml) or reduced gear (.h5), relative to the scene; or `planets_of`.
     pub gear: Option<PathBuf>,
     /// Another planetary set, which stands before this one and has a ring: its planets are the partners, and its ring
@@ -274,34 +286,6 @@ pub struct PartnerTable {
     /// where not given.
     #[serde(default)]
     pub side: PartnerSide,
-    /// Microgeometry of the partners in all meshes.
-    pub microgeometry: Option<MicrogeometryTable>,
-    /// Mass; from the gear where not given.
-    pub mass_kg: Option<f64>,
-    /// Inertia about the centre of mass; from the gear where not given.
-    pub inertia_kg_m2: Option<Vec<f64>>,
-    /// How the gear deflects.
-    pub flexibility: Option<Flexibility>,
-    /// Whose forces its meshes feel in it.
-    pub coupling: Option<Coupling>,
-    /// How its bore is held.
-    pub bore: Option<BoreHold>,
-    /// With "modal": modes up to this frequency.
-    #[serde(rename = "modes_up_to_Hz")]
-    pub modes_up_to_hz: Option<f64>,
-    /// With "modal": damping ratio of all modes.
-    pub modal_damping_ratio: Option<f64>,
-    /// As of `planets`.
-    pub support: Option<SupportWord>,
-    /// With "bearings" and "floating": bearings between carrier and partner.
-    #[serde(default)]
-    pub bearings: Vec<SetBearingTable>,
-    /// Errors and faults of all partners.
-    #[serde(default)]
-    pub errors: Vec<FlankErrorTable>,
-    /// Partners that differ from the others.
-    #[serde(default)]
-    pub deviation: Vec<PlanetDeviationTable>,
 }
 
 /// `side` of a partner.
