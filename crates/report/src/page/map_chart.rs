@@ -13,9 +13,11 @@ use std::fmt::Write as _;
 /// Cells of the picture along and up at most: a screen shows no more, and a cell costs some bytes of the page.
 const CELLS: [usize; 2] = [160, 120];
 
-/// The picture and the space round it for the axes, in its own units.
-const SIZE: [f64; 2] = [640.0, 360.0];
-const MARGIN: f64 = 100.0;
+/// The picture and the space left and right of it, in its own units: few enough that letters of 14 of them are readable
+/// on a telephone.
+const SIZE: [f64; 2] = [400.0, 250.0];
+const MARGIN: f64 = 76.0;
+const MARGIN_RIGHT: f64 = 24.0;
 
 /// Decades below the largest value that are told apart, and colours of a decade.
 const DECADES: usize = 4;
@@ -123,7 +125,7 @@ impl MapChart {
             page,
             "<figure class=\"polar map\">\n<figcaption>{title}</figcaption>\n\
              <svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{name}\">\n",
-            wide + 2.0 * MARGIN,
+            wide + MARGIN + MARGIN_RIGHT,
             high + 64.0
         );
         let _ = writeln!(
@@ -230,7 +232,7 @@ impl MapChart {
         let _ = writeln!(
             page,
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\
-             <text x=\"20\" y=\"{:.1}\" text-anchor=\"middle\" transform=\"rotate(-90 20 {3:.1})\">{}</text>",
+             <text x=\"16\" y=\"{:.1}\" text-anchor=\"middle\" transform=\"rotate(-90 16 {3:.1})\">{}</text>",
             MARGIN + 0.5 * wide,
             bottom + 48.0,
             named(&self.axes[0]),
@@ -271,7 +273,7 @@ impl MapChart {
                 continue;
             };
             let is_free =
-                |other: &[f64; 2]| (other[1] - y).abs() > 26.0 || (other[0] - x).abs() > 160.0;
+                |other: &[f64; 2]| (other[1] - y).abs() > 20.0 || (other[0] - x).abs() > 120.0;
             if taken.iter().all(is_free) {
                 taken.push([x, y]);
                 let _ = writeln!(
@@ -359,7 +361,7 @@ mod tests {
         assert_eq!(html.matches("<path").count(), 1, "{html}");
         let brightest = colour(DECADES * SHADES - 1);
         // From the third of four rows over the whole width.
-        let row = format!("<path d=\"M76.0 188.0h640.0v-90.0h-640.0z\" fill=\"{brightest}\"");
+        let row = format!("<path d=\"M76.0 133.0h400.0v-62.5h-400.0z\" fill=\"{brightest}\"");
         assert!(html.contains(&row), "{html}");
     }
 
@@ -374,7 +376,7 @@ mod tests {
         chart.render(&mut html).unwrap();
         // Both ends of the part that is above are left out, and the name stands once.
         assert_eq!(html.matches("<polyline").count(), 2, "{html}");
-        assert!(html.contains("points=\"76.0,296.0 236.0,188.0\""), "{html}");
+        assert!(html.contains("points=\"76.0,208.0 176.0,133.0\""), "{html}");
         assert_eq!(html.matches(">1×<").count(), 1);
     }
 

@@ -68,7 +68,9 @@ impl Expansion<'_> {
     /// Keys of partners that another set states.
     pub(super) fn refuse_beside_planets_of(&self) -> Result<(), InputError> {
         let own = self.below("planets.partner");
-        let mut keys = own.keys().map(String::as_str);
+        // The gear first: all else is of it.
+        let keys = own.get_key_value("gear").into_iter().chain(&own);
+        let mut keys = keys.map(|(key, _)| key.as_str());
         match keys.find(|key| !BESIDE_PLANETS_OF.contains(key)) {
             Some(key) if own.contains_key("planets_of") => {
                 let problem = "is not used with planets_of: that set states its planets; remove it";
