@@ -5,7 +5,9 @@ use crate::hybrid_scene;
 use std::path::{Path, PathBuf};
 
 /// Axes of plain numbers.
-const WITHOUT_UNIT: [&str; 6] = [
+const WITHOUT_UNIT: [&str; 7] = [
+    // Of spectra of the number of loaded pairs.
+    "amplitude",
     "loaded pairs",
     "apart",
     "number",
