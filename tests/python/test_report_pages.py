@@ -36,7 +36,7 @@ term = [{ column = "pressure_inner_largest_MPa" }]
 name = "moves um, sideways"
 term = [{ column = "displacement_x_um" }]
 """
-KINDS = ["pair", "drive", "static", "bearing", "tca", "study", "optimise", "accuracy"]
+KINDS = ["pair", "ring", "bevel", "drive", "static", "bearing", "tca", "study", "optimise", "accuracy"]
 
 # Letters of drawings that stick out of them, or stand less than a pixel from other letters.
 COLLISIONS = """[...document.querySelectorAll('figure svg')].flatMap((svg) => {
@@ -68,9 +68,12 @@ def pages(tmp_path_factory):
     models = [gear.reduce(folder / f"{gear.name}.h5", error_estimate=False, progress=False) for gear in (pinion, wheel)]
     pair = gm.Pair(*models, centre_distance_mm=94.6, torques_Nm=[50, 100, 200])
     pair.write(folder / "pair.toml")
+    inside = [gm.Gear.from_file(f"fe_models/{name}.toml").but(gauge=None, mesh=coarse) for name in ("planet_24", "ring_75")]
+    models = [gear.reduce(folder / f"{gear.teeth}.h5", error_estimate=False, progress=False) for gear in inside]
+    gm.Pair(*models, centre_distance_mm=51.0, torques_Nm=[100, 300]).write(folder / "ring.toml")
     # The models have no gauges.
     (folder / "drive.toml").write_text(Path("fe_models/first_pair/drive.toml").read_text().split("[[gauge]]")[0])
-    for name, scene in [("pair", folder / "pair.toml"), ("drive", folder / "drive.toml"), ("static", "fe_models/gearbox_three_stage.toml")]:
+    for name, scene in [("pair", folder / "pair.toml"), ("ring", folder / "ring.toml"), ("bevel", "fe_models/bevel_13_35_loaded.toml"), ("drive", folder / "drive.toml"), ("static", "fe_models/gearbox_three_stage.toml")]:
         gm.program("run", str(scene), "-o", str(folder / f"{name}.h5"))
         gm.program("report", str(folder / f"{name}.h5"), "-o", str(at[name]))
     gm.program("bearing", BEARING, "--load-N", "0,-1000,100", "--report", str(at["bearing"]))
@@ -95,8 +98,9 @@ def test_a_page_fits(browser, pages, kind, width, medium):
     assert it.page.evaluate(COLLISIONS) == []
 
 
-def test_gears_in_space_and_charts_share_a_cursor(browser, pages):
-    it = studio_page.Page(browser, pages["pair"].as_uri())
+@pytest.mark.parametrize("kind", ["pair", "ring", "bevel"])
+def test_gears_in_space_and_charts_share_a_cursor(browser, pages, kind):
+    it = studio_page.Page(browser, pages[kind].as_uri())
     it.until("document.querySelector('.scene + .position output')?.textContent.endsWith('°')")
     it.page.wait_for_timeout(500)
     assert it.colours(".scene canvas >> nth=0") > 20, "the gears are blank"
@@ -113,5 +117,5 @@ def test_gears_in_space_and_charts_share_a_cursor(browser, pages):
     assert sum(one == it.page.evaluate(others)[0] for one in it.page.evaluate(others)) >= 3
     it.page.wait_for_timeout(300)
     assert it.page.locator(".scene canvas").first.screenshot() != before
-    it.keep("report_pair")
+    it.keep(f"report_{kind}")
     assert it.complaints == []

@@ -445,7 +445,17 @@ def test_a_bevel_pair_answers_while_its_fields_change(browser, tmp_path):
         shown = lambda: [float(one.get_attribute("value")) for one in it.page.locator("#outcome [data-column=te_peak_to_peak_um]").all()]
         expected = [1e6 * row["te_peak_to_peak_m"] for row in studio_page.printed(PROGRAM, scene, tmp_path)["rows"]]
         assert shown() == pytest.approx(expected, rel=1e-12)
-        assert it.colours("#outcome canvas >> nth=0") > 5
+        # Gears and curves stand at one position.
+        gears, curve = it.page.locator("#outcome .scene > canvas"), it.page.locator("#outcome .uplot").first
+        it.page.wait_for_timeout(500)
+        assert it.colours("#outcome .scene > canvas") > 20 and it.colours("#outcome .uplot canvas >> nth=0") > 5
+        before = gears.screenshot()
+        box = curve.locator(".u-over").bounding_box()
+        curve.locator(".u-over").hover(position=dict(x=0.5 * box["width"], y=60))
+        angle = float(it.page.locator("#outcome .position output").text_content().rstrip("°"))
+        assert 0.0 < angle == pytest.approx(float(curve.locator(".u-legend .u-value").first.text_content()), rel=1e-3)
+        it.page.wait_for_timeout(300)
+        assert gears.screenshot() != before
         # A field: the figures of `gearmesh run` for the file as it is now.
         it.page.evaluate("for (const group of document.querySelectorAll('details')) group.open = true")
         field = it.field("bevel.spiral_angle_deg").locator("input[type=number]")

@@ -101,7 +101,23 @@ pub fn nearest_angle(result: &SceneResult, wanted_deg: f64) -> usize {
         .unwrap_or_default()
 }
 
+/// Fields are those of a gear whose bore is held.
+///
+/// # Errors
+/// [`Failure`] for gear 1 or 2 where its bore slides.
+pub fn demand_held_bore(loaded: &LoadedScene, gear: usize) -> Result<(), Failure> {
+    if !loaded.scene.slides[gear - 1] {
+        return Ok(());
+    }
+    Err(Failure::input(format!(
+        "gear_{gear}.bore = \"sliding\": fields are those of a gear whose bore is held; read its strain gauges, or run the pair with bore = \"bonded\""
+    )))
+}
+
 /// Displacement and stress of a gear at one position of a result.
+///
+/// # Errors
+/// [`Failure`] for a gear whose bore slides, and where the field cannot be made.
 pub fn field_of(
     loaded: &LoadedScene,
     result: &SceneResult,
@@ -109,6 +125,7 @@ pub fn field_of(
     body: &GearBody,
     case: FieldCase,
 ) -> Result<Field, Failure> {
+    demand_held_bore(loaded, case.gear)?;
     let model = &loaded.models[case.gear - 1];
     let slices = loaded.patches_at(result.angle_rad[case.angle]);
     let forces = result.position_forces(case.torque, case.angle);

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use gearmesh_report::moving::{GearSurface, Moment};
+use gearmesh_report::moving::{GearShape, GearSurface, Moment};
 use gearmesh_scene::system::{MovingGear, MovingShape};
 use gearmesh_scene::system_run::SystemResult;
 use serde_json::{Value, json};
@@ -87,14 +87,17 @@ pub(crate) fn surfaces(gears: &[MovingGear]) -> Result<Vec<GearSurface>, Failure
     gears.iter().map(of_gear).collect()
 }
 
-/// Names and surfaces of gears.
+/// Names and shapes of gears: cylindrical ones with the parts of their blanks, others by their surfaces.
 pub(crate) fn drawn(gears: &[MovingGear], surfaces: &[GearSurface]) -> Value {
-    let of_gear = |(gear, shape): (&MovingGear, &GearSurface)| {
-        let points = shape.points_m.iter().flatten().map(|x| rounded_mm(*x));
+    let of_gear = |(gear, surface): (&MovingGear, &GearSurface)| {
+        if let MovingShape::Cylindrical(definition) = &gear.shape {
+            return json!({"name": gear.body, "shape": GearShape::of(definition)});
+        }
+        let points = surface.points_m.iter().flatten().map(|x| rounded_mm(*x));
         json!({
             "name": gear.body,
             "points_mm": points.collect::<Vec<_>>(),
-            "quads": shape.quads.iter().flatten().collect::<Vec<_>>(),
+            "quads": surface.quads.iter().flatten().collect::<Vec<_>>(),
         })
     };
     gears.iter().zip(surfaces).map(of_gear).collect()

@@ -116,7 +116,9 @@ pub fn of_pair(
     let mut made = (head(&result.title), Vec::new());
     for (number, definition) in gears.into_iter().enumerate() {
         let name = &definition.name;
-        if let Some(why) = no_pictures(definition) {
+        let slides = loaded.scene.slides[number];
+        let sliding = slides.then_some("its bore slides: they are of gears whose bore is held");
+        if let Some(why) = no_pictures(definition).or(sliding) {
             watch.note(format!("{name}: no pictures of its stress, {why}"));
             continue;
         }

@@ -10,13 +10,14 @@
 //! error = S (|fine − sections| + |sections − both|)/(s^p − 1)
 //! ```
 //!
-//! Gauges: p = 2, as strain at element centres has it and is found (1.8 to 2.5 in plane strain), S = 2. Deflections:
-//! smooth bodies converge with p = 2, at the sharp inner edges between web, rim and hub p falls to 2λ = 1.09 (see
-//! `gearmesh_mesh::layers`); p = 1 is taken, S = 3. S is the factor of safety of Roache's grid convergence index: 3
-//! where two meshes tell nothing of the order, 1.25 where three have confirmed it. What is found against converged
-//! quadratic elements is up to 1.5 times the bare estimate of a gauge, 2.7 times that of a deflection: graded meshes
-//! are not similar to the last element. In plane strain, and of tetrahedra, which have no layers along the axis, one
-//! coarser mesh tells all.
+//! Gauges: p = 2, as strain at element centres has it and is found (1.8 to 2.5 in plane strain). Deflections: solid
+//! bodies converge with p = 2; at the sharp inner edges between web, rim and hub p falls to 2λ = 1.09 (see
+//! `gearmesh_mesh::layers`), and p = 1 is taken. S is the factor of safety of Roache's grid convergence index: 3 where
+//! two meshes tell nothing of the order, 1.25 where three have confirmed it. Graded meshes are not similar to the last
+//! element: what is found against converged quadratic elements is up to 1.5 times the bare estimate of a gauge, 1.1
+//! times that of the loaded tooth's deflection, 2.7 times that of other teeth. So S = 2 for gauges and the loaded
+//! tooth, 3 for other teeth. Of two loaded teeth the errors of both are added, as if they had one sign. In plane
+//! strain, and of tetrahedra, which have no layers along the axis, one coarser mesh tells all.
 //!
 //! P. J. Roache, *Perspective: a method for uniform reporting of grid refinement studies*, J. Fluids Eng. 116 (1994)
 //! 405-413.
@@ -33,17 +34,20 @@ use crate::tooth_vectors::summed;
 use crate::toothed_mesh::ToothParts;
 use crate::{Progress, ReductionError, Within};
 use gearmesh_bevel::BevelGear;
-use gearmesh_geometry::{Element, Flank, GearDefinition, MeshSettings};
+use gearmesh_geometry::{Blank, Element, Flank, GearDefinition, MeshSettings};
 use gearmesh_mesh::BodyGrid;
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{FlankGrid, GaugeRows, ReductionChecks};
 
 /// Ratio of the element lengths.
 const COARSENING: f64 = 1.5;
-/// Order and factor of safety of a deflection.
-const DEFLECTION: (i32, f64) = (1, 3.0);
-/// Order and factor of safety of a gauge's reading.
-const GAUGE: (i32, f64) = (2, 2.0);
+/// Order of a solid body's deflections, and of a gauge's reading.
+const SMOOTH: i32 = 2;
+/// Order of the deflections of a body with sharp inner edges.
+const WITH_EDGES: i32 = 1;
+/// Factors of safety: of the loaded tooth's deflection and of gauges, and of the deflections of other teeth.
+const SAFETY: f64 = 2.0;
+const SAFETY_OF_OTHERS: f64 = 3.0;
 
 /// Estimated relative errors.
 pub struct ErrorEstimate {
@@ -52,7 +56,7 @@ pub struct ErrorEstimate {
     /// Of C_hub at the same place of other teeth, the next two on either side and the opposite one: the root of the sum
     /// of the squares, over that of their deflections. A tooth that hardly moves counts little: no contact feels it.
     pub other_teeth: f64,
-    /// Of the deflection of tooth 0 while it and the next one carry the same load.
+    /// Of the deflection of tooth 0 while it and the next one carry the same load: the errors of both loads' parts added.
     pub both_teeth: f64,
     /// Of each gauge's reading for loads on its own tooth.
     pub gauges: Vec<f64>,
@@ -157,7 +161,11 @@ struct Asked<'a> {
 ///
 /// They are made before the reduction's own mesh is factorised: factors of two meshes never stand in memory side by
 /// side.
-pub struct CoarserMeshes(Vec<Figures>);
+pub struct CoarserMeshes {
+    figures: Vec<Figures>,
+    /// Order with which deflections of the body converge.
+    order: i32,
+}
 
 /// Solves the coarser meshes of a cylindrical gear.
 ///
@@ -176,9 +184,13 @@ pub fn coarser_meshes(
         side: gear.reduction.flanks[0],
         gauge_teeth: gear.gauges.iter().map(|gauge| gauge.tooth).collect(),
     };
+    let order = match gear.blank {
+        Blank::Solid { openings: None, .. } => SMOOTH,
+        _ => WITH_EDGES,
+    };
     // Both coarser meshes have the same cross-section.
     let mut section = None;
-    each_mesh(steps, progress, |axial, progress| {
+    each_mesh((steps, order), progress, |axial, progress| {
         let mut coarse = gear.clone();
         // The estimate is that of the sound gear.
         coarse.crack = None;
@@ -220,7 +232,7 @@ pub fn coarser_bevel_meshes(
         side: gear.reduction.flanks[0],
         gauge_teeth: gear.gauges.iter().map(|gauge| gauge.tooth).collect(),
     };
-    each_mesh(&[false, true], progress, |axial, progress| {
+    each_mesh((&[false, true], WITH_EDGES), progress, |axial, progress| {
         let mut coarse = gear.clone();
         coarse.mesh = coarsened(&gear.mesh, axial);
         let body = bevel_body_of(&coarse, body_grid, progress)?;
@@ -241,7 +253,7 @@ pub fn coarser_bevel_meshes(
 
 /// One mesh after the other; `steps`: whether they are coarser along the teeth, too.
 fn each_mesh(
-    steps: &[bool],
+    (steps, order): (&[bool], i32),
     progress: &dyn Progress,
     mut coarse: impl FnMut(bool, &dyn Progress) -> Result<Figures, ReductionError>,
 ) -> Result<CoarserMeshes, ReductionError> {
@@ -252,17 +264,20 @@ fn each_mesh(
         };
         coarse(axial, &progress)
     });
-    Ok(CoarserMeshes(figures.collect::<Result<_, _>>()?))
+    Ok(CoarserMeshes {
+        figures: figures.collect::<Result<_, _>>()?,
+        order,
+    })
 }
 
 impl CoarserMeshes {
     /// Estimates the errors of a reduction from what the coarser meshes differ by.
     pub fn errors_of(self, reduced: &Reduced<'_>) -> ErrorEstimate {
-        let mut meshes = self.0;
+        let mut meshes = self.figures;
         meshes.insert(0, reduced_figures(reduced));
+        let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let error = |(order, safety): (i32, f64), values: &dyn Fn(&Figures) -> Vec<f64>| -> f64 {
             let all: Vec<Vec<f64>> = meshes.iter().map(values).collect();
-            let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
             let steps = all.windows(2).map(|pair| {
                 let difference: Vec<f64> =
                     pair[0].iter().zip(&pair[1]).map(|(a, b)| a - b).collect();
@@ -270,14 +285,18 @@ impl CoarserMeshes {
             });
             safety * steps.sum::<f64>() / (COARSENING.powi(order) - 1.0) / norm(&all[0])
         };
+        let of_others = (self.order, SAFETY_OF_OTHERS);
+        let loaded_tooth = error((self.order, SAFETY), &|figures| {
+            vec![figures.deflections[0]]
+        });
+        let next_tooth = error(of_others, &|figures| vec![figures.deflections[1]]);
+        let [own, next] = [0, 1].map(|tooth: usize| meshes[0].deflections[tooth]);
         ErrorEstimate {
-            loaded_tooth: error(DEFLECTION, &|figures| vec![figures.deflections[0]]),
-            other_teeth: error(DEFLECTION, &|figures| figures.deflections[1..].to_vec()),
-            both_teeth: error(DEFLECTION, &|figures| {
-                vec![figures.deflections[0] + figures.deflections[1]]
-            }),
+            loaded_tooth,
+            other_teeth: error(of_others, &|figures| figures.deflections[1..].to_vec()),
+            both_teeth: (loaded_tooth * own + next_tooth * next.abs()) / (own + next),
             gauges: (0..reduced.gauges.len())
-                .map(|k| error(GAUGE, &|figures| figures.gauges[k].clone()))
+                .map(|k| error((SMOOTH, SAFETY), &|figures| figures.gauges[k].clone()))
                 .collect(),
         }
     }

@@ -1,8 +1,15 @@
-// What all drawings share, those of reports and those of the studio: colours, numbers, axes, legends. A module for the
+// What all drawings share, those of reports and those of the studio: packed numbers, colours, numbers, axes, legends. A module for the
 // studio; a report has it in one scope with its own script.
 
 export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 export const curveColour = (k) => colour(`--c${k % 8}`);
+
+/** Numbers of a kind of array from base64. */
+export function unpack(text, Kind) {
+  const raw = atob(text), bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
+  return new Kind(bytes.buffer); // little-endian, as all browsers' machines are
+}
 
 const FAMILY = "system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
 export const font = (size, weight = "") => `${weight} ${size}px ${FAMILY}`.trim();
@@ -111,7 +118,7 @@ export function legendForKeyboard(plot) {
   });
 }
 
-/** The axes of a picture on a canvas: numbers at round steps, as many as have room, and names. `x`, `y`: {low, high, name}; y rises. */
+/** The axes of a picture on a canvas: numbers at round steps, as many as have room, and names. `x`, `y`: {low, high, name}; y rises from low to high, where it may fall. */
 export function frame(context, box, x, y) {
   const [wide, high] = [box.right - box.left, box.bottom - box.top];
   context.save();
@@ -133,7 +140,7 @@ export function frame(context, box, x, y) {
   context.fillText(x.name, box.left + 0.5 * wide, box.bottom + 29);
   context.textAlign = "right";
   context.textBaseline = "middle";
-  for (const value of ticks(y.low, y.high, Math.max(2, high / 30))) {
+  for (const value of ticks(Math.min(y.low, y.high), Math.max(y.low, y.high), Math.max(2, high / 30))) {
     const at = box.bottom - ((value - y.low) / (y.high - y.low || 1)) * high;
     context.fillRect(box.left - 4, at - 0.5, 4, 1);
     context.fillText(number(value, 6), box.left - 7, at);

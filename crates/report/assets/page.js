@@ -1,13 +1,7 @@
-// What all figures share: packed numbers, theme, and when to draw again.
+// What all figures share: theme, and when to draw again.
 const figures = []; // functions that draw their figure for the present theme and width
 // Figures over one axis: { axis, follow(x) }. Who moves along the axis tells those who follow.
 const followers = [], tell = (axis, x) => followers.forEach(one => one.axis === axis && one.follow(x));
-
-function unpack(text, Kind) {
-  const raw = atob(text), bytes = new Uint8Array(raw.length);
-  for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
-  return new Kind(bytes.buffer); // little-endian, as all browsers' machines are
-}
 
 const isDark = () => document.documentElement.dataset.theme === "dark";
 

@@ -16,14 +16,10 @@ async function loaded(name) {
   return import((await addresses)(name));
 }
 
-const unpackScaled = ({ step, values }) => Float32Array.from(unpack(values, Uint16Array), v => step * v);
-const unpackSigned = ({ step, values }) => Float32Array.from(unpack(values, Int16Array), v => step * v);
 const PACE = 90; // milliseconds from one position to the next
 
 async function spaceView(figure, place, d) {
-  const answer = { ...d, angle_deg: Array.from(unpack(d.angle_deg, Float32Array)), turns_rad: unpack(d.turns_rad, Float32Array), pressure_MPa: unpackScaled(d.pressure_MPa),
-    width_mm: unpackScaled(d.width_mm), point_mm: unpackSigned(d.point_mm), z_mm: unpackSigned(d.z_mm) };
-  const last = answer.angle_deg.length - 1, driver = withUnit("driver angle", "deg");
+  const driver = withUnit("driver angle", "deg");
   const canvas = element("canvas", { tabIndex: 0 }), scale = element("div", { className: "scale" });
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", `${figure.querySelector("figcaption").textContent}. Arrow keys turn the view, plus and minus zoom.`);
@@ -31,8 +27,9 @@ async function spaceView(figure, place, d) {
   place.append(box);
   let scene = null, at = 0, torque = d.torques_Nm.length - 1, playing = null;
   try {
-    const { Scene3d, endOfScale, showScale } = await loaded("scene3d.js");
-    scene = new Scene3d(canvas, d.gears);
+    const { Scene3d, endOfScale, showScale, unpacked } = await loaded("scene3d.js");
+    const answer = unpacked(d), last = answer.angle_deg.length - 1;
+    scene = new Scene3d(canvas, answer.gears);
     const most = endOfScale(answer), show = () => { scene.show(answer, torque, most); to(at); };
     const slider = element("input", { type: "range", min: 0, max: last, value: 0, ariaLabel: "driver angle", oninput: () => to(Number(slider.value)) });
     const angle = element("output");

@@ -6,6 +6,19 @@ import * as THREE from "./three.module.min.js";
 let lastScroll = -1e9;
 addEventListener("scroll", () => (lastScroll = performance.now()), { passive: true });
 
+/** A surface of quadrilaterals: corners by the numbers of points. */
+export function surface({ points_mm, quads }) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(points_mm, 3));
+  const corners = [];
+  for (let k = 0; k < quads.length; k += 4) corners.push(quads[k], quads[k + 1], quads[k + 2], quads[k], quads[k + 2], quads[k + 3]);
+  geometry.setIndex(corners);
+  return geometry;
+}
+
+/** The matrix of {rotation by rows, origin_mm}. */
+export const matrixOf = ({ rotation: r, origin_mm: o }) => new THREE.Matrix4().set(r[0], r[1], r[2], o[0], r[3], r[4], r[5], o[1], r[6], r[7], r[8], o[2], 0, 0, 0, 1);
+
 export class View3d {
   #wanted = false;
 

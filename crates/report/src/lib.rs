@@ -31,7 +31,7 @@ pub mod moving;
 pub mod optimise_page;
 pub mod overlay;
 pub mod page;
-mod pair_in_space;
+pub mod pair_in_space;
 pub mod pair_orders;
 mod peak_view;
 mod printable;
@@ -48,6 +48,7 @@ mod study_figures;
 pub mod study_page;
 pub mod system_comparison;
 mod system_page;
+mod torque_tables;
 mod waterfall;
 
 pub use column_width::column_width;

@@ -16,6 +16,7 @@ use crate::result_series::series;
 use crate::scene_comparison::{SceneComparisonError, compare_scene};
 use crate::short_number::short;
 use crate::system_page;
+use crate::torque_tables;
 use gearmesh_model::FileError;
 use gearmesh_scene::SceneResult;
 use gearmesh_scene::pair::figure_table::{FIGURES, FigureKind};
@@ -174,17 +175,10 @@ fn overview(r: &SceneResult) -> Section {
         );
     }
     let mut section = Section::new(r.title.clone()).push(figures);
-    let shown = r.figure_table(false);
-    let mut table = Table::new(format!(
-        "By torque: transmission error, mean mesh stiffness (secant and tangent), face load factor, largest Hertz pressure{mark}"
-    ));
-    for head in shown.heads {
-        table = table.column(head, Align::Right);
+    for table in torque_tables::tables(r, mark) {
+        section = section.push(table);
     }
-    for row in shown.rows {
-        table.push_row(row);
-    }
-    section = section.push(table).push(Text::paragraph(format!(
+    section = section.push(Text::paragraph(format!(
         "{}. Errors: {}. Curves are drawn over the even positions.",
         page::capital(&r.means_over()),
         r.errors_in_words()

@@ -9,6 +9,7 @@ use crate::structure::Structure;
 use crate::text::{number, numbers};
 use crate::train::Train;
 use crate::units::{MM, Unit};
+use std::collections::HashSet;
 
 /// Keys of `[microgeometry]` and their values, of left and right flanks.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -61,21 +62,25 @@ pub fn of_train(
     structure: &Structure,
     train: &mut Train,
 ) -> Result<(), RexsError> {
+    let in_sets = train.sets.iter().flat_map(|set| &set.against_u);
+    let in_sets: HashSet<usize> = in_sets.copied().collect();
     for i in 0..train.gears.len() {
         let gear = &train.gears[i].gear;
         let Some(component) = source.model.component(gear.id) else {
             continue;
         };
-        let is_reversed = train
-            .shaft(train.gears[i].shaft)
-            .is_some_and(|s| s.is_reversed);
+        let is_reversed = match train.shaft(train.gears[i].shaft) {
+            Some(shaft) => shaft.is_reversed,
+            None => in_sets.contains(&i),
+        };
         let found = read(source, structure, component, gear, is_reversed)?;
         train.gears[i].gear.microgeometry = found;
     }
     Ok(())
 }
 
-/// Reads the modifications of both flanks. `is_reversed`: z of the gear file, which is that of the scene's shaft, is −u.
+/// Reads the modifications of both flanks. `is_reversed`: z of the gear file, which is that of the scene's shaft or
+/// planetary set, is −u.
 ///
 /// # Errors
 /// Those of [`Source`].
@@ -129,11 +134,12 @@ pub fn read(
         source.assume(
             component,
             About::Flanks,
-            "left and right flanks as seen from the end of the shaft at higher u",
+            "left and right flanks as seen from the end of the shaft at higher u, tips upwards",
         );
     }
-    // Seen from the other end they change places.
-    let [left, right] = if is_reversed {
+    // Seen from the other end they change places. So do those of a ring: gear files call the flank that faces clockwise
+    // the right one, which is on the left where tips point inwards and upwards.
+    let [left, right] = if is_reversed != gear.internal {
         [right, left]
     } else {
         [left, right]
@@ -181,12 +187,20 @@ impl Reader<'_> {
         length: &str,
     ) -> Result<Option<f64>, RexsError> {
         if let Some(d) = self.value(m, diameter, MM)? {
-            return Ok(Some(d));
+            return Ok(Some(self.unsigned(d)));
         }
         let base = 0.5 * self.gear.base_diameter_mm();
         Ok(self
             .value(m, length, MM)?
             .map(|roll| 2.0 * base.hypot(roll)))
+    }
+
+    /// A diameter without the sign that ISO 21771 gives to those of rings.
+    fn unsigned(&self, diameter_mm: f64) -> f64 {
+        match self.gear.internal {
+            true => diameter_mm.abs(),
+            false => diameter_mm,
+        }
     }
 
     fn shape(&self, m: &Component) -> &'static str {
@@ -220,6 +234,7 @@ impl Reader<'_> {
                 let tip = self.amount_um(m, "profile_crowning_at_tip")?;
                 let root = self.amount_um(m, "profile_crowning_at_root")?;
                 let highest = self.value(m, "profile_highest_point", MM)?;
+                let highest = highest.map(|d| self.unsigned(d));
                 let Some(tip) = tip.or(root) else {
                     return Ok(Vec::new());
                 };
@@ -324,9 +339,13 @@ impl Reader<'_> {
             );
             return Ok(Vec::new());
         };
-        let (tip, base) = (self.gear.tip_mm(), self.gear.base_diameter_mm());
-        if !(base..tip).contains(&start) {
-            self.source.leave_out(m, About::Flanks, format!("{amount} um from a diameter of {start:.4} mm on: not on the flank, {base:.4} to {tip:.4} mm"));
+        let tip = self.gear.tip_mm();
+        let [low, high] = match self.gear.internal {
+            true => [tip, self.gear.root_diameter_mm()],
+            false => [self.gear.base_diameter_mm(), tip],
+        };
+        if !(low..high).contains(&start) {
+            self.source.leave_out(m, About::Flanks, format!("{amount} um from a diameter of {start:.4} mm on: not on the flank, {low:.4} to {high:.4} mm"));
             return Ok(Vec::new());
         }
         Ok(vec![
@@ -412,14 +431,16 @@ impl Reader<'_> {
         };
         let increasing =
             |values: &[f64]| values.len() > 1 && values.windows(2).all(|w| w[0] < w[1]);
-        if !increasing(&diameters)
+        let is_signed = diameters.iter().any(|d| *d <= 0.0);
+        if is_signed
+            || !increasing(&diameters)
             || !increasing(&places)
             || amounts.len() != diameters.len() * places.len()
         {
             self.source.leave_out(
                 m,
                 About::Flanks, format!(
-                    "topography of {} diameters, {} places and {} amounts: no full grid of increasing points",
+                    "topography of {} diameters, {} places and {} amounts: no full grid of increasing points, diameters without sign",
                     diameters.len(),
                     places.len(),
                     amounts.len()

@@ -25,6 +25,8 @@ pub struct PlanetarySet {
     pub sun: usize,
     /// The first planet, for all.
     pub planet: usize,
+    /// The other planets.
+    pub others: Vec<usize>,
     /// The ring; on no shaft where it stands.
     pub ring: usize,
     /// Distance of the planets from the axis \[mm\].
@@ -37,6 +39,8 @@ pub struct PlanetarySet {
     pub bearings: Vec<(f64, Bearing)>,
     /// Its link in the flow of power, whose first side is the sun where that turns.
     pub link: usize,
+    /// Those of its gears on no shaft of the scene whose own shafts point against its axis.
+    pub against_u: Vec<usize>,
 }
 
 /// Reads the set of a stage; `standing` is the member that does not turn, 0 for the sun, 1 the ring, 2 the carrier.
@@ -70,18 +74,20 @@ pub fn read(
         ));
     }
     let hand = p.helix_deg;
-    let own = train.shaft(train.gears[sun].shaft).and_then(|s| s.frame);
-    let own = own.ok_or("the sun's shaft has no place")?;
+    let shaft = train.shaft(train.gears[sun].shaft);
+    let own = shaft.and_then(|s| Some((s.frame?, s.sign())));
+    let (own, sign) = own.ok_or("the sun's shaft has no place")?;
+    let axis = own.axes[0].map(|x| sign * x);
     let mid_mm = train.gears[sun].mid_mm;
     let middle = own.point([mid_mm, 0.0, 0.0]);
-    let frames = parts.planets.iter().map(|&planet| {
-        let shaft = structure.partners(planet, &["shaft"]).first().copied()?;
+    let frame_of = |gear: i64| {
+        let shaft = structure.partners(gear, &["shaft"]).first().copied()?;
         frame(source, source.model.component(shaft)?).ok()?
-    });
-    let frames: Vec<Option<Frame>> = frames.collect();
+    };
+    let frames: Vec<Option<Frame>> = parts.planets.iter().map(|&p| frame_of(p)).collect();
     let distance_mm = distance_mm(source, train, parts, (&own, &frames[0]), [sun, planet]);
     let teeth = s.teeth + r.teeth;
-    let angles_deg = match angles_deg(&own, &frames, teeth) {
+    let angles_deg = match angles_deg((own.origin_mm, axis), &frames, teeth) {
         Some((angles_deg, moved_deg)) => {
             if moved_deg > ROUNDING_DEG {
                 let about = format!(
@@ -98,8 +104,22 @@ pub fn read(
             equal_deg(parts.planets.len())
         }
     };
-    let reversed = frames[0].is_some_and(|f| dot(f.axes[0], own.axes[0]) < 0.0);
-    let bearings = of_planet(structure, train, (parts.planets[0], planet), reversed);
+    let is_against = |frame: &Option<Frame>| frame.is_some_and(|f| dot(f.axes[0], axis) < 0.0);
+    let bearings = of_planet(
+        structure,
+        train,
+        (parts.planets[0], planet),
+        is_against(&frames[0]),
+    );
+    let planets = parts.planets.iter().zip(frames);
+    let planets = planets.filter_map(|(&id, frame)| Some((train.gears.place(id)?, frame)));
+    let planets: Vec<(usize, Option<Frame>)> = planets.collect();
+    let others = planets.iter().skip(1).map(|(gear, _)| *gear).collect();
+    let on_no_shaft = { planets.into_iter() }.chain([(ring_gear, frame_of(ring.part))]);
+    let against_u = { on_no_shaft }
+        .filter(|(_, frame)| is_against(frame))
+        .map(|(gear, _)| gear)
+        .collect();
     let ring_shaft = ring.shaft;
     if standing == 2
         && let Some(on) = ring_shaft
@@ -138,13 +158,32 @@ pub fn read(
         name,
         sun,
         planet,
+        others,
         ring: ring_gear,
         distance_mm,
         angles_deg,
         carriers,
         bearings,
         link,
+        against_u,
     })
+}
+
+/// Tells which planets have other flanks than the first one, whose the scene gives to all.
+pub fn tell_unlike_planets(source: &Source<'_>, train: &Train) {
+    for set in &train.sets {
+        let first = &train.gears[set.planet].gear;
+        let others = set.others.iter().map(|&i| &train.gears[i].gear);
+        for gear in others.filter(|gear| gear.microgeometry != first.microgeometry) {
+            if let Some(component) = source.model.component(gear.id) {
+                let what = format!(
+                    "its flank modifications are others than those of {}, which all planets of the scene have: they stand in {} alone",
+                    first.name, gear.file
+                );
+                source.leave_out(component, About::Flanks, what);
+            }
+        }
+    }
 }
 
 /// What the stage of sun and planet states, else the planet's place, else the reference circles.
@@ -179,10 +218,14 @@ fn equal_deg(planets: usize) -> Vec<f64> {
 /// Planets are moved by less than this where a file rounds their places \[°\]: a micrometre at a radius of 6 mm.
 const ROUNDING_DEG: f64 = 0.01;
 
-/// Angles of the planets about the sun's axis, counted as `[[planetary]]` does, at the nearest places where they fit,
-/// and by how much the farthest was moved; none where the file does not set them apart.
-fn angles_deg(sun: &Frame, frames: &[Option<Frame>], places: u32) -> Option<(Vec<f64>, f64)> {
-    let [x, y, z] = sun.axes[0];
+/// Angles of the planets about the axis of the set (a point of it, its direction), counted as `[[planetary]]` does, at
+/// the nearest places where they fit, and by how much the farthest was moved; none where the file does not set them
+/// apart.
+fn angles_deg(
+    (origin_mm, [x, y, z]): ([f64; 3], [f64; 3]),
+    frames: &[Option<Frame>],
+    places: u32,
+) -> Option<(Vec<f64>, f64)> {
     let (sin_a, cos_a) = if y.hypot(z) < 1e-12 {
         (0.0, 1.0)
     } else {
@@ -192,7 +235,7 @@ fn angles_deg(sun: &Frame, frames: &[Option<Frame>], places: u32) -> Option<(Vec
     let across = [[cos_b, sin_a * sin_b, -cos_a * sin_b], [0.0, cos_a, sin_a]];
     let mut found: Vec<f64> = Vec::new();
     for frame in frames {
-        let between = add((*frame)?.origin_mm, sun.origin_mm, -1.0);
+        let between = add((*frame)?.origin_mm, origin_mm, -1.0);
         let [c, s] = across.map(|direction| dot(between, direction));
         found.push(s.atan2(c));
     }

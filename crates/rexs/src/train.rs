@@ -14,7 +14,7 @@ use crate::microgeometry;
 use crate::model::Component;
 use crate::placement::frame;
 use crate::planetary;
-use crate::planetary_set::PlanetarySet;
+use crate::planetary_set::{self, PlanetarySet};
 use crate::power_flow::{Flow, Link};
 use crate::shaft::Shaft;
 use crate::shaft_sections;
@@ -22,7 +22,7 @@ use crate::source::Source;
 use crate::structure::{Stage, Structure};
 use crate::supports::{hold, leave_out_bare};
 use crate::text::{Names, file_stem};
-use crate::train_finish::{finish_gears, finish_shafts};
+use crate::train_finish::{finish_gears, finish_shafts, point_shafts_one_way};
 use crate::train_places::{place_shafts, settle_middles};
 use crate::train_power::power;
 use crate::units::MM;
@@ -203,11 +203,13 @@ pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Tr
     bearings_and_couplings(source, structure, &mut train, &mut names, &mut files)?;
     on_shafts(source, structure, &mut train, &mut names)?;
     leave_out_bare(source, &mut train);
+    point_shafts_one_way(&mut train);
     planetary::join(source, structure, &mut train);
     hold(source, &mut train);
     finish_shafts(source, &mut train);
     finish_gears(source, &mut train);
     microgeometry::of_train(source, structure, &mut train)?;
+    planetary_set::tell_unlike_planets(source, &train);
     train.flow = power(source, &train);
     Ok(train)
 }

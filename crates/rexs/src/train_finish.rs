@@ -51,7 +51,16 @@ impl Lines {
     }
 }
 
-/// Stations where something stands; one direction for all shafts of parallel axes.
+/// One direction for all shafts of parallel axes: against the first one along the same line, z runs against u.
+pub fn point_shafts_one_way(train: &mut Train) {
+    let mut lines = Lines::default();
+    for shaft in train.shafts.iter_mut() {
+        let direction = shaft.frame.map_or([1.0, 0.0, 0.0], |f| f.axes[0]);
+        shaft.is_reversed = dot(lines.first_along(direction), direction) < 0.0;
+    }
+}
+
+/// Stations where something stands.
 pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
     let mut marks: Vec<(i64, f64)> = Vec::new();
     marks.extend(train.gears.iter().map(|g| (g.shaft, g.mid_mm)));
@@ -68,16 +77,7 @@ pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
     let marks_of: HashMap<i64, Vec<f64>> = grouped(marks);
     let bores_of = grouped(bearings.filter_map(|b| Some((b.sides[0], b.bore_mm?))));
     let gears_of = train.gears_of();
-    let directions: Vec<[f64; 3]> = train
-        .shafts
-        .iter()
-        .map(|s| s.frame.map_or([1.0, 0.0, 0.0], |f| f.axes[0]))
-        .collect();
-    let mut lines = Lines::default();
-    for (i, shaft) in train.shafts.iter_mut().enumerate() {
-        // Against the first shaft along the same line, z runs against u.
-        let leading = lines.first_along(directions[i]);
-        shaft.is_reversed = dot(leading, directions[i]) < 0.0;
+    for shaft in train.shafts.iter_mut() {
         let id = shaft.id;
         for &u in marks_of.get(&id).into_iter().flatten() {
             shaft.mark(u);

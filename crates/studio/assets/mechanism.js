@@ -1,20 +1,9 @@
-// A machine in three dimensions: gears by their surfaces, shafts and bearings by their outlines, forces as arrows.
+// A machine in three dimensions: gears by their shapes or surfaces, shafts and bearings by their outlines, forces as arrows.
 
 import * as THREE from "./three.module.min.js";
-import { View3d } from "./view3d.js";
+import { View3d, matrixOf, surface } from "./view3d.js";
+import { geometries } from "./scene3d.js";
 import { colour } from "./drawing.js";
-
-function surface({ points_mm, quads }) {
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.Float32BufferAttribute(points_mm, 3));
-  const corners = [];
-  for (let k = 0; k < quads.length; k += 4) corners.push(quads[k], quads[k + 1], quads[k + 2], quads[k], quads[k + 2], quads[k + 3]);
-  geometry.setIndex(corners);
-  return geometry;
-}
-
-/** The matrix of {rotation by rows, origin_mm}. */
-const matrixOf = ({ rotation: r, origin_mm: o }) => new THREE.Matrix4().set(r[0], r[1], r[2], o[0], r[3], r[4], r[5], o[1], r[6], r[7], r[8], o[2], 0, 0, 0, 1);
 
 /** A tube about z, its middle at the origin. */
 function tube([inner, outer], length) {
@@ -32,11 +21,13 @@ export class Mechanism extends View3d {
   /** Another machine. */
   show({ bodies, parts, elements, frames }) {
     for (const mesh of this.drawn ?? []) {
-      mesh.geometry?.dispose();
+      for (const part of [mesh, ...mesh.children]) if (part.isMesh) part.geometry.dispose();
       this.scene.remove(mesh);
     }
     [this.frames, this.parts, this.elements] = [frames, parts, elements];
-    this.meshes = bodies.map((body) => new THREE.Mesh(surface(body), new THREE.MeshStandardMaterial({ flatShading: true, roughness: 0.75, metalness: 0.1, side: THREE.DoubleSide })));
+    this.paints = bodies.map(() => material(1, true));
+    const shapes = (body) => (body.shape ? geometries(body.shape) : [surface(body)]);
+    this.meshes = bodies.map((body, k) => new THREE.Group().add(...shapes(body).map((shape) => new THREE.Mesh(shape, this.paints[k]))));
     const most = Math.max(0, ...frames.map(({ forces }) => forces.length));
     this.arrows = Array.from({ length: most }, () => new THREE.ArrowHelper(new THREE.Vector3(0, 0, 1), new THREE.Vector3(), 1, 0xc2410c));
     for (const arrow of this.arrows) {
@@ -122,7 +113,7 @@ export class Mechanism extends View3d {
   }
 
   restyle() {
-    this.meshes?.forEach((mesh, k) => mesh.material.color.set(colour(`--gear-${(k % 2) + 1}`)));
+    this.paints?.forEach((paint, k) => paint.color.set(colour(`--gear-${(k % 2) + 1}`)));
     this.solids?.forEach((mesh, k) => mesh.material.color.set(colour(LOOK[this.parts[k].kind][0])));
     // A colour of each ball stands on white.
     this.rows?.forEach((row, k) => row.material.color.set(this.mostLoaded > 0 && this.frames[0].element_loads_N[k] ? "#ffffff" : colour("--c2")));

@@ -226,4 +226,5 @@ export async function showNew() {
   if (first) {
     take(first);
   } else say("Choose what to begin. Every field has a value that runs at once; the text beside the fields is the file itself.");
+  return () => found && bevel?.show(found, pins);
 }

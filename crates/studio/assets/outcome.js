@@ -1,5 +1,6 @@
 // What bearings, bevel pairs and gearboxes come to: tables and curves of their figures.
 
+import { BevelSpace } from "./bevel_space.js";
 import { Chart } from "./curves.js";
 import { DASHES, colour, short } from "./drawing.js";
 import { element } from "./dom.js";
@@ -29,19 +30,23 @@ export function showColumnsTable(place, { torques_Nm, columns }, pins = null) {
   place.replaceChildren(made);
 }
 
-/** A bevel pair: its transmission error and pressure under each torque, its columns; once it was run, also what `gearmesh tca` finds. */
+/** A bevel pair: the gears in space, its transmission error and pressure under each torque, its columns; once it was run, also what `gearmesh tca` finds. */
 export class Bevel {
   constructor(place) {
     [this.place, this.curves, this.figures] = [place, element("div"), element("div")];
-    const chart = (title, y) => new Chart(this.curves, { title, x: "pinion angle °", y });
-    this.error = chart("Transmission error", "µm, under torques on the gear");
-    this.pressure = chart("Largest pressure", "MPa");
+    // Gears and curves under load stand at one position.
+    this.space = new BevelSpace((angle) => this.loaded.forEach((one) => one.markAt(angle)));
+    const moved = (position) => this.space.at(position);
+    const chart = (title, y, more) => new Chart(this.curves, { title, x: "pinion angle °", y, ...more });
+    this.error = chart("Transmission error", "µm, under torques on the gear", { moved });
+    this.pressure = chart("Largest pressure", "MPa", { moved });
+    this.loaded = [this.error, this.pressure];
     this.free = chart("Transmission error without load", "µrad of the gear");
   }
 
   /** `pins`: states whose curves under the last torque stay, dashed. */
   show({ tca, columns, load, lines }, pins) {
-    if (this.curves.parentElement !== this.place) this.place.replaceChildren(this.curves, this.figures);
+    if (this.curves.parentElement !== this.place) this.place.replaceChildren(this.space.box, this.curves, this.figures);
     const path = tca?.path ?? [];
     this.free.show(path.map((one) => one.pinion_deg), path.length > 0 ? [{ label: "this pair of teeth", values: path.map((one) => one.error_urad), dash: [] }] : []);
     const angles = load?.angle_deg ?? [];
@@ -54,6 +59,7 @@ export class Bevel {
     ];
     this.error.show(angles, load ? [...series("te_um"), { label: "no load", values: load.unloaded_um, dash: [1, 3] }] : []);
     this.pressure.show(angles, load ? series("pressure_largest_MPa") : []);
+    this.space.show(load?.in_space, angles.length);
     showColumnsTable(this.figures, columns, pins);
     if (lines) this.figures.append(element("details", {}, element("summary", {}, "As gearmesh tca prints it"), element("pre", {}, lines.join("\n"))));
   }

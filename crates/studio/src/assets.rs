@@ -35,7 +35,7 @@ macro_rules! own {
     };
 }
 
-const OWN: [Asset; 25] = own!(
+const OWN: [Asset; 26] = own!(
     "index.html" PAGE,
     "studio.css" STYLE,
     "icon.svg" PICTURE,
@@ -43,6 +43,7 @@ const OWN: [Asset; 25] = own!(
     "pair.js" SCRIPT,
     "new.js" SCRIPT,
     "outcome.js" SCRIPT,
+    "bevel_space.js" SCRIPT,
     "seek.js" SCRIPT,
     "dom.js" SCRIPT,
     "said.js" SCRIPT,

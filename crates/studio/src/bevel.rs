@@ -12,6 +12,7 @@ use gearmesh_operations::report::{ReportRequest, report};
 use gearmesh_operations::run::{RunHow, run_bevel};
 use gearmesh_operations::tca::{TcaRequest, tca};
 use gearmesh_operations::{Failure, Watch};
+use gearmesh_report::pair_in_space::bevel_pair;
 use gearmesh_scene::pair::{BevelScene, SceneResult};
 use gearmesh_scene::study::RestFigures;
 use gearmesh_scene::{ModelShelf, named_files, renamed_files};
@@ -49,7 +50,7 @@ impl BevelModels {
     }
 }
 
-/// A pair as its text is, under its torques: what should be known of it, curves and figures; nothing is written.
+/// A pair as its text is, under its torques: what should be known of it, curves, figures and the gears in space; nothing is written.
 ///
 /// # Errors
 /// [`Problem`] for what is wrong with it, and once `stop` is set.
@@ -64,7 +65,7 @@ pub fn live(file: &Path, models: &BevelModels, stop: &AtomicBool) -> Result<Valu
     let (figures, result) = found.map_err(Failure::from)?;
     Ok(json!({
         "warnings": warnings,
-        "load": result.as_ref().map(load_curves),
+        "load": result.as_ref().map(|result| load_curves(&scene, result)),
         "columns": new_files::figures_as_json(&figures),
     }))
 }
@@ -85,7 +86,7 @@ pub fn written(file: &Path, watch: &Watch<'_>) -> Result<Value, Problem> {
     Ok(json!({
         "tca": found.figures,
         "lines": found.lines,
-        "load": loaded.as_ref().map(load_curves),
+        "load": loaded.as_ref().map(|result| load_curves(&scene, result)),
         "columns": new_files::figures_as_json(&columns),
     }))
 }
@@ -114,8 +115,8 @@ fn under_load(
     Ok(Some(result))
 }
 
-/// Curves of a pitch as the page draws them.
-fn load_curves(result: &SceneResult) -> Value {
+/// Curves of a pitch as the page draws them, and the gears in space.
+fn load_curves(scene: &BevelScene, result: &SceneResult) -> Value {
     let largest_mpa = result.even_positions().map(|position| {
         let pressures = position.pressing().map(|at| 1e-6 * at.pressure_pa);
         pressures.fold(0.0, f64::max)
@@ -132,6 +133,7 @@ fn load_curves(result: &SceneResult) -> Value {
         "te_um": of_pitch(&result.te_m, 1e6),
         "unloaded_um": of_pitch(&result.unloaded_m, 1e6),
         "pressure_largest_MPa": largest_mpa.collect::<Vec<_>>(),
+        "in_space": bevel_pair(scene, result),
     })
 }
 

@@ -38,10 +38,6 @@ impl Clock {
     }
 }
 
-/// Root fillets of the demo's gears: half the default length of 0.08 modules. Root strain errs with its square, by 2 % on
-/// the default.
-const FINE_FILLETS: &str = "\n[mesh]\nfillet_mm = 0.104\n";
-
 /// Runs the command from the project's folder.
 pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
     let (models, records) = (Path::new("fe_models"), Path::new("reference"));
@@ -114,8 +110,7 @@ fn reduce_gear(
     name: &str,
     clock: &mut Clock,
 ) -> Result<(GearDefinition, GearBody), Failure> {
-    let mut document = InputDocument::read(&models.join(format!("{name}.toml")))?;
-    document.text += FINE_FILLETS;
+    let document = InputDocument::read(&models.join(format!("{name}.toml")))?;
     let gear = GearDefinition::from_document(&document)?;
     let (model, body) = reduced(&gear, true, &console::watch())?;
     write_reduced_gear(&out.join(format!("{name}.h5")), &model).map_err(Failure::work)?;

@@ -95,7 +95,21 @@ fn table(made: &Import, with: Meshes, alarms: &[String], trial: &Trial, a: &Impo
 fn next(made: &Import, trial: &Trial, a: &ImportRequest) {
     let folder = &a.output;
     if a.reduced {
-        for gear in made.gears.iter().filter(|gear| trial.works(gear)) {
+        // Of the planets of a set the scene has the first one's model.
+        let scenes = made
+            .files
+            .iter()
+            .filter(|file| made.scenes.contains(&file.name));
+        let scenes: Vec<&str> = scenes.map(|file| file.text.as_str()).collect();
+        let is_used = |gear: &str| {
+            let model = format!("\"{}\"", model_file(gear));
+            scenes.iter().any(|text| text.contains(&model))
+        };
+        for gear in made
+            .gears
+            .iter()
+            .filter(|gear| trial.works(gear) && is_used(gear))
+        {
             console::note(format!(
                 "next: gearmesh reduce {} -o {}",
                 folder.join(gear).display(),

@@ -81,6 +81,9 @@ fn a_pair_file_with_loads_is_analysed_under_them() {
     for title in ["Mesh stiffness", "Largest Hertz pressure at 200 N·m"] {
         assert!(html.contains(title), "{title}");
     }
+    // Both gears stand in space, and the page stays small.
+    assert!(html.contains("data-kind=\"space\"") && html.contains("\"pitch_point_mm\""));
+    assert!(html.len() < 600_000, "{}", html.len());
     // The contact without load names what goes on from it.
     let free = succeeds(&["tca", argument(&file)]);
     assert!(!free.stdout.contains("TE pk-pk urad"), "{}", free.stdout);

@@ -1,7 +1,8 @@
 //! A REXS file of two planetary stages (helical, spur) and a cylindrical one behind each other, from import to report:
 //! bearings carry what statics by hand say.
 
-use crate::common::{Desk, argument, succeeds};
+use crate::common::{Desk, argument, gearmesh, succeeds};
+use crate::shipped_gearboxes::coarse;
 use gearmesh_scene::system_run::SystemResult;
 use std::f64::consts::TAU;
 
@@ -130,6 +131,48 @@ impl Text {
         self.add(id, kind, name, &values);
     }
 
+    /// Both flanks of a gear, with one modification.
+    fn modify(&mut self, gear: usize, kind: &str, values: &[(&str, f64)]) {
+        let [left, right, modification] = [5000, 6000, 7000].map(|more| gear + more);
+        self.join("flank", &[(gear, "gear"), (left, "left"), (right, "right")]);
+        let values = values
+            .iter()
+            .map(|(key, mm)| (*key, "mm", format!("{mm:?}")));
+        let values: Vec<(&str, &str, String)> = values.collect();
+        self.add(modification, kind, "", &values);
+        for flank in [left, right] {
+            self.add(flank, "cylindrical_gear_flank", "", &[]);
+            self.join(
+                "reference",
+                &[(flank, "origin"), (modification, "referenced")],
+            );
+        }
+    }
+
+    /// Tip relief of sun and ring of a planetary stage, crowned planets.
+    fn modify_set(&mut self, base: usize, stage: &Stage) {
+        let [z_s, _, z_r] = stage.teeth;
+        let module = stage.module_mm;
+        let reference = |z: i32| f64::from(z) * module / stage.helix_deg.to_radians().cos();
+        for (gear, start_mm) in [
+            (base + 1, reference(z_s) + module),
+            (base + 2, -(reference(z_r) - 0.8 * module)),
+        ] {
+            let values = [
+                ("tip_relief_depth", 0.01),
+                ("tip_relief_datum_diameter", start_mm),
+            ];
+            self.modify(gear, "tip_relief", &values);
+        }
+        for planet in 0..3 {
+            let values = [
+                ("helix_crowning_amount_datum_face", 0.004),
+                ("helix_crowning_amount_non_datum_face", 0.004),
+            ];
+            self.modify(base + 30 + planet, "helix_crowning", &values);
+        }
+    }
+
     fn bearing(&mut self, id: usize, name: &str, sides: [usize; 2], (u_mm, holds): (f64, bool)) {
         // Stiff in the casing: displaced carriers would push suns aside, which statics by hand leave out.
         let stiffness = if sides[1] == 2 { "1e10" } else { "5e8" };
@@ -244,7 +287,8 @@ impl Text {
     }
 }
 
-fn gearbox() -> String {
+/// The file; with the gears of planetary stages modified, or not.
+fn gearbox(is_modified: bool) -> String {
     let mut text = Text::default();
     text.add(1, "gear_unit", "unit", &[]);
     text.add(2, "gear_casing", "casing", &[]);
@@ -266,6 +310,10 @@ fn gearbox() -> String {
         [11, 12],
         SECOND.middle_mm - 0.5 * FACE_MM - 170.0,
     );
+    if is_modified {
+        text.modify_set(200, &FIRST);
+        text.modify_set(300, &SECOND);
+    }
     text.gear(
         20,
         ("cylindrical_gear", "pinion"),
@@ -336,7 +384,7 @@ fn gearbox() -> String {
 #[test]
 fn a_gearbox_with_planetary_stages_is_imported_and_runs() {
     let desk = Desk::new();
-    let file = desk.file("planets.rexs", gearbox());
+    let file = desk.file("planets.rexs", gearbox(false));
     let out = desk.path("imported");
     let told = succeeds(&["import", argument(&file), "-o", argument(&out), "--json"]).json();
     assert_eq!(told["warnings"].as_array().unwrap().len(), 0, "{told}");
@@ -405,4 +453,70 @@ fn a_gearbox_with_planetary_stages_is_imported_and_runs() {
     succeeds(&["report", argument(&output), "-o", argument(&page)]);
     let page = std::fs::read_to_string(&page).unwrap();
     assert!(page.contains("set 200") && page.contains("set 300"));
+}
+
+/// With `--reduced` sets have reduced gears: those that the command names, of planets the first of each set. Reduced on
+/// coarse meshes, with the file's modifications, they run; the pins carry what statics by hand say, in the mean over the
+/// planets, which mesh one after another.
+#[test]
+fn a_gearbox_with_planetary_stages_of_reduced_gears_runs() {
+    let desk = Desk::new();
+    let file = desk.file("planets.rexs", gearbox(true));
+    let out = desk.path("imported");
+    let answer = gearmesh(&["import", argument(&file), "-o", argument(&out), "--reduced"]);
+    assert_eq!(answer.code, Some(0), "{answer:?}");
+    let wanted = { answer.stderr.lines() }.filter_map(|line| {
+        let gear = line.strip_prefix("next: gearmesh reduce ")?;
+        Some(gear.split_once(" -o ")?.0.to_owned())
+    });
+    let wanted: Vec<String> = wanted.collect();
+    let names: Vec<String> = { wanted.iter() }
+        .map(|gear| {
+            let name = gear.rsplit('/').next().unwrap();
+            name.trim_start_matches("planets_")
+                .trim_end_matches(".toml")
+                .to_owned()
+        })
+        .collect();
+    let mut sorted = names.clone();
+    sorted.sort_unstable();
+    let expected = [
+        "pinion",
+        "planet_230",
+        "planet_330",
+        "ring_200",
+        "ring_300",
+        "sun_200",
+        "sun_300",
+        "wheel",
+    ];
+    assert_eq!(sorted, expected);
+    for (gear, name) in wanted.iter().zip(&names) {
+        let text = std::fs::read_to_string(gear).unwrap();
+        let is_modified = !["pinion", "wheel"].contains(&&name[..]);
+        assert_eq!(text.contains("[microgeometry]"), is_modified, "{text}");
+        let text = coarse(&text);
+        let text = text.replace("flanks = [\"right\"]", "flanks = [\"right\", \"left\"]");
+        std::fs::write(gear, text).unwrap();
+        let model = gear.replace(".toml", ".h5");
+        succeeds(&["reduce", "--no-error-estimate", gear, "-o", &model]);
+    }
+    let (scene, output) = (out.join("planets.toml"), desk.path("result.h5"));
+    let text = std::fs::read_to_string(&scene).unwrap();
+    assert!(text.contains("kind = \"hybrid\"") && !text.contains("microgeometry"));
+    succeeds(&["run", argument(&scene), "-o", argument(&output)]);
+    let result = SystemResult::open(&output).unwrap();
+    let ratio = |stage: &Stage| 1.0 + f64::from(stage.teeth[2]) / f64::from(stage.teeth[0]);
+    for (set, stage, torque) in [
+        (&result.sets().unwrap()[0], &FIRST, INPUT.0),
+        (&result.sets().unwrap()[1], &SECOND, INPUT.0 * ratio(&FIRST)),
+    ] {
+        let [z_s, z_p, _] = stage.teeth;
+        let arm_m =
+            0.5e-3 * stage.module_mm * f64::from(z_s + z_p) / stage.helix_deg.to_radians().cos();
+        let pin = torque * ratio(stage) / 3.0 / arm_m;
+        let forces = set.pin_force_n.as_ref().unwrap();
+        let mean = forces.iter().sum::<f64>() / 3.0;
+        assert!((mean / pin - 1.0).abs() < 0.02, "{forces:?} {pin}");
+    }
 }

@@ -68,13 +68,21 @@ impl BevelSlices {
     /// The flanks of a pair that has been designed, in so many slices along the face.
     ///
     /// # Errors
-    /// [`DrivetrainError::Value`] for a number of slices out of range, [`DrivetrainError::BevelLine`] where the line of contact is not
-    /// smooth over the flank, else as [`BevelMesh::new`].
+    /// As [`BevelMesh::new`] and [`Self::of_pair`].
     pub fn new(
         blank: &PairBlank,
         design: &PairDesign,
         slices: usize,
     ) -> Result<Self, DrivetrainError> {
+        Self::of_pair(BevelMesh::new(blank, design)?, slices)
+    }
+
+    /// The flanks of a pair in so many slices along the face.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Value`] for a number of slices out of range, [`DrivetrainError::BevelLine`] where the line of contact is not
+    /// smooth over the flank.
+    pub fn of_pair(pair: BevelMesh, slices: usize) -> Result<Self, DrivetrainError> {
         if !SLICES.contains(&slices) {
             return Err(DrivetrainError::Value {
                 owner: "bevel mesh",
@@ -83,7 +91,6 @@ impl BevelSlices {
                 allowed: "3 to 100",
             });
         }
-        let pair = BevelMesh::new(blank, design)?;
         let side = |flank: Flank| {
             let of_pair = &pair.sides[flank as usize];
             let side = SlicedSide::new(of_pair, pair.teeth, pair.shaft_angle_rad, slices);

@@ -6,8 +6,9 @@ use super::{MM, TableKeys};
 use crate::blank::{Blank, Contour, CutIntoShaft, LengthUnit, Lugs, MeshedBody, Rim, Web};
 use crate::definition::ToothDefinition;
 use crate::given;
-use crate::input::{Bounded, Count, InputDocument, InputError, Within};
+use crate::input::{Bounded, Count, End, InputDocument, InputError, Within};
 use crate::kinds;
+use crate::number_range;
 use crate::tooth::ToothGeometry;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -96,6 +97,11 @@ pub(super) struct RingTable {
     lugs: Option<LugsTable>,
 }
 
+number_range!(
+    /// Angles of lugs: two or more of them go round with something free between.
+    LugWidth: End::Beyond(0.0), End::Beyond(180.0)
+);
+
 /// Equal parts of the outside that are held, evenly round it.
 #[derive(Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -103,7 +109,7 @@ struct LugsTable {
     /// Number of them.
     count: Count<2, 1000>,
     /// Angle that each covers.
-    width_deg: f64,
+    width_deg: Bounded<LugWidth>,
     /// Angle of the middle of the first one from the middle of tooth 0, counter-clockwise; 0 where not given.
     phase_deg: Option<Bounded<Within<-360, 360>>>,
 }
@@ -125,8 +131,8 @@ impl LugsTable {
         let [least_deg, most_deg] = [least_rad, repeat - least_rad].map(f64::to_degrees);
         keys.require(
             "lugs.width_deg",
-            self.width_deg,
-            (least_deg..=most_deg).contains(&self.width_deg),
+            *self.width_deg,
+            (least_deg..=most_deg).contains(&*self.width_deg),
             &format!("{least_deg:.4} to {most_deg:.4}: half a module or more of the outside is held, and as much is free between two"),
         )?;
         Ok(lugs)

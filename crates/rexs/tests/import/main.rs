@@ -12,6 +12,7 @@ mod loose_gears;
 mod lost_loads;
 mod other_gearboxes;
 mod planetary;
+mod planetary_flanks;
 mod power;
 mod real_files;
 

@@ -12,7 +12,7 @@ fn gearbox(held: &str, loads: &[(&str, usize, &str)]) -> String {
 }
 
 /// The same with planets at other angles.
-fn gearbox_of(planets_deg: [f64; 3], held: &str, loads: &[(&str, usize, &str)]) -> String {
+pub fn gearbox_of(planets_deg: [f64; 3], held: &str, loads: &[(&str, usize, &str)]) -> String {
     let gear = |teeth, width, place| {
         [
             ("number_of_teeth", "none", teeth),

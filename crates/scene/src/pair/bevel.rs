@@ -15,7 +15,7 @@ use gearmesh_bevel::pair_file::{BevelFile, LoadRequest};
 use gearmesh_bevel::{AssembledPair, BevelError, PairDesign, PairFile, ToothCheck};
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{ContactPatch, LocalContact, StaticContact};
-use gearmesh_drivetrain::{BevelAtRest, BevelSlices};
+use gearmesh_drivetrain::{BevelAtRest, BevelMesh, BevelSlices};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{ReducedGear, StoredGear};
@@ -52,6 +52,7 @@ type CheckedDesign = (PairDesign, [ToothCheck; 2]);
 struct Made {
     design: Arc<OnceLock<Result<CheckedDesign, InputError>>>,
     assembled: Arc<OnceLock<Result<AssembledPair, BevelError>>>,
+    flanks: Arc<OnceLock<BevelMesh>>,
 }
 
 /// A bevel pair with what deflects under its loads.
@@ -87,6 +88,18 @@ impl BevelScene {
         })
     }
 
+    /// The pair of a result, from the text inside it; none where flanks go through points of files, which may have
+    /// changed since.
+    ///
+    /// # Errors
+    /// [`InputError`] for a text that this version does not understand, and as of [`Self::design`].
+    pub fn of_result(result: &SceneResult) -> Result<Option<Self>, InputError> {
+        let document = InputDocument::new("scene in result", &result.scene_toml);
+        let scene = Self::from_document(document)?;
+        let is_cut = scene.design()?.settings.iter().all(Option::is_some);
+        Ok(is_cut.then_some(scene))
+    }
+
     /// Settings and flanks, the teeth of both members checked.
     ///
     /// # Errors
@@ -109,6 +122,18 @@ impl BevelScene {
         let made = self.made.assembled.get_or_init(make);
         made.as_ref()
             .map_err(|error| error.clone().in_file(&self.document))
+    }
+
+    /// The flanks of both sides as a mesh takes them.
+    ///
+    /// # Errors
+    /// [`RunError`] for flanks that cannot be made, or touch along a line.
+    pub(super) fn flanks(&self) -> Result<&BevelMesh, RunError> {
+        if let Some(made) = self.made.flanks.get() {
+            return Ok(made);
+        }
+        let made = BevelMesh::new(&self.file.blank, self.design()?)?;
+        Ok(self.made.flanks.get_or_init(|| made))
     }
 
     /// Folder that its file names are relative to.
@@ -262,7 +287,7 @@ impl LoadedBevel {
 
     fn run_in_slices(&self, slices: usize, watched: &Watched<'_>) -> Result<SceneResult, RunError> {
         let (file, load) = (&self.scene.file, &self.load);
-        let flanks = BevelSlices::new(&file.blank, self.scene.design()?, slices)?;
+        let flanks = BevelSlices::of_pair(self.scene.flanks()?.clone(), slices)?;
         let pair = BevelAtRest::new(&file.blank, flanks, (file.pinion_flank, &file.tca.error));
         let contact = self.contact(&pair)?;
         let found = self.solve(&pair, &contact, watched)?;

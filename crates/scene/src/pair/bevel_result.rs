@@ -82,8 +82,9 @@ impl BevelRest {
     /// Teeth of pinion and gear of a pair; those of pair 0 are 0.
     #[must_use]
     pub fn teeth_of(&self, pair: i64) -> [usize; 2] {
-        let on = pair * self.side.mirror() as i64;
-        let [pinion, gear] = self.teeth.map(|teeth| teeth as i64);
+        // Wide enough to be turned round, whatever a file says.
+        let on = i128::from(pair) * self.side.mirror() as i128;
+        let [pinion, gear] = self.teeth.map(|teeth| teeth as i128);
         [
             on.rem_euclid(pinion) as usize,
             (-on).rem_euclid(gear) as usize,

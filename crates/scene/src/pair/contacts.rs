@@ -105,8 +105,9 @@ impl LoadedScene {
         let models = [&*self.models[0], &*self.models[1]];
         let (lines, options) = (self.lines.clone(), self.scene.contact);
         let key = format!(
-            "{:?} {:?} {:?} {:?} {} {:?}",
+            "{:?} {:?} {:?} {:?} {:?} {} {:?}",
             self.model_digests,
+            self.scene.slides,
             lines.pair.flank,
             options.local,
             self.layout,

@@ -4,12 +4,13 @@
 //! (`all_positions.rs`, `position.rs`, `between_positions.rs`), `figures.rs` makes the figures of a torque of it,
 //! `figure_table.rs` says how all doors show them, `contacts.rs` says where the teeth touch, `coverage.rs` says how
 //! much of each period that sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs` judges, `bevel.rs` puts
-//! bevel pairs at rest, `bevel_result.rs` says what their results have besides, `warnings.rs` tells where the model's
-//! assumptions are strained.
+//! bevel pairs at rest, `bevel_result.rs` says what their results have besides, `bevel_in_space.rs` where they stand
+//! for pictures, `warnings.rs` tells where the model's assumptions are strained.
 
 mod all_positions;
 mod between_positions;
 pub mod bevel;
+mod bevel_in_space;
 pub mod bevel_result;
 mod contact_places;
 mod contacts;
@@ -29,6 +30,7 @@ pub mod warnings;
 
 pub use between_positions::{BetweenPositions, PEAK_SHARE};
 pub use bevel::{BevelScene, LoadedBevel};
+pub use bevel_in_space::{BevelInSpace, BevelStand, BevelTeeth};
 pub use contact_places::ContactPlaces;
 pub use figures::{FigureErrors, PairFigures};
 pub use plan::Plan;

@@ -88,8 +88,12 @@ fn pair_lines(loaded: &LoadedScene) -> Vec<String> {
     let (scene, layout, pair) = (&loaded.scene, &loaded.layout, &loaded.lines.pair);
     let mut text = Vec::new();
     for (number, gear) in [(1, gear_1), (2, gear_2)] {
+        let bore = match scene.slides[number - 1] {
+            true => " whose bore slides on a rigid pin",
+            false => "",
+        };
         text.push(format!(
-            "gear {number}     {}: z {}, body `reduced`, {} flank loads, {} repeating sectors, from {} degrees of freedom ({})",
+            "gear {number}     {}: z {}, body `reduced`{bore}, {} flank loads, {} repeating sectors, from {} degrees of freedom ({})",
             gear.name,
             gear.teeth,
             gear.grid.len(),

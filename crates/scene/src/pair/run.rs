@@ -148,7 +148,14 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         .edge_radius_m
         .map(|radius| PathExtension::new(&pair, radius));
     let model_digests = [model_1.digest, model_2.digest];
-    let models = [model_1.model, model_2.model];
+    let mut models = [model_1.model, model_2.model];
+    for (k, model) in models.iter_mut().enumerate() {
+        if scene.slides[k] {
+            let sliding = model.with_sliding_bore();
+            let key = format!("gear_{}.bore", k + 1);
+            *model = Arc::new(sliding.map_err(|e| scene.document.error(&key, e))?.gear);
+        }
+    }
     let sides = [0, 1].map(|gear| pair.flank_of(gear));
     for (key, i) in [("pair.gear_1", 0), ("pair.gear_2", 1)] {
         let flank = models[i].flank_index(sides[i]);

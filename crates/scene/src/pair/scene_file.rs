@@ -3,6 +3,7 @@
 use super::taken_misalignment::MisalignmentFrom;
 use crate::former_forms::PAIR;
 use crate::rating::RatingTable;
+use crate::system::tables::body::BoreHold;
 use crate::system::tables::flank_errors::FlankErrorTable;
 use crate::system::tables::friction::PairFrictionTable;
 use crate::system::tables::gear_mesh::{EccentricityTable, PathWord};
@@ -79,6 +80,9 @@ number_range!(
 pub struct GearTable {
     /// Microgeometry, instead of all that the gear file inside the model states.
     pub microgeometry: Option<MicrogeometryTable>,
+    /// Reduced gear with [reduction.bore]: "bonded", the bore is glued to a rigid pin; "sliding", it slides on it, and
+    /// what turns the gear acts evenly round it; "bonded" where not given. "rollers" need a scene of bodies.
+    pub bore: Option<BoreHold>,
 }
 
 fn default_flank() -> Flank {
@@ -194,6 +198,8 @@ pub struct Scene {
     pub misalignment_from: Option<MisalignmentFrom>,
     /// Microgeometry of gear 1 and gear 2; that of the gear files inside the models where none is given.
     pub microgeometry: [Option<MicrogeometryTable>; 2],
+    /// Whether the bores of gear 1 and gear 2 slide on rigid pins.
+    pub slides: [bool; 2],
     /// Slices over the overlap of the faces; those of the models where none are given.
     pub slices: Option<usize>,
     /// Errors and faults of gear 1 and gear 2.
@@ -292,6 +298,14 @@ impl Scene {
                 own.check_together((&document, &format!("gear_{number}.microgeometry")))?;
             }
         }
+        let bores = [table.gear_1.bore, table.gear_2.bore];
+        for (number, bore) in [1, 2].into_iter().zip(bores) {
+            if bore == Some(BoreHold::Rollers) {
+                let problem = "found \"rollers\", allowed are \"bonded\" and \"sliding\": a pair has no bearing; state the gears as [[body]] of a scene, \
+                               with the [[bearing]] whose outer ring is the bore";
+                return Err(document.error(&format!("gear_{number}.bore"), problem));
+            }
+        }
         let PairModel::Hybrid { local, slices } = table.mesh.model;
         let notes = document.former_notes()?;
         let notes = notes.iter().map(ToString::to_string).collect();
@@ -308,6 +322,7 @@ impl Scene {
             },
             misalignment_from: pair.misalignment_from.clone(),
             microgeometry: [table.gear_1.microgeometry, table.gear_2.microgeometry],
+            slides: bores.map(|bore| bore == Some(BoreHold::Sliding)),
             slices,
             errors: [teeth.errors_1, teeth.errors_2],
             eccentricity: [teeth.eccentricity_1, teeth.eccentricity_2],

@@ -89,6 +89,34 @@ pub fn write_set(folder: &Path) {
     }
 }
 
+/// The gear with motions of its bore of this stiffness [N/m], each of which moves every load by as much.
+pub fn with_bore(gear: ReducedGear, stiffness: f64, moved: f64) -> ReducedGear {
+    let mut bore = gearmesh_model::BorePatterns {
+        harmonics: 2,
+        along: 2,
+        components: 3,
+        radius_m: 15e-3,
+        ends_m: [-0.5 * gear.face_width_m, 0.5 * gear.face_width_m],
+        ..Default::default()
+    };
+    let motions = bore.count();
+    let loads = gear.teeth_per_sector() * gear.flanks.len() * gear.grid.len();
+    let diagonal = |k: usize| {
+        if k / motions == k % motions {
+            stiffness
+        } else {
+            0.0
+        }
+    };
+    bore.stiffness = (0..motions * motions).map(diagonal).collect();
+    bore.flank = vec![moved; loads * motions];
+    bore.gauges = vec![0.0; gear.gauges.len() * motions];
+    ReducedGear {
+        bore: Some(bore),
+        ..gear
+    }
+}
+
 /// Gear 1 drives at `speed_rpm` against 100 N m on gear 2; `of_gear_2` is put into its `[[body]]`, `further` at the
 /// end.
 pub fn scene(run: &str, speed_rpm: f64, of_gear_2: &str, further: &str) -> String {

@@ -8,6 +8,7 @@ mod bearings_of_seeds;
 mod bevel_at_rest;
 mod bevel_hard_cases;
 mod bevel_hard_slices;
+mod bevel_in_space;
 mod bevel_machines;
 mod bevel_pairs;
 #[path = "../common/mod.rs"]

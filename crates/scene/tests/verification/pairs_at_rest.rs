@@ -6,12 +6,13 @@ use std::path::Path;
 use gearmesh_contact::LocalContact;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{Flank, GearPair};
+use gearmesh_model::{read_reduced_gear, write_reduced_gear};
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{Scene, SceneResult, load as load_pair, run};
 
 use crate::common::load;
 use crate::made_up_gears::pair_common::ring_pair;
-use crate::made_up_gears::{pair, write_models, write_planet_and_ring};
+use crate::made_up_gears::{pair, with_bore, write_models, write_planet_and_ring};
 use crate::system_runs::Desk;
 
 /// How far gear 2 stands behind at the start, so that teeth press on each other \[m\].
@@ -60,6 +61,8 @@ struct Twin {
     torque_nm: f64,
     /// Keys that both kinds of scene have.
     effects: &'static str,
+    /// How the bore of gear 1 is held, where that is stated.
+    bore: &'static str,
 }
 
 impl Twin {
@@ -69,12 +72,17 @@ impl Twin {
             flank,
             torque_nm,
             effects,
+            bore,
         } = self;
         let pair = gears.pair();
+        let bore = match bore.is_empty() {
+            true => String::new(),
+            false => format!("[gear_1]\nbore = \"{bore}\"\n"),
+        };
         let text = format!(
             "title = \"at rest\"\n[pair]\ngear_1 = \"gear_{}.h5\"\ngear_2 = \"gear_{}.h5\"\ncentre_distance_mm = {:?}\nflank = \"{}\"\n\
              [run]\ntorques_Nm = [{torque_nm:?}]\npitches = {PITCHES}\npoints_per_pitch = {POINTS}\n\
-             [mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\nteeth.path = \"line-of-action\"\n{effects}\n",
+             [mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\nteeth.path = \"line-of-action\"\n{effects}\n{bore}",
             pair.gear_1.teeth,
             pair.gear_2.teeth,
             1e3 * pair.centre_distance_m,
@@ -97,9 +105,13 @@ impl Twin {
         let angles: Vec<String> = (0..POINTS * PITCHES)
             .map(|k| format!("{:?}", -hand * step_deg * k as f64))
             .collect();
+        let bore = match self.bore.is_empty() {
+            true => String::new(),
+            false => format!("bore = \"{}\"\n", self.bore),
+        };
         let text = format!(
             "title = \"bodies\"\n[run]\nkind = \"static\"\nmotion = \"drive\"\nangles_deg = [{}]\n\
-             [[body]]\nname = \"pinion\"\ngear = \"gear_{}.h5\"\ncardan_deg = [0.0, 0.0, {:?}]\n\
+             [[body]]\nname = \"pinion\"\ngear = \"gear_{}.h5\"\n{bore}cardan_deg = [0.0, 0.0, {:?}]\n\
              [[body]]\nname = \"wheel\"\ngear = \"gear_{}.h5\"\nposition_mm = [{:?}, 0.0, 0.0]\ncardan_deg = [0.0, 0.0, {:?}]\n\
              [[joint]]\nname = \"axle 1\"\nkind = \"revolute\"\nbody_2 = \"pinion\"\n\
              [[joint]]\nname = \"axle 2\"\nkind = \"revolute\"\nbody_2 = \"wheel\"\n\
@@ -141,6 +153,9 @@ impl Twin {
     fn difference(&self) -> (f64, f64) {
         let folder = tempfile::tempdir().unwrap();
         self.gears.write(folder.path());
+        if !self.bore.is_empty() {
+            give_a_bore(folder.path(), self.gears.pair().gear_1.teeth);
+        }
         std::fs::write(
             folder.path().join("lead.csv"),
             "z_mm,removed_um\n-10,0\n10,6\n",
@@ -150,6 +165,7 @@ impl Twin {
         let bodies = self.as_bodies(folder.path());
         let ideal = Self {
             effects: "",
+            bore: "",
             ..*self
         }
         .at_rest(folder.path());
@@ -171,6 +187,54 @@ impl Twin {
             difference < tolerance_m,
             "{gears:?}: {difference:e} m of {effect:e} m"
         );
+    }
+}
+
+/// Gives a model a bore whose motions move all flanks.
+fn give_a_bore(folder: &Path, teeth: usize) {
+    let path = folder.join(format!("gear_{teeth}.h5"));
+    let gear = with_bore(read_reduced_gear(&path).unwrap(), 1e10, 5.0);
+    write_reduced_gear(&path, &gear).unwrap();
+}
+
+/// A bore that slides makes the gear softer than a bonded one, by as much as in a scene of bodies; without its motions,
+/// or on rollers, of which a pair has none, it is refused.
+#[test]
+fn a_bore_that_slides_is_that_of_the_bodies() {
+    for gears in [Gears::External, Gears::PlanetInRing(0.0)] {
+        let twin = Twin {
+            gears,
+            flank: Flank::Right,
+            torque_nm: 2.0,
+            effects: "",
+            bore: "sliding",
+        };
+        twin.agrees(1e-10, 5e-7);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    write_models(folder.path());
+    let refused = |bore: &str| {
+        let text = format!(
+            "title = \"at rest\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n\
+             [gear_2]\nbore = \"{bore}\"\n[run]\ntorques_Nm = [1.0]\npitches = 1\npoints_per_pitch = 4\n[mesh]\nmodel.kind = \"hybrid\"\n"
+        );
+        let scene = Scene::from_document(InputDocument::new("pair.toml", text), folder.path());
+        match scene {
+            Ok(scene) => load_pair(scene).map(|_| ()).unwrap_err().to_string(),
+            Err(error) => error.to_string(),
+        }
+    };
+    for (bore, expected) in [
+        ("sliding", ["pair.toml:7: gear_2.bore", "[reduction.bore]"]),
+        (
+            "rollers",
+            ["pair.toml:7: gear_2.bore", "a pair has no bearing"],
+        ),
+    ] {
+        let message = refused(bore);
+        for words in expected {
+            assert!(message.contains(words), "{words}: {message}");
+        }
     }
 }
 
@@ -198,6 +262,7 @@ fn pitch_errors_are_those_of_the_bodies() {
             pitch(pair.flank_of(1).name(), pair.gear_2.teeth, 5)
         );
         Twin {
+            bore: "",
             gears,
             flank,
             torque_nm: 2.0,
@@ -223,6 +288,7 @@ fn helical_teeth_in_a_ring_are_those_of_the_bodies() {
         let lever = base_m[1] / base_m[0].max(base_m[1]);
         let [small, large] = [10.0, 100.0].map(|on_ring_nm| {
             let twin = Twin {
+                bore: "",
                 gears,
                 flank,
                 torque_nm: on_ring_nm * lever,
@@ -266,6 +332,7 @@ fn faults_are_those_of_the_bodies() {
             (100.0, 1e-8, least_effects_m[1]),
         ] {
             Twin {
+                bore: "",
                 gears: Gears::External,
                 flank: Flank::Right,
                 torque_nm,
@@ -284,6 +351,7 @@ fn eccentricity_is_that_of_the_bodies() {
         .flat_map(|gears| [Flank::Right, Flank::Left].map(|flank| (gears, flank)));
     for (gears, flank) in both {
         let twin = |effects| Twin {
+            bore: "",
             gears,
             flank,
             torque_nm: 2.0,

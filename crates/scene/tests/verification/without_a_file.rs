@@ -72,6 +72,7 @@ fn pair(models: [&str; 2]) -> PairTables {
                 tip_relief_start_diameter_mm: Some(94.0),
                 ..MicrogeometryTable::default()
             }),
+            ..GearTable::default()
         },
         mesh: MeshTable {
             model: PairModel::Hybrid {

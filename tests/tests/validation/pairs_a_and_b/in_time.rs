@@ -148,13 +148,13 @@ fn window(result: &SceneResult, values: &[f64]) -> Vec<f64> {
 const BASE_RADIUS_M: f64 = 69.631e-3;
 
 #[test]
-#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced: a minute on two quiet cores; run with --ignored"]
 fn pair_a_is_the_same_at_rest_and_in_time() {
     at_rest_and_in_time("pair_a", "dynamics_pair_a");
 }
 
 #[test]
-#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced: a minute on two quiet cores; run with --ignored"]
 fn pair_b_is_the_same_at_rest_and_in_time() {
     at_rest_and_in_time("pair_b", "dynamics_pair_b");
 }

@@ -26,10 +26,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Root fillets as in the demo, on half the default length: root strain errs with its square, 2.1 % on the default.
-const FILLETS: &str = "\n[mesh]\nfillet_mm = 0.104\n";
-
-/// Folder with the models of gears 1, 2 and 3 with those fillets, with estimates of their errors.
+/// Folder with the models of gears 1, 2 and 3 as their files are, with estimates of their errors.
 fn models() -> &'static Path {
     static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
     FOLDER
@@ -38,7 +35,7 @@ fn models() -> &'static Path {
             let python = PythonEnvironment::find().unwrap();
             for name in ["gear1", "gear2", "gear3"] {
                 let file = root().join(format!("fe_models/{name}.toml"));
-                let text = std::fs::read_to_string(file).unwrap() + FILLETS;
+                let text = std::fs::read_to_string(file).unwrap();
                 let document = InputDocument::new(format!("{name}.toml"), text);
                 let gear = GearDefinition::from_document(&document).unwrap();
                 let options = ReductionOptions {

@@ -22,7 +22,7 @@ fn printed(title: &str) -> Vec<Vec<f64>> {
 /// What docs/demo.md prints of pairs A and B is what the demo computes, to the digits that are printed (one more in the
 /// last for another processor's rounding).
 #[test]
-#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced: a minute on two quiet cores; run with --ignored"]
 fn the_demo_page_prints_what_the_demo_computes() {
     let mut is_right = true;
     for (name, title) in [("pair_a", "Pair A"), ("pair_b", "Pair B")] {
@@ -110,7 +110,7 @@ fn without_and_with(name: &str) -> [SceneResult; 2] {
 }
 
 #[test]
-#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced: a minute on two quiet cores; run with --ignored"]
 fn the_page_of_lightweight_gears_prints_what_is_computed() {
     let (mut te, mut strain, mut faults) = (Vec::new(), Vec::new(), Vec::new());
     for (name, letter, gauges) in [

@@ -118,20 +118,20 @@ fn against_its_record(name: &str, gauges: usize) {
 }
 
 #[test]
-#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced: a minute on two quiet cores; run with --ignored"]
 fn pair_a_is_its_record() {
     against_its_record("pair_a", 2);
 }
 
 #[test]
-#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced: a minute on two quiet cores; run with --ignored"]
 fn pair_b_is_its_record() {
     against_its_record("pair_b", 4);
 }
 
 /// With friction 0.3, as the seed's experiment.
 #[test]
-#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced: a minute on two quiet cores; run with --ignored"]
 fn pairs_with_friction_are_their_records() {
     against_its_record("pair_a_friction", 2);
     against_its_record("pair_b_friction", 4);
@@ -140,7 +140,7 @@ fn pairs_with_friction_are_their_records() {
 /// With half and with twice the positions of the records the swing of the transmission error and the largest pressure
 /// are the same: positions between the even ones see the change of pairs, of which 24 a pitch alone miss a twelfth.
 #[test]
-#[ignore = "three gears are reduced on finer fillets: a minute on two quiet cores; run with --ignored"]
+#[ignore = "three gears are reduced: a minute on two quiet cores; run with --ignored"]
 fn few_positions_see_what_many_see() {
     let [few, many] = [24, 96].map(|points| {
         let (even, stated) = (format!("= {points} "), format!("= {RECORD_POINTS} "));

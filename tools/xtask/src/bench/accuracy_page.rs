@@ -28,6 +28,7 @@ pub fn page(
          [benchmarks/bearing-models.md](benchmarks/bearing-models.md).\n",
         host.cpu, host.cores, host.memory, host.system, host.date, host.commit
     );
+    page += &by_quantity(found);
     page += &summary(found);
     if !left.is_empty() {
         let _ = writeln!(
@@ -76,6 +77,77 @@ fn short(value: f64) -> String {
 fn largest_error(setting: &Value) -> f64 {
     let errors = setting["errors"].as_object().into_iter().flatten();
     errors.map(|(_, e)| number(e)).fold(0.0, f64::max)
+}
+
+/// What columns measure: a part of their names, and words; of two that fit the first one counts.
+const QUANTITIES: [(&str, &str); 12] = [
+    ("te_mean", "transmission error, mean"),
+    ("transmission_error_m:mean", "transmission error, mean"),
+    ("te_peak_to_peak", "transmission error, peak to peak"),
+    (
+        "transmission_error_m:peak",
+        "transmission error, peak to peak",
+    ),
+    (
+        "transmission_error_m:deviation",
+        "transmission error, deviation",
+    ),
+    ("te_harmonic_1", "transmission error, mesh order"),
+    (
+        "transmission_error_m:line",
+        "transmission error, mesh order",
+    ),
+    ("resonance", "speed of a resonance"),
+    ("strain", "root strain, range"),
+    ("pressure", "largest pressure"),
+    ("force_radial", "bearing force"),
+    ("_force_", "mesh force"),
+];
+
+/// The front page: what a quantity takes to 1 % and to 0.1 %, scene by scene. The cheapest of all settings that were
+/// tried counts, the reference among them.
+fn by_quantity(found: &[Tried<'_>]) -> String {
+    let mut table = "\n## By quantity\n\nThe cheapest setting that was tried for one quantity alone: processor time, and what differs from the scene's reference.\n\n\
+        | quantity | scene | 1 %: s | setting | 0.1 %: s | setting | reference s |\n| --- | --- | ---: | --- | ---: | --- | ---: |\n"
+        .to_owned();
+    let mut words: Vec<&str> = QUANTITIES.iter().map(|(_, words)| *words).collect();
+    words.dedup();
+    for words in words {
+        for (subject, outcome) in found {
+            let Ok(told) = outcome else { continue };
+            let of = |column: &str| QUANTITIES.iter().find(|(part, _)| column.contains(part));
+            let columns = subject.columns.iter();
+            for column in columns.filter(|column| of(column).is_some_and(|(_, of)| *of == words)) {
+                let tried: Vec<&Value> = told["tried"].as_array().into_iter().flatten().collect();
+                let cheapest = |goal: f64| {
+                    let good = tried
+                        .iter()
+                        .filter(|one| number(&one["errors"][column]) <= goal);
+                    let seconds = |one: &&Value| number(&one["cpu_s"]);
+                    let least = good.min_by(|a, b| seconds(a).total_cmp(&seconds(b)));
+                    least.map_or("| | ".to_owned(), |one| {
+                        let setting = one["setting"].as_str().unwrap_or_default();
+                        format!(
+                            "| {} | {} ",
+                            short(seconds(&one)),
+                            setting.replace('|', "/")
+                        )
+                    })
+                };
+                let _ = writeln!(
+                    table,
+                    "| {words} | {} {}{}| {} |",
+                    subject.title,
+                    cheapest(0.01),
+                    cheapest(0.001),
+                    short(number(&told["tried"][0]["cpu_s"]))
+                );
+            }
+        }
+    }
+    table
+        + "\nOther programs at the same error: contact of whole gears in finite elements and full factorisations in [benchmarks/offline.md](benchmarks/offline.md), elements in \
+          [benchmarks/elements.md](benchmarks/elements.md), bearings and chains of bodies in [benchmarks/bearings.md](benchmarks/bearings.md) and [benchmarks/chain.md](benchmarks/chain.md).\n"
 }
 
 /// One line for each scene and goal: the setting that is recommended, its error when it was run again, and how much faster it is.
@@ -248,6 +320,14 @@ mod tests {
                 .collect();
             assert!(counts.windows(2).all(|w| w[0] == w[1]), "{block}");
         }
+        let front = by_quantity(&[(subject, Ok(told.clone()))]);
+        assert!(front.contains(
+            "| transmission error, mean | Pair A at rest | 0.5000 | a = 1 | | | 0.5000 |"
+        ));
+        assert_eq!(
+            front.matches("| Pair A at rest |").count(),
+            subject.columns.len()
+        );
         let table = summary(&[(subject, Ok(told))]);
         assert!(table.contains("| Pair A at rest | 0.5000 | 0.5000 | 0.5000 | 1.000 |"));
     }

@@ -172,6 +172,9 @@ fn a_bevel_pair_and_a_gearbox_are_computed() {
         let drawn: Vec<f64> = values.iter().map(|value| 1e6 * value).collect();
         assert_eq!(load[name], json!(drawn), "{name}");
     }
+    let gears = load["in_space"]["gears"].as_array().unwrap().iter();
+    let teeth: Vec<u64> = gears.map(|gear| gear["teeth"].as_u64().unwrap()).collect();
+    assert_eq!(teeth, run.bevel.unwrap().teeth.map(|teeth| teeth as u64));
     let rows = load["pressure_largest_MPa"].as_array().unwrap();
     let largest = |all: &[f64]| all.iter().copied().fold(0.0, f64::max);
     let drawn: Vec<f64> = rows.iter().map(|value| value.as_f64().unwrap()).collect();

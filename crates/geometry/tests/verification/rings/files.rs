@@ -192,6 +192,11 @@ fn the_file_of_a_ring_is_read_and_checked() {
         ),
         (
             "[material]",
+            "[blank.lugs]\ncount = 2\nwidth_deg = 180.0\n[material]",
+            "blank.lugs.width_deg: found 180, allowed is more than 0 and less than 180",
+        ),
+        (
+            "[material]",
             "[crack]\ntooth = 0\nside = \"right\"\ndepth_mm = 0.5\ntangent_deg = 45.0\n[material]",
             "cracks are made in external teeth only",
         ),

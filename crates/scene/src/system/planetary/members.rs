@@ -11,6 +11,15 @@ use super::expansion::{BODY_KEYS, Expansion, copied, made, numbers};
 use crate::system::names;
 use crate::system::tables::planetary::{MemberTable, SupportWord};
 
+/// Where a bearing of a set stands.
+pub(super) struct BearingSeat {
+    /// None for the ground.
+    pub body_1: Option<String>,
+    pub body_2: String,
+    /// In the world \[mm\].
+    pub at_mm: [f64; 3],
+}
+
 impl Expansion<'_> {
     /// Name of the body that is a member; its gear is put among the known ones.
     pub(super) fn member_name(
@@ -100,12 +109,16 @@ impl Expansion<'_> {
                 ]),
             );
         }
-        let places = member
+        let seats = member
             .bearings
             .iter()
-            .map(|b| self.axis_mm(b.z_mm))
+            .map(|b| BearingSeat {
+                body_1: None,
+                body_2: name.clone(),
+                at_mm: self.axis_mm(b.z_mm),
+            })
             .collect();
-        self.add_bearings(&name, (None, &name), places, &raw);
+        self.add_bearings(&name, seats, &raw);
         if let Some(speed) = raw.get("speed_rpm") {
             let motion = self.called(&format!("{key} speed"));
             self.push(
@@ -131,25 +144,19 @@ impl Expansion<'_> {
         Ok(())
     }
 
-    /// The bearings of a body, `owner`, between two at places in the world \[mm\]; `raw`: its table.
-    pub(super) fn add_bearings(
-        &mut self,
-        owner: &str,
-        (on, body): (Option<&str>, &str),
-        places: Vec<[f64; 3]>,
-        raw: &Table,
-    ) {
+    /// The bearings of a body, `owner`; `raw`: its table.
+    pub(super) fn add_bearings(&mut self, owner: &str, seats: Vec<BearingSeat>, raw: &Table) {
         let written = raw.get("bearings").and_then(Value::as_array);
         let written = written.into_iter().flatten().filter_map(Value::as_table);
-        for (i, (own, at_mm)) in written.zip(places).enumerate() {
+        for (i, (own, seat)) in written.zip(seats).enumerate() {
             let mut bearing = copied(own, &["model", "housing"]);
             bearing.insert(
                 "name".to_owned(),
                 format!("{owner} bearing {}", i + 1).into(),
             );
-            bearing.insert("body_2".to_owned(), body.into());
-            bearing.insert("at_mm".to_owned(), numbers(&at_mm));
-            if let Some(on) = on {
+            bearing.insert("body_2".to_owned(), seat.body_2.into());
+            bearing.insert("at_mm".to_owned(), numbers(&seat.at_mm));
+            if let Some(on) = seat.body_1 {
                 bearing.insert("body_1".to_owned(), on.into());
             }
             self.push("bearing", bearing);

@@ -7,6 +7,7 @@
 //! | whether planets touch each other | `room.rs` |
 //! | meshed planets: their partners | `partners.rs` |
 //! | keys that contradict each other | `keys.rs` |
+//! | pins that bend | `pin_beams.rs` |
 //! | bodies, joints, bearings and meshes as a scene would state them | `expansion.rs`, `members.rs`, `pins.rs`, `meshes.rs` |
 
 mod expansion;
@@ -16,6 +17,7 @@ pub mod layout;
 mod members;
 mod meshes;
 mod partners;
+mod pin_beams;
 mod pins;
 mod room;
 

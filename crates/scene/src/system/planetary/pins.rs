@@ -7,6 +7,7 @@ use toml::{Table, Value};
 
 use super::expansion::{BODY_KEYS, Expansion, copied, made, numbers};
 use super::gears::SetGear;
+use super::members::BearingSeat;
 use crate::system::tables::MM;
 use crate::system::tables::body::BoreHold;
 use crate::system::tables::planetary::{
@@ -14,16 +15,16 @@ use crate::system::tables::planetary::{
 };
 
 /// Where a pin is, in the set's axes.
-struct Pin {
+pub(super) struct Pin {
     /// Its middle at the middle of the set \[mm\].
     at_mm: [f64; 2],
     /// Its axis (t_x, t_y, 1).
-    lean: [f64; 2],
+    pub lean: [f64; 2],
 }
 
 impl Pin {
     /// The point of its axis at a height above the middle of the set \[mm\].
-    fn above_mm(&self, z_mm: f64) -> Vector3<f64> {
+    pub fn above_mm(&self, z_mm: f64) -> Vector3<f64> {
         let ([x, y], [t_x, t_y]) = (self.at_mm, self.lean);
         Vector3::new(x + t_x * z_mm, y + t_y * z_mm, z_mm)
     }
@@ -148,17 +149,36 @@ impl Expansion<'_> {
                 joint(format!("{name} shaft"), "fixed", name, second),
             );
         }
-        if let Some(kind) = row.joint(&self.keys)? {
-            self.push("joint", joint(format!("{name} pin"), kind, carrier, name));
-        }
-        let place = |b: &SetBearingTable| self.in_world_mm(pin.above_mm(b.z_mm));
-        let places = row.pinned.bearings.iter().map(place);
-        // Rollers that press on the planet's bore run in it as in their outer ring.
-        let ends = match row.pinned.bore {
-            Some(BoreHold::Rollers) => (Some(&name[..]), carrier),
-            Some(BoreHold::Bonded | BoreHold::Sliding) | None => (Some(carrier), &name[..]),
+        let joined = row.joint(&self.keys)?;
+        let bearings = &row.pinned.bearings;
+        let at_joint = joined.map(|_| 0.0);
+        let holds_mm: Vec<f64> = { bearings.iter() }
+            .map(|b| b.z_mm)
+            .chain(at_joint)
+            .collect();
+        let beam = self.add_pin_beam(row, (carrier, name, &pin), &holds_mm)?;
+        let holder = |z_mm: f64| match &beam {
+            Some(beam) => beam.body(z_mm),
+            None => carrier.to_owned(),
         };
-        self.add_bearings(name, ends, places.collect(), &row.raw);
+        if let Some(kind) = joined {
+            let made = joint(format!("{name} pin"), kind, &holder(0.0), name);
+            self.push("joint", made);
+        }
+        let seat = |b: &SetBearingTable| {
+            // Rollers that press on the planet's bore run in it as in their outer ring.
+            let (body_1, body_2) = match row.pinned.bore {
+                Some(BoreHold::Rollers) => (name.clone(), holder(b.z_mm)),
+                Some(BoreHold::Bonded | BoreHold::Sliding) | None => (holder(b.z_mm), name.clone()),
+            };
+            BearingSeat {
+                body_1: Some(body_1),
+                body_2,
+                at_mm: self.in_world_mm(pin.above_mm(b.z_mm)),
+            }
+        };
+        let seats = bearings.iter().map(seat).collect();
+        self.add_bearings(name, seats, &row.raw);
         Ok(())
     }
 }

@@ -11,6 +11,7 @@ pub mod joint;
 pub mod load;
 pub mod mesh_model;
 pub mod output;
+pub mod planet_pin;
 pub mod planetary;
 pub mod python_element;
 pub mod run;

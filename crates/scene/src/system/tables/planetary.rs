@@ -14,6 +14,7 @@ use super::flank_errors::FlankErrorTable;
 use super::function::FunctionTable;
 use super::gear_mesh::{EccentricityTable, TeethTable};
 use super::mesh_model::{HertzTable, MeshModel};
+use super::planet_pin::PinTable;
 
 /// `[[planetary]]` as written in the file. Angles count counter-clockwise about the axis of the set, from x, or from
 /// where x is after the turns about x and then y that take z into the axis.
@@ -218,6 +219,8 @@ pub struct PinnedKeys {
     /// With "bearings" and "floating": bearings between carrier and gear.
     #[serde(default)]
     pub bearings: Vec<SetBearingTable>,
+    /// The pins as beams; rigid where not given.
+    pub pin: Option<PinTable>,
     /// Errors and faults of all.
     #[serde(default)]
     pub errors: Vec<FlankErrorTable>,

@@ -107,28 +107,8 @@ fn couplings_and_bores_that_nothing_follows_are_refused() {
 /// A planet whose bore has motions, stiff enough to stay nearly round; their sizes alone matter here.
 fn give_the_planet_a_bore(folder: &Path) {
     let path = folder.join("planet.h5");
-    let mut gear = gearmesh_model::read_reduced_gear(&path).unwrap();
-    let mut bore = gearmesh_model::BorePatterns {
-        harmonics: 2,
-        along: 2,
-        components: 3,
-        radius_m: 15e-3,
-        ends_m: [-0.5 * gear.face_width_m, 0.5 * gear.face_width_m],
-        ..Default::default()
-    };
-    let motions = bore.count();
-    let loads = gear.teeth_per_sector() * gear.flanks.len() * gear.grid.len();
-    let diagonal = |k: usize| {
-        if k / motions == k % motions {
-            1e10
-        } else {
-            0.0
-        }
-    };
-    bore.stiffness = (0..motions * motions).map(diagonal).collect();
-    bore.flank = vec![0.0; loads * motions];
-    bore.gauges = vec![0.0; gear.gauges.len() * motions];
-    gear.bore = Some(bore);
+    let gear = gearmesh_model::read_reduced_gear(&path).unwrap();
+    let gear = made_up_gears::with_bore(gear, 1e10, 0.0);
     gearmesh_model::write_reduced_gear(&path, &gear).unwrap();
     let rollers = "name = \"rollers\"\nkind = \"cylindrical-roller\"\nrollers = 13\nroller_diameter_mm = 5.0\n\
                    roller_length_mm = 12.0\npitch_diameter_mm = 25.0\nradial_clearance_um = 5.0\n";

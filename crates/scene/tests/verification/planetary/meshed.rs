@@ -13,7 +13,7 @@ const PLANETS: [usize; 2] = [18, 20];
 const MESH: f64 = 5e8;
 
 /// Gear files of sun and ring of so many teeth, `planet.toml` and `partner.toml`.
-fn write_meshed(folder: &Path, [sun, ring]: [usize; 2]) {
+pub fn write_meshed(folder: &Path, [sun, ring]: [usize; 2]) {
     write_gears(folder, [PLANETS[0], PLANETS[1]], ALPHA_DEG);
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
     let (planet, partner, rim) = (read("sun.toml"), read("planet.toml"), read("ring.toml"));
@@ -38,19 +38,23 @@ fn write_meshed(folder: &Path, [sun, ring]: [usize; 2]) {
 }
 
 /// Distances of the pins of planets and partners from the axis, and from each other \[m\].
-fn arms_m([sun, ring]: [usize; 2]) -> [f64; 3] {
+pub fn arms_m([sun, ring]: [usize; 2]) -> [f64; 3] {
     let [planet, partner] = PLANETS;
     [sun + planet, ring - partner, planet + partner].map(|teeth| 1.5e-3 * teeth as f64)
 }
 
 /// δ by the law of cosines \[rad\].
-fn ahead_rad(teeth: [usize; 2]) -> f64 {
+pub fn ahead_rad(teeth: [usize; 2]) -> f64 {
     let [a, b, d] = arms_m(teeth);
     ((a * a + b * b - d * d) / (2.0 * a * b)).acos()
 }
 
 /// A scene with one set of meshed planets; `more`: keys of the partners.
-fn meshed(run: &str, teeth: [usize; 2], [sun, ring, carrier, planets, more]: [&str; 5]) -> String {
+pub fn meshed(
+    run: &str,
+    teeth: [usize; 2],
+    [sun, ring, carrier, planets, more]: [&str; 5],
+) -> String {
     let [own, partner, pair] = arms_m(teeth).map(|arm| 1e3 * arm);
     let carrier = format!("inertia_kg_m2 = [0.1, 0.1, 0.1]\n{carrier}");
     let mesh = "pair_mesh = { model = { kind = \"iso6336\", stiffness_N_per_mm_um = 20.0 } }";
@@ -207,7 +211,12 @@ fn meshed_planets_stand_where_both_gears_fit() {
 }
 
 /// Force of unit normal forces of its meshes on a planet and on its partner, with the torque σ on the sun.
-fn unit_forces(angle_rad: f64, ahead_rad: f64, arms_m: [f64; 3], sense: f64) -> [Vector2<f64>; 2] {
+pub fn unit_forces(
+    angle_rad: f64,
+    ahead_rad: f64,
+    arms_m: [f64; 3],
+    sense: f64,
+) -> [Vector2<f64>; 2] {
     let (sin, cos) = ALPHA_DEG.to_radians().sin_cos();
     let on = |out: Vector2<f64>| Vector2::new(-out.y, out.x);
     let (own, other) = (unit(angle_rad), unit(angle_rad + ahead_rad));

@@ -3,9 +3,11 @@
 mod bearings;
 mod coupling;
 mod errors;
+mod hybrid;
 mod meshed;
 mod modes;
 mod motion;
+mod pins;
 mod positions;
 mod ravigneaux;
 mod refusals;

@@ -11,10 +11,10 @@ use super::positions::ALPHA_DEG;
 use super::*;
 
 /// z_S, z_s, z_r; long and short planets have 18 teeth.
-const TEETH: [f64; 3] = [30.0, 24.0, 66.0];
+pub const TEETH: [f64; 3] = [30.0, 24.0, 66.0];
 
 /// Gear files: faces of 25 mm, of the long planets 60 mm.
-fn write_ravigneaux(folder: &Path) {
+pub fn write_ravigneaux(folder: &Path) {
     write_gears(folder, [30, 18], ALPHA_DEG);
     let planet = std::fs::read_to_string(folder.join("planet.toml")).unwrap();
     let write = |name: &str, from: &str, to: &str| {
@@ -31,7 +31,7 @@ fn write_ravigneaux(folder: &Path) {
 
 /// The set of the large sun, 17 mm below the middle of the long planets, and the ring, and that of the small sun 17 mm
 /// above; keys of large sun, ring, carrier, small sun, first and second set.
-fn ravigneaux(run: &str, [large, ring, carrier, small, first, second]: [&str; 6]) -> String {
+pub fn ravigneaux(run: &str, [large, ring, carrier, small, first, second]: [&str; 6]) -> String {
     let carrier = format!("inertia_kg_m2 = [0.1, 0.1, 0.1]\n{carrier}");
     let text = scene(
         run,
@@ -58,18 +58,18 @@ const IN_TIME: &str =
 
 /// One gear of the transmission: keys of large sun, ring, carrier and small sun with what drives at `rpm`, speeds of
 /// these four for a turn of what drives; torques that are stated, by member, none of those that follow.
-struct Gear {
-    keys: [&'static str; 4],
-    speeds: [f64; 4],
-    torques: [Option<f64>; 4],
-    first: &'static str,
+pub struct Gear {
+    pub keys: [&'static str; 4],
+    pub speeds: [f64; 4],
+    pub torques: [Option<f64>; 4],
+    pub first: &'static str,
 }
 
 const HELD: &str = "support = \"held\"";
 /// Driven; in equilibria it stands.
-const DRIVEN: &str = "speed_rpm = 300.0";
+pub const DRIVEN: &str = "speed_rpm = 300.0";
 
-fn gears() -> Vec<Gear> {
+pub fn gears() -> Vec<Gear> {
     let [large, small, ring] = TEETH;
     let over = 1.0 + large / ring;
     vec![
@@ -104,7 +104,7 @@ fn gears() -> Vec<Gear> {
     ]
 }
 
-const MEMBERS: [&str; 4] = ["set sun", "set ring", "set carrier", "rear sun"];
+pub const MEMBERS: [&str; 4] = ["set sun", "set ring", "set carrier", "rear sun"];
 
 /// Speeds at the start of all gears, and of the third, in which both suns turn alike and all else with them.
 #[test]
@@ -221,7 +221,7 @@ fn torques_of_a_ravigneaux_set_are_in_equilibrium() {
 }
 
 /// Torques of large sun, ring, carrier, small sun of which two are known.
-fn torques(known: [Option<f64>; 4], [large, small, ring]: [f64; 3]) -> [f64; 4] {
+pub fn torques(known: [Option<f64>; 4], [large, small, ring]: [f64; 3]) -> [f64; 4] {
     // Rows: the planets' balance, the sum of all; then what is known.
     let mut rows = vec![
         (vec![1.0 / large, -1.0 / ring, 0.0, -1.0 / small], 0.0),
