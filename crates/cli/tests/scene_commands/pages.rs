@@ -5,9 +5,7 @@ use crate::hybrid_scene;
 use std::path::{Path, PathBuf};
 
 /// Axes of plain numbers.
-const WITHOUT_UNIT: [&str; 7] = [
-    // Of spectra of the number of loaded pairs.
-    "amplitude",
+const WITHOUT_UNIT: [&str; 6] = [
     "loaded pairs",
     "apart",
     "number",

@@ -140,6 +140,14 @@ impl Group {
         }
     }
 
+    /// What the ordinate of a spectrum shows: "amplitude" where its unit says of what, else of which number.
+    pub(super) fn amplitude(&self) -> String {
+        match &self.unit[..] {
+            "" | "1" => format!("amplitude of {}", self.ordinate()),
+            _ => "amplitude".to_owned(),
+        }
+    }
+
     /// Whether all columns are channels of force elements.
     pub(super) fn is_of_elements(&self) -> bool {
         let mut columns = self.columns.iter();

@@ -116,7 +116,7 @@ pub(super) fn section(
             },
             Axis::new("time", "s"),
             Axis::new("frequency", "Hz"),
-            Axis::new("amplitude", unit),
+            Axis::new(group.amplitude(), unit),
         )
         .values(along, spacing, columns.collect());
         for (name, points) in &lines {

@@ -119,7 +119,7 @@ pub(super) fn spectra(
         let mut chart = LineChart::new(
             group.title.clone(),
             Axis::new("frequency", "Hz"),
-            Axis::new("amplitude", unit),
+            Axis::new(group.amplitude(), unit),
         )
         .y_scale(AxisScale::Logarithmic)
         .x_values(min_max::abscissas(&lines[1..shown]));
