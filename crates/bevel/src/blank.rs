@@ -206,130 +206,47 @@ impl PairBlank {
     /// # Errors
     /// [`BevelError::Blank`] with the key of a value that allows no such pair.
     pub fn new(data: &PairData) -> Result<Self, BevelError> {
-        let [z1, z2] = data.teeth.map(|z| z as f64);
         let m = data.outer_module_m;
-        if z2 < z1 {
-            return Err(refuse(
-                "teeth",
-                format!(
-                    "found {} and {}, allowed is a pinion with at most the gear's teeth; the pinion stands first",
-                    data.teeth[0], data.teeth[1]
-                ),
-            ));
-        }
-        let sigma = data.shaft_angle_rad;
-        let g1 = sigma.sin().atan2(z2 / z1 + sigma.cos());
-        let g2 = sigma - g1;
-        if g2 >= 0.5 * PI - 1e-3 {
-            return Err(refuse(
-                "shaft_angle_deg",
-                format!(
-                    "the gear's pitch angle is {:.3} degrees, allowed is less than 90: crown and internal gears are not built",
-                    g2.to_degrees()
-                ),
-            ));
-        }
-        let outer_cone = 0.5 * m * z1 / g1.sin();
+        let pitch_angles = pitch_angles_rad(data)?;
+        let outer_cone_m = 0.5 * m * data.teeth[0] as f64 / pitch_angles[0].sin();
+        refuse_wide_faces(data, outer_cone_m)?;
         let least = data.face_width_m[0].min(data.face_width_m[1]);
-        let widest = data.face_width_m[0].max(data.face_width_m[1]);
-        if widest > 0.5 * outer_cone {
-            return Err(refuse(
-                "face_width_mm",
-                format!(
-                    "found {:.4}, allowed is up to half the outer cone distance, {:.4}",
-                    1e3 * widest,
-                    500.0 * outer_cone
-                ),
-            ));
-        }
-        let mean_cone = outer_cone - 0.5 * least;
-        let ([depth, clearance, a0, a1], extra) = proportions(data.form);
-        let working = depth * m;
-        let whole = working + clearance * m + extra;
-        let ratio_90_squared = z2 * g1.cos() / (z1 * g2.cos());
-        let gear_addendum = m * (a0 + a1 / ratio_90_squared);
-        let addenda = [working - gear_addendum, gear_addendum];
-        let dedenda = addenda.map(|a| whole - a);
-
-        // Angles of addendum and dedendum, and depths at the heel.
-        let standard = dedenda.map(|b| (b / outer_cone).atan());
-        let (addendum_angle, dedendum_angle) = match data.taper {
-            Taper::Standard => ([standard[1], standard[0]], standard),
-            Taper::Uniform => ([0.0; 2], [0.0; 2]),
-            Taper::Duplex => {
-                let (sin, cos) = data.spiral_angle_rad.sin_cos();
-                let radius = if data.form == ToothForm::Straight {
-                    f64::INFINITY
-                } else {
-                    data.cutter_radius_m
-                };
-                let sum = 0.5 * PI * m / (outer_cone * data.pressure_angle_rad.tan() * cos)
-                    * (1.0 - mean_cone * sin / radius);
-                if sum <= 0.0 {
-                    return Err(refuse(
-                        "taper",
-                        format!(
-                            "found \"duplex\" with a cutter radius of {:.4} mm, which would make slots wider towards the toe; allowed is a radius above {:.4} mm or another taper",
-                            1e3 * radius,
-                            1e3 * mean_cone * sin
-                        ),
-                    ));
-                }
-                // Tilted about the mean point: the gear's addendum angle in proportion to its share of the working
-                // depth.
-                let share = addenda[1] / working;
-                (
-                    [sum * (1.0 - share), sum * share],
-                    [sum * share, sum * (1.0 - share)],
-                )
-            }
-        };
-        let half = outer_cone - mean_cone;
+        let mean_cone_m = outer_cone_m - 0.5 * least;
+        let depths = Depths::new(data, pitch_angles);
+        let angles = DepthAngles::new(data, &depths, [outer_cone_m, mean_cone_m])?;
+        let half = outer_cone_m - mean_cone_m;
         let at_heel = |outer: f64, standard_angle: f64, angle: f64| match data.taper {
             Taper::Standard => outer,
             _ => outer - half * standard_angle.tan() + half * angle.tan(),
         };
         // Of standard taper tips are parallel to the mate's root.
-        let parallel = [standard[1], standard[0]];
-
-        let scale = mean_cone / outer_cone;
-        let (tan, cos) = (data.pressure_angle_rad.tan(), data.spiral_angle_rad.cos());
-        let pitch = PI * m;
-        let gear_thickness =
-            0.5 * pitch - (addenda[0] - addenda[1]) * tan / cos - data.thickness_shift * m;
-        let thinner = 0.5 * data.backlash_m / (data.pressure_angle_rad.cos() * cos);
-        let thicknesses = [pitch - gear_thickness, gear_thickness].map(|t| t * scale - thinner);
-
-        let member = |i: usize, angle: f64| -> Result<MemberBlank, BevelError> {
-            if thicknesses[i] <= 0.0 {
-                return Err(refuse(
-                    "thickness_shift",
-                    format!(
-                        "leaves member {} no tooth thickness at the mean point",
-                        i + 1
-                    ),
-                ));
+        let parallel = [angles.standard[1], angles.standard[0]];
+        let scale = mean_cone_m / outer_cone_m;
+        let thicknesses = mean_thicknesses_m(data, &depths, scale);
+        for (i, thickness) in thicknesses.into_iter().enumerate() {
+            if thickness <= 0.0 {
+                let problem = format!(
+                    "leaves member {} no tooth thickness at the mean point",
+                    i + 1
+                );
+                return Err(refuse("thickness_shift", problem));
             }
-            Ok(MemberBlank {
-                name: ["pinion", "gear"][i],
-                teeth: data.teeth[i],
-                hand: if i == 0 {
-                    data.pinion_hand
-                } else {
-                    data.pinion_hand.mate()
-                },
-                pitch_angle_rad: angle,
-                face_angle_rad: angle + addendum_angle[i],
-                root_angle_rad: angle - dedendum_angle[i],
-                outer_addendum_m: at_heel(addenda[i], parallel[i], addendum_angle[i]),
-                outer_dedendum_m: at_heel(dedenda[i], standard[i], dedendum_angle[i]),
-                face_width_m: data.face_width_m[i],
-                outer_cone_m: outer_cone,
-                mean_cone_m: mean_cone,
-                mean_thickness_m: thicknesses[i],
-            })
+        }
+        let member = |i: usize| MemberBlank {
+            name: ["pinion", "gear"][i],
+            teeth: data.teeth[i],
+            hand: [data.pinion_hand, data.pinion_hand.mate()][i],
+            pitch_angle_rad: pitch_angles[i],
+            face_angle_rad: pitch_angles[i] + angles.addendum[i],
+            root_angle_rad: pitch_angles[i] - angles.dedendum[i],
+            outer_addendum_m: at_heel(depths.addenda_m[i], parallel[i], angles.addendum[i]),
+            outer_dedendum_m: at_heel(depths.dedenda_m[i], angles.standard[i], angles.dedendum[i]),
+            face_width_m: data.face_width_m[i],
+            outer_cone_m,
+            mean_cone_m,
+            mean_thickness_m: thicknesses[i],
         };
-        let members = [member(0, g1)?, member(1, g2)?];
+        let members = [member(0), member(1)];
         if members[0].root_angle_rad <= 0.0 {
             return Err(refuse(
                 "teeth",
@@ -339,18 +256,154 @@ impl PairBlank {
                 ),
             ));
         }
-        let mean_normal_module = m * scale * cos;
-        let depth_at_heel = members[0].outer_addendum_m + members[1].outer_addendum_m;
-        let whole_at_heel = members[0].outer_addendum_m + members[0].outer_dedendum_m;
+        let mean_normal_module_m = m * scale * data.spiral_angle_rad.cos();
         Ok(Self {
             data: data.clone(),
-            outer_cone_m: outer_cone,
-            mean_cone_m: mean_cone,
-            working_depth_m: depth_at_heel,
-            whole_depth_m: whole_at_heel,
-            mean_normal_module_m: mean_normal_module,
-            face_contact_ratio: least * data.spiral_angle_rad.sin() / (PI * mean_normal_module),
+            outer_cone_m,
+            mean_cone_m,
+            working_depth_m: members[0].outer_addendum_m + members[1].outer_addendum_m,
+            whole_depth_m: members[0].outer_addendum_m + members[0].outer_dedendum_m,
+            mean_normal_module_m,
+            face_contact_ratio: least * data.spiral_angle_rad.sin() / (PI * mean_normal_module_m),
             members,
         })
     }
+}
+
+/// Pitch angles of pinion and gear: tan γ₁ = sin Σ/(z₂/z₁ + cos Σ), γ₂ = Σ − γ₁.
+fn pitch_angles_rad(data: &PairData) -> Result<[f64; 2], BevelError> {
+    let [z1, z2] = data.teeth;
+    if z2 < z1 {
+        return Err(refuse(
+            "teeth",
+            format!(
+                "found {z1} and {z2}, allowed is a pinion with at most the gear's teeth; the pinion stands first"
+            ),
+        ));
+    }
+    let sigma = data.shaft_angle_rad;
+    let pinion = sigma.sin().atan2(z2 as f64 / z1 as f64 + sigma.cos());
+    let gear = sigma - pinion;
+    if gear >= 0.5 * PI - 1e-3 {
+        return Err(refuse(
+            "shaft_angle_deg",
+            format!(
+                "the gear's pitch angle is {:.3} degrees, allowed is less than 90: crown and internal gears are not built",
+                gear.to_degrees()
+            ),
+        ));
+    }
+    Ok([pinion, gear])
+}
+
+fn refuse_wide_faces(data: &PairData, outer_cone_m: f64) -> Result<(), BevelError> {
+    let widest = data.face_width_m[0].max(data.face_width_m[1]);
+    if widest > 0.5 * outer_cone_m {
+        return Err(refuse(
+            "face_width_mm",
+            format!(
+                "found {:.4}, allowed is up to half the outer cone distance, {:.4}",
+                1e3 * widest,
+                500.0 * outer_cone_m
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// Depths at the heel by the form of the teeth.
+struct Depths {
+    working_m: f64,
+    addenda_m: [f64; 2],
+    dedenda_m: [f64; 2],
+}
+
+impl Depths {
+    fn new(data: &PairData, pitch_angles_rad: [f64; 2]) -> Self {
+        let m = data.outer_module_m;
+        let ([depth, clearance, a0, a1], extra) = proportions(data.form);
+        let working_m = depth * m;
+        let whole = working_m + clearance * m + extra;
+        let [z1, z2] = data.teeth.map(|z| z as f64);
+        let [g1, g2] = pitch_angles_rad;
+        let ratio_90_squared = z2 * g1.cos() / (z1 * g2.cos());
+        let gear_addendum = m * (a0 + a1 / ratio_90_squared);
+        let addenda_m = [working_m - gear_addendum, gear_addendum];
+        Self {
+            working_m,
+            addenda_m,
+            dedenda_m: addenda_m.map(|a| whole - a),
+        }
+    }
+}
+
+/// Angles of addendum and dedendum, and the dedendum angles of standard taper \[rad\].
+struct DepthAngles {
+    standard: [f64; 2],
+    addendum: [f64; 2],
+    dedendum: [f64; 2],
+}
+
+impl DepthAngles {
+    fn new(
+        data: &PairData,
+        depths: &Depths,
+        [outer_cone_m, mean_cone_m]: [f64; 2],
+    ) -> Result<Self, BevelError> {
+        let standard = depths.dedenda_m.map(|b| (b / outer_cone_m).atan());
+        let (addendum, dedendum) = match data.taper {
+            Taper::Standard => ([standard[1], standard[0]], standard),
+            Taper::Uniform => ([0.0; 2], [0.0; 2]),
+            Taper::Duplex => {
+                let sum = duplex_sum_rad(data, [outer_cone_m, mean_cone_m])?;
+                // Tilted about the mean point: the gear's addendum angle in proportion to its share of the working
+                // depth.
+                let share = depths.addenda_m[1] / depths.working_m;
+                let (of_gear, rest) = (sum * share, sum * (1.0 - share));
+                ([rest, of_gear], [of_gear, rest])
+            }
+        };
+        Ok(Self {
+            standard,
+            addendum,
+            dedendum,
+        })
+    }
+}
+
+/// Sum of both dedendum angles with which slots are as wide at the toe as at the heel.
+fn duplex_sum_rad(
+    data: &PairData,
+    [outer_cone_m, mean_cone_m]: [f64; 2],
+) -> Result<f64, BevelError> {
+    let (sin, cos) = data.spiral_angle_rad.sin_cos();
+    let radius = if data.form == ToothForm::Straight {
+        f64::INFINITY
+    } else {
+        data.cutter_radius_m
+    };
+    let sum = 0.5 * PI * data.outer_module_m / (outer_cone_m * data.pressure_angle_rad.tan() * cos)
+        * (1.0 - mean_cone_m * sin / radius);
+    if sum <= 0.0 {
+        return Err(refuse(
+            "taper",
+            format!(
+                "found \"duplex\" with a cutter radius of {:.4} mm, which would make slots wider towards the toe; allowed is a radius above {:.4} mm or another taper",
+                1e3 * radius,
+                1e3 * mean_cone_m * sin
+            ),
+        ));
+    }
+    Ok(sum)
+}
+
+/// Transverse thicknesses at the mean point; `scale` is the mean over the outer cone distance.
+fn mean_thicknesses_m(data: &PairData, depths: &Depths, scale: f64) -> [f64; 2] {
+    let (tan, cos) = (data.pressure_angle_rad.tan(), data.spiral_angle_rad.cos());
+    let pitch = PI * data.outer_module_m;
+    let [pinion, gear] = depths.addenda_m;
+    let gear_thickness =
+        0.5 * pitch - (pinion - gear) * tan / cos - data.thickness_shift * data.outer_module_m;
+    let thinner = 0.5 * data.backlash_m / (data.pressure_angle_rad.cos() * cos);
+    [pitch - gear_thickness, gear_thickness].map(|t| t * scale - thinner)
 }

@@ -11,9 +11,9 @@
 //! | the Python that has gmsh | [`python::PythonEnvironment`] | `python.rs` |
 //! | quads in outlines whose nodes are given | [`plane_mesher`] | `plane_mesher.rs`, `plane_mesher.py` |
 //! | spacing along an edge | [`grading`] | `grading.rs` |
-//! | one tooth: blocks that follow its outline, their quads | [`tooth_blocks::ToothBlocks`], [`tooth_cell::ToothCell`] | `tooth_blocks.rs`, `tooth_cell.rs` |
+//! | one tooth: blocks that follow its outline, their quads | [`tooth_blocks::ToothBlocks`], [`tooth_cell::ToothCell`] | `tooth_lines.rs`, `tooth_blocks.rs`, `tooth_cell.rs` |
 //! | the cut of the tooth-only submodel | [`CutLine`] | `cut_line.rs` |
-//! | hub, web and rim of one sector, with openings | [`body`] | `body.rs` |
+//! | hub, web and rim of one sector, with openings | [`body`] | `body_circles.rs`, `opening_outline.rs`, `body.rs` |
 //! | rings of it thinner than elements | | `thin_ring.rs` |
 //! | a crack along sides of its quads | [`crack_line::CrackLine`] | `crack_line.rs` |
 //! | all teeth and sectors in the plane | [`section::Section`] | `section.rs` |
@@ -43,6 +43,7 @@ pub mod bevel_mesh;
 pub mod bevel_section;
 mod bevel_twist;
 pub mod body;
+mod body_circles;
 pub mod contact_section;
 pub mod crack_line;
 pub mod cut_line;
@@ -55,6 +56,7 @@ pub mod layers;
 pub mod mesh_size;
 mod meshed_spans;
 pub mod mid_sides;
+mod opening_outline;
 pub mod plane_mesher;
 pub mod python;
 pub mod quality;
@@ -68,6 +70,7 @@ pub mod tet_split;
 mod thin_ring;
 pub mod tooth_blocks;
 pub mod tooth_cell;
+mod tooth_lines;
 pub mod twist;
 
 pub use bevel_meridian::BodyGrid;

@@ -7,7 +7,7 @@
 //! is taken; how far it is off stands in docs/theory/reduction.md.
 
 use crate::MeshError;
-use crate::body::{element_length, region_circles, repeating_down_to_m};
+use crate::body_circles::{element_length, region_circles, repeating_down_to_m};
 use crate::grading::{Pieces, graded};
 use crate::layers::Layers;
 use crate::ring_radius::ring_radius_m;

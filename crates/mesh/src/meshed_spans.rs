@@ -1,7 +1,8 @@
 //! The body of a gear and what of it repeats with the teeth, meshed in the cross-section.
 
 use crate::MeshError;
-use crate::body::{BodyLengths, BodyProblem, Span, body_problem, first_tooth, repeating_down_to_m};
+use crate::body::{BodyLengths, BodyProblem, Span, body_problem};
+use crate::body_circles::{first_tooth, repeating_down_to_m};
 use crate::plane_mesher::{PlaneMesh, PlaneMeshError, mesh_plane};
 use crate::python::PythonEnvironment;
 use crate::ring_radius::ring_radius_m;

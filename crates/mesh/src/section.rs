@@ -1,7 +1,7 @@
 //! The whole cross-section: tooth cells and body sectors copied round the axis and joined.
 
 use crate::MeshError;
-use crate::body::first_tooth;
+use crate::body_circles::first_tooth;
 use crate::crack_line::CrackLine;
 use crate::meshed_spans::MeshedSpans;
 use crate::plane_mesher::{PlaneMeshError, mesh_plane};

@@ -1,7 +1,7 @@
 //! What is asked of the mesher for the body of a gear in tetrahedra: its contour with fillets, openings, element sizes.
 
 use crate::MeshError;
-use crate::body::first_tooth;
+use crate::body_circles::first_tooth;
 use crate::ring_radius::ring_radius_m;
 use crate::solid_mesher::{PlaneLoop, SolidMeshError, SolidProblem};
 use gearmesh_geometry::body_outline::{OutlineEdge, body_outline};

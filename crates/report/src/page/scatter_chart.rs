@@ -208,46 +208,8 @@ impl ScatterChart {
     }
 
     pub(super) fn render(&self, page: &mut String) -> Result<(), PageError> {
-        let all = || {
-            let series = self.series.iter();
-            series.flat_map(|series| series.points.iter().chain(&series.through))
-        };
-        if all().next().is_none() {
-            return Err(PageError::Empty {
-                block: self.title.clone(),
-                what: "the set of points",
-            });
-        }
-        let fits = |point: &[f64; 2]| {
-            let pairs = point.iter().zip(self.logarithmic);
-            pairs
-                .into_iter()
-                .all(|(v, log)| v.is_finite() && (!log || *v > 0.0))
-        };
-        if let Some((index, point)) = all().enumerate().find(|(_, point)| !fits(point)) {
-            return Err(PageError::NotFinite {
-                block: self.title.clone(),
-                what: "points".to_owned(),
-                index,
-                found: point
-                    .iter()
-                    .copied()
-                    .find(|v| !v.is_finite())
-                    .unwrap_or(point[0]),
-            });
-        }
-        let scales = [0, 1].map(|k| Scale::of(all().map(move |p| p[k]), self.logarithmic[k]));
-        let ticks = [0, 1].map(|k: usize| scales[k].ticks());
-        let widest = |ticks: &[(f64, String)]| {
-            let widths = ticks.iter().map(|(_, text)| text_width(text));
-            widths.fold(0.0, f64::max)
-        };
-        // The title of the ordinate, its numbers; half of the last number of the abscissa.
-        let left = 30.0 + widest(&ticks[1]);
-        let right = SIZE[0] - (0.5 * widest(&ticks[0]) + 4.0).max(10.0);
-        let bottom = SIZE[1] - BELOW;
-        let x = |value: f64| left + (right - left) * scales[0].share(value);
-        let y = |value: f64| ABOVE + (bottom - ABOVE) * (1.0 - scales[1].share(value));
+        self.check()?;
+        let place = Place::of(self);
         // Writing to a String does not fail.
         let _ = write!(
             page,
@@ -257,9 +219,95 @@ impl ScatterChart {
             SIZE[1],
             escape(&plain(&self.title))
         );
-        let every = every(&ticks[0], right - left);
-        for (number, (value, text)) in ticks[0].iter().enumerate() {
-            let at = x(*value);
+        place.grid(page);
+        place.titles(&self.axes, page);
+        for (number, series) in self.series.iter().enumerate() {
+            place.series(number % COLOURS, series, page);
+        }
+        page.push_str("</svg>\n");
+        let entries = self.series.iter().enumerate();
+        let entries = entries.map(|(number, series)| (number, &series.name[..]));
+        page.push_str(&legend(entries, &self.told));
+        page.push_str("</figure>\n");
+        Ok(())
+    }
+
+    fn all_points(&self) -> impl Iterator<Item = &[f64; 2]> {
+        let series = self.series.iter();
+        series.flat_map(|series| series.points.iter().chain(&series.through))
+    }
+
+    fn check(&self) -> Result<(), PageError> {
+        if self.all_points().next().is_none() {
+            return Err(PageError::Empty {
+                block: self.title.clone(),
+                what: "the set of points",
+            });
+        }
+        let fits = |point: &[f64; 2]| {
+            let mut pairs = point.iter().zip(self.logarithmic);
+            pairs.all(|(v, log)| v.is_finite() && (!log || *v > 0.0))
+        };
+        if let Some((index, point)) = self
+            .all_points()
+            .enumerate()
+            .find(|(_, point)| !fits(point))
+        {
+            let not_finite = point.iter().copied().find(|v| !v.is_finite());
+            return Err(PageError::NotFinite {
+                block: self.title.clone(),
+                what: "points".to_owned(),
+                index,
+                found: not_finite.unwrap_or(point[0]),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Where values lie in the picture.
+struct Place {
+    scales: [Scale; 2],
+    ticks: [Vec<(f64, String)>; 2],
+    left: f64,
+    right: f64,
+    bottom: f64,
+}
+
+impl Place {
+    fn of(chart: &ScatterChart) -> Self {
+        let scales = [0, 1].map(|k| {
+            let values = chart.all_points().map(move |p| p[k]);
+            Scale::of(values, chart.logarithmic[k])
+        });
+        let ticks = [0, 1].map(|k: usize| scales[k].ticks());
+        let widest = |ticks: &[(f64, String)]| {
+            let widths = ticks.iter().map(|(_, text)| text_width(text));
+            widths.fold(0.0, f64::max)
+        };
+        Self {
+            // The title of the ordinate, its numbers; half of the last number of the abscissa.
+            left: 30.0 + widest(&ticks[1]),
+            right: SIZE[0] - (0.5 * widest(&ticks[0]) + 4.0).max(10.0),
+            bottom: SIZE[1] - BELOW,
+            scales,
+            ticks,
+        }
+    }
+
+    fn x(&self, value: f64) -> f64 {
+        self.left + (self.right - self.left) * self.scales[0].share(value)
+    }
+
+    fn y(&self, value: f64) -> f64 {
+        ABOVE + (self.bottom - ABOVE) * (1.0 - self.scales[1].share(value))
+    }
+
+    fn grid(&self, page: &mut String) {
+        let (left, right, bottom) = (self.left, self.right, self.bottom);
+        let every = every(&self.ticks[0], right - left);
+        for (number, (value, text)) in self.ticks[0].iter().enumerate() {
+            let at = self.x(*value);
             let _ = write!(
                 page,
                 "<line x1=\"{at:.1}\" y1=\"{ABOVE}\" x2=\"{at:.1}\" y2=\"{bottom}\" class=\"grid\"/>"
@@ -272,8 +320,8 @@ impl ScatterChart {
                 );
             }
         }
-        for (value, text) in &ticks[1] {
-            let at = y(*value);
+        for (value, text) in &self.ticks[1] {
+            let at = self.y(*value);
             let _ = write!(
                 page,
                 "<line x1=\"{left:.1}\" y1=\"{at:.1}\" x2=\"{right:.1}\" y2=\"{at:.1}\" class=\"grid\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{text}</text>",
@@ -281,6 +329,9 @@ impl ScatterChart {
                 at + 4.0
             );
         }
+    }
+
+    fn titles(&self, axes: &[Axis; 2], page: &mut String) {
         let named = |axis: &Axis, room: f64| {
             let label = match &axis.unit[..] {
                 "" => axis.label.clone(),
@@ -291,8 +342,8 @@ impl ScatterChart {
             let smaller = (smaller < 1.0).then(|| format!(" style=\"--fit:{smaller:.3}\""));
             (smaller.unwrap_or_default(), svg(&label))
         };
-        let (smaller, label) = named(&self.axes[0], SIZE[0] - 8.0);
-        let middle = 0.5 * (left + right);
+        let (smaller, label) = named(&axes[0], SIZE[0] - 8.0);
+        let middle = 0.5 * (self.left + self.right);
         let half = 0.5 * text_width(&label).min(SIZE[0] - 8.0);
         let _ = write!(
             page,
@@ -300,55 +351,47 @@ impl ScatterChart {
             middle.clamp(half, (SIZE[0] - half).max(half)),
             SIZE[1] - 6.0
         );
-        let (smaller, label) = named(&self.axes[1], bottom + BELOW - 12.0);
+        let (smaller, label) = named(&axes[1], self.bottom + BELOW - 12.0);
         let _ = writeln!(
             page,
             "<text transform=\"translate(13 {:.1}) rotate(-90)\" text-anchor=\"middle\"{smaller}>{label}</text>",
             0.5 * SIZE[1]
         );
-        for (number, series) in self.series.iter().enumerate() {
-            let colour = number % COLOURS;
-            let line = match series.joined {
-                true => &series.points,
-                false => &series.through,
-            };
-            if !line.is_empty() {
-                let _ = write!(
-                    page,
-                    "<polyline fill=\"none\" stroke=\"var(--c{colour})\" points=\""
-                );
-                for [a, b] in line {
-                    let _ = write!(page, "{:.1},{:.1} ", x(*a), y(*b));
-                }
-                page.push_str("\"/>");
+    }
+
+    fn series(&self, colour: usize, series: &PointSeries, page: &mut String) {
+        let line = match series.joined {
+            true => &series.points,
+            false => &series.through,
+        };
+        if !line.is_empty() {
+            let _ = write!(
+                page,
+                "<polyline fill=\"none\" stroke=\"var(--c{colour})\" points=\""
+            );
+            for [a, b] in line {
+                let _ = write!(page, "{:.1},{:.1} ", self.x(*a), self.y(*b));
             }
-            let radius = if series.joined { 3.5 } else { 2.0 };
-            let drawn = match series.is_mark {
-                true => format!(
-                    "r=\"5.5\" fill=\"none\" stroke=\"var(--c{colour})\" stroke-width=\"2\""
-                ),
-                false => format!("r=\"{radius}\" fill=\"var(--c{colour})\""),
-            };
-            for (k, [a, b]) in series.points.iter().enumerate() {
-                let label = series
-                    .labels
-                    .get(k)
-                    .map_or(String::new(), |l| escape(&plain(l)));
-                let _ = write!(
-                    page,
-                    "<circle cx=\"{:.1}\" cy=\"{:.1}\" {drawn}><title>{label}</title></circle>",
-                    x(*a),
-                    y(*b)
-                );
-            }
-            page.push('\n');
+            page.push_str("\"/>");
         }
-        page.push_str("</svg>\n");
-        let entries = self.series.iter().enumerate();
-        let entries = entries.map(|(number, series)| (number, &series.name[..]));
-        page.push_str(&legend(entries, &self.told));
-        page.push_str("</figure>\n");
-        Ok(())
+        let radius = if series.joined { 3.5 } else { 2.0 };
+        let drawn = match series.is_mark {
+            true => {
+                format!("r=\"5.5\" fill=\"none\" stroke=\"var(--c{colour})\" stroke-width=\"2\"")
+            }
+            false => format!("r=\"{radius}\" fill=\"var(--c{colour})\""),
+        };
+        for (k, [a, b]) in series.points.iter().enumerate() {
+            let label = series.labels.get(k);
+            let label = label.map_or(String::new(), |l| escape(&plain(l)));
+            let _ = write!(
+                page,
+                "<circle cx=\"{:.1}\" cy=\"{:.1}\" {drawn}><title>{label}</title></circle>",
+                self.x(*a),
+                self.y(*b)
+            );
+        }
+        page.push('\n');
     }
 }
 

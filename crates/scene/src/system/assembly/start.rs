@@ -34,117 +34,154 @@ pub(super) fn settle_phases(
     let mut closed: Vec<&PreparedMesh> = Vec::new();
     let mut turned_by: Vec<Option<&PreparedMesh>> = vec![None; bodies.list.len()];
     for mesh in meshes {
-        let Some(teeth) = &mesh.mesh else {
+        if mesh.mesh.is_none() {
             continue;
-        };
+        }
         let free = |i: usize| {
             bodies.list[mesh.bodies[i]].turn_is_free && !meshed.contains(&mesh.bodies[i])
         };
         let turned = [1, 0].into_iter().find(|&i| free(i));
-        let side = driven_side(mesh, bodies);
         let keys = TableKeys::new(document, &mesh.key);
-        let gap = |bodies: &Bodies, side: Flank| least_gap_m(mesh, bodies, side, &keys);
-        let name = &mesh.name;
         if let Some(i) = turned {
             turned_by[mesh.bodies[i]] = Some(mesh);
-            let mut least = gap(bodies, side)?;
-            for _ in 0..100 {
-                if !least.is_finite() || least.abs() < TOUCHING_M {
-                    break;
-                }
-                // Seen along z, the gap grows with either gear's turn by σ r_b, with the signs of rings.
-                let slope = teeth.kinematics().hand(side) * mesh.base_radii_m[i];
-                bodies.list[mesh.bodies[i]].turn(-least / slope);
-                least = gap(bodies, side)?;
-            }
-            if least.is_finite() && least.abs() < UM {
-                let body = &bodies.list[mesh.bodies[i]].body;
-                let angle = body.orientation.scaled_axis();
-                notes.push(format!(
-                    "body `{}` is turned so that the {} flanks of mesh `{name}` touch: rotation vector [{:.6}, {:.6}, {:.6}] deg",
-                    body.name,
-                    side.name(),
-                    angle[0].to_degrees(),
-                    angle[1].to_degrees(),
-                    angle[2].to_degrees()
-                ));
-                for other in mesh.sides.iter().filter(|other| **other != side) {
-                    let least = gap(bodies, *other)?;
-                    if least < -JAMMED_M {
-                        notes.push(format!(
-                            "the teeth of mesh `{name}` jam: while the {} flanks touch, the {} ones overlap by {:.1} um; give the pair backlash, or \
-                             mount the gears farther apart",
-                            side.name(),
-                            other.name(),
-                            -least / UM
-                        ));
-                    }
-                }
-            } else {
-                return Err(keys.error("", format!("no angle of body `{}` was found at which the {} flanks touch (gap {least:.3e} m); state cardan_deg of both gears", bodies.list[mesh.bodies[i]].body.name, side.name())));
-            }
+            turn_to_touch(mesh, i, bodies, &keys, notes)?;
         } else {
             closed.push(mesh);
-            let mut stand = Vec::new();
-            for side in &mesh.sides {
-                let least = gap(bodies, *side)?;
-                let word = if least < 0.0 {
-                    "overlap by"
-                } else {
-                    "are open by"
-                };
-                stand.push(format!(
-                    "the {} flanks {word} {:.3} um",
-                    side.name(),
-                    least.abs() / UM
-                ));
-            }
-            notes.push(format!(
-                "mesh `{name}` starts as the bodies stand: {}",
-                stand.join(", ")
-            ));
+            notes.push(as_they_stand(mesh, bodies, &keys)?);
         }
-        let both = [Flank::Right, Flank::Left];
-        let open = [gap(bodies, both[0])?, gap(bodies, both[1])?];
-        for (side, gap_m) in both.into_iter().zip(open) {
-            let share = if mesh.sides.contains(&side) {
-                THROUGH
-            } else {
-                BEHIND
-            };
-            let (depth_m, allowed_m) = (-gap_m, share * teeth.kinematics().pitch_m());
-            if depth_m > allowed_m {
-                let problem = format!(
-                    "the {} flanks stand {:.3} mm in each other at the start, allowed are {:.3} mm; state other angles (cardan_deg) or places \
-                     of `{}` and `{}`",
-                    side.name(),
-                    1e3 * depth_m,
-                    1e3 * allowed_m,
-                    bodies.name(Some(mesh.bodies[0])),
-                    bodies.name(Some(mesh.bodies[1]))
-                );
-                return Err(keys.error("", problem));
-            }
-        }
-        let (sum, pitch_m) = (open[0] + open[1], teeth.kinematics().pitch_m());
-        // The gaps of a tooth in its space add up to the backlash, less than a pitch by what two tips are thick. A whole pitch: each side found another space,
-        // a tooth stands in the middle of a tooth.
-        if sum.is_finite() && sum > TOOTH_ON_TOOTH * pitch_m {
-            let problem = format!(
-                "teeth stand in teeth at the start: the right flanks are open by {:.3} mm and the left ones by {:.3} mm, together a pitch ({:.3} mm); state other \
-                 angles (cardan_deg) of `{}` and `{}`, or leave the last angle of one of them out",
-                1e3 * open[0],
-                1e3 * open[1],
-                1e3 * pitch_m,
-                bodies.name(Some(mesh.bodies[0])),
-                bodies.name(Some(mesh.bodies[1]))
-            );
-            return Err(keys.error("", problem));
-        }
+        refuse_teeth_in_teeth(mesh, bodies, &keys)?;
         meshed.extend(mesh.bodies);
     }
     if seeks_rest {
         press_sets(bodies, &turned_by, &closed, document)?;
+    }
+    Ok(())
+}
+
+/// Turns gear `i` of a mesh so that the driven flanks touch; notes its angle, and how far other flanks overlap then.
+fn turn_to_touch(
+    mesh: &PreparedMesh,
+    i: usize,
+    bodies: &mut Bodies,
+    keys: &TableKeys<'_>,
+    notes: &mut Vec<String>,
+) -> Result<(), InputError> {
+    let Some(teeth) = &mesh.mesh else {
+        return Ok(());
+    };
+    let (name, side) = (&mesh.name, driven_side(mesh, bodies));
+    let mut least = least_gap_m(mesh, bodies, side, keys)?;
+    for _ in 0..100 {
+        if !least.is_finite() || least.abs() < TOUCHING_M {
+            break;
+        }
+        // Seen along z, the gap grows with either gear's turn by σ r_b, with the signs of rings.
+        let slope = teeth.kinematics().hand(side) * mesh.base_radii_m[i];
+        bodies.list[mesh.bodies[i]].turn(-least / slope);
+        least = least_gap_m(mesh, bodies, side, keys)?;
+    }
+    let body = &bodies.list[mesh.bodies[i]].body;
+    if !least.is_finite() || least.abs() >= UM {
+        let problem = format!(
+            "no angle of body `{}` was found at which the {} flanks touch (gap {least:.3e} m); state cardan_deg of both gears",
+            body.name,
+            side.name()
+        );
+        return Err(keys.error("", problem));
+    }
+    let angle = body.orientation.scaled_axis();
+    notes.push(format!(
+        "body `{}` is turned so that the {} flanks of mesh `{name}` touch: rotation vector [{:.6}, {:.6}, {:.6}] deg",
+        body.name,
+        side.name(),
+        angle[0].to_degrees(),
+        angle[1].to_degrees(),
+        angle[2].to_degrees()
+    ));
+    for other in mesh.sides.iter().filter(|other| **other != side) {
+        let least = least_gap_m(mesh, bodies, *other, keys)?;
+        if least < -JAMMED_M {
+            notes.push(format!(
+                "the teeth of mesh `{name}` jam: while the {} flanks touch, the {} ones overlap by {:.1} um; give the pair backlash, or \
+                 mount the gears farther apart",
+                side.name(),
+                other.name(),
+                -least / UM
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The note on a mesh both of whose gears have their angles.
+fn as_they_stand(
+    mesh: &PreparedMesh,
+    bodies: &Bodies,
+    keys: &TableKeys<'_>,
+) -> Result<String, InputError> {
+    let mut stand = Vec::new();
+    for side in &mesh.sides {
+        let least = least_gap_m(mesh, bodies, *side, keys)?;
+        let word = if least < 0.0 {
+            "overlap by"
+        } else {
+            "are open by"
+        };
+        stand.push(format!(
+            "the {} flanks {word} {:.3} um",
+            side.name(),
+            least.abs() / UM
+        ));
+    }
+    Ok(format!(
+        "mesh `{}` starts as the bodies stand: {}",
+        mesh.name,
+        stand.join(", ")
+    ))
+}
+
+fn refuse_teeth_in_teeth(
+    mesh: &PreparedMesh,
+    bodies: &Bodies,
+    keys: &TableKeys<'_>,
+) -> Result<(), InputError> {
+    let Some(teeth) = &mesh.mesh else {
+        return Ok(());
+    };
+    let pitch_m = teeth.kinematics().pitch_m();
+    let [gear_1, gear_2] = mesh.bodies.map(|body| bodies.name(Some(body)));
+    let mut open = [0.0; 2];
+    for (side, gap_m) in [Flank::Right, Flank::Left].into_iter().zip(&mut open) {
+        *gap_m = least_gap_m(mesh, bodies, side, keys)?;
+        let share = if mesh.sides.contains(&side) {
+            THROUGH
+        } else {
+            BEHIND
+        };
+        let (depth_m, allowed_m) = (-*gap_m, share * pitch_m);
+        if depth_m > allowed_m {
+            let problem = format!(
+                "the {} flanks stand {:.3} mm in each other at the start, allowed are {:.3} mm; state other angles (cardan_deg) or places \
+                 of `{gear_1}` and `{gear_2}`",
+                side.name(),
+                1e3 * depth_m,
+                1e3 * allowed_m,
+            );
+            return Err(keys.error("", problem));
+        }
+    }
+    let sum = open[0] + open[1];
+    // The gaps of a tooth in its space add up to the backlash, less than a pitch by what two tips are thick. A whole
+    // pitch: each side found another space, a tooth stands in the middle of a tooth.
+    if sum.is_finite() && sum > TOOTH_ON_TOOTH * pitch_m {
+        let problem = format!(
+            "teeth stand in teeth at the start: the right flanks are open by {:.3} mm and the left ones by {:.3} mm, together a pitch ({:.3} mm); state other \
+             angles (cardan_deg) of `{gear_1}` and `{gear_2}`, or leave the last angle of one of them out",
+            1e3 * open[0],
+            1e3 * open[1],
+            1e3 * pitch_m,
+        );
+        return Err(keys.error("", problem));
     }
     Ok(())
 }
