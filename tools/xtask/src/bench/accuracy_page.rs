@@ -129,7 +129,7 @@ fn by_quantity(found: &[Tried<'_>]) -> String {
                         let setting = one["setting"].as_str().unwrap_or_default();
                         format!(
                             "| {} | {} ",
-                            short(seconds(&one)),
+                            short(seconds(one)),
                             setting.replace('|', "/")
                         )
                     })
