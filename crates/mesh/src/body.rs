@@ -301,6 +301,7 @@ impl<'g, F: Fn(f64) -> f64> Sector<'g, F> {
 
     /// The outlines of a sector's openings.
     fn opening_loops(&mut self, openings: &Openings) -> Vec<Vec<usize>> {
+        let count = openings.count() / self.sectors;
         let repeat = TAU / openings.count() as f64;
         let first = ((self.start - openings.phase_rad()) / repeat).ceil() as i64;
         // Every other point is the middle of a side.
@@ -320,9 +321,7 @@ impl<'g, F: Fn(f64) -> f64> Sector<'g, F> {
             }
             corners
         };
-        (0..(openings.count() / self.sectors) as i64)
-            .map(one)
-            .collect()
+        (0..count as i64).map(one).collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! The body below the teeth in tetrahedra: the mesh of one sector, copied round the axis and joined to the teeth.
 
-use crate::body::first_tooth;
+use crate::body_circles::first_tooth;
 use crate::elements::ElementList;
 use crate::python::PythonEnvironment;
 use crate::quality::tetrahedron_jacobian;
