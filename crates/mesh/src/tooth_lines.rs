@@ -78,26 +78,33 @@ impl HalfLines {
         let at_cut = across(&mut points, cut_position);
         let at_tip = across(&mut points, last);
 
+        // Pieces grow from those of the layer, so that the stress below the fillet is resolved beyond it.
+        let innermost = layer.thickness_m * (1.0 - shares[shares.len() - 1]);
+        let growing = |length: f64, largest: f64, least: usize| {
+            let size = |from_layer: f64| (innermost + GRADING * from_layer).min(largest);
+            graded(0.0, length, size, Pieces { least, even: false })
+        };
         // Cut and tip land have the same number of pieces from the layer to the centre line.
         let [x, y] = offset_points[cut_position];
         let (cut_radius, cut_angle) = (x.hypot(y), y.atan2(x));
-        let width = ((cut_angle.abs() * cut_radius / h_flank).round() as usize).max(2);
-        let cut = points.arc(offset[cut_position], cut_radius, cut_angle, width);
+        let cut_length = cut_angle.abs() * cut_radius;
+        let across_cut = growing(cut_length, h_flank, 2);
+        let width = across_cut.len() - 1;
+        let cut_shares = across_cut.iter().map(|along| along / cut_length);
+        let cut = points.arc(offset[cut_position], cut_radius, cut_angle, cut_shares);
         let tip_angle = layer.tip_angle_rad;
-        let tip_land = points.arc(offset[last], tooth.tip_radius_m, tip_angle, width);
+        let tip_land = points.arc(offset[last], tooth.tip_radius_m, tip_angle, equal(width));
 
         // On to the circle where the body begins.
         let outwards = tooth.tip_direction();
         let ring = ring_radius_m(gear);
         let start_radius = tooth.root_radius_m - outwards * layer.thickness_m;
-        let depth = (start_radius - ring).abs();
-        let pieces = ((depth / h_flank.max(2.0 * h_fillet)).ceil() as usize).max(2);
+        let depth = growing((start_radius - ring).abs(), h_flank.max(2.0 * h_fillet), 2);
         let mut down = vec![offset[0]];
-        down.extend((1..=pieces).map(|k| {
-            let r = start_radius - outwards * depth * k as f64 / pieces as f64;
-            points.add(polar(r, space))
-        }));
-        let bottom = points.arc(down[pieces], ring, space, cut_position + width);
+        let below = depth[1..].iter();
+        down.extend(below.map(|d| points.add(polar(start_radius - outwards * d, space))));
+        let corner = down[down.len() - 1];
+        let bottom = points.arc(corner, ring, space, equal(cut_position + width));
         Self {
             points: points.0,
             outline,
@@ -239,12 +246,25 @@ impl Points {
         self.0.len() - 1
     }
 
-    /// A line from the point `first` at an angle along a circle to the centre line.
-    fn arc(&mut self, first: usize, r: f64, angle: f64, pieces: usize) -> Vec<usize> {
-        let mut line = vec![first];
-        let share = |k: usize| 1.0 - k as f64 / pieces as f64;
-        line.extend((1..pieces).map(|k| self.add(polar(r, angle * share(k)))));
-        line.push(self.add([r, 0.0]));
-        line
+    /// A line from the point `first` at an angle along a circle to the centre line, with points at shares of it.
+    fn arc(
+        &mut self,
+        first: usize,
+        r: f64,
+        angle: f64,
+        shares: impl ExactSizeIterator<Item = f64>,
+    ) -> Vec<usize> {
+        let last = shares.len() - 1;
+        let point = |(k, share): (usize, f64)| match k {
+            0 => first,
+            k if k == last => self.add([r, 0.0]),
+            _ => self.add(polar(r, angle * (1.0 - share))),
+        };
+        shares.enumerate().map(point).collect()
     }
+}
+
+/// The ends of equal pieces, as shares.
+fn equal(pieces: usize) -> impl ExactSizeIterator<Item = f64> {
+    (0..=pieces).map(move |k| k as f64 / pieces as f64)
 }
