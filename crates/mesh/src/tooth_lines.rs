@@ -266,5 +266,5 @@ impl Points {
 
 /// The ends of equal pieces, as shares.
 fn equal(pieces: usize) -> impl ExactSizeIterator<Item = f64> {
-    (0..=pieces).map(move |k| k as f64 / pieces as f64)
+    (0..pieces + 1).map(move |k| k as f64 / pieces as f64)
 }
