@@ -71,6 +71,10 @@ fn root_strain(gear: &ReducedGear, roll_rad: f64, line_load_n_per_m: f64) -> f64
     strain
 }
 
+/// Loads farther out are within a fillet's radius of the gauge. It feels how the hat functions of nine roll stations
+/// spread them: 1 % of its strain, 0.1 % with 25 stations.
+const LOWEST_MM: f64 = 91.0;
+
 /// Largest errors over rims and radii.
 #[derive(Default)]
 struct Worst {
@@ -78,9 +82,11 @@ struct Worst {
     own: f64,
     /// Of the teeth beside it, over the largest deflection of those.
     beside: f64,
-    /// Of the root strain, and the same over the error that the reduction states.
+    /// Of the root strain under the two outer loads, and the same over the error that the reduction states.
     strain: f64,
     strain_over_stated: f64,
+    /// Of the root strain under the load nearest to the root.
+    strain_of_lowest: f64,
 }
 
 fn worst(mesh: &str, estimate_error: bool) -> Worst {
@@ -120,6 +126,10 @@ fn worst(mesh: &str, estimate_error: bool) -> Worst {
             );
             worst.own = worst.own.max(own.abs());
             worst.beside = worst.beside.max(beside[0].abs()).max(beside[1].abs());
+            if radius_mm > LOWEST_MM {
+                worst.strain_of_lowest = worst.strain_of_lowest.max(strain.abs());
+                continue;
+            }
             worst.strain = worst.strain.max(strain.abs());
             worst.strain_over_stated = worst.strain_over_stated.max(strain.abs() / stated);
         }
@@ -141,6 +151,29 @@ fn a_ring_deflects_as_an_independent_program_says() {
     );
     let finer = worst("flank_mm = 0.6\n", false);
     assert!(finer.own < 0.007, "{}", finer.own);
+    for found in [default, finer] {
+        assert!(found.strain_of_lowest < 0.015, "{}", found.strain_of_lowest);
+    }
+}
+
+/// Elements that are shorter in the fillets alone: half the default length leaves a quarter of the root strain's error
+/// (second order; a third is allowed), whatever the length along the flank. Elements below the fillet grow from those
+/// along it; where they did not, the error grew from 0.6 to 8 %.
+#[test]
+fn shorter_elements_in_the_fillets_are_enough_for_the_root_strain_of_a_ring() {
+    let default = worst("", false);
+    let shorter = worst("fillet_mm = 0.075\n", true);
+    assert!(
+        shorter.strain < default.strain / 3.0,
+        "{} {}",
+        shorter.strain,
+        default.strain
+    );
+    assert!(
+        shorter.strain_over_stated < 1.0,
+        "{}",
+        shorter.strain_over_stated
+    );
 }
 
 /// Quadratic elements: 0.1 %, and 0.05 % that the record's own mesh leaves; root strain 1 %.
