@@ -127,11 +127,7 @@ fn by_quantity(found: &[Tried<'_>]) -> String {
                     let least = good.min_by(|a, b| seconds(a).total_cmp(&seconds(b)));
                     least.map_or("| | ".to_owned(), |one| {
                         let setting = one["setting"].as_str().unwrap_or_default();
-                        format!(
-                            "| {} | {} ",
-                            short(seconds(one)),
-                            setting.replace('|', "/")
-                        )
+                        format!("| {} | {} ", short(seconds(one)), setting.replace('|', "/"))
                     })
                 };
                 let _ = writeln!(
