@@ -24,7 +24,7 @@
 //! | bricks split into tetrahedra, teeth of them | [`tet_split`], `tet_mesh.rs` | `tet_split.rs`, `tet_mesh.rs` |
 //! | a body of tetrahedra, with fillets | [`solid_problem`], [`solid_mesher`] | `solid_problem.rs`, `solid_mesher.rs`, `solid_mesher.py` |
 //! | its copies joined to the teeth | [`solid_body`] | `solid_body.rs` |
-//! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
+//! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs`, `gear_mesh_sets.rs` |
 //! | bevel gears: sections along the tooth, their numbers | [`bevel_level::Levels`] | `bevel_level.rs`, `bevel_grid.rs` |
 //! | the body below: quads of the meridian, turned about the axis | [`bevel_meridian`] | `bevel_meridian.rs`, `bevel_twist.rs` |
 //! | nodes, elements and sets | [`BevelMesh`] | `bevel_mesh.rs` |
@@ -50,6 +50,7 @@ pub mod cut_line;
 pub mod elements;
 pub mod face;
 pub mod gear_mesh;
+mod gear_mesh_sets;
 pub mod grading;
 pub mod heights;
 pub mod layers;
