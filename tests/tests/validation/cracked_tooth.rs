@@ -24,7 +24,7 @@ fn gear(depth_mm: f64) -> GearDefinition {
 
 /// The section loss takes all material behind the crack's tip out, up to the tip of the tooth; the doubled nodes only
 /// part what the crack parts. Both grow with the depth and are of one order: section loss over doubled nodes is 0.74 at
-/// 1 mm, 0.96 at 2 mm.
+/// 1 mm, 0.98 at 2 mm.
 #[test]
 fn section_loss_and_doubled_nodes_are_of_one_order() {
     let options = ReductionOptions {
@@ -87,7 +87,7 @@ fn section_loss_and_doubled_nodes_are_of_one_order() {
         ratios.push([cracked - sound, cracked_beam - beam]);
     }
     // Figures of this mesh, kept as they are: how far two models are apart has no theory.
-    for ([doubled, section_loss], kept) in ratios.iter().zip([0.74, 0.96]) {
+    for ([doubled, section_loss], kept) in ratios.iter().zip([0.74, 0.98]) {
         let ratio = section_loss / doubled;
         assert!(*doubled > 0.0 && (ratio - kept).abs() < 0.01, "{ratio}");
     }
