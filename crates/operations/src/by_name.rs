@@ -38,7 +38,7 @@ pub fn call(name: &str, request: Value, watch: &Watch<'_>) -> Result<Value, Fail
             }
         }
         "compare" => Ok(compare::compare(&read(name, request)?)?.figures()),
-        "compliance" => Ok(compliance::compliance(&read(name, request)?)?.figures()),
+        "compliance" => Ok(compliance::compliance(&read(name, request)?, watch)?.figures()),
         "export" => Ok(export::export(&read(name, request)?, watch)?.figures),
         "import" => {
             let request: ImportRequest = read(name, request)?;

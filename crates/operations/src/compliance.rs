@@ -1,6 +1,8 @@
 //! Deflection along a flank of a reduced gear under a line load.
 
 use crate::failure::Failure;
+use crate::projected_compliance::{ProjectedDeflections, projected_deflections};
+use crate::watch::Watch;
 use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankDeflection, FlankLoad, flank_deflection};
 use gearmesh_geometry::{Flank, involute};
@@ -40,6 +42,10 @@ pub struct ComplianceRequest {
     #[arg(long, value_parser = crate::file_words::local_words(), default_value = LocalContact::default().name())]
     #[serde(default)]
     pub local: LocalContact,
+    /// Beside it the deflection by forces on single element faces; the gear is meshed and factorised again
+    #[arg(long)]
+    #[serde(default)]
+    pub project: bool,
 }
 
 /// Deflections that were found.
@@ -57,19 +63,35 @@ pub struct FoundDeflections {
     pub mesh_error: Option<f64>,
     /// Radius of the load \[mm\], deflection.
     pub rows: Vec<(f64, FlankDeflection)>,
+    /// The same by forces on single element faces, where asked for.
+    pub projected: Option<ProjectedDeflections>,
 }
 
 impl FoundDeflections {
     /// For other programs.
     #[must_use]
     pub fn figures(&self) -> Value {
-        let rows = self.rows.iter().map(|(radius, d)| {
+        let row = |radius_mm: f64, d: &FlankDeflection| {
             let (global, local) = d.means_m();
-            json!({"radius_mm": radius, "global_m": global, "local_m": local, "total_m": global + local,
+            json!({"radius_mm": radius_mm, "global_m": global, "local_m": local, "total_m": global + local,
                    "global_per_slice_m": d.global_m, "local_per_slice_m": d.local_m})
-        });
-        json!({"gear": self.gear, "tooth": self.tooth, "at_tooth": self.at_tooth, "mesh_error_relative": self.mesh_error,
-               "rows": rows.collect::<Vec<_>>()})
+        };
+        let rows: Vec<Value> = self
+            .rows
+            .iter()
+            .map(|(radius, d)| row(*radius, d))
+            .collect();
+        let mut told = json!({"gear": self.gear, "tooth": self.tooth, "at_tooth": self.at_tooth,
+                              "mesh_error_relative": self.mesh_error, "rows": rows});
+        if let Some(projected) = &self.projected {
+            let rows = self.rows.iter().zip(&projected.deflections);
+            told["projected"] = json!({
+                "rows": rows.map(|((radius, _), d)| row(*radius, d)).collect::<Vec<_>>(),
+                "solutions": projected.solutions,
+                "seconds": {"mesh and factor": projected.factor_s, "projection": projected.projection_s,
+                            "solutions": projected.solutions_s}});
+        }
+        told
     }
 }
 
@@ -77,7 +99,7 @@ impl FoundDeflections {
 ///
 /// # Errors
 /// [`Failure`] for a file that is no model of a cylindrical gear, and for a place or load that it does not allow.
-pub fn compliance(a: &ComplianceRequest) -> Result<FoundDeflections, Failure> {
+pub fn compliance(a: &ComplianceRequest, watch: &Watch<'_>) -> Result<FoundDeflections, Failure> {
     let model = read_reduced_gear(&a.model).map_err(Failure::input)?;
     model.demand_cylindrical().map_err(Failure::input)?;
     let at_tooth = a.at_tooth.unwrap_or(a.tooth);
@@ -105,7 +127,7 @@ pub fn compliance(a: &ComplianceRequest) -> Result<FoundDeflections, Failure> {
         radius_mm(stations[0]),
         radius_mm(stations[stations.len() - 1]),
     );
-    let mut rows = Vec::new();
+    let (mut loads, mut found) = (Vec::new(), Vec::new());
     for &radius in &a.radius_mm {
         if !(radius >= low - 1e-6 && radius <= high + 1e-6) {
             return Err(Failure::input(format!(
@@ -119,11 +141,16 @@ pub fn compliance(a: &ComplianceRequest) -> Result<FoundDeflections, Failure> {
             line_load_n_per_m: a.line_load_N_per_mm * 1e3,
             half_width_m: a.half_width_mm * 1e-3,
         };
-        rows.push((
-            radius,
-            flank_deflection(&model, &load, at_tooth, a.local).map_err(Failure::input)?,
-        ));
+        let by_grid = flank_deflection(&model, &load, at_tooth, a.local);
+        found.push(by_grid.map_err(Failure::input)?);
+        loads.push(load);
     }
+    let projected = a.project.then(|| {
+        let file = a.model.display().to_string();
+        let asked = (&loads[..], &found[..]);
+        projected_deflections((&model, &file), asked, (at_tooth, a.local), watch)
+    });
+    let projected = projected.transpose()?;
     // Made for a load on tooth 0; on others the body below may differ.
     let mesh_error = model.checks.further(if at_tooth == a.tooth {
         ReductionChecks::LOADED_TOOTH_ERROR
@@ -136,6 +163,7 @@ pub fn compliance(a: &ComplianceRequest) -> Result<FoundDeflections, Failure> {
         at_tooth,
         slices: model.grid.slices,
         mesh_error,
-        rows,
+        rows: a.radius_mm.iter().copied().zip(found).collect(),
+        projected,
     })
 }

@@ -50,6 +50,7 @@ pub mod page_file;
 mod pair_table;
 pub mod periods;
 pub mod plan;
+mod projected_compliance;
 mod ratings;
 pub mod recover;
 pub mod reduce;

@@ -11,7 +11,7 @@
 
 use crate::face_overlap::overlap_points;
 use crate::toothed_mesh::ToothedMesh;
-use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve, ToothGeometry};
 use gearmesh_mesh::OutlineFace;
 use gearmesh_model::FlankGrid;
 use std::collections::BTreeMap;
@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 /// A sparse load or row: (degree of freedom, weight), by increasing degree of freedom.
 pub type SparseVector = Vec<(usize, f64)>;
 
-/// The three unit loads of one grid point.
+/// The three unit loads of one grid point, or of another place on a flank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridLoad {
     /// Along the inward normal.
@@ -95,32 +95,73 @@ pub fn flank_loads(
         .iter()
         .map(|&xi| curve.arc_length_at_roll_m(xi))
         .collect();
-    let tooth_angle = TAU * tooth as f64 / gear.tooth.teeth as f64;
-    let twist = mesh.twist_rad_per_m();
-    let (helix_sin, helix_cos) = (profile.base_radius_m * twist).atan().sin_cos();
-    let axial_part = -side.mirror() * helix_sin;
+    let frames = FlankFrames::new(gear, mesh, tooth, side);
 
     let [xi, z] = [&grid.roll_angles_rad, &grid.z_m];
     let faces = mesh.outline_faces(tooth, side, [start, end]);
     grid_loads(&faces, grid, [&station_arcs, z], |[arc, height], [i, j]| {
         let roll = roll_at(arc);
-        let (normal, tangent) = profile.flank_frame(side, roll);
-        let (sin, cos) = (tooth_angle + twist * height).sin_cos();
-        let turn = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
-        let ([n_x, n_y], [t_x, t_y]) = (turn(normal), turn(tangent));
         HatLoad {
             shares: [
                 (roll - xi[i]) / (xi[i + 1] - xi[i]),
                 (height - z[j]) / (z[j + 1] - z[j]),
             ],
             density: 1.0,
-            directions: [
-                [helix_cos * n_x, helix_cos * n_y, axial_part],
-                [t_x, t_y, 0.0],
-                [0.0, 0.0, 1.0],
-            ],
+            directions: frames.directions(roll, height),
         }
     })
+}
+
+/// Where the points of one flank of one tooth stand, and the directions of forces there.
+#[derive(Debug, Clone)]
+pub(crate) struct FlankFrames<'a> {
+    profile: &'a ToothGeometry,
+    side: Flank,
+    tooth_angle_rad: f64,
+    twist_rad_per_m: f64,
+    /// Of the base helix.
+    helix_sin_cos: (f64, f64),
+}
+
+impl<'a> FlankFrames<'a> {
+    pub fn new(
+        gear: &'a GearDefinition,
+        mesh: &impl ToothedMesh,
+        tooth: usize,
+        side: Flank,
+    ) -> Self {
+        let (profile, twist_rad_per_m) = (&gear.profile, mesh.twist_rad_per_m());
+        Self {
+            profile,
+            side,
+            tooth_angle_rad: TAU * tooth as f64 / gear.tooth.teeth as f64,
+            twist_rad_per_m,
+            helix_sin_cos: (profile.base_radius_m * twist_rad_per_m).atan().sin_cos(),
+        }
+    }
+
+    fn turned(&self, [x, y]: [f64; 2], z_m: f64) -> [f64; 2] {
+        let (sin, cos) = (self.tooth_angle_rad + self.twist_rad_per_m * z_m).sin_cos();
+        [cos * x - sin * y, sin * x + cos * y]
+    }
+
+    /// Unit vectors along the inward normal, along the profile towards the tip, and along +z.
+    pub fn directions(&self, roll_rad: f64, z_m: f64) -> [[f64; 3]; 3] {
+        let (normal, tangent) = self.profile.flank_frame(self.side, roll_rad);
+        let [[n_x, n_y], [t_x, t_y]] = [normal, tangent].map(|v| self.turned(v, z_m));
+        let (sin, cos) = self.helix_sin_cos;
+        [
+            [cos * n_x, cos * n_y, -self.side.mirror() * sin],
+            [t_x, t_y, 0.0],
+            [0.0, 0.0, 1.0],
+        ]
+    }
+
+    /// Place in space \[m\].
+    pub fn point_m(&self, roll_rad: f64, z_m: f64) -> [f64; 3] {
+        let [x, y] = self.turned(self.profile.flank_point_m(self.side, roll_rad), z_m);
+        [x, y, z_m]
+    }
 }
 
 /// What loads at a point of a cell of the grid.

@@ -8,6 +8,7 @@
 //! | --- | --- |
 //! | unit loads on the flank grid, as nodal loads | `flank_loads.rs` |
 //! | integration over a part of an element face | `face_overlap.rs` |
+//! | forces at single places: the face under a point; of a flank | `face_projection.rs`; `projected_flank.rs` |
 //! | mesh, model and the way it is solved | `gear_body.rs` |
 //! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `sector_condensation.rs`, `sector_stiffness.rs`, `separating_circle.rs`, `cyclic_body.rs`, `cyclic_response.rs` |
 //! | by one factorisation of everything | `whole_gear.rs` |
@@ -47,6 +48,7 @@ mod cyclic_response;
 pub mod dynamics;
 pub mod error_estimate;
 pub mod face_overlap;
+pub mod face_projection;
 pub mod field;
 mod flank_compliance;
 pub mod flank_loads;
@@ -66,6 +68,7 @@ pub mod mode_figures;
 mod modes_on_faces;
 pub mod near_field;
 mod part;
+pub mod projected_flank;
 pub mod reduce;
 mod reduction_steps;
 pub mod repeated_mesh;
@@ -106,6 +109,9 @@ pub enum ReductionError {
     /// A mesh from elsewhere is not the gear's.
     #[error(transparent)]
     Imported(#[from] Box<imported_error::ImportedMeshError>),
+    /// A force stands beside the flank.
+    #[error(transparent)]
+    OffFlank(#[from] face_projection::OffEveryFace),
     /// A gauge covers no element face.
     #[error(
         "gauge {name}: no element face lies under it; make it longer or wider, or refine mesh.fillet_mm"

@@ -169,23 +169,6 @@ pub fn calibration(
     })
 }
 
-/// The same from a tooth in tetrahedra, which is no stack of layers with one field: all of its width, not twisted,
-/// loads uniform over it, no node moves along the axis, and the mean over the width is taken
-/// (docs/theory/imported_mesh.md).
-fn mean_mesh_compliance(
-    gear: &GearDefinition,
-    mesh: &GearMesh,
-    grid: &FlankGrid,
-    side: Flank,
-) -> Result<Vec<f64>, ReductionError> {
-    let teeth = mesh.straight_teeth();
-    let model = model_of(gear, &teeth)?;
-    let loads = flank_loads(gear, &teeth, grid, 0, side);
-    let submodel = ToothSubmodel::new(&model, &teeth, side, &loads, Deformation::PlaneStrain)?;
-    let products = submodel.products(&normals(&loads));
-    Ok(line_compliance(grid, &products, gear.tooth.face_width_m))
-}
-
 /// Deflections per line load \[m²/N\], `[load station][response station]`, from those of all loads of a flank in plane
 /// strain, `[response][load]`: loads and means over the width.
 pub(crate) fn line_compliance(grid: &FlankGrid, products: &[f64], width_m: f64) -> Vec<f64> {
@@ -207,8 +190,52 @@ pub(crate) fn line_compliance(grid: &FlankGrid, products: &[f64], width_m: f64) 
         .collect()
 }
 
+/// The tooth of a gear's own cross-section, element and material, not twisted, for plane strain.
+#[derive(Debug)]
+pub struct PlaneTooth {
+    /// One layer of the section; of tetrahedra, which are no stack of layers with one field, all of the tooth's width.
+    pub mesh: GearMesh,
+    /// Its model.
+    pub model: FeModel,
+    /// Stations along the axis that loads uniform over the width stand on \[m\].
+    pub z_m: Vec<f64>,
+}
+
+impl PlaneTooth {
+    /// That of a gear's mesh and model; `grid` has the stations along the axis.
+    ///
+    /// # Errors
+    /// [`ReductionError`] for a section of no worth at all.
+    pub fn new(
+        gear: &GearDefinition,
+        mesh: &GearMesh,
+        model: &FeModel,
+        grid: &FlankGrid,
+    ) -> Result<Self, ReductionError> {
+        if gear.mesh.element == Element::Tet10 {
+            let mesh = mesh.straight_teeth();
+            return Ok(Self {
+                model: model_of(gear, &mesh)?,
+                z_m: grid.z_m.clone(),
+                mesh,
+            });
+        }
+        // Plane strain does not know the thickness; one about as thick as the elements are long keeps them compact.
+        let mesh = mesh.single_layer(gear.mesh.flank_m)?;
+        let connectivity = mesh.elements.connectivity().to_vec();
+        let material = *model.material();
+        let element = model.element_of(0);
+        Ok(Self {
+            model: FeModel::from_connectivity(mesh.nodes.clone(), connectivity, material, element)?,
+            z_m: mesh.layers.planes_m.clone(),
+            mesh,
+        })
+    }
+}
+
 /// W = N₂ᵀK₂⁻¹N₂ \[m²/N\], `[load station][response station]`: the tooth-only submodel of the gear's own
-/// cross-section and element in plane strain, loaded by its own hats along the profile.
+/// cross-section and element in plane strain, loaded by its own hats along the profile, uniformly over the width, of which the mean is taken
+/// (tetrahedra: docs/theory/imported_mesh.md).
 ///
 /// # Errors
 /// [`ReductionError::Fe`] when the submodel is not held.
@@ -219,37 +246,15 @@ pub fn mesh_compliance(
     grid: &FlankGrid,
     side: Flank,
 ) -> Result<Vec<f64>, ReductionError> {
-    if gear.mesh.element == Element::Tet10 {
-        return mean_mesh_compliance(gear, mesh, grid, side);
-    }
-    // Plane strain does not know the thickness; one about as thick as the elements are long keeps them compact.
-    let width_m = gear.mesh.flank_m;
-    let layer = mesh.single_layer(width_m)?;
-    let plane = FeModel::from_connectivity(
-        layer.nodes.clone(),
-        layer.elements.connectivity().to_vec(),
-        *model.material(),
-        model.element_of(0),
-    )?;
+    let plane = PlaneTooth::new(gear, mesh, model, grid)?;
+    let width_m = plane.z_m[plane.z_m.len() - 1] - plane.z_m[0];
     let across = FlankGrid {
-        roll_angles_rad: grid.roll_angles_rad.clone(),
-        z_m: layer.layers.planes_m.clone(),
-        slices: 1,
+        z_m: plane.z_m,
+        ..grid.clone()
     };
-    let loads = flank_loads(gear, &layer, &across, 0, side);
-    let submodel = ToothSubmodel::new(&plane, &layer, side, &loads, Deformation::PlaneStrain)?;
+    let loads = flank_loads(gear, &plane.mesh, &across, 0, side);
+    let deformation = Deformation::PlaneStrain;
+    let submodel = ToothSubmodel::new(&plane.model, &plane.mesh, side, &loads, deformation)?;
     let products = submodel.products(&normals(&loads));
-    let stations = grid.roll_angles_rad.len();
-    // Half of each station's two loads is one newton over the whole width: a line load of 1/width.
-    let all = across.len();
-    Ok((0..stations * stations)
-        .map(|k| {
-            let (i, j) = (k / stations, k % stations);
-            let sum: f64 = [(0, 0), (0, 1), (1, 0), (1, 1)]
-                .into_iter()
-                .map(|(a, b)| products[across.load(j, b) * all + across.load(i, a)])
-                .sum();
-            0.25 * sum * width_m
-        })
-        .collect())
+    Ok(line_compliance(&across, &products, width_m))
 }

@@ -22,6 +22,7 @@ mod pairs_a_and_b;
 mod pinion_with_stubs;
 mod plane_strain_deflection;
 mod planet;
+mod projected_flank;
 mod ring_deflection;
 mod slice_deflection;
 mod solid_pair_transmission_error;
