@@ -80,7 +80,8 @@ impl<'a> ProjectedFlank<'a> {
     }
 
     /// Unit loads that are uniform over a stretch of height, each part of it at the roll angle of its height: a slice of
-    /// a contact line.
+    /// a contact line. Force and moment are those of the line; where it passes from face to face within a layer of elements, their
+    /// nodes have the shares of three points a layer.
     ///
     /// # Errors
     /// [`OffEveryFace`] where it goes on beside the flank.

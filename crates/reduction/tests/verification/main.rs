@@ -20,6 +20,7 @@ mod natural_modes;
 mod near_field;
 #[path = "../../../../tests/support/pinion_with_stubs.rs"]
 mod pinion_with_stubs;
+mod projection;
 mod random_blanks;
 mod reduction;
 mod rings;
