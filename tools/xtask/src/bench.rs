@@ -15,6 +15,7 @@ mod elements;
 mod elements_page;
 mod host;
 mod page;
+mod projection;
 mod whole_machines;
 
 use std::fs;
@@ -236,10 +237,12 @@ impl Bench {
             dofs,
             all_loads: 0.0,
             rows: Vec::new(),
+            projected: Err("the gear was not reduced".into()),
         };
         if size.dofs.is_err() {
             return Ok(size);
         }
+        let mut projected = size.projected.clone();
         let mut add = |program: String, outcome: Result<Figures, String>| {
             match &outcome {
                 Ok(figures) => say(&format!("   {program}: {:.1} s", figures.wall_s)),
@@ -263,6 +266,9 @@ impl Bench {
                 Ok(figures)
             });
             add(name.into(), outcome);
+            if name == "ours, symmetry" {
+                projected = self.projected(&model);
+            }
         }
 
         let mut command = Command::new(&solver.python);
@@ -281,6 +287,7 @@ impl Bench {
             let (name, outcome) = self.calculix(&mesh, &deck, element);
             add(name, outcome);
         }
+        size.projected = projected;
         Ok(size)
     }
 

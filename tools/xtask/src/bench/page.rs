@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::case::Stages;
 use super::host::Host;
+use super::projection::Projected;
 
 /// Loads for which the time after the factorisation is stated.
 pub const STATED_LOADS: f64 = 256.0;
@@ -61,6 +62,21 @@ pub struct MeshSize {
     pub all_loads: f64,
     /// The cases.
     pub rows: Vec<Row>,
+    /// Lines on single elements beside the flank grid, or why there are none.
+    pub projected: Result<Projected, String>,
+}
+
+impl MeshSize {
+    /// The lines on single elements in words; the first case has the grid's loads.
+    fn projected_words(&self) -> String {
+        let first = self.rows.first().and_then(|row| row.outcome.as_ref().ok());
+        let solved = first.and_then(|figures| Some((figures.loads, figures.stages?.solve_s)));
+        match (&self.projected, solved) {
+            (Ok(projected), Some((loads, solve_s))) => projected.words(loads, solve_s),
+            (Err(reason), _) => format!("No lines on single elements: {reason}."),
+            (Ok(_), None) => "No lines on single elements: the gear was not reduced.".into(),
+        }
+    }
 }
 
 /// The whole page.
@@ -97,10 +113,11 @@ pub fn page(host: &Host, program: &str, solver: &str, sizes: &[MeshSize]) -> Str
             Ok(dofs) => {
                 let _ = write!(
                     page,
-                    "\n## {} degrees of freedom, {} loads in all\n\n{lengths}\n\n{}",
+                    "\n## {} degrees of freedom, {} loads in all\n\n{lengths}\n\n{}\n{}\n",
                     thousands(*dofs),
                     size.all_loads,
-                    table(size)
+                    table(size),
+                    size.projected_words()
                 );
             }
             Err(reason) => {
@@ -225,6 +242,12 @@ mod tests {
                 row("one load", Ok(figures(50.0, None, 1.0, false))),
                 row("big", Err("killed | at 22 GB\nat once".into())),
             ],
+            projected: Ok(Projected {
+                solutions: 25.0,
+                solutions_s: 1.0,
+                projection_s: 0.05,
+                apart: 1e-4,
+            }),
         }
     }
 
@@ -281,10 +304,13 @@ mod tests {
             dofs: Err("exit code 2: no gmsh".into()),
             all_loads: 1.0,
             rows: Vec::new(),
+            projected: Err("the gear was not reduced".into()),
         };
         let page = page(&host, "dev", "Pardiso", &[example(), failed]);
         for part in [
             "| processor | Some CPU, 2 cores |",
+            "25 solutions in 1.00 s, 42.0 ms a contact point",
+            "The grid's 1000 loads took 4.0 s once",
             "| commit | abc, clean tree |",
             "| direct solver of scikit-fem | Pardiso |",
             "## 758 043 degrees of freedom, 1000 loads in all",
