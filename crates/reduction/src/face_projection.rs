@@ -479,7 +479,7 @@ mod tests {
             assert!(surface.project([0.0, 0.0, 0.2 * SIZE_M], along).is_err());
         }
         let nothing = FaceSurface { faces: Vec::new() };
-        assert!(nothing.is_empty() && nothing.len() == 0);
+        assert!(nothing.is_empty());
         let error = nothing.project([0.0; 3], down).unwrap_err();
         assert_eq!(error.away_m, f64::INFINITY);
     }

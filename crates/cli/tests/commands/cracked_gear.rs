@@ -85,6 +85,10 @@ fn a_crack_goes_through_the_whole_chain() {
         check.contains("crack in tooth 3, right side") && check.contains("1.8000 mm deep"),
         "{check}"
     );
+    let words = "--tooth 0 --radius-mm 29 --line-load-N-per-mm 100 --half-width-mm 0.1 --project";
+    let words: Vec<&str> = words.split(' ').collect();
+    let projected = gearmesh(&[&["compliance", argument(&cracked)], &words[..]].concat());
+    refused(&projected, 2, &["cracked.h5 has a crack", "--project"]);
     // The section of all teeth has the crack's line, so that sound teeth differ a little from those of the other model.
     let ratio =
         |tooth, flank| deflection(&cracked, tooth, flank) / deflection(&sound, tooth, flank);

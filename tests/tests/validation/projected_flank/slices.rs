@@ -117,13 +117,12 @@ fn compared(what: &str, both: &BothWays, bound_of_steps: f64) -> Largest {
         let most = (0..=last)
             .map(|k| sums(&projected, k)[0].abs())
             .fold(0.0, f64::max);
-        for k in 0..=last {
+        for (k, roll) in rolls.iter().enumerate() {
             let (grid, exact) = (sums(&by_grid, k), sums(&projected, k));
             let off = [0, 1].map(|part| (grid[part] - exact[part]) / most);
             println!(
-                "  strain, {:11} at {:.4} rad: normal {:7.3} %, towards the tip {:7.3} %",
+                "  strain, {:11} at {roll:.4} rad: normal {:7.3} %, towards the tip {:7.3} %",
                 gauge.name,
-                rolls[k],
                 100.0 * off[0],
                 100.0 * off[1]
             );

@@ -123,3 +123,36 @@ fn compliance_at_another_tooth_is_smaller_and_has_no_local_part() {
     };
     assert!((linear("300") / linear("100") - 3.0).abs() < 1e-12);
 }
+
+/// Forces on single elements: one solution a slice, the deflection of the flank grid's four stations to 1 %, whatever is
+/// taken off and put back for the near field.
+#[test]
+fn projected_forces_deflect_alike() {
+    for (local, at_tooth) in [
+        ("calibrated", "2"),
+        ("weber-banaschek", "2"),
+        ("calibrated", "3"),
+    ] {
+        let words = ["--radius-mm", "26,27,28", "--project", "--json"];
+        let further = ["--local", local, "--at-tooth", at_tooth];
+        let figures = succeeds(&compliance(&[&words[..], &further].concat())).json();
+        let projected = &figures["projected"];
+        assert_eq!(number(&projected["solutions"]), 6.0);
+        for name in ["mesh and factor", "projection", "solutions"] {
+            assert!(number(&projected["seconds"][name]) > 0.0, "{name}");
+        }
+        let totals = |rows: &serde_json::Value| -> Vec<f64> {
+            let rows = rows.as_array().unwrap().iter();
+            rows.map(|row| number(&row["total_m"])).collect()
+        };
+        let (grid, single) = (totals(&figures["rows"]), totals(&projected["rows"]));
+        assert_eq!(single.len(), 3);
+        for (a, b) in grid.iter().zip(&single) {
+            assert!((a / b - 1.0).abs() < 0.01 && a != b, "{local}: {a} {b}");
+        }
+    }
+    let table = succeeds(&compliance(&["--radius-mm", "27", "--project"])).stdout;
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 5, "{table}");
+    assert!(lines[3].starts_with("by projection on element faces: 2 solutions, "));
+}
