@@ -110,6 +110,8 @@ def compliance(model: str | os.PathLike[str], **given: Any) -> dict[str, Any]:
     """Deflection of a tooth of a reduced gear under a line load; arguments of `gearmesh compliance` with underscores.
 
     compliance(model, tooth=0, radius_mm=[73.5, 75], line_load_N_per_mm=100, half_width_mm=0.1)
+
+    project=True: beside it, as "projected", by forces on single element faces; the gear is meshed and factorised again.
     """
     return operate("compliance", model=model, **given)
 
