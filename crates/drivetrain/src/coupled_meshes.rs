@@ -20,6 +20,7 @@ use gearmesh_model::ReducedGear;
 use self::group::{Group, SideOfMesh, links, sides_of_bore};
 use self::roller_bore::RollerBore;
 use crate::error::DrivetrainError;
+use crate::gear_mesh::GearMesh;
 use crate::mesh_element::MeshElement;
 
 mod group;
@@ -53,6 +54,37 @@ pub struct CoupledPart {
     bodies: [BodyId; 2],
     part: Part,
     group: Arc<Mutex<Group>>,
+}
+
+/// What meshes that are solved together were found as at the last evaluation.
+pub struct FoundTogether {
+    bodies: Vec<BodyId>,
+    group: Arc<Mutex<Group>>,
+}
+
+impl FoundTogether {
+    /// The bodies whose places and speeds the meshes depend on.
+    #[must_use]
+    pub fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    /// What is read of a mesh, by its number among those that were coupled.
+    ///
+    /// # Panics
+    /// If there is no such mesh.
+    pub fn of_mesh<T>(&self, number: usize, read: impl FnOnce(&GearMesh) -> T) -> T {
+        read(lock(&self.group).meshes[number].mesh())
+    }
+
+    /// Radial motions of the bore of a body on rollers \[m\]; none of another body.
+    #[must_use]
+    pub fn bore_motions_m(&self, body: BodyId) -> Option<Vec<f64>> {
+        let group = lock(&self.group);
+        let mut bores = group.bores.iter().zip(group.joint.bores());
+        let (_, bending) = bores.find(|(bore, _)| bore.bodies()[0] == body)?;
+        Some(bending.motions_m().to_vec())
+    }
 }
 
 /// What a part is, by its number in the group.
@@ -101,6 +133,9 @@ impl CoupledMeshes {
         for gear in gears {
             let body = gear.bearing.rings().a.body;
             let flanks = sides_of_bore(&elements, (gear.gear, gear.motions, body), &sides)?;
+            for gauges in elements.iter_mut().flat_map(|mesh| mesh.gauges_of(body)) {
+                gauges.on_bore(gear.gear, gear.motions);
+            }
             bendings.push(BoreBending::new(gear.motions, flanks, capacity));
             bores.push(RollerBore::new(gear, capacity)?);
         }
@@ -154,6 +189,15 @@ impl CoupledMeshes {
     #[must_use]
     pub fn solutions(&self) -> Arc<AtomicUsize> {
         Arc::clone(&lock(&self.group).solutions)
+    }
+
+    /// Reads what is found at each evaluation, wherever the element has gone.
+    #[must_use]
+    pub fn found(&self) -> FoundTogether {
+        FoundTogether {
+            bodies: self.bodies.clone(),
+            group: Arc::clone(&self.group),
+        }
     }
 
     /// Pairs of sides that feel each other through a body.
@@ -289,8 +333,20 @@ impl ForceElement for CoupledPart {
         }
         match self.part {
             Part::Mesh(number) => {
-                let motion = group.motions[number];
-                group.meshes[number].sample_updated(view, &motion, out);
+                let Group {
+                    meshes,
+                    motions,
+                    joint,
+                    bores,
+                    ..
+                } = &mut *group;
+                let mesh = &mut meshes[number];
+                for (bore, bending) in bores.iter().zip(joint.bores()) {
+                    for gauges in mesh.gauges_of(bore.bodies()[0]) {
+                        gauges.feel_bore(bending.motions_m());
+                    }
+                }
+                mesh.sample_updated(view, &motions[number], out);
             }
             Part::Bearing(number) => group.bores[number].bearing.sample(view, out),
         }

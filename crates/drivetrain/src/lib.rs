@@ -68,7 +68,7 @@ pub mod tooth_overlap;
 mod tooth_zero;
 
 pub use bevel::{BevelAtRest, BevelMesh, BevelSlices, FacetKind, FacetSize, PlaceAtRest};
-pub use coupled_meshes::{CoupledMeshes, CoupledPart, GearOnRollers, MeshToCouple};
+pub use coupled_meshes::{CoupledMeshes, CoupledPart, FoundTogether, GearOnRollers, MeshToCouple};
 pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
 pub use flank_contacts::FlankContacts;

@@ -131,6 +131,13 @@ impl MeshElement {
         Ok(self)
     }
 
+    /// Gauges of the gears that are this body, which runs on rollers.
+    pub(crate) fn gauges_of(&mut self, body: BodyId) -> impl Iterator<Item = &mut StrainGauges> {
+        let bodies = self.bodies;
+        let gauges = self.gauges.iter_mut();
+        gauges.filter(move |gauges| bodies[gauges.gear() - 1] == body)
+    }
+
     /// The mesh.
     #[must_use]
     pub fn mesh(&self) -> &GearMesh {

@@ -6,23 +6,23 @@
 //!
 //! T is friction towards the tip; method 1 has no row_t. One multiplication a gauge, slice and share: no field, no allocation. Forces that
 //! reach the gear through another mesh or a joint are not in it: strain is linear, so that the readings of all meshes of a gear add up, gᵀΦη
-//! counted once ([`ModalPart`]). What the modes read of the mesh's forces at rest is taken out, for the rows hold it already.
+//! counted once ([`ModalPart`]). So is γ̂q, what rollers that bend the gear's bore by q strain it ([`StrainGauges::feel_bore`]). What the modes read of the mesh's forces at rest is taken out, for the rows hold it already.
 
 use gearmesh_geometry::Flank;
-use gearmesh_model::{GaugeRows, ReducedGear};
+use gearmesh_model::{GaugeRows, RadialMotions, ReducedGear};
 use gearmesh_recovery::{GaugeArray, LoadedSlice, Strain};
 
 use crate::error::DrivetrainError;
 use crate::flank_modes::dot;
 use crate::gear_mesh::GearMesh;
 
-/// Whether a mesh's gauges read the vibration of their gear, too.
+/// Whether a mesh's gauges read the vibration of their gear and the bending of its bore, too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ModalPart {
-    /// gᵀΦ η is read: the gear's only mesh, or the first of them. The default.
+    /// gᵀΦ η and γ̂ q are read: the gear's only mesh, or the first of them. The default.
     #[default]
     Included,
-    /// It is read with another mesh of the same gear.
+    /// They are read with another mesh of the same gear.
     ElsewhereIncluded,
 }
 
@@ -36,6 +36,10 @@ pub struct StrainGauges {
     /// gᵀΦ, `[gauge][mode]`; empty without modes.
     modal: Vec<f64>,
     modal_part: ModalPart,
+    /// γ̂, `[gauge][motion]`; empty where no rollers bend the bore.
+    bore: Vec<f64>,
+    /// q of the bore \[m\].
+    motions_m: Vec<f64>,
     /// ω² of each mode \[rad²/s²\].
     omega_squared: Vec<f64>,
     /// What is read by gᵀΦ: η less what friction makes of it at rest.
@@ -106,6 +110,8 @@ impl StrainGauges {
             sides,
             modal,
             modal_part,
+            bore: Vec::new(),
+            motions_m: Vec::new(),
             omega_squared,
             coordinates: vec![0.0; modes],
             strain: vec![Strain::default(); names.len()],
@@ -122,6 +128,31 @@ impl StrainGauges {
     #[must_use]
     pub fn names(&self) -> &[String] {
         &self.names
+    }
+
+    /// Lets the gauges read what motions of the bore strain, where this mesh is the one that reads it.
+    ///
+    /// # Panics
+    /// If the motions are not those of the gauges' model.
+    pub fn on_bore(&mut self, model: &ReducedGear, motions: &RadialMotions) {
+        if self.modal_part == ModalPart::ElsewhereIncluded {
+            return;
+        }
+        let count = motions.count();
+        self.motions_m = vec![0.0; count];
+        self.bore.clear();
+        for name in &self.names {
+            let number = model.gauges.iter().position(|gauge| gauge.name == *name);
+            let first = number.map_or(motions.gauges.len(), |number| number * count);
+            self.bore.extend(&motions.gauges[first..][..count]);
+        }
+    }
+
+    /// Takes the motions of the bore \[m\].
+    pub fn feel_bore(&mut self, motions_m: &[f64]) {
+        if !self.motions_m.is_empty() {
+            self.motions_m.copy_from_slice(motions_m);
+        }
     }
 
     /// Strain at the last pose of the mesh, one entry a gauge; `coordinates`: η of the gear's body, empty without modes.
@@ -153,6 +184,12 @@ impl StrainGauges {
                     }
                 }
             }
+        }
+        let motions = self.motions_m.len().max(1);
+        for (strain, row) in self.strain.iter_mut().zip(self.bore.chunks_exact(motions)) {
+            let bending = dot(row, &self.motions_m);
+            strain.method_1 += bending;
+            strain.method_2 += bending;
         }
         let modes = self.omega_squared.len();
         if modes > 0 {

@@ -11,13 +11,15 @@
 //! Radial motions are held, as by a pin that presses and pulls; for rollers, which let them go,
 //!
 //! ```text
-//! Ŝ = S_rr − S_ro S_oo⁻¹ S_or,      ŝ = s_r − s_o S_oo⁻¹ S_or
+//! Ŝ = S_rr − S_ro S_oo⁻¹ S_or,      ŝ = s_r − s_o S_oo⁻¹ S_or,      γ̂ = γ_r − γ_o S_oo⁻¹ S_or
 //! ```
 //!
-//! is what they have to do with forces on the bore and with the flanks. The uniform tangential and the uniform axial
+//! is what they have to do with forces on the bore, with the flanks and with the gauges. The uniform tangential and the uniform axial
 //! motion belong to the motion of the body. Theory: docs/theory/bore_patterns.md.
 
-use crate::bore_patterns::{BoreMotion, legendre, place_along};
+use gearmesh_geometry::Flank;
+
+use crate::bore_patterns::{BoreMotion, BorePatterns, legendre, place_along};
 use crate::reduced_gear::ReducedGear;
 use crate::reduced_gear_error::ReducedGearError;
 
@@ -48,6 +50,8 @@ pub struct RadialMotions {
     pub stiffness: Vec<f64>,
     /// Displacement along the inward normal per motion, `[tooth][flank][load][motion]`.
     pub flank: Vec<f64>,
+    /// Strain of the model's gauges per motion (1/m), `[gauge][motion]`.
+    pub gauges: Vec<f64>,
 }
 
 impl RadialMotions {
@@ -76,19 +80,7 @@ impl ReducedGear {
             return Err(ReducedGearError::NoBoreMotions { gear });
         };
         let (m, loads) = (bore.count(), self.grid.len());
-        let in_space = bore.components > 2;
-        let mut free: Vec<usize> = bore.motions_of(BoreMotion::Tangential).skip(1).collect();
-        if in_space {
-            free.extend(bore.motions_of(BoreMotion::Axial).skip(1));
-        }
-        // cos φ and sin φ, constant and, in space, linear along the bore: rigid.
-        let is_rigid = |place: &usize| {
-            let (wave, degree) = (place / bore.along, place % bore.along);
-            (1..=2).contains(&wave) && degree < if in_space { 2 } else { 1 }
-        };
-        let first = bore.motions_of(BoreMotion::Radial).start;
-        let each = bore.motions_of(BoreMotion::Radial).len();
-        let bends: Vec<usize> = (0..each).filter(|k| !is_rigid(k)).collect();
+        let (free, bends) = bore.loose();
         let (n, count) = (free.len(), bends.len());
         let entry = |i: usize, j: usize| bore.stiffness[i * m + j];
         let not_positive = || ReducedGearError::BoreStiffness {
@@ -97,15 +89,15 @@ impl ReducedGear {
         let factor = cholesky(n, |i, j| entry(free[i], free[j])).ok_or_else(not_positive)?;
         // L⁻¹ S_or of each radial motion, `[motion][free]`.
         let mut moved = Vec::with_capacity(count * n);
-        for k in &bends {
+        for &bend in &bends {
             let begin = moved.len();
-            moved.extend(free.iter().map(|&motion| entry(motion, first + k)));
+            moved.extend(free.iter().map(|&motion| entry(motion, bend)));
             forward(&factor, &mut moved[begin..]);
         }
         let moved_by = |k: usize| &moved[k * n..(k + 1) * n];
         let stiffness: Vec<f64> = (0..count)
             .flat_map(|i| (0..count).map(move |j| (i, j)))
-            .map(|(i, j)| entry(first + bends[i], first + bends[j]) - dot(moved_by(i), moved_by(j)))
+            .map(|(i, j)| entry(bends[i], bends[j]) - dot(moved_by(i), moved_by(j)))
             .collect();
         cholesky(count, |i, j| stiffness[i * count + j]).ok_or_else(not_positive)?;
         // L⁻¹ s_oᵀ of each flank, `[tooth][flank][load][motion]`: a product of two is what the bore's motions add.
@@ -121,25 +113,25 @@ impl ReducedGear {
                     forward(&factor, &mut halves[begin..]);
                     let half = &halves[begin..];
                     let radial = bends.iter().enumerate();
-                    flank
-                        .extend(radial.map(|(k, bend)| row[first + bend] - dot(half, moved_by(k))));
+                    flank.extend(radial.map(|(k, &bend)| row[bend] - dot(half, moved_by(k))));
                 }
             }
         }
-        let gauges = self.gauges.iter().zip(bore.gauges.chunks_exact(m));
-        let gauges = gauges.map(|(gauge, motions)| {
+        let mut strains = Vec::with_capacity(self.gauges.len() * count);
+        let mut gauges = self.gauges.clone();
+        for (gauge, motions) in gauges.iter_mut().zip(bore.gauges.chunks_exact(m)) {
             let mut half: Vec<f64> = free.iter().map(|&motion| motions[motion]).collect();
             forward(&factor, &mut half);
-            let mut gauge = gauge.clone();
             let of_loads = gauge.adjoint.chunks_exact_mut(3);
             for (strain, load) in of_loads.zip(halves.chunks_exact(n)) {
                 strain[0] += dot(load, &half);
             }
-            gauge
-        });
+            let radial = bends.iter().enumerate();
+            strains.extend(radial.map(|(k, &bend)| motions[bend] - dot(&half, moved_by(k))));
+        }
         Ok(SlidingBore {
             gear: ReducedGear {
-                gauges: gauges.collect(),
+                gauges,
                 ..self.softened(&halves, n)
             },
             radial: RadialMotions {
@@ -152,8 +144,58 @@ impl ReducedGear {
                     .collect(),
                 stiffness,
                 flank,
+                gauges: strains,
             },
         })
+    }
+
+    /// All motions of the bore \[m\] under forces on the flanks, where the radial ones that bend the body are `radial_m`,
+    /// in the order of [`RadialMotions`]; none: they are held, the bore slides. Of each force tooth, flank, load and
+    /// normal part \[N\]. Rigid motions are left out.
+    ///
+    /// # Errors
+    /// As [`ReducedGear::with_sliding_bore`]; [`ReducedGearError::FlankNotReduced`].
+    ///
+    /// # Panics
+    /// If there are more or fewer radial motions than bend the body, or no such tooth or load.
+    pub fn bore_motions_m(
+        &self,
+        forces: &[(usize, Flank, usize, f64)],
+        radial_m: &[f64],
+    ) -> Result<Vec<f64>, ReducedGearError> {
+        let Some(bore) = &self.bore else {
+            let gear = self.name.clone();
+            return Err(ReducedGearError::NoBoreMotions { gear });
+        };
+        let m = bore.count();
+        let (free, bends) = bore.loose();
+        let mut motions = vec![0.0; m];
+        if !radial_m.is_empty() {
+            assert_eq!(radial_m.len(), bends.len(), "radial motions of a bore");
+        }
+        for (&bend, q) in bends.iter().zip(radial_m) {
+            motions[bend] = *q;
+        }
+        let held = |&i: &usize| -dot(&bore.stiffness[i * m..][..m], &motions);
+        let mut push: Vec<f64> = free.iter().map(held).collect();
+        for &(tooth, flank, load, normal_n) in forces {
+            self.flank_index(flank)?;
+            let rows = self.bore_rows(tooth, flank).unwrap_or_default();
+            for (sum, &motion) in push.iter_mut().zip(&free) {
+                *sum += normal_n * rows[load * m + motion];
+            }
+        }
+        let entry = |i: usize, j: usize| bore.stiffness[free[i] * m + free[j]];
+        let not_positive = || ReducedGearError::BoreStiffness {
+            gear: self.name.clone(),
+        };
+        let factor = cholesky(free.len(), entry).ok_or_else(not_positive)?;
+        forward(&factor, &mut push);
+        backward(&factor, &mut push);
+        for (&motion, q) in free.iter().zip(&push) {
+            motions[motion] = *q;
+        }
+        Ok(motions)
     }
 
     /// The gear without motions of its bore, its compliance larger by the products of `halves`, n of each
@@ -189,6 +231,26 @@ impl ReducedGear {
     }
 }
 
+impl BorePatterns {
+    /// Numbers of the motions that no force holds where a bore slides, and of the radial ones that bend the body.
+    fn loose(&self) -> (Vec<usize>, Vec<usize>) {
+        let in_space = self.components > 2;
+        let mut free: Vec<usize> = self.motions_of(BoreMotion::Tangential).skip(1).collect();
+        if in_space {
+            free.extend(self.motions_of(BoreMotion::Axial).skip(1));
+        }
+        // cos φ and sin φ, constant and, in space, linear along the bore: rigid.
+        let is_rigid = |place: usize| {
+            let (wave, degree) = (place / self.along, place % self.along);
+            (1..=2).contains(&wave) && degree < if in_space { 2 } else { 1 }
+        };
+        let radial = self.motions_of(BoreMotion::Radial);
+        let first = radial.start;
+        let bends = radial.filter(|motion| !is_rigid(motion - first)).collect();
+        (free, bends)
+    }
+}
+
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -220,6 +282,17 @@ fn forward(factor: &[Vec<f64>], v: &mut [f64]) {
     for (i, row) in factor.iter().enumerate() {
         let passed: f64 = row[..i].iter().zip(&*v).map(|(a, b)| a * b).sum();
         v[i] = (v[i] - passed) / row[i];
+    }
+}
+
+/// L⁻ᵀ v.
+fn backward(factor: &[Vec<f64>], v: &mut [f64]) {
+    for i in (0..factor.len()).rev() {
+        v[i] /= factor[i][i];
+        let value = v[i];
+        for (rest, entry) in v[..i].iter_mut().zip(&factor[i]) {
+            *rest -= value * entry;
+        }
     }
 }
 
@@ -321,6 +394,62 @@ mod tests {
                     before.adjoint[at + 1..at + 3],
                     after.adjoint[at + 1..at + 3]
                 );
+            }
+        }
+    }
+
+    /// Radial motions that something holds strain the gauges as all motions together do: those solved another way, and
+    /// those that the model states. A bore that nothing moves radially is the one that slides.
+    #[test]
+    fn gauges_feel_radial_motions_with_the_free_ones_that_follow() {
+        let gear = small_bored_gear();
+        let released = gear.with_sliding_bore().unwrap();
+        let bore = gear.bore.as_ref().unwrap();
+        let (m, each, loads) = (bore.count(), bore.count() / 3, gear.grid.len());
+        let free: Vec<usize> = (each + 1..2 * each).chain(2 * each + 1..m).collect();
+        let entry = |i: usize, j: usize| bore.stiffness[i * m + j];
+        let (tooth, load, force_n) = (2, 1, 700.0);
+        let flank = gear.flanks[1];
+        let forces = [(tooth, flank, load, force_n)];
+        let rows = gear.bore_rows(tooth, flank).unwrap();
+        for moved in [0.0, 1e-6] {
+            let radial: Vec<f64> = (0..released.radial.count())
+                .map(|k| moved * (1.0 + k as f64).cos())
+                .collect();
+            let mut all = vec![0.0; m];
+            for ([wave, degree], q) in released.radial.motions.iter().zip(&radial) {
+                all[wave * bore.along + degree] = *q;
+            }
+            let matrix = free
+                .iter()
+                .map(|&i| free.iter().map(|&j| entry(i, j)).collect());
+            let push = free.iter().map(|&i| {
+                let held: f64 = all.iter().enumerate().map(|(j, q)| entry(i, j) * q).sum();
+                force_n * rows[load * m + i] - held
+            });
+            let follow = solved(matrix.collect(), push.collect());
+            for (&i, q) in free.iter().zip(&follow) {
+                all[i] = *q;
+            }
+            let stated = gear.bore_motions_m(&forces, &radial).unwrap();
+            let largest = all.iter().fold(0.0_f64, |most, q| most.max(q.abs()));
+            for (a, b) in all.iter().zip(&stated) {
+                assert!((a - b).abs() < 1e-12 * largest, "{a} {b}");
+            }
+            if moved == 0.0 {
+                assert_eq!(stated, gear.bore_motions_m(&forces, &[]).unwrap());
+            }
+            let count = released.radial.count();
+            for (number, sliding) in released.gear.gauges.iter().enumerate() {
+                let at = 3 * ((tooth * gear.flanks.len() + 1) * loads + load);
+                let strained = &released.radial.gauges[number * count..][..count];
+                let radially: f64 = strained.iter().zip(&radial).map(|(g, q)| g * q).sum();
+                let found = force_n * sliding.adjoint[at] + radially;
+                let own = &bore.gauges[number * m..][..m];
+                let bending: f64 = own.iter().zip(&all).map(|(g, q)| g * q).sum();
+                let expected = force_n * gear.gauges[number].adjoint[at] + bending;
+                let off = (found - expected).abs();
+                assert!(off < 1e-11 * bending.abs(), "{found} {expected}");
             }
         }
     }

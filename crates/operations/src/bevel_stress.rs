@@ -4,7 +4,7 @@ use crate::cross_section::{FieldCase, largest_torque, nearest_angle};
 use crate::failure::Failure;
 use crate::mesh_file::{LengthUnit, export_bevel_mesh};
 use crate::result_stress::{StressSection, add_worst};
-use crate::stressed_gear::{StressedBody, StressedGear};
+use crate::stressed_gear::{Pressed, StressedBody, StressedGear};
 use crate::tooth_stress;
 use crate::watch::Watch;
 use gearmesh_bevel::BevelGear;
@@ -61,7 +61,7 @@ pub fn write_field(
     demand_bodies(result, "--field-gear")?;
     let (models, member) = (models_of(result)?, case.gear - 1);
     let stressed = StressedGear::of_bevel(&models[member], &result.model_files[member], watch)?;
-    let field = stressed.field(&forces(result, case))?;
+    let field = stressed.field(&pressed(result, case))?;
     let (gear, body) = bevel(&stressed)?;
     let file = (output, LengthUnit::M);
     export_bevel_mesh(gear, &body.mesh, (&field).into(), file, watch)?;
@@ -106,10 +106,10 @@ pub fn models_of(result: &SceneResult) -> Result<[ReducedGear; 2], Failure> {
 }
 
 /// What presses on a member.
-fn forces(result: &SceneResult, case: FieldCase) -> Vec<PlacedForce> {
+fn pressed(result: &SceneResult, case: FieldCase) -> Pressed {
     let position = result.even_position(case.torque, case.angle);
     let (Some((bevel, position)), member) = (result.bevel.zip(position), case.gear - 1) else {
-        return Vec::new();
+        return Pressed::default();
     };
     let force = |at: Pressing<'_>| PlacedForce {
         tooth: bevel.teeth_of(at.pair)[member],
@@ -120,7 +120,7 @@ fn forces(result: &SceneResult, case: FieldCase) -> Vec<PlacedForce> {
         normal_n: at.force_n,
         tangential_n: 0.0,
     };
-    position.pressing().map(force).collect()
+    position.pressing().map(force).collect::<Vec<_>>().into()
 }
 
 /// The bevel body, which it always is here.
@@ -148,7 +148,7 @@ fn pictures(
         angle,
     };
     let cases: Vec<FieldCase> = angles.into_iter().map(case).collect();
-    let of_cases: Vec<Vec<PlacedForce>> = cases.iter().map(|case| forces(result, *case)).collect();
+    let of_cases: Vec<Pressed> = cases.iter().map(|case| pressed(result, *case)).collect();
     let name = MEMBERS[member];
     let words = |k: usize| cases[k].words(result);
     let ((section, figures), worst) = add_worst(made, (name, stressed), &of_cases, words, watch)?;

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::GearBody;
-use gearmesh_reduction::field::{Field, GridForce, fields};
+use gearmesh_reduction::field::{Field, FlankUnits, GridForce, LooseBore};
 use gearmesh_report::scene_page::GearPicture;
 use gearmesh_scene::{LoadedScene, SceneResult};
 
@@ -101,23 +101,10 @@ pub fn nearest_angle(result: &SceneResult, wanted_deg: f64) -> usize {
         .unwrap_or_default()
 }
 
-/// Fields are those of a gear whose bore is held.
-///
-/// # Errors
-/// [`Failure`] for gear 1 or 2 where its bore slides.
-pub fn demand_held_bore(loaded: &LoadedScene, gear: usize) -> Result<(), Failure> {
-    if !loaded.scene.slides[gear - 1] {
-        return Ok(());
-    }
-    Err(Failure::input(format!(
-        "gear_{gear}.bore = \"sliding\": fields are those of a gear whose bore is held; read its strain gauges, or run the pair with bore = \"bonded\""
-    )))
-}
-
 /// Displacement and stress of a gear at one position of a result.
 ///
 /// # Errors
-/// [`Failure`] for a gear whose bore slides, and where the field cannot be made.
+/// [`Failure`] where the field cannot be made.
 pub fn field_of(
     loaded: &LoadedScene,
     result: &SceneResult,
@@ -125,7 +112,6 @@ pub fn field_of(
     body: &GearBody,
     case: FieldCase,
 ) -> Result<Field, Failure> {
-    demand_held_bore(loaded, case.gear)?;
     let model = &loaded.models[case.gear - 1];
     let slices = loaded.patches_at(result.angle_rad[case.angle]);
     let forces = result.position_forces(case.torque, case.angle);
@@ -140,8 +126,15 @@ pub fn field_of(
             tangential_n: f.tangential_n,
         })
         .collect();
-    let mut made = fields(definition, body, &[forces])?;
-    made.pop().ok_or_else(|| Failure::work("no field was made"))
+    let side = loaded.lines.pair.flank_of(case.gear - 1);
+    let units = FlankUnits::of_gear(definition, body, &[side])?;
+    let bore = loaded.bores[case.gear - 1].as_deref();
+    let bore = bore.map(|model| LooseBore {
+        model,
+        radial_m: &[],
+    });
+    let displacement_m = units.displacement_m(body, &forces, bore)?;
+    Ok(Field::new(&body.model, &displacement_m)?)
 }
 
 /// A gear's von Mises stress at one position: the largest value over the width in each quad of the cross-section.

@@ -1,7 +1,7 @@
 //! Strain of all gauges of a pair's result, and a whole field on request.
 
 use crate::bevel_stress;
-use crate::cross_section::{FieldCase, demand_held_bore, field_of};
+use crate::cross_section::{FieldCase, field_of};
 use crate::failure::Failure;
 use crate::mesh_file::{LengthUnit, export_mesh};
 use crate::result_scene::scene_of;
@@ -112,9 +112,6 @@ pub fn recover(a: &RecoverRequest, watch: &Watch<'_>) -> Result<SceneResult, Fai
         Some(_) => None,
         None => Some(scene_of(&result, &a.result)?),
     };
-    if let (Some((case, _)), Some(loaded)) = (&request, &scene) {
-        demand_held_bore(loaded, case.gear)?;
-    }
     let clock = std::time::Instant::now();
     match &scene {
         Some(loaded) => {

@@ -3,12 +3,11 @@
 use crate::cross_section::{CROSS_SECTION, FieldCase, largest_torque, nearest_angle, picture};
 use crate::failure::Failure;
 use crate::result_scene::scene_of;
-use crate::stressed_gear::{RootSearch, StressedBody, StressedGear, forces_on};
+use crate::stressed_gear::{Pressed, RootSearch, StressedBody, StressedGear, pressed_at};
 use crate::system_moments::{SystemMoments, WantedMoments, stressed};
 use crate::tooth_stress::{self, LoadedGear};
 use crate::watch::Watch;
 use gearmesh_geometry::{Element, Flank, GearDefinition};
-use gearmesh_recovery::PlacedForce;
 use gearmesh_report::moving::pair_moment;
 use gearmesh_report::page::{FieldPicture, Section, Text};
 use gearmesh_scene::SceneResult;
@@ -39,13 +38,18 @@ fn head(title: &str) -> Section {
 /// Of these moments the one at which a gear's roots are stressed most; none where nothing presses on it.
 fn worst_moment(
     gear: (&str, &StressedGear),
-    moments: &[Vec<PlacedForce>],
+    moments: &[Pressed],
     watch: &Watch<'_>,
 ) -> Result<Option<usize>, Failure> {
     if moments.len() == 1 {
-        return Ok((!moments[0].is_empty()).then_some(0));
+        return Ok((!moments[0].forces.is_empty()).then_some(0));
     }
-    let carries = |side: &Flank| moments.iter().flatten().any(|f| f.side == *side);
+    let carries = |side: &Flank| {
+        moments
+            .iter()
+            .flat_map(|m| &m.forces)
+            .any(|f| f.side == *side)
+    };
     let sides: Vec<Flank> = Flank::ALL.into_iter().filter(carries).collect();
     let search = watch.offline(gear.0, |told| {
         told.stage("looking for the largest root strain");
@@ -69,7 +73,7 @@ fn no_pictures(gear: &GearDefinition) -> Option<&'static str> {
 pub fn add_worst(
     (section, figures): StressSection,
     (name, gear): (&str, &StressedGear),
-    moments: &[Vec<PlacedForce>],
+    moments: &[Pressed],
     when: impl Fn(usize) -> String,
     watch: &Watch<'_>,
 ) -> Result<(StressSection, Option<usize>), Failure> {
@@ -80,7 +84,7 @@ pub fn add_worst(
     let loaded = LoadedGear {
         name,
         stressed: gear,
-        forces: &moments[worst],
+        pressed: &moments[worst],
         when: &when(worst),
     };
     let (section, of_gear) = tooth_stress::add(section, &loaded)?;
@@ -110,19 +114,18 @@ pub fn of_pair(
     for angle in &angles {
         let moment = pair_moment(&loaded, result, gears, (torque, *angle));
         for (gear, all) in forces.iter_mut().enumerate() {
-            all.push(forces_on(&moment, gear));
+            all.push(pressed_at(&moment, gear));
         }
     }
     let mut made = (head(&result.title), Vec::new());
     for (number, definition) in gears.into_iter().enumerate() {
         let name = &definition.name;
-        let slides = loaded.scene.slides[number];
-        let sliding = slides.then_some("its bore slides: they are of gears whose bore is held");
-        if let Some(why) = no_pictures(definition).or(sliding) {
+        if let Some(why) = no_pictures(definition) {
             watch.note(format!("{name}: no pictures of its stress, {why}"));
             continue;
         }
         let gear = StressedGear::of_gear(definition, watch)?;
+        let gear = gear.on_bore(loaded.bores[number].clone());
         let case = |k: usize| FieldCase {
             gear: number + 1,
             torque,
@@ -187,13 +190,13 @@ pub fn of_system(
         rows = nearest.into_iter().collect();
     }
     let gears = moments.gears().to_vec();
-    let mut forces: Vec<Vec<Vec<PlacedForce>>> = vec![Vec::new(); gears.len()];
+    let mut forces: Vec<Vec<Pressed>> = vec![Vec::new(); gears.len()];
     let bar = watch.listener.begin("forces on the teeth");
     for (done, row) in rows.iter().enumerate() {
         watch.go_on()?;
         let moment = moments.moment(*row)?;
         for (gear, all) in forces.iter_mut().enumerate() {
-            all.push(forces_on(&moment, gear));
+            all.push(pressed_at(&moment, gear));
         }
         bar.advance((done + 1) as f64, rows.len() as f64);
     }
@@ -204,7 +207,7 @@ pub fn of_system(
             MovingShape::Cylindrical(definition) => no_pictures(definition),
             MovingShape::Bevel(_) => None,
         };
-        let idle = forces.iter().all(Vec::is_empty);
+        let idle = forces.iter().all(|pressed| pressed.forces.is_empty());
         let left_out = left_out.or(idle.then_some("nothing presses on its teeth"));
         if let Some(why) = left_out {
             watch.note(format!("{}: no pictures of its stress, {why}", gear.body));

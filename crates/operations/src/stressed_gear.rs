@@ -25,12 +25,13 @@ use gearmesh_recovery::{PlacedForce, placed_forces};
 use gearmesh_reduction::GearBody;
 use gearmesh_reduction::bevel::bevel_body;
 use gearmesh_reduction::bevel::loads::{bevel_grid, shares_of};
-use gearmesh_reduction::field::{Field, FlankUnits, GridForce};
+use gearmesh_reduction::field::{Field, FlankUnits, GridForce, LooseBore};
 use gearmesh_reduction::flank_loads::flank_grid;
 use gearmesh_reduction::repeated_mesh::RepeatedMesh;
 use gearmesh_reduction::skin::{SkinFace, skin, von_mises_on_faces};
 use gearmesh_report::moving::{FlankFace, GearSurface, Moment};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// A factorised body with the unit loads of its flanks.
 pub struct StressedGear {
@@ -43,6 +44,26 @@ pub struct StressedGear {
     face_width_m: f64,
     /// Right and left; none where the reduced gear carries no loads.
     hats: [Option<ProfileHats>; 2],
+    /// The model with the motions of a bore that is not held.
+    bore: Option<Arc<ReducedGear>>,
+}
+
+/// What acts on a gear at a moment.
+#[derive(Debug, Clone, Default)]
+pub struct Pressed {
+    /// Forces on its flanks.
+    pub forces: Vec<PlacedForce>,
+    /// Radial motions of its bore, where rollers press on it \[m\].
+    pub bore_m: Vec<f64>,
+}
+
+impl From<Vec<PlacedForce>> for Pressed {
+    fn from(forces: Vec<PlacedForce>) -> Self {
+        Self {
+            forces,
+            bore_m: Vec::new(),
+        }
+    }
 }
 
 /// The body by its kind.
@@ -68,9 +89,9 @@ pub fn bevel_gear_of(model: &ReducedGear, file: &str) -> Result<BevelGear, Failu
 }
 
 /// What presses on a gear at a moment.
-pub fn forces_on(moment: &Moment, gear: usize) -> Vec<PlacedForce> {
+pub fn pressed_at(moment: &Moment, gear: usize) -> Pressed {
     let own = moment.loads.iter().filter(|load| load.gear == gear);
-    own.map(|load| PlacedForce {
+    let forces = own.map(|load| PlacedForce {
         tooth: load.tooth,
         side: load.side,
         u: load.roll_rad,
@@ -78,8 +99,11 @@ pub fn forces_on(moment: &Moment, gear: usize) -> Vec<PlacedForce> {
         width_m: load.width_m,
         normal_n: load.components_n[0],
         tangential_n: load.components_n[1],
-    })
-    .collect()
+    });
+    Pressed {
+        forces: forces.collect(),
+        bore_m: moment.bore_m.get(gear).cloned().unwrap_or_default(),
+    }
 }
 
 impl StressedGear {
@@ -95,6 +119,7 @@ impl StressedGear {
             grid,
             face_width_m: gear.tooth.face_width_m,
             hats: [Some(hats.clone()), Some(hats)],
+            bore: None,
             body: StressedBody::Cylindrical(Box::new(gear.clone()), Box::new(body)),
         })
     }
@@ -109,8 +134,15 @@ impl StressedGear {
             grid: bevel_grid(&gear),
             face_width_m: gear.blank().face_width_m,
             hats: Flank::ALL.map(|side| profile_hats(model, side).ok()),
+            bore: None,
             body: StressedBody::Bevel(Box::new(gear), Box::new(body)),
         })
+    }
+
+    /// On a bore that slides or that rollers press; of a cylindrical gear, whose model has its motions.
+    #[must_use]
+    pub fn on_bore(self, bore: Option<Arc<ReducedGear>>) -> Self {
+        Self { bore, ..self }
     }
 
     /// Forces on the unit loads of the flanks.
@@ -137,11 +169,11 @@ impl StressedGear {
     }
 
     /// Von Mises stress in the middles of the surface's faces \[Pa\].
-    pub fn stress(&self, forces: &[PlacedForce]) -> Result<Vec<f64>, Failure> {
-        if forces.is_empty() {
+    pub fn stress(&self, pressed: &Pressed) -> Result<Vec<f64>, Failure> {
+        if pressed.forces.is_empty() && pressed.bore_m.is_empty() {
             return Ok(vec![0.0; self.faces.len()]);
         }
-        let displacement_m = self.displacement_m(forces)?;
+        let displacement_m = self.displacement_m(pressed)?;
         Ok(von_mises_on_faces(
             self.model(),
             &self.faces,
@@ -150,17 +182,24 @@ impl StressedGear {
     }
 
     /// Displacement of all degrees of freedom \[m\].
-    pub fn displacement_m(&self, forces: &[PlacedForce]) -> Result<Vec<f64>, Failure> {
-        let forces = self.grid_forces(forces)?;
-        let mut displacement_m = Vec::new();
-        let mut keep = |_: usize, u: &[f64]| displacement_m.extend_from_slice(u);
+    pub fn displacement_m(&self, pressed: &Pressed) -> Result<Vec<f64>, Failure> {
+        let forces = self.grid_forces(&pressed.forces)?;
         match &self.body {
             StressedBody::Cylindrical(_, body) => {
-                self.units.solve_each(body, &[forces], &mut keep);
+                let bore = self.bore.as_ref().map(|model| LooseBore {
+                    model,
+                    radial_m: &pressed.bore_m,
+                });
+                Ok(self.units.displacement_m(body, &forces, bore)?)
             }
-            StressedBody::Bevel(_, body) => self.units.solve_each(body, &[forces], &mut keep),
+            StressedBody::Bevel(_, body) => {
+                let mut displacement_m = Vec::new();
+                self.units.solve_each(body, &[forces], |_, u| {
+                    displacement_m.extend_from_slice(u);
+                });
+                Ok(displacement_m)
+            }
         }
-        Ok(displacement_m)
     }
 
     /// The finite element model.
@@ -172,15 +211,8 @@ impl StressedGear {
     }
 
     /// The whole field.
-    pub fn field(&self, forces: &[PlacedForce]) -> Result<Field, Failure> {
-        let cases = [self.grid_forces(forces)?];
-        let mut fields = match &self.body {
-            StressedBody::Cylindrical(_, body) => self.units.fields(body, &cases)?,
-            StressedBody::Bevel(_, body) => self.units.fields(body, &cases)?,
-        };
-        fields
-            .pop()
-            .ok_or_else(|| Failure::work("no field was made"))
+    pub fn field(&self, pressed: &Pressed) -> Result<Field, Failure> {
+        Ok(Field::new(self.model(), &self.displacement_m(pressed)?)?)
     }
 
     /// The surface of the elements, to be drawn.

@@ -10,9 +10,11 @@ use gearmesh_reduction::bevel::bevel_model;
 use gearmesh_reduction::skin::skin;
 use gearmesh_report::moving::{FlankLoad, GearSurface, Moment, Placement};
 use gearmesh_scene::system::{
-    GearState, GearsInMotion, MovingGear, MovingParts, MovingShape, SystemScene,
+    GearState, GearsInMotion, LoadedSystem, MovingGear, MovingParts, MovingShape, SystemScene,
 };
-use gearmesh_scene::system_run::{ResultKind, SystemResult, digests_of_named_files};
+use gearmesh_scene::system_run::{
+    ResultKind, RunJob, RunKind, SystemResult, digests_of_named_files,
+};
 use std::path::{Path, PathBuf};
 
 /// Sections of a gear's surface over its face.
@@ -37,7 +39,9 @@ pub struct SystemMoments {
     gears: GearsInMotion,
     /// What the series runs over.
     at: Vec<f64>,
-    /// `[gear][column][row]`.
+    /// Time of each row \[s\].
+    times_s: Vec<f64>,
+    /// Of the gears, then of further bodies, `[body][column][row]`.
     states: Vec<Vec<Vec<f64>>>,
     first: usize,
     last: usize,
@@ -65,25 +69,31 @@ impl SystemMoments {
                 "{shown}: --from-s and --to-s are for runs in time; this result is `static`, leave them out"
             )));
         }
-        let gears = machine_of(a, result)?;
+        let loaded = loaded_of(a, result)?;
+        let gears = loaded.gears_in_motion()?;
         for mesh in &gears.without_forces {
             watch.note(format!("no forces on the teeth of {mesh}"));
         }
         let names: Vec<&str> = result.rows.columns().iter().map(|c| &*c.name).collect();
         let read = |name: &str| result.rows.read(name).map_err(Failure::input);
         let mut states = Vec::new();
-        for gear in &gears.gears {
-            let columns = GearState::columns(&gear.body);
+        let bodies = gears.gears.iter().map(|gear| &gear.body);
+        for body in bodies.chain(&gears.further) {
+            let columns = GearState::columns(body);
             let there = |name: &String| names.contains(&&**name);
             if let Some(missing) = columns[..6].iter().find(|name| !there(name)) {
                 return Err(Failure::input(format!(
-                    "{shown} has no column `{missing}`: let [output] record the bodies of the gears, and run again"
+                    "{shown} has no column `{missing}`: let [output] record the bodies of the gears and of the bearings in their bores, and run again"
                 )));
             }
             let own = columns.iter().filter(|name| there(name));
             states.push(own.map(|name| read(name)).collect::<Result<_, _>>()?);
         }
         let at = read(axis)?;
+        let times_s = match axis {
+            "point" if !gears.further.is_empty() => times_of_points(loaded)?,
+            _ => at.clone(),
+        };
         let first = at.partition_point(|t| *t < a.from_s.unwrap_or(f64::NEG_INFINITY));
         let last = at.partition_point(|t| *t <= a.to_s.unwrap_or(f64::INFINITY));
         if first >= last {
@@ -97,6 +107,7 @@ impl SystemMoments {
             unit: if axis == "time_s" { "s" } else { "equilibria" },
             gears,
             at,
+            times_s,
             states,
             first,
             last,
@@ -144,7 +155,8 @@ impl SystemMoments {
             GearState::from_values(&values)
         };
         let states: Vec<GearState> = self.states.iter().map(state).collect();
-        let loads = self.gears.loads(&states).map_err(|error| {
+        let time_s = self.times_s[row];
+        let loads = self.gears.loads(&states, time_s).map_err(|error| {
             Failure::work(format!("at {} of the series: {error}", self.at[row]))
         })?;
         let placed = |state: &GearState| Placement {
@@ -166,8 +178,14 @@ impl SystemMoments {
         });
         Ok(Moment {
             at: self.at[row],
-            placements: states.iter().map(placed).collect(),
+            placements: states[..self.gears.gears.len()]
+                .iter()
+                .map(placed)
+                .collect(),
             loads: loads.collect(),
+            bore_m: (0..self.gears.gears.len())
+                .map(|gear| self.gears.bore_motions_m(gear))
+                .collect(),
             von_mises_pa: Vec::new(),
         })
     }
@@ -178,13 +196,26 @@ impl SystemMoments {
 /// # Errors
 /// [`Failure`] for files that are not as they were in the run.
 pub fn machine_of(a: &WantedMoments<'_>, result: &SystemResult) -> Result<GearsInMotion, Failure> {
+    Ok(loaded_of(a, result)?.gears_in_motion()?)
+}
+
+/// Times of the equilibria of a series \[s\], by which rollers have gone round.
+fn times_of_points(loaded: LoadedSystem) -> Result<Vec<f64>, Failure> {
+    match RunJob::from_scene(loaded).map_err(Failure::input)?.kind {
+        RunKind::Static(job) => Ok(job.points.iter().map(|point| point.time_s).collect()),
+        RunKind::Transient(_) | RunKind::SpeedSweep(_) | RunKind::Eigen(_) => Ok(Vec::new()),
+    }
+}
+
+/// The scene of a result with its gears.
+fn loaded_of(a: &WantedMoments<'_>, result: &SystemResult) -> Result<LoadedSystem, Failure> {
     let folder = scene_folder(a, result)?;
     let document = InputDocument::new(
         format!("scene inside {}", a.result.display()),
         result.head.scene_toml.clone(),
     );
     let scene = SystemScene::from_document(document, &folder)?;
-    Ok(scene.load()?.gears_in_motion()?)
+    Ok(scene.load()?)
 }
 
 /// A gear as it is drawn without stress.
@@ -208,7 +239,9 @@ pub fn surface(gear: &MovingGear) -> Result<GearSurface, Failure> {
 /// A gear's body, factorised.
 pub fn stressed(gear: &MovingGear, watch: &Watch<'_>) -> Result<StressedGear, Failure> {
     match &gear.shape {
-        MovingShape::Cylindrical(definition) => StressedGear::of_gear(definition, watch),
+        MovingShape::Cylindrical(definition) => {
+            Ok(StressedGear::of_gear(definition, watch)?.on_bore(gear.bore.clone()))
+        }
         MovingShape::Bevel(model) => {
             StressedGear::of_bevel(model, &format!("model of body `{}`", gear.body), watch)
         }

@@ -1,10 +1,9 @@
 //! Pictures of the stress in a loaded tooth and its neighbours, for the pages of `report` and `tca`: from the side that is pressed, and in the middle of the face.
 
 use crate::failure::Failure;
-use crate::stressed_gear::{GaugeReading, RootFace, StressedGear, ToothFrame};
+use crate::stressed_gear::{GaugeReading, Pressed, RootFace, StressedGear, ToothFrame};
 use gearmesh_fe::von_mises;
 use gearmesh_geometry::Flank;
-use gearmesh_recovery::PlacedForce;
 use gearmesh_reduction::skin::{first_principal_pa, skin_of, stress_on_faces};
 use gearmesh_report::body_view::BodyView;
 use gearmesh_report::page::{Align, FieldPicture, Mark, MarkSign, Section, Table, Text};
@@ -23,8 +22,8 @@ pub struct LoadedGear<'a> {
     pub name: &'a str,
     /// Its body.
     pub stressed: &'a StressedGear,
-    /// All forces on its flanks.
-    pub forces: &'a [PlacedForce],
+    /// What acts on it.
+    pub pressed: &'a Pressed,
     /// When, and under which load, in words.
     pub when: &'a str,
 }
@@ -67,7 +66,7 @@ fn root_stress(of: &LoadedGear<'_>, root: &[RootFace], u: &[f64]) -> Result<Pair
 
 /// Adds a table and the pictures of a gear; and the figures for other programs.
 pub fn add(section: Section, of: &LoadedGear<'_>) -> Result<(Section, Value), Failure> {
-    let u = of.stressed.displacement_m(of.forces)?;
+    let u = of.stressed.displacement_m(of.pressed)?;
     let Some(worst) = WorstTooth::new(of, &u)? else {
         let words = format!("{}: nothing presses on its teeth, {}.", of.name, of.when);
         return Ok((section.push(Text::note(words)), Value::Null));
@@ -93,7 +92,12 @@ impl WorstTooth {
     /// None where nothing presses.
     fn new(of: &LoadedGear<'_>, u: &[f64]) -> Result<Option<Self>, Failure> {
         let gear = of.stressed;
-        let mut loaded: Vec<(usize, Flank)> = of.forces.iter().map(|f| (f.tooth, f.side)).collect();
+        let mut loaded: Vec<(usize, Flank)> = of
+            .pressed
+            .forces
+            .iter()
+            .map(|f| (f.tooth, f.side))
+            .collect();
         loaded.sort_unstable_by_key(|(tooth, side)| (*tooth, *side as usize));
         loaded.dedup();
         let mut worst: Option<(usize, Flank, Pair)> = None;

@@ -14,7 +14,7 @@ use crate::flank_loads::{GridLoad, SparseVector, dot};
 use crate::gear_body::GearBody;
 use crate::tooth_submodel::Deformation;
 use crate::tooth_vectors::on_tooth;
-use crate::{Progress, ReductionError};
+use crate::{Progress, ReductionError, Silent};
 use faer::{Mat, MatRef};
 use gearmesh_fe::{rigid_motions, stiffness_product};
 use gearmesh_geometry::GearDefinition;
@@ -156,6 +156,34 @@ impl AskedMotions {
             checks: [(SYMMETRY.into(), symmetry), (RIGID_MOTION.into(), rigid)],
         })
     }
+}
+
+/// Ψ q \[m\] on all degrees of freedom: the body where its bore has moved so and nothing presses on it.
+///
+/// # Errors
+/// [`ReductionError::Fe`] when an element cannot be used.
+///
+/// # Panics
+/// If there are more or fewer motions than patterns.
+pub fn moved_body(
+    body: &GearBody,
+    patterns: &BorePatterns,
+    motions_m: &[f64],
+) -> Result<Vec<f64>, ReductionError> {
+    let bore: Vec<usize> = body.mesh.bore().into_iter().map(|n| n as usize).collect();
+    let motions = Mat::from_fn(motions_m.len(), 1, |i, _| motions_m[i]);
+    let moved = moved(patterns, &body.mesh.nodes, &bore) * motions;
+    let (_, pushed) = forces(body, &bore, &moved)?;
+    let mut all = Vec::new();
+    body.solve_each(&pushed.iter().collect::<Vec<_>>(), &Silent, |_, field| {
+        all.extend_from_slice(field);
+    });
+    for (place, &node) in bore.iter().enumerate() {
+        for axis in 0..3 {
+            all[3 * node + axis] = moved[(3 * place + axis, 0)];
+        }
+    }
+    Ok(all)
 }
 
 /// Pᵀ K P, and −K P on the free nodes.

@@ -7,10 +7,12 @@ use gearmesh_bevel::BevelGear;
 use gearmesh_fe::{ElementFormulas, FeError, FeModel, von_mises};
 use gearmesh_geometry::{Flank, GearDefinition};
 use gearmesh_mesh::BevelMesh;
+use gearmesh_model::ReducedGear;
 use std::collections::BTreeMap;
 
 use crate::bevel::loads::{bevel_grid, bevel_loads};
 use crate::bevel::reduce::flank_patch;
+use crate::bore_patterns::moved_body;
 use crate::flank_loads::{GridLoad, SparseVector, flank_grid, flank_loads};
 use crate::gear_body::GearBody;
 use crate::repeated_mesh::RepeatedMesh;
@@ -30,6 +32,15 @@ pub struct GridForce {
     pub normal_n: f64,
     /// Along the profile towards the tip.
     pub tangential_n: f64,
+}
+
+/// A bore that is not glued to its pin.
+#[derive(Debug, Clone, Copy)]
+pub struct LooseBore<'a> {
+    /// The model with its motions.
+    pub model: &'a ReducedGear,
+    /// Radial motions that rollers leave it \[m\], in the order of [`gearmesh_model::RadialMotions`]; none: it slides.
+    pub radial_m: &'a [f64],
 }
 
 /// Displacement at nodes and von Mises stress at element centres.
@@ -119,6 +130,39 @@ impl FlankUnits {
         body.solve_each(&rows.iter().collect::<Vec<_>>(), &Silent, each);
     }
 
+    /// Displacement of all degrees of freedom of a cylindrical gear \[m\], on a bore that is held or not.
+    ///
+    /// # Errors
+    /// [`ReductionError::Bore`] for a model without motions of its bore, [`ReductionError::Fe`] when an element cannot be
+    /// used.
+    ///
+    /// # Panics
+    /// As [`Self::solve_each`].
+    pub fn displacement_m(
+        &self,
+        body: &GearBody,
+        forces: &[GridForce],
+        bore: Option<LooseBore<'_>>,
+    ) -> Result<Vec<f64>, ReductionError> {
+        let mut displacement_m = Vec::new();
+        self.solve_each(body, &[forces.to_vec()], |_, u| {
+            displacement_m.extend_from_slice(u);
+        });
+        let Some(LooseBore { model, radial_m }) = bore else {
+            return Ok(displacement_m);
+        };
+        let on_flank = |f: &GridForce| (f.tooth, f.side, f.load, f.normal_n);
+        let on_flanks: Vec<_> = forces.iter().map(on_flank).collect();
+        let motions_m = model.bore_motions_m(&on_flanks, radial_m)?;
+        if let Some(patterns) = &model.bore {
+            let moved = moved_body(body, patterns, &motions_m)?;
+            for (sum, moved) in displacement_m.iter_mut().zip(&moved) {
+                *sum += moved;
+            }
+        }
+        Ok(displacement_m)
+    }
+
     /// What rows g of nodal weights read under each unit load of one side, on every tooth: gᵀK⁻¹p, `[row][tooth][component][load]`, components normal and tangential. No field
     /// is made for it.
     pub fn readings(
@@ -159,7 +203,11 @@ impl FlankUnits {
 }
 
 impl Field {
-    fn new(model: &FeModel, u: &[f64]) -> Result<Self, ReductionError> {
+    /// That of displacements of all degrees of freedom \[m\].
+    ///
+    /// # Errors
+    /// [`ReductionError::Fe`] when an element's strain cannot be taken.
+    pub fn new(model: &FeModel, u: &[f64]) -> Result<Self, ReductionError> {
         let at_centre = |e: usize| {
             let strain = model.strain(e, model.element_of(e).centre(), u)?;
             Ok(von_mises(&model.material().stress(&strain)))

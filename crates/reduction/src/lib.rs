@@ -106,6 +106,9 @@ pub enum ReductionError {
     /// The finite element model is not sound.
     #[error(transparent)]
     Fe(#[from] gearmesh_fe::FeError),
+    /// A model without usable motions of its bore.
+    #[error(transparent)]
+    Bore(#[from] gearmesh_model::ReducedGearError),
     /// A mesh from elsewhere is not the gear's.
     #[error(transparent)]
     Imported(#[from] Box<imported_error::ImportedMeshError>),

@@ -87,6 +87,8 @@ pub struct Moment {
     pub placements: Vec<Placement>,
     /// What presses on the flanks.
     pub loads: Vec<FlankLoad>,
+    /// Of each gear the radial motions of its bore, where rollers press on it \[m\]; may be shorter.
+    pub bore_m: Vec<Vec<f64>>,
     /// Von Mises stress of each gear's cells \[Pa\]; empty where none is asked for.
     pub von_mises_pa: Vec<Vec<f64>>,
 }

@@ -132,6 +132,7 @@ pub fn bore_motions(gear: &ReducedGear, stiffer: f64) -> RadialMotions {
             .map(|k| stiffness(k / count, k % count))
             .collect(),
         flank,
+        gauges: Vec::new(),
     }
 }
 

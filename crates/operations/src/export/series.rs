@@ -5,7 +5,7 @@ use crate::answer::Answer;
 use crate::cross_section::asked_torque;
 use crate::failure::Failure;
 use crate::result_scene::scene_of;
-use crate::stressed_gear::{StressedGear, forces_on};
+use crate::stressed_gear::{StressedGear, pressed_at};
 use crate::system_moments::{SystemMoments, WantedMoments, stressed, surface};
 use crate::watch::Watch;
 use gearmesh_model::write_text;
@@ -78,9 +78,12 @@ fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<An
         gear_1.definition_in("the result")?,
         gear_2.definition_in("the result")?,
     ];
-    let asked = gears.iter().filter(|_| a.stress);
-    let stressed = asked.map(|gear| StressedGear::of_gear(gear, watch));
-    let stressed: Vec<_> = stressed.collect::<Result<_, _>>()?;
+    let asked = gears.iter().zip(&loaded.bores).filter(|_| a.stress);
+    let stressed = asked.map(|(gear, bore)| {
+        let stressed = StressedGear::of_gear(gear, watch)?;
+        Ok(stressed.on_bore(bore.clone()))
+    });
+    let stressed: Vec<_> = stressed.collect::<Result<_, Failure>>()?;
     let surfaces = match &stressed[..] {
         [] => pair_surfaces(&loaded, gears).to_vec(),
         stressed => (stressed.iter().map(StressedGear::surface)).collect::<Result<_, _>>()?,
@@ -99,8 +102,8 @@ fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<An
 /// Adds the stress of each gear under the forces on its flanks, where gears are given.
 fn with_stress(mut moment: Moment, gears: &[StressedGear]) -> Result<Moment, Failure> {
     for (number, gear) in gears.iter().enumerate() {
-        let forces = forces_on(&moment, number);
-        moment.von_mises_pa.push(gear.stress(&forces)?);
+        let pressed = pressed_at(&moment, number);
+        moment.von_mises_pa.push(gear.stress(&pressed)?);
     }
     Ok(moment)
 }

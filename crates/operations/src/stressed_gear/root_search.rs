@@ -1,10 +1,10 @@
 //! Which of many loads strains the root of a tooth most: by a row of made-up gauges along the fillet, where its tangent stands at 30° to the tooth's centre line, as rating takes
 //! the critical section. The rows' readings under all unit loads are found at once, so that a run of thousands of rows costs little more than one field.
 //!
-//! Of a body whose openings make teeth differ the readings are those of tooth 0. What is found picks the moment that is drawn; what is drawn is solved for all loads of
+//! Of a body whose openings make teeth differ the readings are those of tooth 0, and of a bore that is not held those of a held one. What is found picks the moment that is drawn; what is drawn is solved for all loads of
 //! that moment.
 
-use super::{StressedBody, StressedGear};
+use super::{Pressed, StressedBody, StressedGear};
 use crate::failure::Failure;
 use gearmesh_bevel::BevelGauge;
 use gearmesh_geometry::{Flank, GaugeDefinition, RootPosition};
@@ -79,11 +79,11 @@ impl<'a> RootSearch<'a> {
     }
 
     /// Of many sets of forces the one with the largest; none where there are no forces at all.
-    pub fn largest_of(&self, all: &[Vec<PlacedForce>]) -> Result<Option<usize>, Failure> {
+    pub fn largest_of(&self, all: &[Pressed]) -> Result<Option<usize>, Failure> {
         let mut best = None;
         let mut most = 0.0;
-        for (number, forces) in all.iter().enumerate() {
-            let strain = self.largest(forces)?;
+        for (number, pressed) in all.iter().enumerate() {
+            let strain = self.largest(&pressed.forces)?;
             if strain > most {
                 (best, most) = (Some(number), strain);
             }

@@ -122,6 +122,7 @@ pub fn pair_moment(
         at: driver_rad.to_degrees(),
         placements,
         loads,
+        bore_m: Vec::new(),
         von_mises_pa: Vec::new(),
     }
 }

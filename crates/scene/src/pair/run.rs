@@ -77,6 +77,8 @@ pub struct LoadedScene {
     pub scene: Scene,
     /// Reduced models of gear 1 and gear 2.
     pub models: [Arc<ReducedGear>; 2],
+    /// Models with the motions of a bore that slides; the others state what the flanks feel of it.
+    pub bores: [Option<Arc<ReducedGear>>; 2],
     /// Kinematics and microgeometry.
     pub lines: ContactLines,
     /// Slices over the overlap of the faces.
@@ -149,8 +151,10 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         .map(|radius| PathExtension::new(&pair, radius));
     let model_digests = [model_1.digest, model_2.digest];
     let mut models = [model_1.model, model_2.model];
+    let mut bores = [None, None];
     for (k, model) in models.iter_mut().enumerate() {
         if scene.slides[k] {
+            bores[k] = Some(Arc::clone(model));
             let sliding = model.with_sliding_bore();
             let key = format!("gear_{}.bore", k + 1);
             *model = Arc::new(sliding.map_err(|e| scene.document.error(&key, e))?.gear);
@@ -192,6 +196,7 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
     Ok(LoadedScene {
         scene,
         models,
+        bores,
         lines,
         layout,
         spreads,

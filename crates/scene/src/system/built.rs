@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gearmesh_drivetrain::FoundTogether;
 use gearmesh_dynamics::{BodyId, System};
 use gearmesh_model::ReducedGear;
 use gearmesh_rating::NominalRating;
@@ -26,6 +27,8 @@ pub struct BuiltSystem {
     pub pitches_per_rad: f64,
     /// Speed that the scene states for the motion that the run varies \[rad/s\]; 0 where there is none.
     pub varied_rad_per_s: f64,
+    /// Meshes that are solved together.
+    pub together: Vec<BuiltTogether>,
     /// Gauges to read.
     pub gauges: Vec<BuiltGauge>,
     /// What is judged after the run.
@@ -38,6 +41,16 @@ pub struct BuiltSystem {
     pub(super) cages: Vec<PlacedCage>,
     /// Bearings whose tangent is taken.
     pub(super) tangents: Vec<TangentSeat>,
+}
+
+/// Meshes that are solved together.
+pub struct BuiltTogether {
+    /// Name of the force element.
+    pub element: String,
+    /// Names of the meshes, in its order.
+    pub meshes: Vec<String>,
+    /// What they are found as.
+    pub found: FoundTogether,
 }
 
 /// A body.

@@ -27,7 +27,8 @@ pub use assembly::{
 };
 pub(crate) use assembly::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 pub use built::{
-    BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, RatingJob, RatingRule,
+    BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, BuiltTogether, Effect, RatingJob,
+    RatingRule,
 };
 pub use host_functions::HostFunctions;
 pub(crate) use names::{label_problem, unknown};

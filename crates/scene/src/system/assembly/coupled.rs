@@ -10,6 +10,8 @@ use gearmesh_geometry::input::{InputDocument, TableKeys};
 use super::bodies::Bodies;
 use super::elements::SeatedBearing;
 use super::gear_mesh::PreparedMesh;
+use super::parts::Parts;
+use crate::system::built::BuiltTogether;
 use crate::system::tables::body::{BodyTable, Coupling};
 use crate::system::tables::mesh_model::MeshKind;
 
@@ -34,7 +36,7 @@ pub(super) struct Groups {
 }
 
 /// Whether a mesh can be solved with others.
-fn is_eligible(mesh: &PreparedMesh, bodies: &Bodies) -> bool {
+pub(super) fn is_eligible(mesh: &PreparedMesh, bodies: &Bodies) -> bool {
     let mut both = mesh.bodies.iter().map(|body| &bodies.list[*body]);
     mesh.model == MeshKind::Hybrid
         && both.all(|body| body.cylindrical().is_some() && body.modes == 0)
@@ -131,11 +133,12 @@ impl Groups {
         &mut self,
         meshes: Vec<MeshOfGroup>,
         (document, bodies): (&InputDocument, &Bodies),
-        builder: &mut SystemBuilder,
-    ) -> Result<String, InputError> {
+        (builder, parts): (&mut SystemBuilder, &mut Parts),
+    ) -> Result<(), InputError> {
         let Some(key) = meshes.first().map(|mesh| mesh.key.clone()) else {
-            return Ok(String::new());
+            return Ok(());
         };
+        let of_group = meshes.iter().map(|mesh| mesh.name.clone()).collect();
         let is_on = |bearing: &SeatedBearing| {
             let mut all = meshes.iter().flat_map(|mesh| mesh.bodies);
             all.any(|body| body == bearing.body)
@@ -168,14 +171,16 @@ impl Groups {
             }
         }
         let name = format!("{} and meshes on its gears", names[0].trim_matches('`'));
-        let (together, parts, bearings) = CoupledMeshes::new(&name, each, gears)
+        let (together, meshes, bearings) = CoupledMeshes::new(&name, each, gears)
             .map_err(|error| TableKeys::new(document, &key).error("", error))?;
+        parts.together.push(BuiltTogether {
+            element: name,
+            meshes: of_group,
+            found: together.found(),
+        });
         builder.element(together);
-        for part in parts {
+        for part in meshes.into_iter().chain(bearings) {
             builder.element(part);
-        }
-        for bearing in bearings {
-            builder.element(bearing);
         }
         let names = names.join(", ");
         let shared = match rollers.is_empty() {
@@ -185,7 +190,9 @@ impl Groups {
                 rollers.join(", ")
             ),
         };
-        Ok(format!("meshes {names} are solved together: {shared}"))
+        let note = format!("meshes {names} are solved together: {shared}");
+        parts.notes.push(note);
+        Ok(())
     }
 }
 

@@ -86,6 +86,7 @@ pub(super) fn on_its_shaft(
         model: Some(Arc::clone(&gear.model)),
         microgeometry_of_scene: own.microgeometry_of_scene,
         bore_motions: None,
+        bore: None,
         on_faces: Some(OnFaces {
             gear,
             damping_s: damping_s.map_or(0.0, f64::from),

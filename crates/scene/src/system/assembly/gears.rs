@@ -34,6 +34,8 @@ pub(super) struct Gear {
     pub on_faces: Option<OnFaces>,
     /// Radial motions of a bore that rollers press on; the model is then that of one that slides.
     pub bore_motions: Option<Arc<RadialMotions>>,
+    /// The model with all motions of its bore, where that is not held; `model` states what the flanks feel of it.
+    pub bore: Option<Arc<ReducedGear>>,
 }
 
 /// A reduced bevel gear.
@@ -174,7 +176,7 @@ impl GearFiles {
             }
             Some(_) if bore == BoreHold::Bonded => return Ok(gear),
             Some((gear, model)) => {
-                let (model, motions) = match self.sliding.get(&gear.file) {
+                let (released, motions) = match self.sliding.get(&gear.file) {
                     Some(known) => known.clone(),
                     None => {
                         let made = model.with_sliding_bore();
@@ -187,10 +189,11 @@ impl GearFiles {
                 return Ok(Some(BodyGear::Cylindrical(Arc::new(Gear {
                     file: gear.file.clone(),
                     definition: gear.definition.clone(),
-                    model: Some(model),
+                    model: Some(released),
                     microgeometry_of_scene: gear.microgeometry_of_scene,
                     on_faces: None,
                     bore_motions: (bore == BoreHold::Rollers).then_some(motions),
+                    bore: Some(Arc::clone(model)),
                 }))));
             }
         };
@@ -220,6 +223,7 @@ impl BodyGear {
                     microgeometry_of_scene: false,
                     on_faces: None,
                     bore_motions: None,
+                    bore: None,
                 }
             }
             ending if ending == Some("h5") || models.knows(path) && !path.exists() => {
@@ -242,6 +246,7 @@ impl BodyGear {
                     microgeometry_of_scene: false,
                     on_faces: None,
                     bore_motions: None,
+                    bore: None,
                 }
             }
             _ => {
@@ -302,6 +307,7 @@ impl Gear {
             microgeometry_of_scene: true,
             on_faces: None,
             bore_motions: None,
+            bore: None,
         })
     }
 

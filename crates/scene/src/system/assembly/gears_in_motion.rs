@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use gearmesh_drivetrain::{DrivetrainError, GearMesh, Pose};
+use gearmesh_drivetrain::{GearMesh, Pose};
 use gearmesh_dynamics::{BodyMotion, Marker, MarkerPair};
 use gearmesh_geometry::{Flank, GearDefinition, InputError};
 use gearmesh_model::ReducedGear;
@@ -11,6 +11,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::LoadedSystem;
 use super::gear_mesh::PreparedMesh;
 use super::gears::BodyGear;
+use super::meshes_together::{MeshesTogether, MovingError};
 use super::parts::Parts;
 use super::parts_in_motion::{MovingParts, moving_parts};
 use super::shafts::PlacedShaft;
@@ -25,6 +26,8 @@ pub struct MovingGear {
     pub body: String,
     /// The gear.
     pub shape: MovingShape,
+    /// The model with the motions of its bore, where that slides or rollers press on it.
+    pub bore: Option<Arc<ReducedGear>>,
 }
 
 /// What a moving gear is.
@@ -99,7 +102,7 @@ impl GearState {
         std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
     }
 
-    fn motion(&self) -> BodyMotion {
+    pub(super) fn motion(&self) -> BodyMotion {
         let orientation = self.orientation();
         BodyMotion {
             position_m: self.position_m.into(),
@@ -137,6 +140,9 @@ pub struct SliceLoad {
 }
 
 struct MovingMesh {
+    name: String,
+    /// Place among the meshes that are solved together, where it is one.
+    together: Option<[usize; 2]>,
     gears: [usize; 2],
     seats: [Marker; 2],
     mesh: GearMesh,
@@ -153,7 +159,10 @@ pub struct GearsInMotion {
     pub without_forces: Vec<String>,
     /// What is drawn beside the gears.
     pub parts: MovingParts,
+    /// Further bodies, on whose places forces on the teeth depend.
+    pub further: Vec<String>,
     meshes: Vec<MovingMesh>,
+    together: Option<MeshesTogether>,
 }
 
 impl LoadedSystem {
@@ -180,10 +189,12 @@ impl LoadedSystem {
                 Some(BodyGear::Bevel(gear)) => MovingShape::Bevel(Arc::clone(&gear.model)),
                 None => continue,
             };
+            let bore = body.cylindrical().and_then(|gear| gear.bore.clone());
             places[place] = Some(gears.len());
             gears.push(MovingGear {
                 body: body.body.name.clone(),
                 shape,
+                bore,
             });
         }
         let prepare = |(i, table)| {
@@ -222,6 +233,8 @@ impl LoadedSystem {
             }
             let compliance = [a, b].map(|gear| gears[gear].contact_compliance());
             meshes.push(MovingMesh {
+                name: prepared.name,
+                together: None,
                 gears: [a, b],
                 seats: prepared.seats,
                 mesh,
@@ -229,11 +242,21 @@ impl LoadedSystem {
                 contact_modulus_pa: 1.0 / (compliance[0] + compliance[1]),
             });
         }
+        let names: Vec<&str> = gears.iter().map(|gear| &*gear.body).collect();
+        let together = MeshesTogether::of(self, &names)?;
+        if let Some(all) = &together {
+            for mesh in &mut meshes {
+                mesh.together = all.place(&mesh.name);
+            }
+        }
+        let further = together.as_ref().map(|all| all.further.clone());
         Ok(GearsInMotion {
             gears,
             without_forces,
             parts,
+            further: further.unwrap_or_default(),
             meshes,
+            together,
         })
     }
 }
@@ -250,58 +273,88 @@ fn place_of_bevel(gears: &mut Vec<MovingGear>, body: &str, model: &Arc<ReducedGe
         gears.push(MovingGear {
             body: body.to_owned(),
             shape: MovingShape::Bevel(Arc::clone(model)),
+            bore: None,
         });
         gears.len() - 1
     })
 }
 
 impl GearsInMotion {
-    /// What presses on the flanks where the gears stand and move like this, in the order of [`GearsInMotion::gears`].
+    /// What presses on the flanks where bodies stand and move like this at a time: those of [`GearsInMotion::gears`],
+    /// then [`GearsInMotion::further`].
     ///
     /// # Errors
-    /// [`DrivetrainError`] of a mesh.
-    pub fn loads(&mut self, states: &[GearState]) -> Result<Vec<SliceLoad>, DrivetrainError> {
+    /// [`MovingError`].
+    pub fn loads(
+        &mut self,
+        states: &[GearState],
+        time_s: f64,
+    ) -> Result<Vec<SliceLoad>, MovingError> {
+        if let Some(together) = &mut self.together {
+            together.find(states, time_s)?;
+        }
         let mut loads = Vec::new();
-        for (mesh, at) in self.meshes.iter_mut().enumerate() {
-            let [a, b] = at.seats;
-            let pair = MarkerPair { a, b };
-            let [first, second] = at.gears.map(|gear| states[gear].motion());
-            let pose = Pose::from(&pair.motion(&first, &second));
-            at.mesh.evaluate(&pose, false)?;
-            at.mesh.remember();
-            for side in [Flank::Right, Flank::Left] {
-                let Some((found, forces)) = at.mesh.side(side) else {
-                    continue;
-                };
-                for (contact, &force_n) in found.contacts.iter().zip(forces) {
-                    if force_n <= 0.0 {
-                        continue;
-                    }
-                    let section = found.section(contact);
-                    let along_line = force_n / section.length_m;
-                    let pressure = along_line * at.contact_modulus_pa
-                        / (std::f64::consts::PI * section.radius_m);
-                    // The load of a unit force on gear 2, in gear 1's axes; edges press along the flank that they touch.
-                    let unit: Vector3<f64> = contact.gradient.fixed_rows::<3>(0).into();
-                    let on_2 = first.rotation * unit * force_n;
-                    for (k, gear) in at.gears.into_iter().enumerate() {
-                        let on_gear = if k == 0 { -on_2 } else { on_2 };
-                        loads.push(SliceLoad {
-                            mesh,
-                            gear,
-                            tooth: found.lines[contact.line].teeth[k],
-                            side,
-                            roll_rad: section.touching_roll_rad[k],
-                            height_m: contact.heights_m[k],
-                            width_m: at.slice_width_m,
-                            force_n: on_gear.into(),
-                            line_load_n_per_m: force_n / (at.slice_width_m * section.share),
-                            pressure_pa: pressure.sqrt(),
-                        });
-                    }
-                }
+        for (number, at) in self.meshes.iter_mut().enumerate() {
+            let first = states[at.gears[0]].motion();
+            if at.together.is_none() {
+                let [a, b] = at.seats;
+                let second = states[at.gears[1]].motion();
+                let pose = Pose::from(&MarkerPair { a, b }.motion(&first, &second));
+                at.mesh.evaluate(&pose, false)?;
+                at.mesh.remember();
+            }
+            let mut read = |mesh: &GearMesh| at.read(mesh, (number, &first), &mut loads);
+            match (&self.together, at.together) {
+                (Some(together), Some(place)) => together.of_mesh(place, read),
+                _ => read(&at.mesh),
             }
         }
         Ok(loads)
+    }
+
+    /// Radial motions of a gear's bore where rollers pressed on it at the last loads \[m\]; none of other gears.
+    #[must_use]
+    pub fn bore_motions_m(&self, gear: usize) -> Vec<f64> {
+        let together = self.together.as_ref();
+        together.map_or_else(Vec::new, |all| all.bore_motions_m(gear))
+    }
+}
+
+impl MovingMesh {
+    /// Adds what presses on the slices of a mesh with its number, where gear 1 moves like this.
+    fn read(&self, mesh: &GearMesh, at: (usize, &BodyMotion), loads: &mut Vec<SliceLoad>) {
+        let (number, first) = at;
+        for side in [Flank::Right, Flank::Left] {
+            let Some((found, forces)) = mesh.side(side) else {
+                continue;
+            };
+            for (contact, &force_n) in found.contacts.iter().zip(forces) {
+                if force_n <= 0.0 {
+                    continue;
+                }
+                let section = found.section(contact);
+                let along_line = force_n / section.length_m;
+                let pressure = along_line * self.contact_modulus_pa
+                    / (std::f64::consts::PI * section.radius_m);
+                // The load of a unit force on gear 2, in gear 1's axes; edges press along the flank that they touch.
+                let unit: Vector3<f64> = contact.gradient.fixed_rows::<3>(0).into();
+                let on_2 = first.rotation * unit * force_n;
+                for (k, gear) in self.gears.into_iter().enumerate() {
+                    let on_gear = if k == 0 { -on_2 } else { on_2 };
+                    loads.push(SliceLoad {
+                        mesh: number,
+                        gear,
+                        tooth: found.lines[contact.line].teeth[k],
+                        side,
+                        roll_rad: section.touching_roll_rad[k],
+                        height_m: contact.heights_m[k],
+                        width_m: self.slice_width_m,
+                        force_n: on_gear.into(),
+                        line_load_n_per_m: force_n / (self.slice_width_m * section.share),
+                        pressure_pa: pressure.sqrt(),
+                    });
+                }
+            }
+        }
     }
 }

@@ -42,6 +42,7 @@ mod mesh_effects;
 mod mesh_frequency;
 mod mesh_model;
 mod mesh_stiffness;
+mod meshes_together;
 mod node_surface;
 mod operating_point;
 mod overlaps;
@@ -62,6 +63,7 @@ pub(super) use self::bearings::cages::PlacedCage;
 pub(super) use self::bearings::tangent::TangentSeat;
 pub use gears_in_motion::{GearState, GearsInMotion, MovingGear, MovingShape, SliceLoad};
 pub(crate) use mesh_frequency::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
+pub use meshes_together::MovingError;
 pub use parts_in_motion::{
     BodyAtStart, MovingElements, MovingPart, MovingParts, PartKind, PartShape,
 };
@@ -76,7 +78,7 @@ use gearmesh_geometry::input::{InputDocument, TableKeys};
 use self::bearings::tangent::Tangent;
 use self::bearings::{cages, housing, rigid};
 use self::bodies::{Bodies, PlacedBody};
-use self::coupled::{Groups, MeshOfGroup};
+use self::coupled::{Groups, MeshOfGroup, is_eligible};
 use self::elements::Manner;
 use self::gear_mesh::{MeshPlace, PreparedMesh};
 use self::gears::{BodyGear, GearFiles};
@@ -88,7 +90,6 @@ use self::start_speeds::Holds;
 use super::built::{BuiltBody, BuiltGauge, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
-use super::tables::body::BoreHold;
 use super::tables::function::Sources;
 use super::tables::mesh_model::MeshKind;
 use super::tables::run::Run;
@@ -355,8 +356,7 @@ impl LoadedSystem {
             mesh.add(&bodies, (&gauges, &keys), own, &mut parts)?;
         }
         for meshes in left {
-            let note = groups.add(meshes, (document, &bodies), &mut builder)?;
-            parts.notes.push(note);
+            groups.add(meshes, (document, &bodies), (&mut builder, &mut parts))?;
         }
         self.add_gravity(&bodies, &mut builder, &mut parts);
         self.check_output(&bodies, &parts)?;
@@ -386,6 +386,7 @@ impl LoadedSystem {
             meshes: built_meshes,
             pitches_per_rad,
             varied_rad_per_s: varied_rad_per_s.unwrap_or(0.0),
+            together: parts.together,
             gauges,
             ratings,
             notes: parts.notes,
@@ -417,15 +418,6 @@ impl LoadedSystem {
             let key = format!("gauge.{i}");
             let keys = TableKeys::new(&self.scene.document, &key);
             let body = bodies.find_body(&keys, "body", &table.body)?;
-            let bore = self.scene.tables.body.get(body).and_then(|body| body.bore);
-            if bore == Some(BoreHold::Rollers) {
-                let problem = format!(
-                    "`{}` has bore = \"rollers\", under which no gauge is read: how rollers bend the bore is not in its rows; remove the gauge, or \
-                     take \"sliding\" or \"bonded\"",
-                    table.body
-                );
-                return Err(keys.error("body", problem));
-            }
             let model = bodies.list[body].model();
             let of_bevel = || meshes.iter().find_map(|mesh| mesh.bevel_model(body));
             let model = model.or_else(of_bevel).ok_or_else(|| {
@@ -440,9 +432,10 @@ impl LoadedSystem {
             let of_body = |mesh: &&PreparedMesh| {
                 mesh.model == MeshKind::Hybrid && mesh.bodies.contains(&body)
             };
-            let loaded: Vec<(String, usize)> = meshes
-                .iter()
-                .filter(of_body)
+            // The first one reads the bending of a bore, which those without vibration modes know.
+            let (solved_together, others): (Vec<_>, Vec<_>) =
+                (meshes.iter().filter(of_body)).partition(|mesh| is_eligible(mesh, bodies));
+            let loaded: Vec<(String, usize)> = (solved_together.into_iter().chain(others))
                 .map(|mesh| {
                     (
                         mesh.name.clone(),

@@ -2,15 +2,17 @@
 
 use super::bearings::tangent::TangentSeat;
 use super::bodies::Bodies;
-use crate::system::built::{BuiltPart, Effect};
+use crate::system::built::{BuiltPart, BuiltTogether, Effect};
 
 /// Joints, force elements, notes and effects.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(super) struct Parts {
     pub joints: Vec<BuiltPart>,
     pub elements: Vec<BuiltPart>,
     pub notes: Vec<String>,
     pub effects: Vec<Effect>,
+    /// Meshes that are solved together.
+    pub together: Vec<BuiltTogether>,
     /// Bearings whose tangent is taken.
     pub tangents: Vec<TangentSeat>,
 }

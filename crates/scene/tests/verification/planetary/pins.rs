@@ -133,3 +133,47 @@ fn pins_that_cannot_bend_are_refused() {
         assert!(message.contains(expected), "{expected}: {message}");
     }
 }
+
+/// Natural frequencies of a set whose planets stand on bearings on light pins that bend are those on bearings as soft as
+/// both in a row: a spur set moves in its plane, where a force in the middle between the plates bends the pin alone.
+#[test]
+fn modes_of_a_set_feel_its_pins() {
+    let folder = tempfile::tempdir().unwrap();
+    write_gears(folder.path(), [24, 36], ALPHA_DEG);
+    let [d, length, young, nu] = PIN;
+    let (area, inertia) = (PI * d * d / 4.0, PI * d.powi(4) / 64.0);
+    let shear = young / (2.0 * (1.0 + nu)) * 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu) * area;
+    let pin = length.powi(3) / (192.0 * young * inertia) + length / (4.0 * shear);
+    let modes = |radial_n_per_m: f64, pin: &str| -> Vec<f64> {
+        let bearing = format!(
+            "support = \"floating\"\nbearings = [{{ model = {{ kind = \"linear\", radial_stiffness_N_per_mm = {:?}, \
+             axial_stiffness_N_per_mm = 1e5, tilt_stiffness_Nm_per_rad = 1e5 }} }}]\n{pin}",
+            1e-3 * radial_n_per_m
+        );
+        let text = set(
+            "kind = \"eigen\"\nmost_frequency_Hz = 4000.0",
+            "speed_rpm = 600.0",
+            &bearing,
+        );
+        let result = run(&text, folder.path());
+        let modes = result.eigen[0].modes.iter();
+        modes
+            .map(|mode| mode.frequency_hz())
+            .filter(|hz| *hz > 1.0)
+            .collect()
+    };
+    let bearing = 2e8;
+    let stiff = modes(bearing, "");
+    let soft = modes(1.0 / (1.0 / bearing + pin), "");
+    let found = modes(
+        bearing,
+        "pin = { diameter_mm = 20.0, plates_mm = [-20.0, 20.0], density_kg_per_m3 = 1.0 }",
+    );
+    assert!(soft[0] < 0.97 * stiff[0], "{soft:?} {stiff:?}");
+    // Pins that bend give planets modes along and askew to their axes as well; 1e-5 is the pins' mass.
+    for expected in &soft {
+        let nearest = found.iter().map(|hz| (hz / expected - 1.0).abs());
+        let off = nearest.fold(f64::INFINITY, f64::min);
+        assert!(off < 1e-5, "{expected}: {found:?}");
+    }
+}
