@@ -8,9 +8,10 @@
 //! the near field of a contact does not reach from one to the other, and C_hub is the whole.
 
 use crate::axial_spread::AxialSpread;
+use crate::place_blocks::{BetweenPlaces, PlaceBlocks};
 use crate::placed_slice::ToothPlace;
 use crate::slice_compliance::{blocks_of_all, loads_of_slices};
-use crate::station_blocks::{Coupling, StationBlocks};
+use crate::station_blocks::StationBlocks;
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 
 /// Compliance of one gear between slices of two meshes.
@@ -18,7 +19,7 @@ use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 pub struct CrossCompliance {
     teeth: usize,
     /// `[tooth in sector][response tooth]`.
-    blocks: StationBlocks,
+    blocks: PlaceBlocks,
 }
 
 impl CrossCompliance {
@@ -56,17 +57,23 @@ impl CrossCompliance {
         };
         Ok(Self {
             teeth: gear.teeth,
-            blocks,
+            blocks: PlaceBlocks::new(blocks),
         })
     }
 
-    /// C of a slice at a place of the first mesh and one of the second \[m/N\], and how it changes with both places.
-    #[must_use]
-    pub fn between(&self, places: [&ToothPlace; 2], slices: [usize; 2]) -> Coupling {
+    /// C of all slices at a place of the first mesh and at one of the second \[m/N\], and how it changes with both
+    /// places.
+    #[inline(always)]
+    pub(crate) fn between(&self, places: [&ToothPlace; 2], found: &mut BetweenPlaces) {
         let [a, b] = places;
         let (tooth, response) = a.with_response(b.tooth, self.teeth);
         let pair = tooth * self.teeth + response;
-        let blocks = self.blocks.at(pair, [&a.place, &b.place]);
-        blocks.between_with_rates(slices)
+        self.blocks.combine(pair, [&a.place, &b.place], found);
+    }
+
+    /// Place of two slices in what is found.
+    #[inline(always)]
+    pub(crate) fn entry(&self, slices: [usize; 2]) -> usize {
+        self.blocks.entry(slices)
     }
 }

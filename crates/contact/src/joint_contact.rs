@@ -13,8 +13,8 @@ use crate::bore_bending::BoreBending;
 use crate::contact_error::ContactError;
 use crate::cross_compliance::CrossCompliance;
 use crate::nlcp::{Info, LocalLaw, Params, Problem, Workspace, solve_position};
+use crate::place_blocks::BetweenPlaces;
 use crate::slice_contact::SliceContact;
-use crate::station_blocks::Coupling;
 
 /// Two sides on one body.
 #[derive(Debug, Clone)]
@@ -31,12 +31,16 @@ pub struct MeshLink {
 /// and [`Self::couple`] for each side and link, [`Self::solve`].
 #[derive(Debug, Clone)]
 pub struct JointContact {
+    /// What the processor has for the loops over coupled places; results do not depend on it.
+    arch: pulp::Arch,
+    found: BetweenPlaces,
     links: Vec<MeshLink>,
     /// First contact of each side, and the end of the last one.
     starts: Vec<usize>,
     c: Vec<f64>,
-    /// What [`Self::couple`] found, for [`Self::walk`]: contact by contact of one side and the other, link after link.
-    couplings: Vec<Coupling>,
+    /// What [`Self::couple`] found for [`Self::walk`]: how the compliance of contacts of one side and the other changes with
+    /// both places, link after link.
+    couplings: Vec<[f64; 2]>,
     /// Where those of each link begin.
     coupling_starts: Vec<usize>,
     local: Vec<LocalLaw>,
@@ -48,8 +52,7 @@ pub struct JointContact {
     params: Params,
     /// −∂F/∂gap, `[force][gap]`.
     stiffness: Vec<f64>,
-    unit: Vec<f64>,
-    change: Vec<f64>,
+    inverse: Vec<f64>,
     /// Σ_B C_AB F_B of each contact \[m\].
     felt_m: Vec<f64>,
     /// How the energy between sides changes as a contact walks over the flank of gear 0 or 1 \[J per u\].
@@ -66,6 +69,8 @@ impl JointContact {
     pub fn new(links: Vec<MeshLink>, capacity: usize) -> Self {
         let empty = || Vec::with_capacity(capacity);
         Self {
+            arch: pulp::Arch::new(),
+            found: BetweenPlaces::default(),
             coupling_starts: vec![0; links.len()],
             links,
             starts: Vec::new(),
@@ -79,8 +84,7 @@ impl JointContact {
             work: Workspace::new(capacity),
             params: Params::default(),
             stiffness: Vec::with_capacity(capacity * capacity),
-            unit: empty(),
-            change: empty(),
+            inverse: Vec::with_capacity(capacity * capacity),
             felt_m: empty(),
             energy_by_u: Vec::with_capacity(capacity),
             bores: Vec::new(),
@@ -180,23 +184,17 @@ impl JointContact {
 
     /// Takes what the body of a link deflects between its sides.
     pub fn couple(&mut self, link: usize, contacts: [&SliceContact; 2]) {
-        let MeshLink { sides, gears, .. } = self.links[link];
-        let compliance = Arc::clone(&self.links[link].compliance);
-        let starts = sides.map(|side| self.starts[side]);
-        let n = self.size();
         self.coupling_starts[link] = self.couplings.len();
-        for i in 0..contacts[0].prepared().separation_m.len() {
-            for j in 0..contacts[1].prepared().separation_m.len() {
-                let a = contacts[0].stands(i, gears[0]);
-                let b = contacts[1].stands(j, gears[1]);
-                let found = compliance.between([a.place, b.place], [a.slice, b.slice]);
-                self.couplings.push(found);
-                let value = a.along_normal * b.along_normal * found.value;
-                let (here, across) = (starts[0] + i, starts[1] + j);
-                self.c[here * n + across] += value;
-                self.c[across * n + here] += value;
-            }
-        }
+        let (n, own) = (self.size(), &self.links[link]);
+        self.arch.dispatch(Couple {
+            link: own,
+            contacts,
+            starts: own.sides.map(|side| self.starts[side]),
+            c: &mut self.c,
+            size: n,
+            found: &mut self.found,
+            rates: &mut self.couplings,
+        });
     }
 
     /// Solves for all forces where the gaps stand; `goes_on`: from those of the last solution, if it was of as many
@@ -205,17 +203,17 @@ impl JointContact {
     /// # Errors
     /// [`ContactError::Nlcp`].
     pub fn solve(&mut self, goes_on: bool) -> Result<Info, ContactError> {
-        let (mut c, mut separation_m) = (&self.c, &self.separation_m);
         if !self.bores.is_empty() {
             let (softened, shifted) = &mut self.softened;
-            softened.clone_from(c);
-            shifted.clone_from(separation_m);
+            softened.clone_from(&self.c);
+            shifted.clone_from(&self.separation_m);
             for bore in &self.bores {
                 bore.soften(softened, shifted);
             }
-            (c, separation_m) = (softened, shifted);
         }
-        let problem = Problem::new(c, &self.local, separation_m, &self.closing, &self.lever_m)?;
+        let (c, separation_m) = soft(&self.bores, (&self.c, &self.separation_m), &self.softened);
+        let balance = (&self.closing[..], &self.lever_m[..]);
+        let problem = Problem::of_symmetric(c, &self.local, separation_m, balance)?;
         let known = self.begin_n.iter().any(|force| *force > 0.0);
         match goes_on && self.work.forces().len() == self.begin_n.len() {
             true => {}
@@ -223,38 +221,36 @@ impl JointContact {
             false => self.work.reset(),
         }
         let info = solve_position(&problem, 0.0, &self.params, &mut self.work)?;
-        let (n, forces) = (self.size(), self.work.forces());
+        let forces = self.work.forces();
         self.bores.iter_mut().for_each(|bore| bore.follow(forces));
-        for side in 0..self.starts.len() - 1 {
-            let own = self.starts[side]..self.starts[side + 1];
-            for i in own.clone() {
-                let row = &self.c[i * n..][..n];
-                let others = (0..n).filter(|j| !own.contains(j));
-                self.felt_m[i] = others.map(|j| row[j] * forces[j]).sum();
-            }
-        }
+        self.arch.dispatch(Feel {
+            c: &self.c,
+            starts: &self.starts,
+            forces_n: forces,
+            felt_m: &mut self.felt_m,
+        });
         Ok(info)
     }
 
     /// After [`Self::solve`]: how the energy between the sides of a link changes as contacts walk.
     pub fn walk(&mut self, link: usize, contacts: [&SliceContact; 2]) {
         let MeshLink { sides, gears, .. } = self.links[link];
-        let starts = sides.map(|side| self.starts[side]);
         let [on_a, on_b] = sides.map(|side| self.contacts_of(side));
-        let couplings = &self.couplings[self.coupling_starts[link]..];
-        for (i, at_a) in on_a.enumerate() {
-            for (j, at_b) in on_b.clone().enumerate() {
-                let forces = self.work.forces();
+        let rates = &self.couplings[self.coupling_starts[link]..];
+        let forces = self.work.forces();
+        for ((i, at_a), rates) in (on_a.enumerate()).zip(rates.chunks_exact(on_b.len().max(1))) {
+            if forces[at_a] == 0.0 {
+                continue;
+            }
+            let along_a = contacts[0].stands(i, gears[0]).along_normal;
+            for ((j, at_b), [by_a, by_b]) in on_b.clone().enumerate().zip(rates) {
                 let both = forces[at_a] * forces[at_b];
                 if both == 0.0 {
                     continue;
                 }
-                let a = contacts[0].stands(i, gears[0]);
-                let b = contacts[1].stands(j, gears[1]);
-                let found = couplings[i * on_b.len() + j];
-                let both = both * a.along_normal * b.along_normal;
-                self.energy_by_u[starts[0] + i][gears[0]] += both * found.by_a;
-                self.energy_by_u[starts[1] + j][gears[1]] += both * found.by_b;
+                let both = both * along_a * contacts[1].stands(j, gears[1]).along_normal;
+                self.energy_by_u[at_a][gears[0]] += both * by_a;
+                self.energy_by_u[at_b][gears[1]] += both * by_b;
             }
         }
     }
@@ -296,24 +292,7 @@ impl JointContact {
 
     /// Computes −∂F/∂gap of all contacts.
     pub fn fill_stiffness(&mut self) {
-        let n = self.size();
-        self.stiffness.clear();
-        self.stiffness.resize(n * n, 0.0);
-        self.unit.clear();
-        self.unit.resize(n, 0.0);
-        self.change.clear();
-        self.change.resize(n, 0.0);
-        for j in 0..n {
-            if self.work.forces()[j] <= 0.0 {
-                continue;
-            }
-            self.unit[j] = -1.0;
-            self.work.apply_tangent(&self.unit, &mut self.change);
-            self.unit[j] = 0.0;
-            for (i, change) in self.change.iter().enumerate() {
-                self.stiffness[i * n + j] = *change;
-            }
-        }
+        (self.work).stiffness(&mut self.inverse, &mut self.stiffness);
     }
 
     /// −∂F/∂gap of one force by all gaps \[N/m\], after [`Self::fill_stiffness`].
@@ -321,5 +300,92 @@ impl JointContact {
     pub fn stiffness_of(&self, contact: usize) -> &[f64] {
         let n = self.size();
         &self.stiffness[contact * n..][..n]
+    }
+}
+
+/// Compliance and separations with what bores make of them.
+fn soft<'a>(
+    bores: &[BoreBending],
+    (c, separation_m): (&'a [f64], &'a [f64]),
+    (softened, shifted): &'a (Vec<f64>, Vec<f64>),
+) -> (&'a [f64], &'a [f64]) {
+    match bores.is_empty() {
+        true => (c, separation_m),
+        false => (softened, shifted),
+    }
+}
+
+/// [`JointContact::couple`], to be compiled for what the processor has.
+struct Couple<'a> {
+    link: &'a MeshLink,
+    contacts: [&'a SliceContact; 2],
+    starts: [usize; 2],
+    c: &'a mut [f64],
+    size: usize,
+    found: &'a mut BetweenPlaces,
+    /// How each changes with the first and with the second place.
+    rates: &'a mut Vec<[f64; 2]>,
+}
+
+impl pulp::NullaryFnOnce for Couple<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let MeshLink {
+            gears, compliance, ..
+        } = self.link;
+        let [first, second] = self.contacts;
+        let (begin, columns) = (self.rates.len(), second.prepared().separation_m.len());
+        let rows = first.prepared().separation_m.len();
+        self.rates.resize(begin + rows * columns, [0.0; 2]);
+        for a in first.runs_on(gears[0]) {
+            for b in second.runs_on(gears[1]) {
+                compliance.between([a.place, b.place], self.found);
+                let along = a.along_normal * b.along_normal;
+                for (i, slice) in a.patches.clone().zip(a.slices) {
+                    let (here, across) = (self.starts[0] + i, self.starts[1]);
+                    for (j, other) in b.patches.clone().zip(b.slices) {
+                        let entry = compliance.entry([*slice, *other]);
+                        let value = along * self.found.value[entry];
+                        self.c[here * self.size + across + j] += value;
+                        self.c[(across + j) * self.size + here] += value;
+                        self.rates[begin + i * columns + j] =
+                            [self.found.by_a[entry], self.found.by_b[entry]];
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What the contacts of each side deflect by under the forces of the others, to be compiled for what the processor has.
+struct Feel<'a> {
+    c: &'a [f64],
+    starts: &'a [usize],
+    forces_n: &'a [f64],
+    felt_m: &'a mut [f64],
+}
+
+impl pulp::NullaryFnOnce for Feel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let n = self.forces_n.len();
+        self.felt_m.fill(0.0);
+        for own in self.starts.windows(2) {
+            let rows = self.c[own[0] * n..own[1] * n].chunks_exact(n.max(1));
+            for (row, &force) in rows.zip(&self.forces_n[own[0]..own[1]]) {
+                if force == 0.0 {
+                    continue;
+                }
+                // C is symmetric, its rows are contiguous.
+                for range in [0..own[0], own[1]..n] {
+                    let pairs = self.felt_m[range.clone()].iter_mut().zip(&row[range]);
+                    pairs.for_each(|(felt, c)| *felt += c * force);
+                }
+            }
+        }
     }
 }

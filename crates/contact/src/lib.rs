@@ -66,6 +66,7 @@ pub mod joint_contact;
 pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
+mod place_blocks;
 pub mod placed_slice;
 pub mod profile_shares;
 pub mod runout;

@@ -77,6 +77,17 @@ pub struct Standing<'a> {
     pub along_normal: f64,
 }
 
+/// Patches one after the other that stand at one place on a gear.
+#[derive(Debug, Clone)]
+pub(crate) struct StandingRun<'a> {
+    pub patches: std::ops::Range<usize>,
+    /// Their slices.
+    pub slices: &'a [usize],
+    pub place: &'a ToothPlace,
+    /// Component of their normal along that of the flank.
+    pub along_normal: f64,
+}
+
 /// Two elastic gears in contact, with all memory that a solve needs.
 #[derive(Debug, Clone)]
 pub struct SliceContact {
@@ -251,6 +262,17 @@ impl SliceContact {
             slice: self.slice[patch],
             along_normal: run.along_normals[gear],
         }
+    }
+
+    /// The patches that were prepared by their places on gear 0 or 1.
+    #[inline(always)]
+    pub(crate) fn runs_on(&self, gear: usize) -> impl Iterator<Item = StandingRun<'_>> {
+        self.runs.iter().map(move |run| StandingRun {
+            patches: run.patches[0]..run.patches[1],
+            slices: &self.slice[run.patches[0]..run.patches[1]],
+            place: &run.places[gear],
+            along_normal: run.along_normals[gear],
+        })
     }
 
     /// Takes forces \[N\] that were found with those of other contacts as the solution of the patches that were

@@ -108,20 +108,52 @@ impl StationBlocks {
         }
     }
 
-    /// Combines the slices of two flanks of a pair of flanks at two places.
+    /// Slices of the first and of the second flank.
+    pub(crate) fn slices(&self) -> [usize; 2] {
+        self.slices
+    }
+
+    /// Stations of a pair, with zeros that fill them up.
+    pub(crate) fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// Number of pairs of flanks.
+    pub(crate) fn pairs(&self) -> usize {
+        match &self.values {
+            Values::All(values) => values.len() / self.size_of_pair(),
+            Values::OnDemand(found) => found.pairs.len(),
+        }
+    }
+
+    /// The same where all are known.
+    pub(crate) fn known_pairs(&self) -> Option<usize> {
+        matches!(self.values, Values::All(_)).then(|| self.pairs())
+    }
+
+    fn size_of_pair(&self) -> usize {
+        self.slices[0] * self.slices[1] * self.stride * self.stride
+    }
+
+    /// All T of a pair of flanks, `[slice a][slice b][station a][station b]`.
     #[inline(always)]
-    #[must_use]
-    pub fn at<'a>(&'a self, pair: usize, places: [&'a ProfilePlace; 2]) -> CombinedBlocks<'a> {
-        let block = self.stride * self.stride;
-        let size = self.slices[0] * self.slices[1] * block;
-        let first = places[0].first() * self.stride + places[1].first();
-        let values = match &self.values {
+    pub(crate) fn values_of(&self, pair: usize) -> &[f64] {
+        let size = self.size_of_pair();
+        match &self.values {
             Values::All(values) => &values[pair * size..(pair + 1) * size],
             Values::OnDemand(found) => match found.pairs[pair].get() {
                 Some(values) => values,
                 None => self.asked_first(found, pair),
             },
-        };
+        }
+    }
+
+    /// Combines the slices of two flanks of a pair of flanks at two places.
+    #[inline(always)]
+    #[must_use]
+    pub fn at<'a>(&'a self, pair: usize, places: [&'a ProfilePlace; 2]) -> CombinedBlocks<'a> {
+        let first = places[0].first() * self.stride + places[1].first();
+        let values = self.values_of(pair);
         CombinedBlocks {
             values: &values[first..],
             slices: self.slices[1],

@@ -13,9 +13,14 @@ const PIVOT_TOLERANCE: f64 = 4.0 * f64::EPSILON;
 /// order above the pivot noise of a block of 150.
 const SHIFT: f64 = 1e-12;
 
+/// Pivots that are eliminated at a time.
+const TOGETHER: usize = 4;
+
 /// Factor of a symmetric positive definite matrix.
 #[derive(Debug, Clone)]
 pub(crate) struct Ldl {
+    /// What the processor has for the loops; results do not depend on it.
+    arch: pulp::Arch,
     order: usize,
     /// Order × order in rows; right of the diagonal row k is `d_k (Lᵀ)_k`, the rest is not used.
     upper: Vec<f64>,
@@ -41,6 +46,7 @@ pub(crate) enum Shifted {
 impl Ldl {
     pub(crate) fn new(capacity: usize) -> Self {
         Ldl {
+            arch: pulp::Arch::new(),
             order: 0,
             upper: vec![0.0; capacity * capacity],
             inverse_pivot: vec![0.0; capacity],
@@ -75,35 +81,23 @@ impl Ldl {
             // Kept for the test of the pivot.
             self.inverse_pivot[i] = row[i];
         }
-        let mut rest = &mut self.upper[..n * n];
-        // Two pivots at a time: every row below is loaded and stored once for both.
-        for k in (0..n).step_by(2) {
-            let (first, below) = rest.split_at_mut(n);
-            let first = &first[..n];
-            let first_inverse = checked_inverse(k, first[k], self.inverse_pivot[k], noise)?;
-            self.inverse_pivot[k] = first_inverse;
-            if k + 1 == n {
-                break;
-            }
-            let (second, below) = below.split_at_mut(n);
-            let second = &mut second[..n];
-            subtract(
-                &mut second[k + 1..],
-                first[k + 1] * first_inverse,
-                &first[k + 1..],
-            );
-            let second_inverse =
-                checked_inverse(k + 1, second[k + 1], self.inverse_pivot[k + 1], noise)?;
-            self.inverse_pivot[k + 1] = second_inverse;
-            rest = below;
-            for (i, other) in (k + 2..n).zip(rest.chunks_exact_mut(n)) {
-                let (p, q) = (first[i] * first_inverse, second[i] * second_inverse);
-                for ((value, a), b) in other[i..].iter_mut().zip(&first[i..]).zip(&second[i..]) {
-                    *value -= p * a + q * b;
-                }
-            }
-        }
-        Ok(())
+        self.arch.dispatch(Eliminate {
+            upper: &mut self.upper[..n * n],
+            inverse_pivot: &mut self.inverse_pivot[..n],
+            noise,
+        })
+    }
+
+    /// Writes the inverse, order × order: the solutions of all units, each as [`Self::solve`] has it to the last bit, side
+    /// by side.
+    pub(crate) fn invert(&self, inverse: &mut [f64], row: &mut [f64]) {
+        let n = self.order;
+        self.arch.dispatch(Invert {
+            upper: &self.upper[..n * n],
+            inverse_pivot: &self.inverse_pivot[..n],
+            inverse: &mut inverse[..n * n],
+            known: &mut row[..n],
+        });
     }
 
     /// Overwrites the first `order` of `values` by the solution.
@@ -128,7 +122,123 @@ impl Ldl {
     }
 }
 
+/// The elimination, in place.
+struct Eliminate<'a> {
+    upper: &'a mut [f64],
+    /// The diagonal before; the inverse pivots after.
+    inverse_pivot: &'a mut [f64],
+    noise: f64,
+}
+
+impl pulp::NullaryFnOnce for Eliminate<'_> {
+    type Output = Result<(), BadPivot>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let Self {
+            upper,
+            inverse_pivot,
+            noise,
+        } = self;
+        let n = inverse_pivot.len();
+        let mut rest = upper;
+        // Four pivots at a time, by two and two: every row below is loaded and stored once for all.
+        for k in (0..n).step_by(TOGETHER) {
+            let together = TOGETHER.min(n - k);
+            let (own, below) = rest.split_at_mut(together * n);
+            for p in 0..together {
+                let (above, row) = own.split_at_mut(p * n);
+                let (at, row) = (k + p, &mut row[..n]);
+                if p >= 2 {
+                    let [first, second] = [0, 1].map(|p: usize| &above[p * n..][..n]);
+                    let factors = [
+                        first[at] * inverse_pivot[k],
+                        second[at] * inverse_pivot[k + 1],
+                    ];
+                    for ((value, a), b) in row[at..].iter_mut().zip(&first[at..]).zip(&second[at..])
+                    {
+                        *value -= factors[0] * a + factors[1] * b;
+                    }
+                }
+                if p % 2 == 1 {
+                    let before = &above[(p - 1) * n..];
+                    subtract(
+                        &mut row[at..],
+                        before[at] * inverse_pivot[at - 1],
+                        &before[at..n],
+                    );
+                }
+                inverse_pivot[at] = checked_inverse(at, row[at], inverse_pivot[at], noise)?;
+            }
+            rest = below;
+            if together < TOGETHER {
+                break;
+            }
+            let [first, second, third, fourth] = [0, 1, 2, 3].map(|p: usize| &own[p * n..][..n]);
+            let inverse = &inverse_pivot[k..][..TOGETHER];
+            for (i, other) in (k + TOGETHER..n).zip(rest.chunks_exact_mut(n)) {
+                let (p, q) = (first[i] * inverse[0], second[i] * inverse[1]);
+                let (r, s) = (third[i] * inverse[2], fourth[i] * inverse[3]);
+                let pairs =
+                    (first[i..].iter().zip(&second[i..])).zip(third[i..].iter().zip(&fourth[i..]));
+                for (value, ((a, b), (c, d))) in other[i..n].iter_mut().zip(pairs) {
+                    *value = (*value - (p * a + q * b)) - (r * c + s * d);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Both substitutions for all units at once: every product and sum is that of one unit by itself.
+struct Invert<'a> {
+    upper: &'a [f64],
+    inverse_pivot: &'a [f64],
+    /// `[entry][unit]`.
+    inverse: &'a mut [f64],
+    known: &'a mut [f64],
+}
+
+impl pulp::NullaryFnOnce for Invert<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let (inverse, known, n) = (self.inverse, self.known, self.inverse_pivot.len());
+        if n == 0 {
+            return;
+        }
+        inverse.fill(0.0);
+        let rows = self.upper.chunks_exact(n).zip(self.inverse_pivot);
+        for (k, (row, pivot)) in rows.clone().enumerate() {
+            inverse[k * n + k] = 1.0;
+            // Units behind this one are still zero here.
+            let (above, below) = inverse.split_at_mut((k + 1) * n);
+            let own = &above[k * n..][..=k];
+            for (value, target) in known.iter_mut().zip(own) {
+                *value = target * pivot;
+            }
+            for (entry, other) in row[k + 1..].iter().zip(below.chunks_exact_mut(n)) {
+                subtract(&mut other[..=k], *entry, &known[..=k]);
+            }
+        }
+        for (k, (row, pivot)) in rows.enumerate().rev() {
+            let (above, below) = inverse.split_at_mut((k + 1) * n);
+            known.fill(0.0);
+            for (entry, other) in row[k + 1..].iter().zip(below.chunks_exact(n)) {
+                for (sum, value) in known.iter_mut().zip(other) {
+                    *sum += entry * value;
+                }
+            }
+            for (value, sum) in above[k * n..].iter_mut().zip(&*known) {
+                *value = (*value - sum) * pivot;
+            }
+        }
+    }
+}
+
 /// The inverse of a pivot that is positive and above `noise` of its diagonal entry.
+#[inline(always)]
 fn checked_inverse(index: usize, pivot: f64, diagonal: f64, noise: f64) -> Result<f64, BadPivot> {
     // NaN fails too.
     if pivot > noise * diagonal {
@@ -143,7 +253,7 @@ fn checked_inverse(index: usize, pivot: f64, diagonal: f64, noise: f64) -> Resul
 }
 
 /// `target −= factor × row`.
-#[inline]
+#[inline(always)]
 fn subtract(target: &mut [f64], factor: f64, row: &[f64]) {
     for (value, entry) in target.iter_mut().zip(row) {
         *value -= factor * entry;
@@ -182,6 +292,27 @@ mod tests {
             let product: f64 = (0..6).map(|j| hilbert(i, j) * x[j]).sum();
             // Backward stable: relative to ‖A‖‖x‖, whatever the condition (1.5e7).
             assert!((product - right[i]).abs() <= 1e-15 * size);
+        }
+    }
+
+    #[test]
+    fn the_inverse_is_what_solutions_of_units_are() {
+        for order in [1, 2, 7, 8, 21] {
+            let entry = |i: usize, j: usize| {
+                let apart = i.abs_diff(j) as f64;
+                (-0.3 * apart).exp() + if i == j { 1.0 + i as f64 } else { 0.0 }
+            };
+            let ldl = factored(order, entry).unwrap().0;
+            let mut inverse = vec![f64::NAN; order * order];
+            ldl.invert(&mut inverse, &mut vec![f64::NAN; order]);
+            for j in 0..order {
+                let mut unit = vec![0.0; order];
+                unit[j] = 1.0;
+                ldl.solve(&mut unit);
+                for i in 0..order {
+                    assert_eq!(inverse[i * order + j], unit[i], "{order} {i} {j}");
+                }
+            }
         }
     }
 

@@ -39,6 +39,33 @@ impl<'a> Problem<'a> {
         closing: &'a [f64],
         lever: &'a [f64],
     ) -> Result<Self, NlcpError> {
+        let problem = Self::of_sizes(compliance, local, separation, (closing, lever))?;
+        problem.check_symmetry()?;
+        Ok(problem)
+    }
+
+    /// The same with a matrix whose entries were written twice, which is symmetric by that: of each pair one is
+    /// looked at.
+    pub(crate) fn of_symmetric(
+        compliance: &'a [f64],
+        local: &'a [LocalLaw],
+        separation: &'a [f64],
+        (closing, lever): (&'a [f64], &'a [f64]),
+    ) -> Result<Self, NlcpError> {
+        let problem = Self::of_sizes(compliance, local, separation, (closing, lever))?;
+        match problem.is_bounded() {
+            true => Ok(problem),
+            // Says where.
+            false => problem.check_symmetry().map(|()| problem),
+        }
+    }
+
+    fn of_sizes(
+        compliance: &'a [f64],
+        local: &'a [LocalLaw],
+        separation: &'a [f64],
+        (closing, lever): (&'a [f64], &'a [f64]),
+    ) -> Result<Self, NlcpError> {
         let n = separation.len();
         for (what, found, expected) in [
             ("the compliance matrix", compliance.len(), n * n),
@@ -81,15 +108,13 @@ impl<'a> Problem<'a> {
                 });
             }
         }
-        let problem = Problem {
+        Ok(Problem {
             compliance,
             local,
             separation,
             closing,
             lever,
-        };
-        problem.check_symmetry()?;
-        Ok(problem)
+        })
     }
 
     /// Number of slices.
@@ -104,6 +129,20 @@ impl<'a> Problem<'a> {
             .zip(self.closing)
             .map(|(e, w)| e / w)
             .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether no entry is too large for a positive semi-definite matrix, looked for below the diagonal.
+    fn is_bounded(&self) -> bool {
+        let n = self.size();
+        let diagonal = self.compliance.iter().step_by(n + 1);
+        (1..n).all(|row| {
+            let entries = &self.compliance[row * n..][..=row];
+            let bound = entries[row] * (1.0 + 1e-9);
+            let pairs = entries[..row].iter().zip(diagonal.clone());
+            pairs.fold(true, |all, (entry, other)| {
+                all & (entry * entry <= bound * other)
+            })
+        })
     }
 
     fn check_symmetry(&self) -> Result<(), NlcpError> {

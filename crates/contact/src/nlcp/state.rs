@@ -30,6 +30,35 @@ impl Evaluation {
     }
 }
 
+/// C F into the gaps and |C| F into the scales, by the columns of the loaded slices; C is symmetric, its rows are
+/// contiguous.
+struct Deflect<'a> {
+    compliance: &'a [f64],
+    force: &'a [f64],
+    gap: &'a mut [f64],
+    scale: &'a mut [f64],
+}
+
+impl pulp::NullaryFnOnce for Deflect<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let (gap, scale, n) = (self.gap, self.scale, self.force.len());
+        gap.fill(0.0);
+        scale.fill(0.0);
+        for (column, &force) in self.compliance.chunks_exact(n.max(1)).zip(self.force) {
+            if force != 0.0 {
+                for ((gap, scale), c) in gap.iter_mut().zip(&mut *scale).zip(column) {
+                    let term = c * force;
+                    *gap += term;
+                    *scale += term.abs();
+                }
+            }
+        }
+    }
+}
+
 impl Workspace {
     /// Takes the size and the shifted separations of `problem`.
     pub(super) fn load_problem(&mut self, problem: &Problem) -> Result<(), NlcpError> {
@@ -72,23 +101,16 @@ impl Workspace {
         let n = self.size;
         let (gap, scale) = (&mut self.gap[..n], &mut self.scale[..n]);
         let (force, slope, shifted) = (&self.force[..n], &mut self.slope[..n], &self.shifted[..n]);
-        gap.fill(0.0);
-        scale.fill(0.0);
+        self.arch.dispatch(Deflect {
+            compliance: problem.compliance,
+            force,
+            gap,
+            scale,
+        });
         let mut load = 0.0;
-        // C F and |C| F by the columns of the loaded slices; C is symmetric, its rows are contiguous.
-        for ((column, &force), lever) in problem
-            .compliance
-            .chunks_exact(n)
-            .zip(force)
-            .zip(problem.lever)
-        {
-            if force != 0.0 {
+        for (force, lever) in force.iter().zip(problem.lever) {
+            if *force != 0.0 {
                 load += lever * force;
-                for ((gap, scale), c) in gap.iter_mut().zip(&mut *scale).zip(column) {
-                    let term = c * force;
-                    *gap += term;
-                    *scale += term.abs();
-                }
             }
         }
         let mut gap_residual: f64 = 0.0;

@@ -8,6 +8,8 @@ use super::ldl::Ldl;
 /// the next solve of the same size. After an error they are undefined and the next solve starts cold.
 #[derive(Debug, Clone)]
 pub struct Workspace {
+    /// What the processor has for the loops; results do not depend on it.
+    pub(super) arch: pulp::Arch,
     pub(super) capacity: usize,
     pub(super) size: usize,
     /// Whether forces, active set and deflection are those of a solved problem.
@@ -39,6 +41,7 @@ impl Workspace {
     pub fn new(capacity: usize) -> Self {
         let zeros = || vec![0.0; capacity];
         Workspace {
+            arch: pulp::Arch::new(),
             capacity,
             size: 0,
             warm: false,
@@ -124,6 +127,28 @@ impl Workspace {
         force_change.fill(0.0);
         for (value, &slice) in self.correction.iter().zip(&self.list) {
             force_change[slice] = *value;
+        }
+    }
+
+    /// −∂F/∂e of all slices \[N/m\], `[force][separation]`: (C + diag δ')⁻¹ on the active set, zero elsewhere, by the
+    /// factor of the last solve. `inverse`: memory.
+    pub(crate) fn stiffness(&self, inverse: &mut Vec<f64>, stiffness: &mut Vec<f64>) {
+        let (n, m) = (self.size, self.list.len());
+        stiffness.clear();
+        stiffness.resize(n * n, 0.0);
+        if m == 0 {
+            // The factor is that of what touched last.
+            return;
+        }
+        inverse.clear();
+        inverse.resize((m + 1) * m, 0.0);
+        let (inverse, row) = inverse.split_at_mut(m * m);
+        self.factor.invert(inverse, row);
+        for (&slice, row) in self.list.iter().zip(inverse.chunks_exact(m.max(1))) {
+            let own = &mut stiffness[slice * n..][..n];
+            for (&other, value) in self.list.iter().zip(row) {
+                own[other] = *value;
+            }
         }
     }
 }

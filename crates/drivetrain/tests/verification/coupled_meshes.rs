@@ -206,6 +206,31 @@ fn tangents_of_meshes_together_are_the_changes_of_their_forces() {
     }
 }
 
+/// Where nothing touches any more there are no forces and nothing changes them, whatever touched before.
+#[test]
+fn meshes_that_have_come_apart_hold_nothing() {
+    let mut system = idler(0.05, [12e-6, 7e-6], PLAIN, (0.0, 0.0));
+    let start = system.start().clone();
+    let n = system.degrees_of_freedom();
+    let still = vec![0.0; n];
+    let mut apart = 0;
+    for (first, last) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+        let touching = system.probe("together", &start, &still, &still).unwrap();
+        assert!(touching.force.iter().any(|force| force.abs() > 1.0));
+        // Both wheels turned by some 50 um, each away from the idler or into it.
+        let mut increment = still.clone();
+        (increment[5], increment[17]) = (1e-3 * first, 1e-3 * last);
+        let Some(found) = system.probe("together", &start, &increment, &still) else {
+            continue;
+        };
+        if found.force.iter().all(|force| *force == 0.0) {
+            apart += 1;
+            assert!(found.by_position.iter().all(|change| *change == 0.0));
+        }
+    }
+    assert_eq!(apart, 1);
+}
+
 /// A run over some teeth: largest error of the energy balance \[J\], corrections and factorisations a step.
 fn in_time(step_s: f64, coupled: bool) -> (f64, [f64; 2]) {
     let how = Meshes {
