@@ -66,14 +66,7 @@ impl GearMesh {
                 file: body.file.display().to_string(),
             });
         }
-        Self::in_layers(gear, Section::new(gear, python)?)
-    }
-
-    /// A gear's layers over a cross-section that is at hand: that of a mesh which differs along the axis only.
-    ///
-    /// # Errors
-    /// [`MeshError::Quality`].
-    pub fn in_layers(gear: &GearDefinition, section: Section) -> Result<Self, MeshError> {
+        let section = Section::new(gear, python)?;
         let layers = Layers::new(gear);
         let heights = Heights::new(gear, &layers);
         Self::extruded(

@@ -1,14 +1,17 @@
 //! Discretisation error of the reduced compliance, on the loaded tooth and on others, and of the gauges, from coarser
 //! meshes.
 //!
-//! Coarser sections and coarser layers may change a figure in opposite senses: incompatible modes make coarse sections
-//! too soft, thick layers are too stiff. A mesh that is coarser in both would show their difference only. So a first
-//! mesh has longer elements in the section (by s = 1.5), a second one in the section and along the axis, and the sizes
-//! of both changes are added:
+//! Errors may have opposite senses: incompatible modes make coarse sections of teeth too soft; thick layers, and long
+//! elements beside the sharp edges of webs and openings, are too stiff. A mesh that is coarser in all would show their
+//! difference only. So a first mesh has longer elements in the teeth (by s = 1.5), a second one in the body and along
+//! the axis, too, and the sizes of both changes are added:
 //!
 //! ```text
-//! error = S (|fine − sections| + |sections − both|)/(s^p − 1)
+//! error = S (|fine − teeth| + |teeth − all|)/(s^p − 1)
 //! ```
+//!
+//! Of bevel gears, whose bodies have no edges between web and rim, the first mesh has longer elements in the whole
+//! section.
 //!
 //! Gauges: p = 2, as strain at element centres has it and is found (1.8 to 2.5 in plane strain). Deflections: solid
 //! bodies converge with p = 2; at the sharp inner edges between web, rim and hub p falls to 2λ = 1.09 (see
@@ -91,14 +94,25 @@ fn teeth_looked_at(teeth: usize) -> [usize; 6] {
     [0, 1, teeth - 1, 2, teeth - 2, teeth / 2]
 }
 
-/// The same mesh with longer elements in the section, and along the teeth.
-pub(crate) fn coarsened(mesh: &MeshSettings, axial: bool) -> MeshSettings {
-    let along = if axial { COARSENING } else { 1.0 };
+/// Which elements of a coarser mesh are longer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Longer {
+    /// In the section of the teeth.
+    Teeth,
+    /// In that of the body, too.
+    Section,
+    /// Along the axis, too.
+    All,
+}
+
+/// The same mesh with longer elements.
+fn coarsened(mesh: &MeshSettings, longer: Longer) -> MeshSettings {
+    let from = |least: Longer| if longer >= least { COARSENING } else { 1.0 };
     MeshSettings {
         flank_m: COARSENING * mesh.flank_m,
         fillet_m: COARSENING * mesh.fillet_m,
-        body_m: COARSENING * mesh.body_m,
-        axial_m: along * mesh.axial_m,
+        body_m: from(Longer::Section) * mesh.body_m,
+        axial_m: from(Longer::All) * mesh.axial_m,
         // Judged by the fine mesh; the coarse ones only serve to estimate.
         min_scaled_jacobian: 0.05,
         ..*mesh
@@ -178,7 +192,11 @@ pub fn coarser_meshes(
     progress: &dyn Progress,
 ) -> Result<CoarserMeshes, ReductionError> {
     let one_step = gear.mesh.plane_strain || gear.mesh.element == Element::Tet10;
-    let steps: &[bool] = if one_step { &[true] } else { &[false, true] };
+    let steps: &[Longer] = if one_step {
+        &[Longer::All]
+    } else {
+        &[Longer::Teeth, Longer::All]
+    };
     let asked = Asked {
         grid,
         side: gear.reduction.flanks[0],
@@ -188,20 +206,12 @@ pub fn coarser_meshes(
         Blank::Solid { openings: None, .. } => SMOOTH,
         _ => WITH_EDGES,
     };
-    // Both coarser meshes have the same cross-section.
-    let mut section = None;
-    each_mesh((steps, order), progress, |axial, progress| {
+    each_mesh((steps, order), progress, |longer, progress| {
         let mut coarse = gear.clone();
         // The estimate is that of the sound gear.
         coarse.crack = None;
-        coarse.mesh = coarsened(&gear.mesh, axial);
-        let meshed = match section.take() {
-            Some(section) => MeshedGear::in_layers(&coarse, section),
-            None => MeshedGear::new(&coarse, python, progress),
-        }?;
-        if !one_step {
-            section = Some(meshed.mesh.section.clone());
-        }
+        coarse.mesh = coarsened(&gear.mesh, longer);
+        let meshed = MeshedGear::new(&coarse, python, progress)?;
         let body = meshed.held(&coarse, progress)?;
         let loads = flank_loads(&coarse, &body.mesh, grid, 0, asked.side);
         let rows = (coarse.gauges.iter())
@@ -232,9 +242,10 @@ pub fn coarser_bevel_meshes(
         side: gear.reduction.flanks[0],
         gauge_teeth: gear.gauges.iter().map(|gauge| gauge.tooth).collect(),
     };
-    each_mesh((&[false, true], WITH_EDGES), progress, |axial, progress| {
+    let steps = [Longer::Section, Longer::All];
+    each_mesh((&steps, WITH_EDGES), progress, |longer, progress| {
         let mut coarse = gear.clone();
-        coarse.mesh = coarsened(&gear.mesh, axial);
+        coarse.mesh = coarsened(&gear.mesh, longer);
         let body = bevel_body_of(&coarse, body_grid, progress)?;
         let patch = flank_patch(&coarse, asked.side)?;
         let loads = bevel_loads(&body.mesh, &patch, asked.side, grid);
@@ -251,18 +262,18 @@ pub fn coarser_bevel_meshes(
     })
 }
 
-/// One mesh after the other; `steps`: whether they are coarser along the teeth, too.
+/// One mesh after the other; `steps`: which of their elements are longer.
 fn each_mesh(
-    (steps, order): (&[bool], i32),
+    (steps, order): (&[Longer], i32),
     progress: &dyn Progress,
-    mut coarse: impl FnMut(bool, &dyn Progress) -> Result<Figures, ReductionError>,
+    mut coarse: impl FnMut(Longer, &dyn Progress) -> Result<Figures, ReductionError>,
 ) -> Result<CoarserMeshes, ReductionError> {
-    let figures = steps.iter().enumerate().map(|(k, &axial)| {
+    let figures = steps.iter().enumerate().map(|(k, &longer)| {
         let progress = Within {
             all: progress,
             part: format!("error estimate, coarser mesh {} of {}", k + 1, steps.len()),
         };
-        coarse(axial, &progress)
+        coarse(longer, &progress)
     });
     Ok(CoarserMeshes {
         figures: figures.collect::<Result<_, _>>()?,

@@ -14,8 +14,7 @@ use faer::Mat;
 use gearmesh_fe::{DofMap, FeModel, Material};
 use gearmesh_geometry::{GearDefinition, Symmetry};
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_mesh::section::Section;
-use gearmesh_mesh::{GearMesh, MeshError};
+use gearmesh_mesh::GearMesh;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
@@ -73,23 +72,8 @@ impl MeshedGear {
         progress: &dyn Progress,
     ) -> Result<Self, ReductionError> {
         progress.stage("meshing");
-        Self::of(gear, || GearMesh::new(gear, python))
-    }
-
-    /// Extrudes a cross-section that is at hand, [`GearMesh::in_layers`].
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn in_layers(gear: &GearDefinition, section: Section) -> Result<Self, ReductionError> {
-        Self::of(gear, || GearMesh::in_layers(gear, section))
-    }
-
-    fn of(
-        gear: &GearDefinition,
-        mesh: impl FnOnce() -> Result<GearMesh, MeshError>,
-    ) -> Result<Self, ReductionError> {
         let clock = Instant::now();
-        let mesh = mesh()?;
+        let mesh = GearMesh::new(gear, python)?;
         let meshed_s = clock.elapsed().as_secs_f64();
         let model = model_of(gear, &mesh)?;
         Ok(Self {
