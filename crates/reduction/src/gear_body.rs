@@ -13,8 +13,8 @@ use crate::{Progress, ReductionError};
 use faer::Mat;
 use gearmesh_fe::{DofMap, FeModel, Material};
 use gearmesh_geometry::{GearDefinition, Symmetry};
-use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_mesh::GearMesh;
+use gearmesh_mesh::python::PythonEnvironment;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
