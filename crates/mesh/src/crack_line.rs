@@ -1,7 +1,7 @@
 //! A crack in the cross-section of a tooth: a chain of sides of quads from the root's outline to the wanted tip.
 //!
 //! The mouth is the node of the outline next to the place asked for, moved there along the outline; from there the
-//! shortest chain of sides that keeps close to the straight line is followed to the node next to the wanted tip. That
+//! shortest chain of sides that keeps close to the straight line is followed to a node next to the wanted tip. That
 //! node is moved to the very place, and the nodes around move as long as that makes the quads better: depth and
 //! angle are those asked for, the sides in between are as ragged as the mesh. All teeth have the same section, the
 //! sound ones too.
@@ -11,6 +11,8 @@ use crate::tooth_cell::ToothCell;
 use gearmesh_geometry::{CrackDefinition, Flank, GearDefinition, ProfileCurve};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
+/// Nodes next to the wanted tip that are tried.
+const TIPS: usize = 4;
 /// How far from the tip nodes move, in sides of quads.
 const REACH: usize = 4;
 /// Sweeps over them; the last of them move nothing any more.
@@ -85,8 +87,7 @@ impl CrackLine {
             direction: [-cos, crack.side.mirror() * sin],
             depth: crack.depth_m,
         };
-        let path = follow(cell, mouth, &line)?;
-        place_tip(cell, &path, line.at(line.depth));
+        let path = best_path(cell, mouth, &line, gear.mesh.min_scaled_jacobian)?;
         for side in [place - 1, place] {
             if let Some(&middle) = cell.outline_mid_sides.get(side) {
                 let arc = 0.5 * (cell.outline_arc_m[side] + cell.outline_arc_m[side + 1]);
@@ -163,16 +164,60 @@ fn is_inside(cell: &ToothCell, p: [f64; 2]) -> bool {
     })
 }
 
-/// The chain of sides from the mouth to the node next to the line's end: shortest where a side that ends d off the line
+/// The path to the nearest node that, brought to the crack's tip, leaves quads as good as `wanted`; where none of the
+/// nearest does, to the one that leaves the best.
+///
+/// # Errors
+/// [`MeshError::CrackTip`] where the crack leaves the cell.
+fn best_path(
+    cell: &mut ToothCell,
+    mouth: usize,
+    line: &Line,
+    wanted: f64,
+) -> Result<Vec<usize>, MeshError> {
+    let end = line.at(line.depth);
+    let edge = edge_nodes(cell);
+    let mut tips: Vec<usize> = neighbours(cell).into_keys().collect();
+    tips.retain(|n| !edge.contains(n));
+    tips.sort_by(|&a, &b| apart(cell.nodes[a], end).total_cmp(&apart(cell.nodes[b], end)));
+    tips.truncate(TIPS);
+    let before = cell.nodes.clone();
+    let mut best: Option<(f64, Vec<[f64; 2]>, Vec<usize>)> = None;
+    for (number, tip) in tips.into_iter().enumerate() {
+        let path = match follow(cell, mouth, tip, line) {
+            Err(_) if number > 0 => continue,
+            path => path?,
+        };
+        place_tip(cell, &path, end);
+        let qualities = cell.quads.iter().map(|quad| quality(&cell.nodes, quad));
+        let poorest = qualities.fold(f64::INFINITY, f64::min);
+        let nodes = std::mem::replace(&mut cell.nodes, before.clone());
+        if best.as_ref().is_none_or(|(known, ..)| poorest > *known) {
+            best = Some((poorest, nodes, path));
+        }
+        if poorest >= wanted {
+            break;
+        }
+    }
+    let Some((_, nodes, path)) = best else {
+        return follow(cell, mouth, mouth, line);
+    };
+    cell.nodes = nodes;
+    Ok(path)
+}
+
+/// The chain of sides from the mouth to a tip next to the line's end: shortest where a side that ends d off the line
 /// counts 1 + (d/length)² times.
-fn follow(cell: &ToothCell, mouth: usize, line: &Line) -> Result<Vec<usize>, MeshError> {
+fn follow(
+    cell: &ToothCell,
+    mouth: usize,
+    tip: usize,
+    line: &Line,
+) -> Result<Vec<usize>, MeshError> {
     let edge = edge_nodes(cell);
     let next = neighbours(cell);
     let end = line.at(line.depth);
     let off = |n: usize| apart(cell.nodes[n], end);
-    let free = next.keys().copied().filter(|n| !edge.contains(n));
-    let tip = free.min_by(|&a, &b| off(a).total_cmp(&off(b)));
-    let tip = tip.unwrap_or(mouth);
     let size = (next.get(&tip).into_iter().flatten())
         .map(|&n| apart(cell.nodes[n], cell.nodes[tip]))
         .fold(0.0, f64::max);
