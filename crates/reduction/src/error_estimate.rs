@@ -19,7 +19,8 @@
 //! two meshes tell nothing of the order, 1.25 where three have confirmed it. Graded meshes are not similar to the last
 //! element: what is found against converged quadratic elements is up to 1.5 times the bare estimate of a gauge, 1.1
 //! times that of the loaded tooth's deflection, 2.7 times that of other teeth. So S = 2 for gauges and the loaded
-//! tooth, 3 for other teeth. Of two loaded teeth the errors of both are added, as if they had one sign. In plane
+//! tooth, 3 for other teeth, and for the loaded tooth over openings: sides at their corners are as short on coarser
+//! meshes. Of two loaded teeth the errors of both are added, as if they had one sign. In plane
 //! strain, and of tetrahedra, which have no layers along the axis, one coarser mesh tells all.
 //!
 //! P. J. Roache, *Perspective: a method for uniform reporting of grid refinement studies*, J. Fluids Eng. 116 (1994)
@@ -179,6 +180,8 @@ pub struct CoarserMeshes {
     figures: Vec<Figures>,
     /// Order with which deflections of the body converge.
     order: i32,
+    /// Factor of safety of the loaded tooth's deflection.
+    safety: f64,
 }
 
 /// Solves the coarser meshes of a cylindrical gear.
@@ -206,7 +209,11 @@ pub fn coarser_meshes(
         Blank::Solid { openings: None, .. } => SMOOTH,
         _ => WITH_EDGES,
     };
-    each_mesh((steps, order), progress, |longer, progress| {
+    let safety = match gear.blank.openings() {
+        None => SAFETY,
+        Some(_) => SAFETY_OF_OTHERS,
+    };
+    each_mesh((steps, order, safety), progress, |longer, progress| {
         let mut coarse = gear.clone();
         // The estimate is that of the sound gear.
         coarse.crack = None;
@@ -243,28 +250,32 @@ pub fn coarser_bevel_meshes(
         gauge_teeth: gear.gauges.iter().map(|gauge| gauge.tooth).collect(),
     };
     let steps = [Longer::Section, Longer::All];
-    each_mesh((&steps, WITH_EDGES), progress, |longer, progress| {
-        let mut coarse = gear.clone();
-        coarse.mesh = coarsened(&gear.mesh, longer);
-        let body = bevel_body_of(&coarse, body_grid, progress)?;
-        let patch = flank_patch(&coarse, asked.side)?;
-        let loads = bevel_loads(&body.mesh, &patch, asked.side, grid);
-        let rows = (coarse.gauges.iter())
-            .map(|gauge| bevel_gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
-            .collect::<Result<_, _>>()?;
-        mesh_figures(
-            &asked,
-            &body,
-            (&loads, rows),
-            Deformation::Spatial,
-            progress,
-        )
-    })
+    each_mesh(
+        (&steps, WITH_EDGES, SAFETY),
+        progress,
+        |longer, progress| {
+            let mut coarse = gear.clone();
+            coarse.mesh = coarsened(&gear.mesh, longer);
+            let body = bevel_body_of(&coarse, body_grid, progress)?;
+            let patch = flank_patch(&coarse, asked.side)?;
+            let loads = bevel_loads(&body.mesh, &patch, asked.side, grid);
+            let rows = (coarse.gauges.iter())
+                .map(|gauge| bevel_gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
+                .collect::<Result<_, _>>()?;
+            mesh_figures(
+                &asked,
+                &body,
+                (&loads, rows),
+                Deformation::Spatial,
+                progress,
+            )
+        },
+    )
 }
 
 /// One mesh after the other; `steps`: which of their elements are longer.
 fn each_mesh(
-    (steps, order): (&[Longer], i32),
+    (steps, order, safety): (&[Longer], i32, f64),
     progress: &dyn Progress,
     mut coarse: impl FnMut(Longer, &dyn Progress) -> Result<Figures, ReductionError>,
 ) -> Result<CoarserMeshes, ReductionError> {
@@ -278,6 +289,7 @@ fn each_mesh(
     Ok(CoarserMeshes {
         figures: figures.collect::<Result<_, _>>()?,
         order,
+        safety,
     })
 }
 
@@ -297,7 +309,7 @@ impl CoarserMeshes {
             safety * steps.sum::<f64>() / (COARSENING.powi(order) - 1.0) / norm(&all[0])
         };
         let of_others = (self.order, SAFETY_OF_OTHERS);
-        let loaded_tooth = error((self.order, SAFETY), &|figures| {
+        let loaded_tooth = error((self.order, self.safety), &|figures| {
             vec![figures.deflections[0]]
         });
         let next_tooth = error(of_others, &|figures| vec![figures.deflections[1]]);
