@@ -68,7 +68,7 @@ const FILLET_OF_THEN: f64 = 0.08;
 
 /// The gear with the default fillets of then.
 fn with_fillets_of_then(stored: &StoredGear) -> StoredGear {
-    let Ok(definition) = stored.definition() else {
+    let Some(definition) = stored.definition() else {
         return stored.clone();
     };
     let mut definition = definition.clone();
