@@ -247,11 +247,11 @@ mod tests {
             [blank.holes]\ncount = 5\npitch_circle_diameter_mm = 98.0\ndiameter_mm = 22.0\nphase_deg = 0.0\n\
             [material]\nyoung_GPa = 206.0\npoisson = 0.3\n";
         for (text, peak) in [
-            (DRILLED, 1.66),
-            (&by_default, 4.44),
-            (holes_64, 3.77),
-            (include_str!("../../../fe_models/pinion_25_m2.toml"), 0.44),
-            (include_str!("../../../fe_models/gearbox_17.toml"), 0.29),
+            (DRILLED, 1.70),
+            (&by_default, 6.88),
+            (holes_64, 6.36),
+            (include_str!("../../../fe_models/pinion_25_m2.toml"), 0.91),
+            (include_str!("../../../fe_models/gearbox_17.toml"), 0.60),
         ] {
             let gear = gear(text);
             let estimated = gigabytes(&gear);
