@@ -97,7 +97,7 @@ mod tests {
                 include_str!("../../../fe_models/wheel_47_drilled.toml"),
                 17.0,
             ),
-            (include_str!("../../../fe_models/wheel_64_holes.toml"), 47.9),
+            (include_str!("../../../fe_models/wheel_64_holes.toml"), 81.0),
         ] {
             let gear = GearDefinition::from_document(&InputDocument::new("g.toml", text)).unwrap();
             let estimate = MemoryEstimate::new(&gear, OfflineJob::Reduction).unwrap();
