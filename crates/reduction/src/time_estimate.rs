@@ -80,7 +80,7 @@ mod tests {
     use gearmesh_geometry::GearDefinition;
     use gearmesh_geometry::input::InputDocument;
 
-    /// Times of `gearmesh reduce` with error estimate where the coefficients were fitted, two quiet cores: within a
+    /// Times of `gearmesh reduce` with error estimate over s as it was then, on two cores (2026-11-29): within a
     /// third. (No clock is asked.)
     #[test]
     fn estimates_are_within_a_third_of_measured_times() {
@@ -97,7 +97,7 @@ mod tests {
                 include_str!("../../../fe_models/wheel_47_drilled.toml"),
                 17.0,
             ),
-            (include_str!("../../../fe_models/wheel_64_holes.toml"), 81.0),
+            (include_str!("../../../fe_models/wheel_64_holes.toml"), 61.0),
         ] {
             let gear = GearDefinition::from_document(&InputDocument::new("g.toml", text)).unwrap();
             let estimate = MemoryEstimate::new(&gear, OfflineJob::Reduction).unwrap();
