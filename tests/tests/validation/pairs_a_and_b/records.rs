@@ -12,19 +12,14 @@ const RECORD_POINTS: usize = 48;
 /// 0.5 % is of the fillets, 0.25 % of the layers along the axis, 0.2 % of the flank; quadratic elements leave 0.15 %.
 const STRAIN_WITHIN: f64 = 0.014;
 
-/// Error of gear 3's deflection, of the mean: the program states 0.46 %. Half the length in the body adds 0.5 %, which
+/// Error of gear 3's deflection: the program states 0.46 %. Half the length in the body adds 0.5 %, which
 /// meshes with longer elements do not see: sides at the corners of slots are as short there (docs/limits.md).
 const OVER_SLOTS: f64 = 0.0075;
 
 /// Transmission error of one torque. What the mesh gets wrong is a share of the elastic part: that bounds its mean, its
 /// swing and each of its orders. To them comes the record's uncertainty; an order has at most half of the swing's, times 4/π
 /// where the difference is a rectangle.
-fn transmission_error(
-    it: &SeriesComparison,
-    (result, k): (&SceneResult, usize),
-    share: f64,
-    of_mean: f64,
-) {
+fn transmission_error(it: &SeriesComparison, (result, k): (&SceneResult, usize), share: f64) {
     let te = result.curve(&result.te_m, k);
     let elastic: Vec<f64> = te
         .iter()
@@ -37,7 +32,7 @@ fn transmission_error(
         (
             "mean".to_owned(),
             [it.mean.ours, it.mean.reference],
-            of_mean * mean.abs() + it.mean.uncertainty.unwrap(),
+            share * mean.abs() + it.mean.uncertainty.unwrap(),
         ),
         (
             "swing".to_owned(),
@@ -105,16 +100,16 @@ fn against_its_record(name: &str, gauges: usize) {
     assert_eq!(result.points_per_pitch(), RECORD_POINTS);
     let record = ReferenceRecord::read(&root().join("reference").join(name)).unwrap();
     // What the line `errors:` of the result states.
-    let share = result.te_mesh_error;
-    assert!(share > 0.0);
-    let of_mean = match name.starts_with("pair_b") {
+    let stated = result.te_mesh_error;
+    assert!(stated > 0.0);
+    let share = match name.starts_with("pair_b") {
         true => OVER_SLOTS,
-        false => share,
+        false => stated,
     };
     let comparisons = compare_scene(&result, &record).unwrap();
     // Every torque, the transmission error and every gauge.
     assert_eq!(comparisons.len(), 6 * (1 + gauges));
-    println!("{name}: stated error of deflections {:.2} %", 100.0 * share);
+    println!("{name}: stated error of deflections {:.2} %", 100.0 * stated);
     for it in &comparisons {
         let torque = result
             .torque_nm
@@ -122,9 +117,7 @@ fn against_its_record(name: &str, gauges: usize) {
             .position(|t| *t == it.torque_nm)
             .unwrap();
         match &it.quantity {
-            Quantity::TransmissionError => {
-                transmission_error(it, (&result, torque), share, of_mean);
-            }
+            Quantity::TransmissionError => transmission_error(it, (&result, torque), share),
             Quantity::Strain { gauge } => {
                 let series = result.strain.iter().find(|s| s.name == *gauge).unwrap();
                 strain(it, gauge, series.error_estimate().unwrap());
