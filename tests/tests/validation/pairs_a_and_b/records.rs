@@ -109,7 +109,10 @@ fn against_its_record(name: &str, gauges: usize) {
     let comparisons = compare_scene(&result, &record).unwrap();
     // Every torque, the transmission error and every gauge.
     assert_eq!(comparisons.len(), 6 * (1 + gauges));
-    println!("{name}: stated error of deflections {:.2} %", 100.0 * stated);
+    println!(
+        "{name}: stated error of deflections {:.2} %",
+        100.0 * stated
+    );
     for it in &comparisons {
         let torque = result
             .torque_nm
