@@ -38,8 +38,8 @@ pub struct JointContact {
     /// First contact of each side, and the end of the last one.
     starts: Vec<usize>,
     c: Vec<f64>,
-    /// What [`Self::couple`] found for [`Self::walk`]: how the compliance of contacts of one side and the other changes with
-    /// both places, link after link.
+    /// What [`Self::couple`] found for [`Self::walk`]: how the compliance of contacts of one side and the other changes
+    /// with both places, link after link.
     couplings: Vec<[f64; 2]>,
     /// Where those of each link begin.
     coupling_starts: Vec<usize>,

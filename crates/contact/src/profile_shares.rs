@@ -12,8 +12,8 @@
 //! ```
 //!
 //! β_i is the second difference over station i and its neighbours: no force, no first moment, second moment one. It is
-//! continuous in ξ. At the outermost stations β is that of their inner neighbours. Beyond the outermost centroids all of it goes
-//! on: at the very edge of the flank the last stations have shares of some 0.2, −1.1, 1.8.
+//! continuous in ξ. At the outermost stations β is that of their inner neighbours. Beyond the outermost centroids the
+//! same rule is extrapolated: at the very edge of the flank the last stations have shares of some 0.2, −1.1, 1.8.
 //!
 //! Hats are taken over the flank's area, as the loads are: dA = a(u) du per width, on an involute flank, whose u is the roll angle ξ, r_b ξ dξ.
 

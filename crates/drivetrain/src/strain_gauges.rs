@@ -6,7 +6,9 @@
 //!
 //! T is friction towards the tip; method 1 has no row_t. One multiplication a gauge, slice and share: no field, no allocation. Forces that
 //! reach the gear through another mesh or a joint are not in it: strain is linear, so that the readings of all meshes of a gear add up, gᵀΦη
-//! counted once ([`ModalPart`]). So is γ̂q, what rollers that bend the gear's bore by q strain it ([`StrainGauges::feel_bore`]). What the modes read of the mesh's forces at rest is taken out, for the rows hold it already.
+//! counted once ([`ModalPart`]). So is γ̂q, what rollers that bend the gear's bore by q strain it
+//! ([`StrainGauges::feel_bore`]). What the modes read of the mesh's forces at rest is taken out, for the rows hold it
+//! already.
 
 use gearmesh_geometry::Flank;
 use gearmesh_model::{GaugeRows, RadialMotions, ReducedGear};

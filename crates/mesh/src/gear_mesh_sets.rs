@@ -270,8 +270,8 @@ impl GearMesh {
             .unwrap_or(0)
     }
 
-    /// Named node sets for files: `bore` (of a gear cut into its shaft `shaft`, of a ring `outside`), and for each tooth
-    /// `tooth<k>_right_flank`, `_left_flank`, `_root`.
+    /// Named node sets for files: `bore` (of a gear cut into its shaft `shaft`, of a ring `outside`), and for each
+    /// tooth `tooth<k>_right_flank`, `_left_flank`, `_root`.
     pub fn node_sets(&self, gear: &GearDefinition) -> BTreeMap<String, Vec<u32>> {
         let curve = ProfileCurve::new(&gear.profile);
         let (start, end) = (curve.flank_start_m(), curve.flank_end_m());

@@ -14,8 +14,8 @@
 //! Ŝ = S_rr − S_ro S_oo⁻¹ S_or,      ŝ = s_r − s_o S_oo⁻¹ S_or,      γ̂ = γ_r − γ_o S_oo⁻¹ S_or
 //! ```
 //!
-//! is what they have to do with forces on the bore, with the flanks and with the gauges. The uniform tangential and the uniform axial
-//! motion belong to the motion of the body. Theory: docs/theory/bore_patterns.md.
+//! is what they have to do with forces on the bore, with the flanks and with the gauges. The uniform tangential and the
+//! uniform axial motion belong to the motion of the body. Theory: docs/theory/bore_patterns.md.
 
 use gearmesh_geometry::Flank;
 
@@ -149,9 +149,9 @@ impl ReducedGear {
         })
     }
 
-    /// All motions of the bore \[m\] under forces on the flanks, where the radial ones that bend the body are `radial_m`,
-    /// in the order of [`RadialMotions`]; none: they are held, the bore slides. Of each force tooth, flank, load and
-    /// normal part \[N\]. Rigid motions are left out.
+    /// All motions of the bore \[m\] under forces on the flanks, where the radial ones that bend the body are
+    /// `radial_m`, in the order of [`RadialMotions`]; none: they are held, the bore slides. Of each force tooth, flank,
+    /// load and normal part \[N\]. Rigid motions are left out.
     ///
     /// # Errors
     /// As [`ReducedGear::with_sliding_bore`]; [`ReducedGearError::FlankNotReduced`].

@@ -34,8 +34,8 @@ pub struct ProjectedDeflections {
 /// says to be `by_grid`.
 ///
 /// # Errors
-/// [`Failure`] for a gear of which the factor is another one than the reduced gear's: with a crack, cut into its shaft, or
-/// meshed elsewhere.
+/// [`Failure`] for a gear of which the factor is another one than the reduced gear's: with a crack, cut into its shaft,
+/// or meshed elsewhere.
 pub fn projected_deflections(
     (model, file): (&ReducedGear, &str),
     (loads, by_grid): (&[FlankLoad], &[FlankDeflection]),

@@ -60,7 +60,8 @@ pub struct ErrorEstimate {
     /// Of C_hub at the same place of other teeth, the next two on either side and the opposite one: the root of the sum
     /// of the squares, over that of their deflections. A tooth that hardly moves counts little: no contact feels it.
     pub other_teeth: f64,
-    /// Of the deflection of tooth 0 while it and the next one carry the same load: the errors of both loads' parts added.
+    /// Of the deflection of tooth 0 while it and the next one carry the same load: the errors of both loads' parts
+    /// added.
     pub both_teeth: f64,
     /// Of each gauge's reading for loads on its own tooth.
     pub gauges: Vec<f64>,

@@ -1,18 +1,19 @@
-//! Forces at single points of a flank: the finite element face that a point lies on, its natural coordinates by Newton's
-//! method, and the shares of the face's nodes (*Transmission Error and Strain Analysis of Lightweight Gears*, equations 9
-//! and 10; seed 004 in docs/sources.md).
+//! Forces at single points of a flank: the finite element face that a point lies on, its natural coordinates by
+//! Newton's method, and the shares of the face's nodes (*Transmission Error and Strain Analysis of Lightweight Gears*,
+//! equations 9 and 10; seed 004 in docs/sources.md).
 //!
-//! A point x of the true flank lies beside the faces of its elements, which are flat or parabolas. It is put on them along
-//! a direction m, the one in which its force acts, so that the force stays on its own line:
+//! A point x of the true flank lies beside the faces of its elements, which are flat or parabolas. It is put on them
+//! along a direction m, the one in which its force acts, so that the force stays on its own line:
 //!
 //! ```text
 //! x + d m − Σ N_a(ξ, η) x_a = 0            for ξ, η, d
 //! ```
 //!
-//! Three equations for three unknowns, where equation 10 has three for two. Faces that share an edge leave no gap and no
-//! overlap for one direction, as they would for the nearest point. Where the point lies on the face d is zero.
+//! Three equations for three unknowns, where equation 10 has three for two. Faces that share an edge leave no gap and
+//! no overlap for one direction, as they would for the nearest point. Where the point lies on the face d is zero.
 //!
-//! The force F goes to the nodes by s_a = N_a F, and the displacement of the point is read by the same shares, Σ N_a u_a.
+//! The force F goes to the nodes by s_a = N_a F, and the displacement of the point is read by the same shares, Σ N_a
+//! u_a.
 
 use crate::flank_loads::SparseVector;
 use gearmesh_mesh::{FaceShape, OutlineFace};
@@ -22,9 +23,9 @@ use gearmesh_mesh::{FaceShape, OutlineFace};
 const MOST_STEPS: usize = 20;
 /// A step in natural coordinates that ends the search. Rounding of coordinates is some 1e-13 of a face.
 const LAST_STEP: f64 = 1e-11;
-/// Points beyond an edge of all faces by less, in natural coordinates, are put on it. Edges are chords, too: over a layer of
-/// length l the edge of a helical tooth's tip is l² tan²β/(4 r h) of a half face inside the true one, 0.004 at 20 degrees,
-/// 0.06 at 45 degrees (r 40 mm, l 2 to 3 mm, faces of h 0.9 mm).
+/// Points beyond an edge of all faces by less, in natural coordinates, are put on it. Edges are chords, too: over a
+/// layer of length l the edge of a helical tooth's tip is l² tan²β/(4 r h) of a half face inside the true one, 0.004 at
+/// 20 degrees, 0.06 at 45 degrees (r 40 mm, l 2 to 3 mm, faces of h 0.9 mm).
 const BESIDE: f64 = 0.1;
 /// How far from a face along the direction a point may lie, in diagonals of the face. A curve is a quarter of its chord
 /// away from it where it turns by 106 degrees on one element; a flank of a good mesh turns by a few.
@@ -99,7 +100,8 @@ impl FaceSurface {
         self.faces.is_empty()
     }
 
-    /// Puts a point on the face under it along a direction of any length. Only faces in whose boxes the point lies are looked at.
+    /// Puts a point on the face under it along a direction of any length. Only faces in whose boxes the point lies are
+    /// looked at.
     ///
     /// # Errors
     /// [`OffEveryFace`] where no face lies under it.
@@ -411,8 +413,8 @@ mod tests {
         assert!((found.distance_m - 0.1 * (1.05_f64).sqrt()).abs() < 1e-15);
     }
 
-    /// Two faces that meet at 20 degrees, a ridge or a valley: along a line across the edge every point is found, at the
-    /// edge on both nodes of it, and shares do not jump.
+    /// Two faces that meet at 20 degrees, a ridge or a valley: along a line across the edge every point is found, at
+    /// the edge on both nodes of it, and shares do not jump.
     #[test]
     fn points_at_an_edge_belong_to_its_nodes() {
         for slope in [0.176_f64, -0.176] {
@@ -468,7 +470,7 @@ mod tests {
             let error = surface.project(point, down).unwrap_err();
             assert!(error.to_string().contains("no element face lies under"));
         }
-        // The nearest of the face's points is told: beside the edge at 1 ± 0.1.
+        // The nearest of the face's points is reported: beside the edge at 1 ± 0.1.
         let away = surface
             .project([1.5 * SIZE_M, 0.0, 0.0], down)
             .unwrap_err()

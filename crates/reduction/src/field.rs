@@ -133,8 +133,8 @@ impl FlankUnits {
     /// Displacement of all degrees of freedom of a cylindrical gear \[m\], on a bore that is held or not.
     ///
     /// # Errors
-    /// [`ReductionError::Bore`] for a model without motions of its bore, [`ReductionError::Fe`] when an element cannot be
-    /// used.
+    /// [`ReductionError::Bore`] for a model without motions of its bore, [`ReductionError::Fe`] when an element cannot
+    /// be used.
     ///
     /// # Panics
     /// As [`Self::solve_each`].

@@ -234,8 +234,8 @@ impl PlaneTooth {
 }
 
 /// W = N₂ᵀK₂⁻¹N₂ \[m²/N\], `[load station][response station]`: the tooth-only submodel of the gear's own
-/// cross-section and element in plane strain, loaded by its own hats along the profile, uniformly over the width, of which the mean is taken
-/// (tetrahedra: docs/theory/imported_mesh.md).
+/// cross-section and element in plane strain, loaded by its own hats along the profile, uniformly over the width, of
+/// which the mean is taken (tetrahedra: docs/theory/imported_mesh.md).
 ///
 /// # Errors
 /// [`ReductionError::Fe`] when the submodel is not held.

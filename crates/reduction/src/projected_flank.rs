@@ -1,10 +1,10 @@
-//! A flank on whose element faces forces stand at single places, without a grid of hats: unit loads of a point, and of a
-//! line that is uniform along the tooth.
+//! A flank on whose element faces forces stand at single places, without a grid of hats: unit loads of a point, and of
+//! a line that is uniform along the tooth.
 //!
 //! A place is put on the faces along the normal in its section, so that its height stays; on a helical flank the axial
 //! part of a force is then moved by the distance to the face, some micrometres. The loads have the form of those of the
-//! flank grid ([`crate::flank_loads`]), and everything that takes the ones takes the others: the factor of the body, the
-//! tooth-only submodel, gauges. Each place needs a solution of its own, where the grid's are combined
+//! flank grid ([`crate::flank_loads`]), and everything that takes the ones takes the others: the factor of the body,
+//! the tooth-only submodel, gauges. Each place needs a solution of its own, where the grid's are combined
 //! (docs/theory/reduction.md, forces on single elements).
 
 use crate::ReductionError;
@@ -79,9 +79,9 @@ impl<'a> ProjectedFlank<'a> {
         self.summed([(roll_rad, z_m, 1.0)])
     }
 
-    /// Unit loads that are uniform over a stretch of height, each part of it at the roll angle of its height: a slice of
-    /// a contact line. Force and moment are those of the line; where it passes from face to face within a layer of elements, their
-    /// nodes have the shares of three points a layer.
+    /// Unit loads that are uniform over a stretch of height, each part of it at the roll angle of its height: a slice
+    /// of a contact line. Force and moment are those of the line; where it passes from face to face within a layer of
+    /// elements, their nodes have the shares of three points a layer.
     ///
     /// # Errors
     /// [`OffEveryFace`] where it goes on beside the flank.
@@ -105,8 +105,8 @@ impl<'a> ProjectedFlank<'a> {
         }))
     }
 
-    /// Unit loads of the slices of a line at one roll angle, each uniform over its width: those that the grid's loads are
-    /// combined to.
+    /// Unit loads of the slices of a line at one roll angle, each uniform over its width: those that the grid's loads
+    /// are combined to.
     ///
     /// # Errors
     /// [`OffEveryFace`] beside the flank.
@@ -138,8 +138,9 @@ impl<'a> ProjectedFlank<'a> {
     }
 }
 
-/// w_p \[m²/N\]: deflection per line load of lines at some roll angles in plane strain, on the tooth-only submodel of the
-/// gear's own section and element, read under the line itself. What [`crate::near_field::mesh_compliance`] is for hats.
+/// w_p \[m²/N\]: deflection per line load of lines at some roll angles in plane strain, on the tooth-only submodel of
+/// the gear's own section and element, read under the line itself. What [`crate::near_field::mesh_compliance`] is for
+/// hats.
 ///
 /// # Errors
 /// [`ReductionError`] when the submodel is not held or a line lies beside the flank.

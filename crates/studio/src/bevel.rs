@@ -50,7 +50,8 @@ impl BevelModels {
     }
 }
 
-/// A pair as its text is, under its torques: what should be known of it, curves, figures and the gears in space; nothing is written.
+/// A pair as its text is, under its torques: what should be known of it, curves, figures and the gears in space;
+/// nothing is written.
 ///
 /// # Errors
 /// [`Problem`] for what is wrong with it, and once `stop` is set.

@@ -456,8 +456,8 @@ fn a_gearbox_with_planetary_stages_is_imported_and_runs() {
 }
 
 /// With `--reduced` sets have reduced gears: those that the command names, of planets the first of each set. Reduced on
-/// coarse meshes, with the file's modifications, they run; the pins carry what statics by hand say, in the mean over the
-/// planets, which mesh one after another.
+/// coarse meshes, with the file's modifications, they run; the pins carry what statics by hand say, in the mean over
+/// the planets, which mesh one after another.
 #[test]
 fn a_gearbox_with_planetary_stages_of_reduced_gears_runs() {
     let desk = Desk::new();

@@ -88,8 +88,8 @@ impl Ldl {
         })
     }
 
-    /// Writes the inverse, order × order: the solutions of all units, each as [`Self::solve`] has it to the last bit, side
-    /// by side.
+    /// Writes the inverse, order × order: the solutions of all units, each as [`Self::solve`] has it to the last bit,
+    /// side by side.
     pub(crate) fn invert(&self, inverse: &mut [f64], row: &mut [f64]) {
         let n = self.order;
         self.arch.dispatch(Invert {

@@ -80,8 +80,8 @@ impl BevelSlices {
     /// The flanks of a pair in so many slices along the face.
     ///
     /// # Errors
-    /// [`DrivetrainError::Value`] for a number of slices out of range, [`DrivetrainError::BevelLine`] where the line of contact is not
-    /// smooth over the flank.
+    /// [`DrivetrainError::Value`] for a number of slices out of range, [`DrivetrainError::BevelLine`] where the line of
+    /// contact is not smooth over the flank.
     pub fn of_pair(pair: BevelMesh, slices: usize) -> Result<Self, DrivetrainError> {
         if !SLICES.contains(&slices) {
             return Err(DrivetrainError::Value {

@@ -19,8 +19,8 @@ pub(super) struct MeshTable {
     element: Option<Element>,
     /// Element length along the flank; 0.3 modules where not given, twice that in tetrahedra.
     flank_mm: Option<f64>,
-    /// Element length along the root fillet, which decides the error of root strain; where not given 0.05 modules (0.5 %
-    /// of the strain), of quadratic bricks 0.08, of tetrahedra 0.16.
+    /// Element length along the root fillet, which decides the error of root strain; where not given 0.05 modules (0.5
+    /// % of the strain), of quadratic bricks 0.08, of tetrahedra 0.16.
     fillet_mm: Option<f64>,
     /// Largest element length in the body; 1.2 modules where not given, twice that in tetrahedra.
     body_mm: Option<f64>,

@@ -1,8 +1,8 @@
 //! Which of many loads strains the root of a tooth most: by a row of made-up gauges along the fillet, where its tangent stands at 30° to the tooth's centre line, as rating takes
 //! the critical section. The rows' readings under all unit loads are found at once, so that a run of thousands of rows costs little more than one field.
 //!
-//! Of a body whose openings make teeth differ the readings are those of tooth 0, and of a bore that is not held those of a held one. What is found picks the moment that is drawn; what is drawn is solved for all loads of
-//! that moment.
+//! Of a body whose openings make teeth differ the readings are those of tooth 0, and of a bore that is not held those
+//! of a held one. What is found picks the moment that is drawn; what is drawn is solved for all loads of that moment.
 
 use super::{Pressed, StressedBody, StressedGear};
 use crate::failure::Failure;

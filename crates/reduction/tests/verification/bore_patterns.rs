@@ -142,10 +142,10 @@ fn motions_that_the_nodes_do_not_tell_apart_are_refused() {
 
 /// A rim pressed from both sides, as that of a planet, whose bore radial pressures hold in balance. Once with rows and
 /// motions of the bore, once as the whole model under the same forces on flanks and bore, held at six single degrees of
-/// freedom that carry nothing. The gauge reads the same by its row and in the field that the motions make, to rounding; what
-/// both miss of the whole model is what the harmonics left out would add. Each doubling leaves less than a third of that;
-/// the eighth harmonic of exp(4 cos φ) is 1e-3 of the first one, the teeth's own forces on the bore fall as slowly as the
-/// rim is thin.
+/// freedom that carry nothing. The gauge reads the same by its row and in the field that the motions make, to rounding;
+/// what both miss of the whole model is what the harmonics left out would add. Each doubling leaves less than a third
+/// of that; the eighth harmonic of exp(4 cos φ) is 1e-3 of the first one, the teeth's own forces on the bore fall as
+/// slowly as the rim is thin.
 #[test]
 fn a_bore_under_pressure_strains_gauges_as_the_whole_model_has_it() {
     let mut gear = gear(

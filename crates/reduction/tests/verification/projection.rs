@@ -1,5 +1,5 @@
-//! Points of a flank on the faces of its elements: how far off, how many steps, and that the loads of the flank grid are
-//! means of them.
+//! Points of a flank on the faces of its elements: how far off, how many steps, and that the loads of the flank grid
+//! are means of them.
 
 use crate::small_gears::{MESH, QUADRATIC, SOLID, TETRAHEDRA, body, gear};
 use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
@@ -62,9 +62,9 @@ fn largest_difference(a: &SparseVector, b: &SparseVector) -> f64 {
 }
 
 /// A load of the grid is the mean of projected points over its hat: two integrations of different kind, the one on the
-/// unrolled outline, where natural coordinates go by arc lengths, the other in space by Newton's method. The two natural
-/// coordinates of a point differ by up to α²/8 of a face that turns by 2α, of a quadrilateral some 0.5 % with these
-/// coarse elements low on the flank (α 0.2); the cells leave as little.
+/// unrolled outline, where natural coordinates go by arc lengths, the other in space by Newton's method. The two
+/// natural coordinates of a point differ by up to α²/8 of a face that turns by 2α, of a quadrilateral some 0.5 % with
+/// these coarse elements low on the flank (α 0.2); the cells leave as little.
 #[test]
 fn loads_of_the_grid_are_means_of_points() {
     for (mesh, helix_deg) in [
@@ -151,9 +151,10 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// A line over a stretch has the force and the moments of the true flank's normals, whatever elements it crosses; one at a
-/// single roll angle is the sum of its parts. On spur teeth a force moves along its own line: moments are exact but for the sum that they are
-/// compared with. On helical teeth its axial part moves by the distance to the face, at most a chord's, 0.1 mm here.
+/// A line over a stretch has the force and the moments of the true flank's normals, whatever elements it crosses; one
+/// at a single roll angle is the sum of its parts. On spur teeth a force moves along its own line: moments are exact
+/// but for the sum that they are compared with. On helical teeth its axial part moves by the distance to the face, at
+/// most a chord's, 0.1 mm here.
 #[test]
 fn lines_keep_force_and_moment() {
     for (helix_deg, moved_m) in [(0.0, 0.0), (24.0, 1e-4)] {

@@ -119,7 +119,7 @@ fn flanks_of<'a>(made: &'a Import, gear: &str) -> &'a str {
 const AS_GIVEN: [f64; 3] = [0.0, 120.0, 240.0];
 
 /// What modifies sun, planet and ring stands in their gear files; scenes name these where springs know no flanks, and
-/// their models where they are to be reduced. The planet that differs is told.
+/// their models where they are to be reduced. The planet that differs is reported.
 #[test]
 fn gears_of_sets_have_their_modifications() {
     for with in [Meshes::Iso6336, Meshes::Hybrid] {

@@ -62,8 +62,8 @@ fn model(version: u32) -> ReducedGear {
     gear
 }
 
-/// Elements along root fillets, in modules, where a gear file gave no length until 2026-11-29. Files keep what was taken;
-/// those without a definition are read with today's default.
+/// Elements along root fillets, in modules, where a gear file gave no length until 2026-11-29. Files keep what was
+/// taken; those without a definition are read with today's default.
 const FILLET_OF_THEN: f64 = 0.08;
 
 /// The gear with the default fillets of then.

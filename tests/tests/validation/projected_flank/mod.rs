@@ -1,5 +1,5 @@
-//! Forces on single element faces beside forces on the flank grid (docs/theory/projection.md): two ways to load the same
-//! finite elements and to read them.
+//! Forces on single element faces beside forces on the flank grid (docs/theory/projection.md): two ways to load the
+//! same finite elements and to read them.
 
 mod over_a_mesh_cycle;
 mod slices;
@@ -182,7 +182,8 @@ impl BothWays {
 }
 
 impl ProjectedLines<'_> {
-    /// Without the near field: the tooth-only submodel's deflection is taken off on the loaded tooth, of hats and of lines.
+    /// Without the near field: the tooth-only submodel's deflection is taken off on the loaded tooth, of hats and of
+    /// lines.
     fn without_near_field(&self, tooth: usize) -> Compared {
         let count = self.loads.len();
         let entry = |load: usize, response: usize| {
@@ -205,7 +206,8 @@ impl ProjectedLines<'_> {
         }
     }
 
-    /// On the loaded tooth with the near field of a Hertz pressure of half width a₀ in place of that of hats and of lines.
+    /// On the loaded tooth with the near field of a Hertz pressure of half width a₀ in place of that of hats and of
+    /// lines.
     fn calibrated(&self) -> Compared {
         let both = self.both;
         let field = both.model.near_field.as_ref().unwrap();

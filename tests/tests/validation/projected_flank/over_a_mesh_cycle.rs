@@ -1,6 +1,6 @@
-//! Root strain of gear 2 of pair A while its tooth passes the mesh, by the seed's second method as it is written (eq. 8 to
-//! 10): the forces of all slices on the elements they meet, friction of 0.3 and forces of tip edges included; and by the
-//! rows of the flank grid.
+//! Root strain of gear 2 of pair A while its tooth passes the mesh, by the seed's second method as it is written (eq. 8
+//! to 10): the forces of all slices on the elements they meet, friction of 0.3 and forces of tip edges included; and by
+//! the rows of the flank grid.
 
 use super::{BothWays, SIDE, larger};
 use gearmesh_contact::ContactPatch;
@@ -15,8 +15,8 @@ use gearmesh_scene::{LoadedScene, Scene, load, run};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Of the gauge's range. Forces stand between the centroids of the outermost hats but at the tip's edge, where the tooth
-/// carries a part of the load only: what the stations leave out there (`slices.rs`) stays below half a per cent.
+/// Of the gauge's range. Forces stand between the centroids of the outermost hats but at the tip's edge, where the
+/// tooth carries a part of the load only: what the stations leave out there (`slices.rs`) stays below half a per cent.
 const LINES: f64 = 0.005;
 /// Teeth on either side of the gauge's own that are followed.
 const TEETH_BESIDE: usize = 2;

@@ -7,8 +7,8 @@ use super::{BothWays, Differences, larger};
 
 /// Bounds on the deflection under a line over the whole width, of its mean and of each slice.
 ///
-/// A tooth is a cantilever some eight stations long: its deflection has the third derivative 3/L³ of its own size, and a
-/// third moment of a tenth of h³ reads 0.02 % of it. Nearer to the tip the flank's own edge comes in.
+/// A tooth is a cantilever some eight stations long: its deflection has the third derivative 3/L³ of its own size, and
+/// a third moment of a tenth of h³ reads 0.02 % of it. Nearer to the tip the flank's own edge comes in.
 const BETWEEN: f64 = 0.001;
 const NEAR_TIP: f64 = 0.003;
 /// One slice loaded: what the hats across the width leave out, of its own deflection.
@@ -130,8 +130,8 @@ fn compared(what: &str, both: &BothWays, bound_of_steps: f64) -> Largest {
     largest
 }
 
-/// A solid spur gear, with twice as many steps between the stations, too: the difference at the tip falls by more than the
-/// square of the step, and elsewhere it is as small as what single elements make of it.
+/// A solid spur gear, with twice as many steps between the stations, too: the difference at the tip falls by more than
+/// the square of the step, and elsewhere it is as small as what single elements make of it.
 #[test]
 fn slices_deflect_alike_and_converge_with_the_stations() {
     let [nine, seventeen] = [9, 17].map(|stations| {

@@ -124,8 +124,8 @@ fn compliance_at_another_tooth_is_smaller_and_has_no_local_part() {
     assert!((linear("300") / linear("100") - 3.0).abs() < 1e-12);
 }
 
-/// Forces on single elements: one solution a slice, the deflection of the flank grid's four stations to 1 %, whatever is
-/// taken off and put back for the near field.
+/// Forces on single elements: one solution a slice, the deflection of the flank grid's four stations to 1 %, whatever
+/// is taken off and put back for the near field.
 #[test]
 fn projected_forces_deflect_alike() {
     for (local, at_tooth) in [

@@ -35,7 +35,8 @@ pub(super) struct MeshesTogether {
 }
 
 impl MeshesTogether {
-    /// None of a scene whose meshes are all solved by themselves. `gears`: names of the gears' bodies, all of the system.
+    /// None of a scene whose meshes are all solved by themselves. `gears`: names of the gears' bodies, all of the
+    /// system.
     pub fn of(loaded: &LoadedSystem, gears: &[&str]) -> Result<Option<Self>, InputError> {
         if !shares_gears(loaded) {
             return Ok(None);

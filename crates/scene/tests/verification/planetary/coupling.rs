@@ -150,8 +150,8 @@ const GAUGE: &str = "[[gauge]]\nbody = \"set planet 1\"\nnames = [\"rim\"]\n";
 /// Both meshes of the first planet.
 const MESHES: [&str; 2] = ["set sun-planet 1", "set planet 1-ring"];
 
-/// The gears of a scene at the rows of its result: of each row the radial motions of the first planet's bore, and the sums
-/// of the normal forces of its meshes.
+/// The gears of a scene at the rows of its result: of each row the radial motions of the first planet's bore, and the
+/// sums of the normal forces of its meshes.
 fn in_motion(text: &str, folder: &Path, result: &SystemResult) -> Vec<(Vec<f64>, [f64; 2])> {
     let loaded = load(text, folder).unwrap();
     let mut gears = loaded.gears_in_motion().unwrap();
@@ -202,8 +202,8 @@ fn in_motion(text: &str, folder: &Path, result: &SystemResult) -> Vec<(Vec<f64>,
 }
 
 /// Forces on the teeth of gears that a result puts where they were are those of the run, however their meshes feel each
-/// other. Most to 1e-9; 1e-4 where a run keeps the compliance of contacts that walk from the first iterate of a step, with
-/// meshes by themselves, too. What meshes make of each other is ten times the bound and more.
+/// other. Most to 1e-9; 1e-4 where a run keeps the compliance of contacts that walk from the first iterate of a step,
+/// with meshes by themselves, too. What meshes make of each other is ten times the bound and more.
 #[test]
 fn forces_on_the_teeth_of_a_result_are_those_of_its_run() {
     let folder = tempfile::tempdir().unwrap();

@@ -91,7 +91,7 @@ fn assert_torque(found: &[f64], expected: f64, what: &str) {
 }
 
 /// In phase at equal angles all pairs carry the same; what is left of the forces of two meshes is what the pin bears.
-/// The carrier gives way in the sense of its torque, by another amount where planets and partners feel both their
+/// The carrier deflects in the sense of its torque, by another amount where planets and partners feel both their
 /// meshes.
 #[test]
 fn meshed_planets_of_reduced_gears_are_in_equilibrium() {

@@ -134,8 +134,8 @@ fn pins_that_cannot_bend_are_refused() {
     }
 }
 
-/// Natural frequencies of a set whose planets stand on bearings on light pins that bend are those on bearings as soft as
-/// both in a row: a spur set moves in its plane, where a force in the middle between the plates bends the pin alone.
+/// Natural frequencies of a set whose planets stand on bearings on light pins that bend are those on bearings as soft
+/// as both in a row: a spur set moves in its plane, where a force in the middle between the plates bends the pin alone.
 #[test]
 fn modes_of_a_set_feel_its_pins() {
     let folder = tempfile::tempdir().unwrap();
