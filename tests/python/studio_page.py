@@ -15,8 +15,8 @@ import psutil
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 # So long a server or a browser may take to begin or to end.
 END_S = 60.0
-# WebGL without a graphics card.
-OPTIONS = ["--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--no-sandbox", "--disable-gpu-vsync"]
+# WebGL without a graphics card; the page itself is put together as browsers do without one.
+OPTIONS = ["--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--no-sandbox", "--disable-gpu-vsync", "--disable-gpu-compositing"]
 
 
 def chromium():

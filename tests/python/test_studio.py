@@ -58,8 +58,11 @@ def test_a_slider_gives_the_numbers_of_run(browser, address, scene, tmp_path):
     # What the amount needs beside it is set with it, and seen.
     start = f"{RELIEF.removesuffix('_um')}_start_diameter_mm"
     assert it.field(start).locator("input[type=number]").input_value() == ""
+    it.page.evaluate("globalThis.drawn = document.querySelector('#scene').toDataURL()")
     it.slide(RELIEF, 12.5)
     it.wait(2)
+    # The gears follow, if late.
+    it.until("document.querySelector('#scene').toDataURL() !== globalThis.drawn")
     amount = it.field(RELIEF).locator("input[type=number]").input_value()
     diameter = it.field(start).locator("input[type=number]").input_value()
     assert abs(float(amount) - 12.5) < 0.1 and 69.0 < float(diameter) < 75.0

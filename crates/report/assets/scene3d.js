@@ -9,6 +9,8 @@ import { colour, mapColour, mapCss, short, unpack } from "./drawing.js";
 const SECTIONS = 10;
 /** Places with pressure that are drawn; more would be finer than the picture. */
 const MOST_PLACES = 6000;
+/** Milliseconds without a new answer after which a slow picture is drawn. */
+const REST = 150;
 /** The way along which a box is as long as its slice is wide. */
 const ALONG = new THREE.Vector3(0, 0, 1);
 
@@ -129,6 +131,8 @@ function bevelGeometries({ teeth, sections, points_mm, rim_mm }) {
 export const geometries = (gear) => gear.rings?.map((ring) => ringGeometry(gear, ring)) ?? bevelGeometries(gear);
 
 export class Scene3d extends View3d {
+  #following = null;
+
   constructor(canvas, gears) {
     super(canvas);
     this.gears = gears;
@@ -209,6 +213,19 @@ export class Scene3d extends View3d {
     const every = Math.ceil(places / MOST_PLACES);
     this.trace.count = this.#place(this.trace, Array.from({ length: Math.ceil(places / every) }, (_, k) => k * every), 0.05);
     if (isNew) this.look("pair");
+  }
+
+  /** `show` and `at`, of other gears if need be: at once, or, where pictures are slow, once answers rest, so that curves do not wait for them. */
+  follow(answer, torque, most, angle, gears = this.gears) {
+    clearTimeout(this.#following);
+    const now = () => {
+      if (gears !== this.gears) this.replace(gears);
+      this.restyle();
+      this.show(answer, torque, most);
+      this.at(angle);
+    };
+    if (this.isSlow) this.#following = setTimeout(now, REST);
+    else now();
   }
 
   /** Turns the gears to a position. */

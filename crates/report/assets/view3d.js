@@ -19,8 +19,13 @@ export function surface({ points_mm, quads }) {
 /** The matrix of {rotation by rows, origin_mm}. */
 export const matrixOf = ({ rotation: r, origin_mm: o }) => new THREE.Matrix4().set(r[0], r[1], r[2], o[0], r[3], r[4], r[5], o[1], r[6], r[7], r[8], o[2], 0, 0, 0, 1);
 
+/** A picture that takes longer [ms] is late for a slider that moves: without a graphics card most do. */
+const LATE = 50;
+
 export class View3d {
   #wanted = false;
+  /** Whether the browser needed long for the last picture. */
+  isSlow = false;
 
   constructor(canvas) {
     this.canvas = canvas;
@@ -44,7 +49,10 @@ export class View3d {
     this.#wanted = true;
     requestAnimationFrame(() => {
       this.#wanted = false;
+      const begun = performance.now();
       this.render();
+      // The browser asks for the next picture once this one is on its way.
+      requestAnimationFrame(() => (this.isSlow = performance.now() - begun > LATE));
     });
   }
 

@@ -7,6 +7,7 @@ import { Scene3d, endOfScale, showScale, unpacked } from "./scene3d.js";
 export class BevelSpace {
   #scene = null;
   #shape = "";
+  #gears = [];
   #at = 0;
 
   /** `moved(place)` hears of the position. */
@@ -30,9 +31,9 @@ export class BevelSpace {
     if (!packed) return;
     this.answer = unpacked(packed);
     const shape = JSON.stringify(packed.gears);
+    if (shape !== this.#shape) this.#gears = this.answer.gears;
     try {
-      if (!this.#scene) this.#scene = new Scene3d(this.canvas, this.answer.gears);
-      else if (shape !== this.#shape) this.#scene.replace(this.answer.gears);
+      this.#scene ??= new Scene3d(this.canvas, this.#gears);
     } catch (problem) {
       // Without WebGL everything else works.
       this.canvas.replaceWith(element("p", { className: "help" }, `The gears are not drawn: ${problem.message}`));
@@ -47,19 +48,22 @@ export class BevelSpace {
   #draw() {
     const most = endOfScale(this.answer);
     showScale(this.scale, most);
-    this.#scene?.restyle();
-    this.#scene?.show(this.answer, Number(this.torque.value), most);
-    this.at(this.#at);
+    this.#mark(this.#at);
+    this.#scene?.follow(this.answer, Number(this.torque.value), most, this.#at, this.#gears);
   }
 
   /** Turns the gears to a position. */
   at(place) {
     if (!this.answer) return;
+    this.#mark(place);
+    this.#scene?.at(this.#at);
+  }
+
+  #mark(place) {
     this.#at = Math.min(place, Number(this.slider.max));
     this.slider.value = this.#at;
     const angle = this.answer.angle_deg[this.#at];
     this.angle.textContent = `${short(angle)}°`;
-    this.#scene?.at(this.#at);
     this.moved(angle);
   }
 }

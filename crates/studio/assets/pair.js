@@ -38,14 +38,18 @@ export async function showPair() {
   const curves = new PairCurves(byId("curves"), (place) => toPosition(place));
   const variants = new Variants(byId("figures"), { go: (change) => state.go(change), changed: () => answer && draw() });
 
-  function toPosition(place) {
-    if (!answer) return;
+  function mark(place) {
     angle = Math.min(place, answer.angle_deg.length - 1);
     byId("position").value = angle;
     byId("angle").textContent = `${short(answer.angle_deg[angle])}°`;
     flank.show(answer, torque, angle, most);
-    scene?.at(angle);
     curves.at(answer, torque, angle);
+  }
+
+  function toPosition(place) {
+    if (!answer) return;
+    mark(place);
+    scene?.at(angle);
   }
 
   function draw() {
@@ -58,8 +62,8 @@ export async function showPair() {
     variants.show(answer, torque);
     seeker.show(answer);
     showScale(byId("scale"), most);
-    scene?.show(answer, torque, most);
-    toPosition(angle);
+    mark(angle);
+    scene?.follow(answer, torque, most, angle);
     const notes = [...answer.figures.warnings, ...answer.figures.ratings.map((rated) => rated.problem).filter(Boolean)];
     byId("notes").replaceChildren(...notes.map((text) => Object.assign(document.createElement("p"), { textContent: text })));
   }
