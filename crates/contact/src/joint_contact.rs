@@ -343,15 +343,18 @@ impl pulp::NullaryFnOnce for Couple<'_> {
             for b in second.runs_on(gears[1]) {
                 compliance.between([a.place, b.place], self.found);
                 let along = a.along_normal * b.along_normal;
+                let across = self.starts[1] + b.patches.start;
                 for (i, slice) in a.patches.clone().zip(a.slices) {
-                    let (here, across) = (self.starts[0] + i, self.starts[1]);
-                    for (j, other) in b.patches.clone().zip(b.slices) {
+                    let here = self.starts[0] + i;
+                    let row = &mut self.c[here * self.size + across..][..b.slices.len()];
+                    let rates = &mut self.rates[begin + i * columns + b.patches.start..];
+                    for ((place, rate), other) in row.iter_mut().zip(rates).zip(b.slices) {
                         let entry = compliance.entry([*slice, *other]);
-                        let value = along * self.found.value[entry];
-                        self.c[here * self.size + across + j] += value;
-                        self.c[(across + j) * self.size + here] += value;
-                        self.rates[begin + i * columns + j] =
-                            [self.found.by_a[entry], self.found.by_b[entry]];
+                        *place += along * self.found.value[entry];
+                        *rate = [self.found.by_a[entry], self.found.by_b[entry]];
+                    }
+                    for j in across..across + b.slices.len() {
+                        self.c[j * self.size + here] = self.c[here * self.size + j];
                     }
                 }
             }

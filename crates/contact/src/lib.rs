@@ -17,6 +17,7 @@
 //! | where does a slice stand that has walked along the tooth | [`SliceWalk`] | `walked_slice.rs` |
 //! | how do the slices of a mesh sit on a flank, of either family | [`FlankSlices`] | `flank_slices.rs` |
 //! | where do the faces overlap, and which slices lie there | [`ContactZone`], [`SliceLayout`] | `contact_zone.rs` |
+//! | flanks on slices that several meshes share | [`CondensedFlanks`] | `condensed_flanks.rs` |
 //! | which stations along the tooth carry a slice's force | [`AxialSpread`] | `axial_spread.rs`, a gear's own slices: `placed_slice.rs` |
 //! | which unit loads make a force at a place along the profile | [`ProfileHats`] | `profile_shares.rs` |
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
@@ -46,6 +47,7 @@ pub mod axial_spread;
 pub mod bevel_slices;
 pub mod bore_bending;
 mod calibrated_field;
+pub mod condensed_flanks;
 mod contact_error;
 pub mod contact_lines;
 pub mod contact_patch;
@@ -81,6 +83,7 @@ mod walked_slice;
 
 pub use axial_spread::AxialSpread;
 pub use bore_bending::{BoreBending, BoreFlank};
+pub use condensed_flanks::CondensedFlanks;
 pub use contact_error::ContactError;
 pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};

@@ -3,6 +3,7 @@
 //! This is what a contact at rest and the gear mesh of a multibody system share: it is told which patches face each
 //! other and how far apart they stand, and does not ask where that comes from, nor of what family the gears are.
 
+use crate::condensed_flanks::CondensedFlanks;
 use crate::contact_error::ContactError;
 use crate::contact_patch::ContactPatch;
 use crate::contact_zone::SliceLayout;
@@ -17,6 +18,7 @@ use crate::placed_slice::ToothPlace;
 use crate::slice_compliance::{LocalDepth, SliceCompliance};
 use crate::slice_contact::kept_compliance::KeptCompliance;
 use gearmesh_model::{Flank, ReducedGear};
+use std::sync::Arc;
 
 mod compliance;
 mod energy_rates;
@@ -26,7 +28,7 @@ mod kept_compliance;
 #[derive(Debug, Clone)]
 enum Elastic {
     /// Two reduced gears.
-    Reduced(Box<[SliceCompliance; 2]>),
+    Reduced([Arc<SliceCompliance>; 2]),
     /// The surfaces of two bodies that are rigid otherwise.
     HalfSpaces(HalfSpaces),
 }
@@ -124,15 +126,16 @@ pub struct SliceContact {
 
 impl SliceContact {
     /// Prepares the contact of two reduced gears with so many teeth, loaded on flanks of these sides, on the slices of a
-    /// layout; for up to `most_lines` contact lines at once.
+    /// layout; for up to `most_lines` contact lines at once. Flanks that are `known` are not condensed again.
     ///
     /// # Errors
     /// [`ContactError`] when the models do not fit the teeth or each other.
-    pub fn of_gears(
-        models: [&ReducedGear; 2],
+    pub fn of_gears<'a>(
+        models: [&'a ReducedGear; 2],
         (teeth, flanks): ([usize; 2], [Flank; 2]),
         (local, layout): (LocalContact, SliceLayout),
         most_lines: usize,
+        known: &CondensedFlanks<'a>,
     ) -> Result<Self, ContactError> {
         for gear in 0..2 {
             let (found, needed) = (models[gear].teeth, teeth[gear]);
@@ -148,7 +151,7 @@ impl SliceContact {
         layout.check()?;
         let condense = |gear: usize| {
             let spread = layout.spread(gear + 1, models[gear]);
-            SliceCompliance::on_slices(models[gear], flanks[gear], local, &spread)
+            known.on_slices(models[gear], flanks[gear], local, spread)
         };
         let compliance = [condense(0)?, condense(1)?];
         Ok(Self::new(layout, compliance, local, most_lines))
@@ -158,12 +161,12 @@ impl SliceContact {
     #[must_use]
     pub fn new(
         layout: SliceLayout,
-        compliance: [SliceCompliance; 2],
+        compliance: [Arc<SliceCompliance>; 2],
         local_contact: LocalContact,
         most_lines: usize,
     ) -> Self {
         let walks = [0, 1].map(|gear: usize| compliance[gear].walks_along());
-        let elastic = Elastic::Reduced(Box::new(compliance));
+        let elastic = Elastic::Reduced(compliance);
         Self::of_elastic(layout, (elastic, walks), local_contact, most_lines)
     }
 

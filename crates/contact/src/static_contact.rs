@@ -10,6 +10,7 @@
 //! Helical teeth: gaps are measured along the normal, so that the approach closes them at w_i = cos β_b, the lever arms are
 //! b_i = r_b2 cos β_b + μ_i ρ₂, every slice has its own roll angle, and the forces have an axial part, ∓F sin β_b.
 
+use crate::condensed_flanks::CondensedFlanks;
 use crate::contact_error::ContactError;
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::contact_patch::ContactPatch;
@@ -105,7 +106,14 @@ impl StaticContact {
     ) -> Result<SliceContact, ContactError> {
         let teeth = [lines.pair.gear_1.teeth, lines.pair.gear_2.teeth];
         let flanks = (teeth, [0, 1].map(|gear| lines.pair.flank_of(gear)));
-        SliceContact::of_gears(models, flanks, (local, layout), most_lines(lines))
+        let most = most_lines(lines);
+        SliceContact::of_gears(
+            models,
+            flanks,
+            (local, layout),
+            most,
+            &CondensedFlanks::default(),
+        )
     }
 
     /// The contact of bodies that [`StaticContact::condensed`] has condensed for these lines, or for others of the same gears that are as

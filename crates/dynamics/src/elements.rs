@@ -54,12 +54,12 @@ use crate::unknown::Unknown;
 /// How a motion at which an element is asked stands to the others that it is asked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Iterate {
-    /// By itself: at rest, for output, at the start of a run.
+    /// By itself: at rest, at the start of a run.
     #[default]
     Single,
     /// The first guess of a step: iterates nearby will follow.
     First,
-    /// A correction of the iterate at which it was asked last. What hardly changes between them may be taken from there, as far as the force is that of this
+    /// A correction of the iterate at which it was asked last, or what comes of it for output. What hardly changes between them may be taken from there, as far as the force is that of this
     /// motion to rounding.
     Correction,
 }

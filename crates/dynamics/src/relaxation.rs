@@ -12,6 +12,7 @@
 
 use std::sync::Arc;
 
+use crate::elements::Iterate;
 use crate::equations::{Detail, Equations};
 use crate::error::DynamicsError;
 use crate::saddle::SaddleForm;
@@ -51,7 +52,7 @@ pub(crate) fn relax(
     let mut sigma = None;
     let mut steps = 0;
     while steps < MOST_STEPS {
-        let at = standing(state, &rest, lambda, load_factor);
+        let at = standing(state, &rest, lambda, (load_factor, Iterate::Single));
         system.evaluate(at, Detail::Tangents, equations)?;
         let pushing = pushing(system, equations, lambda);
         let unbalanced = in_masses(system, &equations.residual);
@@ -86,7 +87,7 @@ pub(crate) fn relax(
             };
             let ratio = measure(system, &correction.values[..n], size).0;
             walk.to((10.0 * SHORT / ratio).min(1.0), system, state, lambda);
-            let at = standing(state, &rest, lambda, load_factor);
+            let at = standing(state, &rest, lambda, (load_factor, Iterate::Single));
             if walk.is_clear(at, system, &mut found) {
                 weight *= EASED;
                 break;

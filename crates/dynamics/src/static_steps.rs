@@ -13,19 +13,19 @@ use crate::system::System;
 /// tooth.
 pub(crate) const SHORT: f64 = 1e-3;
 
-/// A motion under a share of the loads, without accelerations (`rest`: zeros).
+/// A motion under a share of the loads, without accelerations (`rest`: zeros), by itself or next to the last one.
 pub(crate) fn standing<'a>(
     state: &'a State,
     rest: &'a [f64],
     lambda: &'a [f64],
-    load_factor: f64,
+    (load_factor, iterate): (f64, Iterate),
 ) -> At<'a> {
     At {
         state,
         acceleration: rest,
         lambda,
         load_factor,
-        iterate: Iterate::Single,
+        iterate,
     }
 }
 

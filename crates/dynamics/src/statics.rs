@@ -12,6 +12,7 @@
 
 use std::sync::Arc;
 
+use crate::elements::Iterate;
 use crate::equations::{Detail, Equations};
 use crate::error::DynamicsError;
 use crate::relaxation::relax;
@@ -106,21 +107,24 @@ pub fn equilibrium(
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
     system.begin(start);
-    follow(system, start, Path::Loads, params)
+    // Reactions at release, so that the stiffness of tensioned joints is there from the first iteration.
+    let lambda = system.accelerations(start)?.lambda;
+    follow(system, (start, lambda), Path::Loads, params)
 }
 
-/// The equilibrium at another time, from the one at `from`: joints and elements go on from the motion that they were last committed to, in as
+/// The equilibrium at another time, from an earlier one: joints and elements go on from the motion that they were last committed to, in as
 /// many steps of time as are needed. For a series of equilibria in which turns are counted and couplings hold.
 ///
 /// # Errors
 /// As [`equilibrium`].
 pub fn next_equilibrium(
     system: &mut System,
-    from: &State,
+    from: &Equilibrium,
     time_s: f64,
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
-    follow(system, from, Path::Time(time_s), params)
+    let start = (&from.state, from.lambda.clone());
+    follow(system, start, Path::Time(time_s), params)
 }
 
 /// What is brought up on the way to an equilibrium.
@@ -135,7 +139,7 @@ enum Path {
 /// Goes along a path in steps that become shorter where no equilibrium is found and longer again where one is.
 fn follow(
     system: &mut System,
-    from: &State,
+    (from, lambda): (&State, Vec<f64>),
     path: Path,
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
@@ -145,8 +149,7 @@ fn follow(
     start.velocity[system.layout.first_unknown()..].fill(0.0);
     let mut found = Equilibrium {
         state: start,
-        // Reactions at release, so that the stiffness of tensioned joints is there from the first iteration.
-        lambda: system.accelerations(from)?.lambda,
+        lambda,
         iterations: 0,
         held: Vec::new(),
     };
@@ -279,7 +282,12 @@ fn settle(
     let mut moved = None;
     for iteration in 1..=params.most_iterations.max(1) {
         *iterations += 1;
-        let at = standing(state, &rest, lambda, load_factor);
+        // Where the way along the last correction has just been looked at.
+        let iterate = match moved {
+            Some(_) => Iterate::Correction,
+            None => Iterate::Single,
+        };
+        let at = standing(state, &rest, lambda, (load_factor, iterate));
         let evaluated = system.evaluate(at, Detail::Tangents, equations);
         evaluated.map_err(|error| on_the_way(error, system, load_factor, moved))?;
         if pushed {
@@ -345,7 +353,7 @@ fn settle(
         let whole = (LONGEST / ratio).min(1.0);
         let mut is_clear = |share: f64| {
             walk.to(share, system, state, lambda);
-            let at = standing(state, &rest, lambda, load_factor);
+            let at = standing(state, &rest, lambda, (load_factor, Iterate::Single));
             walk.is_clear(at, system, equations)
         };
         let first = |length: f64| whole.min(length / ratio);

@@ -289,7 +289,11 @@ impl System {
     /// so that nothing is allocated here.
     pub fn sample(&mut self, state: &State, counts: &[usize], out: &mut [f64]) {
         self.refresh(state);
-        let view = view(&self.motions, &self.layout, state, 1.0);
+        // Next to where elements were asked last: at the end of a step, or at rest.
+        let view = View {
+            iterate: Iterate::Correction,
+            ..view(&self.motions, &self.layout, state, 1.0)
+        };
         let mut rest = out;
         for (slot, &count) in self.slots.iter_mut().zip(counts) {
             let (own, after) = rest.split_at_mut(count);

@@ -1,4 +1,4 @@
-//! Where a condition ends, by halving.
+//! Where a condition ends, by halving, or where a function crosses zero, by secants.
 
 /// Halves an interval so many times: the condition holds at its first end, not at its second one.
 pub(crate) fn halved(
@@ -15,4 +15,50 @@ pub(crate) fn halved(
         }
     }
     [low, high]
+}
+
+/// Where a function that has one sign at the first end and the other at the second one is zero, but for `rounding` of its
+/// value: regula falsi that halves the value of an end which stays (Dowell and Jarratt, A modified regula falsi method,
+/// BIT 11 (1971): the Illinois algorithm).
+pub(crate) fn crossing(
+    [mut low, mut high]: [f64; 2],
+    rounding: f64,
+    function: impl Fn(f64) -> f64,
+) -> f64 {
+    let (mut at_low, mut at_high) = (function(low), function(high));
+    // Some ten are enough; the bound ends what rounding would keep going.
+    for _ in 0..100 {
+        let next = (low * at_high - high * at_low) / (at_high - at_low);
+        let found = function(next);
+        if found.abs() <= rounding || found.is_nan() {
+            return next;
+        }
+        if (found < 0.0) == (at_low < 0.0) {
+            (low, at_low, at_high) = (next, found, 0.5 * at_high);
+        } else {
+            (high, at_high, at_low) = (next, found, 0.5 * at_low);
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zeros_are_found_with_few_calls() {
+        let calls = std::cell::Cell::new(0);
+        // As a fillet's radius begins: level at one end.
+        let function = |x: f64| {
+            calls.set(calls.get() + 1);
+            x * x * (1.0 + 0.3 * x) - 0.01
+        };
+        for ends in [[0.0, 1.0], [1.0, 0.0]] {
+            let found = crossing(ends, 1e-15, function);
+            assert!(function(found).abs() <= 1e-15);
+            assert!((found - 0.098_553_688_163).abs() < 1e-12, "{found}");
+        }
+        assert!(calls.get() < 40, "{} calls", calls.get());
+    }
 }

@@ -5,13 +5,15 @@
 //! large: its path in the mate's frame, an epitrochoid or, with a ring, a hypotrochoid, goes deeper than the point where
 //! it leaves the flank.
 
-use crate::bisection::halved;
+use crate::bisection::crossing;
 use crate::involute;
 use crate::tooth::ToothGeometry;
 use std::f64::consts::PI;
 
 /// Places of the edge on its way through the tooth space.
 const PLACES: u32 = 200;
+/// To which a radius is found \[m\]: some times the rounding of one of a metre.
+const ROUNDING_M: f64 = 1e-15;
 
 /// Largest depth \[m\], along the normal of the mate's fillet, of the tip edge of `tip` in `mate` while right flanks of
 /// `tip` are in contact (the edge is then as close to the fillet as it comes); zero where it stays clear.
@@ -78,12 +80,11 @@ fn depth_in_fillet_m(tooth: &ToothGeometry, radius_m: f64, polar_rad: f64) -> f6
     {
         return 0.0;
     }
-    let lies_below = |at: f64| tooth.is_towards_tip(radius_m, radius_at(at));
-    let [low, _] = halved([low, high], 50, lies_below);
-    let [x, y] = tooth.fillet.point_m(low);
+    let place = crossing([low, high], ROUNDING_M, |at| radius_at(at) - radius_m);
+    let [x, y] = tooth.fillet.point_m(place);
     let inside = (polar_rad - y.atan2(x)) * radius_m;
     // Across the circle the fillet's tangent [± cos τ, sin τ] has this share along the radius.
-    let (sin, cos) = tooth.fillet.tangent_angle_rad(low).sin_cos();
+    let (sin, cos) = tooth.fillet.tangent_angle_rad(place).sin_cos();
     let along_radius = tooth.tip_direction() * cos * polar_rad.cos() + sin * polar_rad.sin();
     inside * along_radius.abs()
 }

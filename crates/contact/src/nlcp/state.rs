@@ -70,7 +70,7 @@ impl Workspace {
             });
         }
         if size != self.size {
-            self.warm = false;
+            self.reset();
             self.size = size;
         }
         self.first_contact = problem.first_contact();
@@ -145,6 +145,7 @@ impl Workspace {
             }
             row[0] += slope[list[i]];
         };
+        self.factored.clone_from(&self.list);
         self.factor
             .factor(list.len(), fill_row)
             .map_err(|bad| NlcpError::NotPositiveDefinite {

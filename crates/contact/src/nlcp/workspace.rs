@@ -26,6 +26,8 @@ pub struct Workspace {
     /// Indices of the active slices, ascending.
     pub(super) list: Vec<usize>,
     pub(super) factor: Ldl,
+    /// The slices that it was made of, ascending; none once it is of no use any more.
+    pub(super) factored: Vec<usize>,
     /// Active block of the correction at fixed approach.
     pub(super) correction: Vec<f64>,
     /// Active block of `(C + diag δ')⁻¹ w`.
@@ -53,6 +55,7 @@ impl Workspace {
             active: vec![false; capacity],
             list: Vec::with_capacity(capacity),
             factor: Ldl::new(capacity),
+            factored: Vec::with_capacity(capacity),
             correction: zeros(),
             per_approach: zeros(),
             force_rate: zeros(),
@@ -69,6 +72,7 @@ impl Workspace {
     /// Forgets the last solution: the next solve starts cold.
     pub fn reset(&mut self) {
         self.warm = false;
+        self.factored.clear();
     }
 
     /// Lets the next position solve, which must be of as many slices, start from these forces \[N\]; slices without force start open.
@@ -77,6 +81,7 @@ impl Workspace {
     /// If there are more forces than the capacity.
     pub fn start_from(&mut self, forces_n: &[f64]) {
         self.size = forces_n.len();
+        self.factored.clear();
         for ((own, active), force) in self.force.iter_mut().zip(&mut self.active).zip(forces_n) {
             *own = force.max(0.0);
             *active = *force > 0.0;

@@ -115,7 +115,7 @@ impl SliceContact {
         let Elastic::Reduced(flanks) = &self.elastic else {
             return;
         };
-        let [flank_1, flank_2] = &**flanks;
+        let [flank_1, flank_2] = flanks;
         let n = self.slice.len();
         for (number, a) in self.runs.iter().enumerate() {
             for b in &self.runs[number..] {
@@ -148,7 +148,7 @@ impl SliceContact {
         let Elastic::Reduced(flanks) = &self.elastic else {
             return;
         };
-        let [flank_1, flank_2] = &**flanks;
+        let [flank_1, flank_2] = flanks;
         let n = self.slice.len();
         let forces = self.work.forces();
         let [rates_1, rates_2] = &mut self.rates;

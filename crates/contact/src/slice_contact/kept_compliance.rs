@@ -187,7 +187,7 @@ impl SliceContact {
         let Elastic::Reduced(flanks) = &self.elastic else {
             return;
         };
-        let [flank_1, flank_2] = &**flanks;
+        let [flank_1, flank_2] = flanks;
         let n = self.slice.len();
         let [rates_1, rates_2] = &mut self.rates;
         for (i, a) in self.runs.iter().enumerate() {

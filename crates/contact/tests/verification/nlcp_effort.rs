@@ -16,7 +16,7 @@ fn effort_of_warm_steps_is_unchanged() {
     let compliance = compliance(Kind::GearLike, n, &mut random);
     let local: Vec<_> = (0..n).map(|_| weber(100.0, &mut random)).collect();
     let mut work = Workspace::new(n);
-    let mut iterations = Vec::new();
+    let (mut iterations, mut factorisations) = (Vec::new(), 0);
     for step in 0..20 {
         let separation = (0..n)
             .map(|i| 4e-6 * (0.05 * f64::from(step) + 0.3 * i as f64).sin())
@@ -29,11 +29,15 @@ fn effort_of_warm_steps_is_unchanged() {
             lever: vec![0.07; n],
         };
         let info = solve_load(&data.problem(), 70.0, &Params::default(), &mut work).unwrap();
-        // One more for the tangent.
-        assert_eq!(info.factorisations, info.iterations + 1);
+        // One more for the tangent, one less where the last correction is made by the factor of the one before.
+        assert!(info.factorisations <= info.iterations + 1);
+        factorisations += info.factorisations;
         iterations.push(info.iterations);
     }
-    assert_eq!(iterations, WARM_STEPS);
+    assert_eq!(
+        (&iterations[..], factorisations),
+        (&WARM_STEPS.0[..], WARM_STEPS.1)
+    );
 }
 
 #[test]
@@ -84,16 +88,19 @@ fn helical_positions_take_few_corrections() {
     let mean = corrections as f64 / 400.0;
     println!("{unknowns} unknowns, {mean} corrections in the mean, {most} at most");
     assert!((18..=36).contains(&unknowns), "{unknowns}");
-    // One more each for the tangent.
+    // One more each for the tangent, one less each where a factor is used again.
     assert!(
-        factorisations <= corrections + 400,
+        factorisations <= corrections + 50,
         "{factorisations} {corrections}"
     );
     assert!(mean < 3.2 && most <= 6, "{mean} {most}");
 }
 
-/// Corrections of each of the twenty steps; the first is cold.
-const WARM_STEPS: [usize; 20] = [3, 4, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3];
+/// Corrections of each of the twenty steps, of which the first is cold, and factorisations of all.
+const WARM_STEPS: ([usize; 20], usize) = (
+    [3, 4, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3],
+    61,
+);
 
 /// Number of problems by corrections (the last entry: 11 or more), and those left to the descent.
-const RANDOM_PROBLEMS: ([usize; 12], usize) = ([14, 91, 146, 144, 62, 18, 4, 0, 0, 0, 0, 0], 0);
+const RANDOM_PROBLEMS: ([usize; 12], usize) = ([14, 91, 145, 134, 73, 18, 3, 1, 0, 0, 0, 0], 0);

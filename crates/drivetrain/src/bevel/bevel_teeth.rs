@@ -1,5 +1,7 @@
 //! What deflects in a bevel mesh in slices: two reduced gears, or the surfaces of rigid ones.
 
+use std::sync::Arc;
+
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{ContactError, HalfSpaces, LocalContact, SliceCompliance};
 use gearmesh_geometry::Flank;
@@ -36,7 +38,12 @@ impl BevelSlices {
         // Slices stand where they were laid on gear 1, and walk along the teeth of gear 2.
         let compliance = [flank(0)?, flank(1)?.walking_along(layout.face_widths_m[0])];
         let lines = self.capacity() / layout.slices;
-        Ok(SliceContact::new(layout, compliance, local, lines))
+        Ok(SliceContact::new(
+            layout,
+            compliance.map(Arc::new),
+            local,
+            lines,
+        ))
     }
 
     /// The contact of rigid gears whose surfaces deflect: Young's modulus \[Pa\] and Poisson's ratio of both.

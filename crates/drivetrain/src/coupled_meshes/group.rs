@@ -9,6 +9,7 @@ use gearmesh_dynamics::relative_motion::{Jacobian, PairTangent};
 use gearmesh_dynamics::{BodyId, BodyMotion, GROUND, Iterate, RelativeMotion};
 use gearmesh_geometry::Flank;
 use gearmesh_model::{RadialMotions, ReducedGear};
+use nalgebra::Matrix3;
 
 use super::roller_bore::RollerBore;
 use crate::error::DrivetrainError;
@@ -283,12 +284,13 @@ impl Group {
                     left.tr_mul(&(by_pose * right + by_rates * turned)),
                     left.tr_mul(&(by_rates * right)),
                 ];
-                for (i, j) in (0..12).flat_map(|i| (0..12).map(move |j| (i, j))) {
-                    let (row, column) = (at[0][i / 6] + i % 6, at[1][j / 6] + j % 6);
-                    loads.add_by_position(row, column, blocks[0][(i, j)]);
-                    if by_rates != Matrix6::zeros() {
-                        loads.add_by_velocity(row, column, blocks[1][(i, j)]);
-                    }
+                add_block(&blocks[0], at, |row, column, part| {
+                    loads.add_block_by_position(row, column, part);
+                });
+                if by_rates != Matrix6::zeros() {
+                    add_block(&blocks[1], at, |row, column, part| {
+                        loads.add_block_by_velocity(row, column, part);
+                    });
                 }
             }
         }
@@ -310,10 +312,15 @@ impl Group {
                 continue;
             }
             let jacobian = bore.motion(view).jacobian();
+            let mut add = |block: &PairTangent, at: [[usize; 2]; 2]| {
+                add_block(block, at, |row, column, part| {
+                    loads.add_block_by_position(row, column, part);
+                });
+            };
             for (other, second) in self.bores.iter().enumerate().filter(|(k, _)| *k != number) {
                 let to = second.bodies().map(&places);
                 let block = -self.between_bores([number, other]) * second.motion(view).jacobian();
-                add_block(loads, [at, to], &jacobian.tr_mul(&block));
+                add(&jacobian.tr_mul(&block), [at, to]);
             }
             for (side, of_side) in self.sides.iter().enumerate() {
                 let Some([on_ring, on_mesh]) = self.with_mesh(bore, (side, of_side)) else {
@@ -321,8 +328,8 @@ impl Group {
                 };
                 let mesh = &self.jacobians[of_side.mesh];
                 let to = self.meshes[of_side.mesh].gear_bodies().map(&places);
-                add_block(loads, [at, to], &jacobian.tr_mul(&(on_ring * mesh)));
-                add_block(loads, [to, at], &mesh.tr_mul(&(on_mesh * jacobian)));
+                add(&jacobian.tr_mul(&(on_ring * mesh)), [at, to]);
+                add(&mesh.tr_mul(&(on_mesh * jacobian)), [to, at]);
             }
         }
     }
@@ -376,6 +383,8 @@ impl Group {
                 continue;
             };
             let stiffness = self.joint.stiffness_of(starts[0] + row);
+            // By pose and by rates, of all contacts of the other side.
+            let mut felt = [Vector6::zeros(); 2];
             for (j, contact) in of_b.contacts.iter().enumerate() {
                 let Some(column) = of_b.model.patch_of(j) else {
                     continue;
@@ -383,23 +392,30 @@ impl Group {
                 let k = stiffness[starts[1] + column];
                 if k != 0.0 {
                     carries = true;
-                    let ([by_gap, by_rate], _) = of_b.felt.felt(j);
-                    let rank_one = of_a.directions[i] * contact.gradient.transpose();
-                    by_pose -= k * by_gap * rank_one;
-                    by_rates -= k * by_rate * rank_one;
+                    let (by_gaps, _) = of_b.felt.felt(j);
+                    for (felt, by_gap) in felt.iter_mut().zip(by_gaps) {
+                        *felt -= k * by_gap * contact.gradient;
+                    }
                 }
             }
+            by_pose += of_a.directions[i] * felt[0].transpose();
+            by_rates += of_a.directions[i] * felt[1].transpose();
         }
         carries.then_some([by_pose, by_rates])
     }
 }
 
-/// Adds the tangent of two pairs of bodies.
-fn add_block(loads: &mut Loads, at: [[usize; 2]; 2], block: &PairTangent) {
-    for (i, j) in (0..12).flat_map(|i| (0..12).map(move |j| (i, j))) {
+/// Adds the tangent of two pairs of bodies, forces and moments apart.
+fn add_block(
+    block: &PairTangent,
+    at: [[usize; 2]; 2],
+    mut add: impl FnMut(usize, usize, &Matrix3<f64>),
+) {
+    for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
         let [row, column] =
-            [(at[0], i), (at[1], j)].map(|(at, k): ([usize; 2], usize)| at[k / 6] + k % 6);
-        loads.add_by_position(row, column, block[(i, j)]);
+            [(at[0], i), (at[1], j)].map(|(at, k): ([usize; 2], usize)| at[k / 2] + 3 * (k % 2));
+        let part = block.fixed_view::<3, 3>(3 * i, 3 * j);
+        add(row, column, &part.into_owned());
     }
 }
 

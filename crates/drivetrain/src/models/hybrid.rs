@@ -15,7 +15,8 @@
 
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{
-    ContactLines, ContactPatch, Drive, LocalContact, SliceLayout, nlcp::FLOOR_FRACTION,
+    CondensedFlanks, ContactLines, ContactPatch, Drive, LocalContact, SliceLayout,
+    nlcp::FLOOR_FRACTION,
 };
 use gearmesh_dynamics::Iterate;
 use gearmesh_geometry::{Flank, GearPair, Microgeometry};
@@ -110,19 +111,21 @@ impl ReducedTeeth {
         nominal_force_n: f64,
     ) -> Result<Self, DrivetrainError> {
         let layout = SliceLayout::of_models(models, displacement_m);
-        Self::on_slices(pair, side, models, (local, layout), nominal_force_n)
+        let known = CondensedFlanks::default();
+        Self::on_slices(pair, side, models, (local, layout), nominal_force_n, &known)
     }
 
-    /// The same on the slices of a layout, see [`SliceLayout::resolved`].
+    /// The same on the slices of a layout, see [`SliceLayout::resolved`], of flanks that may be `known`.
     ///
     /// # Errors
     /// As [`Self::displaced`].
-    pub fn on_slices(
+    pub fn on_slices<'a>(
         pair: &GearPair,
         side: Flank,
-        models: [&ReducedGear; 2],
+        models: [&'a ReducedGear; 2],
         (local, layout): (LocalContact, SliceLayout),
         nominal_force_n: f64,
+        known: &CondensedFlanks<'a>,
     ) -> Result<Self, DrivetrainError> {
         let lines = ContactLines {
             pair: pair.clone(),
@@ -136,7 +139,7 @@ impl ReducedTeeth {
         let teeth = [pair.gear_1.teeth, pair.gear_2.teeth];
         let sides = [0, 1].map(|gear| pair.circles().side_of(gear, side));
         let flanks = (teeth, sides);
-        let slices = SliceContact::of_gears(models, flanks, (local, layout), most_lines)?;
+        let slices = SliceContact::of_gears(models, flanks, (local, layout), most_lines, known)?;
         Self::of_flanks(slices, nominal_force_n)
     }
 

@@ -1,7 +1,7 @@
 //! `static`: equilibria, one after the other, each found from the one before; each load factor in a system of its own.
 
 use gearmesh_dynamics::{
-    EnergyBalance, State, StaticParams, System, equilibrium, next_equilibrium,
+    EnergyBalance, Equilibrium, State, StaticParams, System, equilibrium, next_equilibrium,
 };
 use gearmesh_model::Column;
 use std::sync::atomic::Ordering;
@@ -33,7 +33,7 @@ pub(super) fn run_static(
     let none = EnergyBalance::default();
     // Each load factor begins where the first one began, then goes on from point to point.
     let mut first: Option<State> = None;
-    let mut last: Option<(f64, System, State)> = None;
+    let mut last: Option<(f64, System, Equilibrium)> = None;
     for (number, point) in points.iter().enumerate() {
         let params = StaticParams::default();
         let on_the_way = StaticParams {
@@ -44,8 +44,8 @@ pub(super) fn run_static(
             .take()
             .filter(|(factor, ..)| factor.to_bits() == point.load_factor.to_bits());
         let (mut system, found) = match same {
-            Some((_, mut system, state)) => {
-                let found = next_equilibrium(&mut system, &state, point.time_s, &on_the_way)?;
+            Some((_, mut system, before)) => {
+                let found = next_equilibrium(&mut system, &before, point.time_s, &on_the_way)?;
                 (system, found)
             }
             None => {
@@ -54,7 +54,7 @@ pub(super) fn run_static(
                 let found = if first.is_none() && point.time_s > state.time_s {
                     // From where the scene begins, where teeth touch, and on to the first position.
                     let begun = equilibrium(&mut system, &state, &params)?;
-                    next_equilibrium(&mut system, &begun.state, point.time_s, &on_the_way)?
+                    next_equilibrium(&mut system, &begun, point.time_s, &on_the_way)?
                 } else {
                     state.time_s = point.time_s;
                     equilibrium(&mut system, &state, &params)?
@@ -86,7 +86,7 @@ pub(super) fn run_static(
         )?;
         part.log().append(row)?;
         first.get_or_insert_with(|| found.state.clone());
-        last = Some((point.load_factor, system, found.state));
+        last = Some((point.load_factor, system, found));
         (options.progress)(Advance {
             done: number as f64 + 1.0,
             total: points.len() as f64,

@@ -1,6 +1,7 @@
 //! Flanks that are no involutes run through the same models and must do what follows: two crowned cylinders whose axes cross at 60°.
 
 use std::f64::consts::FRAC_PI_3;
+use std::sync::Arc;
 
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{AxialSpread, LocalContact, ProfileHats, SliceCompliance, SliceLayout};
@@ -68,7 +69,7 @@ pub fn reduced_slices() -> SliceContact {
         // As far along a cylinder, as much area.
         let hats = ProfileHats::new(&body.grid.roll_angles_rad, |_| 1.0);
         let grid = (hats, &AxialSpread::own(&body));
-        SliceCompliance::on_grid(&body, Flank::Right, local, grid).unwrap()
+        Arc::new(SliceCompliance::on_grid(&body, Flank::Right, local, grid).unwrap())
     });
     SliceContact::new(cylinders().layout, compliance, local, 1)
 }

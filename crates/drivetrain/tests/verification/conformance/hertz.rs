@@ -2,6 +2,7 @@
 //! and in motion.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{
@@ -148,7 +149,7 @@ fn sliced_against_hertz(radii_m: [f64; 2], force_n: f64) -> ([f64; 2], f64) {
     let local = LocalContact::WeberBanaschek;
     let spread = AxialSpread::own(&body);
     let flank = || SliceCompliance::on_slices(&body, Flank::Right, local, &spread).unwrap();
-    let contact = SliceContact::new(layout, [flank(), flank()], local, 1);
+    let contact = SliceContact::new(layout, [flank(), flank()].map(Arc::new), local, 1);
     let mut contact = at_rest(crossed(radii_m, CROWN, layout), contact);
     let state = contact.solve(0.0, Drive::Torque(force_n * LEVER)).unwrap();
     let approach_m = state.unloaded_m - state.transmission_error_m;

@@ -4,6 +4,7 @@ use gearmesh_geometry::given;
 use std::path::Path;
 use std::sync::Arc;
 
+use gearmesh_contact::CondensedFlanks;
 use gearmesh_drivetrain::errors::eccentricity::Eccentricity;
 use gearmesh_drivetrain::{GearMesh, MeshElement, ModalPart, Pose, ToothPairs, kinematic_mesh};
 use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
@@ -63,11 +64,11 @@ pub(super) struct PreparedMesh {
 
 impl PreparedMesh {
     /// Checks a table and makes its models.
-    pub(super) fn new(
+    pub(super) fn new<'a>(
         table: &GearMeshTable,
         (document, folder): (&InputDocument, &Path),
         key: String,
-        bodies: &Bodies,
+        (bodies, condensed): (&'a Bodies, &CondensedFlanks<'a>),
         parts: &mut Parts,
     ) -> Result<Self, InputError> {
         let keys = TableKeys::new(document, &key);
@@ -154,6 +155,7 @@ impl PreparedMesh {
             folder,
             gears,
             pair: &pair,
+            condensed,
             displacement_m: at_start
                 .face_displacement_m(BaseCircles::new(gears.map(|gear| &gear.definition.profile))),
             curve: None,

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gearmesh_contact::CondensedFlanks;
 use gearmesh_drivetrain::{GearMesh, Pose};
 use gearmesh_dynamics::{BodyMotion, Marker, MarkerPair};
 use gearmesh_geometry::{Flank, GearDefinition, InputError};
@@ -197,9 +198,10 @@ impl LoadedSystem {
                 bore,
             });
         }
+        let condensed = CondensedFlanks::default();
         let prepare = |(i, table)| {
-            let key = format!("gear_mesh.{i}");
-            PreparedMesh::new(table, files, key, &bodies, &mut Parts::default())
+            let (key, with) = (format!("gear_mesh.{i}"), (&bodies, &condensed));
+            PreparedMesh::new(table, files, key, with, &mut Parts::default())
         };
         let prepared = tables.gear_mesh.iter().enumerate().map(prepare);
         let prepared = prepared.collect::<Result<Vec<PreparedMesh>, InputError>>()?;

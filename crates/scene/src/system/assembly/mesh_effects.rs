@@ -6,7 +6,7 @@ use crate::system::tables::UM;
 use crate::system::tables::gear_mesh::TouchingFlanks;
 use crate::system::tables::mesh_model::{MeshKind, MeshModel};
 
-impl SceneMesh<'_> {
+impl SceneMesh<'_, '_> {
     /// Lists the effects of this mesh.
     pub(super) fn effects(&self, parts: &mut Parts) {
         let (table, teeth) = (self.table, &self.teeth);

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use gearmesh_contact::{ContactError, SliceLayout};
+use gearmesh_contact::{CondensedFlanks, ContactError, SliceLayout};
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::{
     BeamTeeth, BeamTooth, Damped, DrivetrainError, FlankError, Friction, GearMesh, MeshKinematics,
@@ -23,22 +23,24 @@ use crate::system::tables::mesh_model::{
 };
 
 /// A table with all that its models are made from.
-pub(super) struct SceneMesh<'a> {
+pub(super) struct SceneMesh<'a, 'm> {
     pub table: &'a GearMeshTable,
     pub teeth: TeethTable,
     pub keys: TableKeys<'a>,
     pub model_keys: TableKeys<'a>,
     pub teeth_keys: TableKeys<'a>,
     pub folder: &'a Path,
-    pub gears: [&'a Arc<Gear>; 2],
+    pub gears: [&'m Arc<Gear>; 2],
     pub pair: &'a GearPair,
+    /// Flanks of all meshes of the scene so far.
+    pub condensed: &'a CondensedFlanks<'m>,
     /// Mid-face of gear 2 from that of gear 1 along the axes at the start \[m\].
     pub displacement_m: f64,
     /// The static curve of the pair where the stiffness comes from it.
     pub curve: Option<PairCurve>,
 }
 
-impl SceneMesh<'_> {
+impl<'m> SceneMesh<'_, 'm> {
     pub(super) fn fault(&self) -> impl Fn(DrivetrainError) -> InputError + '_ {
         |error| self.keys.error("", error)
     }
@@ -54,9 +56,10 @@ impl SceneMesh<'_> {
         SliceLayout::new(widths, self.displacement_m, slices)
     }
 
-    fn models(&self) -> Result<[&ReducedGear; 2], InputError> {
+    fn models(&self) -> Result<[&'m ReducedGear; 2], InputError> {
+        let gears: [&'m Arc<Gear>; 2] = self.gears;
         let model = |i: usize| {
-            self.gears[i].model.as_deref().ok_or_else(|| {
+            gears[i].model.as_deref().ok_or_else(|| {
                 let key = ["gear_1", "gear_2"][i];
                 self.keys.error(
                     key,
@@ -279,7 +282,9 @@ impl SceneMesh<'_> {
         let reference = REFERENCE_LINE_LOAD_N_PER_M * self.zone_width_m();
         let nominal = model.nominal_force_N.map_or(reference, f64::from);
         let contact = (model.local.unwrap_or_default(), layout);
-        ReducedTeeth::on_slices(self.pair, side, models, contact, nominal).map_err(|error| {
+        let teeth =
+            ReducedTeeth::on_slices(self.pair, side, models, contact, nominal, self.condensed);
+        teeth.map_err(|error| {
             let hint = match self.teeth.flanks {
                 TouchingFlanks::Both => "; both sides of the teeth can touch unless the mesh's teeth say flanks = \"right\" or \"left\"",
                 _ => "",

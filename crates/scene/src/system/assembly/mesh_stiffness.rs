@@ -56,7 +56,7 @@ pub(super) fn impact_law(
 const STATED_TWICE: &str =
     "is not used where `stiffness` takes it from the pair's curve; remove one of the two";
 
-impl SceneMesh<'_> {
+impl SceneMesh<'_, '_> {
     /// K in N/mm^e and e of `impact`.
     fn impact_stiffness(&self, table: &ImpactTable) -> Result<(f64, f64), InputError> {
         let keys = &self.model_keys;

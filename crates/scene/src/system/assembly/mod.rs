@@ -71,6 +71,7 @@ pub use parts_in_motion::{
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use gearmesh_contact::CondensedFlanks;
 use gearmesh_dynamics::{Motion, System, SystemBuilder};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
@@ -232,9 +233,10 @@ impl LoadedSystem {
         }
         self.refuse_repeated_names()?;
         let mut meshes: Vec<PreparedMesh> = Vec::new();
+        let condensed = CondensedFlanks::default();
         for (i, table) in tables.gear_mesh.iter().enumerate() {
-            let mesh =
-                PreparedMesh::new(table, files, format!("gear_mesh.{i}"), &bodies, &mut parts)?;
+            let (key, with) = (format!("gear_mesh.{i}"), (&bodies, &condensed));
+            let mesh = PreparedMesh::new(table, files, key, with, &mut parts)?;
             if let Some(earlier) = meshes
                 .iter()
                 .find(|other| other.bodies.iter().all(|body| mesh.bodies.contains(body)))

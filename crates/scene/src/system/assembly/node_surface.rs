@@ -124,7 +124,7 @@ impl SceneBevel<'_> {
     }
 }
 
-impl SceneMesh<'_> {
+impl SceneMesh<'_, '_> {
     /// The mesh of involute flanks.
     pub(super) fn node_surfaces(
         &self,

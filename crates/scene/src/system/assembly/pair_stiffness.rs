@@ -37,7 +37,7 @@ struct Curves {
     tangent_n_per_m: Vec<f64>,
 }
 
-impl SceneMesh<'_> {
+impl SceneMesh<'_, '_> {
     /// The curve that `stiffness` names; none where the table has no such key.
     pub(super) fn static_curve(&self, side: Flank) -> Result<Option<PairCurve>, InputError> {
         let Some(table) = self.table.model.pair_stiffness() else {
