@@ -23,7 +23,8 @@ export class Form {
   #rows = new Map();
   #groups = new Map();
 
-  constructor(place, fields, state) {
+  /** `opened`: groups that were opened or closed in the forms before this one, which stay so. */
+  constructor(place, fields, state, opened = new Map()) {
     this.place = place;
     this.state = state;
     place.addEventListener("submit", (event) => event.preventDefault());
@@ -34,7 +35,8 @@ export class Form {
     names.forEach((name, number) => {
       const count = element("span", { className: "count" });
       const title = element("summary", {}, words(name), " ", count);
-      const group = element("details", { open: number < OPEN && innerWidth > NARROW }, title);
+      const group = element("details", { open: opened.get(name) ?? (number < OPEN && innerWidth > NARROW) }, title);
+      title.addEventListener("click", () => opened.set(name, !group.open));
       for (const field of groups.get(name)) group.append(this.#row(field));
       this.#groups.set(name, count);
       place.append(group);

@@ -92,6 +92,7 @@ export async function showNew() {
   };
   const pins = new Pins({ go: take, changed: () => found && bevel?.show(found, pins) });
   const looks = [];
+  const opened = new Map();
   globalThis.gearmeshLooks = looks;
   const job = new Job((words) => {
     say(words);
@@ -102,7 +103,7 @@ export async function showNew() {
     const { file } = texts;
     if (shown !== texts.name) {
       byId("begin-form").replaceChildren();
-      form = file.fields?.length ? new Form(byId("begin-form"), file.fields, texts) : null;
+      form = file.fields?.length ? new Form(byId("begin-form"), file.fields, texts, opened) : null;
       if (!form) byId("begin-form").append(element("p", { className: "help" }, "This file is changed as text."));
       shown = texts.name;
     } else form?.restate(file.fields);

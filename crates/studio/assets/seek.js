@@ -92,15 +92,19 @@ export class Seeker {
     const names = figures.objectives;
     const label = (name) => this.columns.reduce((text, column) => (text.startsWith(`${column.name} `) ? `${column.label} ${column.unit}${text.slice(column.name.length)}` : text), name);
     const take = ({ variables }) => this.state.go({ settings: { ...settings, ...variables }, removed: change.removed.filter((key) => !(key in settings)) }, performance.now());
-    const words = ({ objectives, variables }) => [...Object.entries(objectives), ...Object.entries(variables)].map(([name, value]) => `${label(name).replace(/^gear_(.)\.microgeometry\.(.*)_um$/, (_, gear, key) => `${key.replaceAll("_", " ")} ${gear} µm`)}: ${short(value)}`).join(", ");
+    const heading = (name) => label(name).replace(/^gear_(.)\.microgeometry\.(.*)_um$/, (_, gear, key) => `${key.replaceAll("_", " ")} ${gear} µm`);
+    const entries = ({ objectives, variables }) => [...Object.entries(objectives), ...Object.entries(variables)].map(([name, value]) => [heading(name), short(value)]);
+    const words = (point) => entries(point).map((pair) => pair.join(": ")).join(", ");
     const rows = figures.front.map((point) => {
-      const button = element("button", { type: "button" }, "take over");
+      const button = element("button", { type: "button", ariaLabel: `take over ${words(point)}` }, "take over");
       button.addEventListener("click", () => take(point));
-      return element("li", {}, `${words(point)} `, button);
+      return element("tr", {}, ...entries(point).map(([, value]) => element("td", {}, value)), element("td", {}, button));
     });
+    const titles = figures.front.slice(0, 1).flatMap(entries).map(([title]) => element("th", { scope: "col" }, title));
+    const table = element("table", {}, element("thead", {}, element("tr", {}, ...titles, element("th"))), element("tbody", {}, ...rows));
     const picture = names.length > 1 ? [this.#picture(figures, names, take, words, label)] : [];
     const before = names.map((name, k) => `${label(name)} ${short(figures.as_it_is[k])}`).join(", ");
-    byId("seek-front").replaceChildren(element("p", { className: "help" }, `${figures.tried} choices were tried. As it was: ${before}. A click takes a point over.`), ...picture, element("ol", {}, ...rows));
+    byId("seek-front").replaceChildren(element("p", { className: "help" }, `${figures.tried} choices were tried. As it was: ${before}. A click takes a point over.`), ...picture, element("div", { className: "rows", tabIndex: 0 }, table));
   }
 
   #picture({ front, as_it_is }, names, take, words, label) {
@@ -124,7 +128,7 @@ export class Seeker {
     svg.append(drawn("rect", { x: bx - 5, y: by - 5, width: 10, height: 10, class: "before" }));
     for (const point of front) {
       const [cx, cy] = place(names.map((name) => point.objectives[name]));
-      const dot = drawn("circle", { cx, cy, r: 7, class: "point", tabindex: 0, role: "button", "aria-label": words(point) });
+      const dot = drawn("circle", { cx, cy, r: 5, class: "point", tabindex: 0, role: "button", "aria-label": words(point) });
       dot.append(drawn("title", {}, words(point)));
       dot.addEventListener("click", () => take(point));
       dot.addEventListener("keydown", (event) => event.key === "Enter" && take(point));
