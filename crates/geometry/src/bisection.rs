@@ -21,25 +21,26 @@ pub(crate) fn halved(
 /// value: regula falsi that halves the value of an end which stays (Dowell and Jarratt, A modified regula falsi method,
 /// BIT 11 (1971): the Illinois algorithm).
 pub(crate) fn crossing(
-    [mut low, mut high]: [f64; 2],
+    [mut other, mut last]: [f64; 2],
     rounding: f64,
     function: impl Fn(f64) -> f64,
 ) -> f64 {
-    let (mut at_low, mut at_high) = (function(low), function(high));
+    let (mut at_other, mut at_last) = (function(other), function(last));
     // Some ten are enough; the bound ends what rounding would keep going.
     for _ in 0..100 {
-        let next = (low * at_high - high * at_low) / (at_high - at_low);
+        let next = (other * at_last - last * at_other) / (at_last - at_other);
         let found = function(next);
         if found.abs() <= rounding || found.is_nan() {
             return next;
         }
-        if (found < 0.0) == (at_low < 0.0) {
-            (low, at_low, at_high) = (next, found, 0.5 * at_high);
+        if (found < 0.0) == (at_last < 0.0) {
+            at_other *= 0.5;
         } else {
-            (high, at_high, at_low) = (next, found, 0.5 * at_low);
+            (other, at_other) = (last, at_last);
         }
+        (last, at_last) = (next, found);
     }
-    0.5 * (low + high)
+    last
 }
 
 #[cfg(test)]
@@ -59,6 +60,6 @@ mod tests {
             assert!(function(found).abs() <= 1e-15);
             assert!((found - 0.098_553_688_163).abs() < 1e-12, "{found}");
         }
-        assert!(calls.get() < 40, "{} calls", calls.get());
+        assert!(calls.get() < 30, "{} calls", calls.get());
     }
 }
