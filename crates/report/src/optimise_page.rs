@@ -196,28 +196,35 @@ fn front_table(problem: &Optimisation, found: &Optimum) -> Table {
 
 /// What was asked: variables with their bounds, objectives, scatter.
 fn question(problem: &Optimisation, found: &Optimum) -> Section {
-    let tables = &problem.tables;
-    let mut variables = Table::new("Variables, their bounds, and what the front has of them")
+    let section = Section::new("What was asked")
+        .push(variables(problem, found))
+        .push(objectives(problem));
+    match problem.tables.scatter.is_empty() {
+        true => section,
+        false => section.push(scatter(problem)),
+    }
+}
+
+fn variables(problem: &Optimisation, found: &Optimum) -> Table {
+    let mut table = Table::new("Variables, their bounds, and what the front has of them")
         .column("variable", Align::Left)
         .column("from", Align::Right)
         .column("to", Align::Right)
         .column("front", Align::Right)
         .column("at a bound", Align::Left)
         .column("keys", Align::Phrase);
-    for (k, variable) in tables.variable.iter().enumerate() {
-        let [low, high] = ends(found.front.iter().map(|trial| trial.values[k]));
+    for (k, variable) in problem.tables.variable.iter().enumerate() {
+        let values = || found.front.iter().map(|trial| trial.values[k]);
+        let [low, high] = ends(values());
         let near = AT_BOUND * (variable.to - variable.from);
-        let count = |bound: f64| {
-            let values = found.front.iter().map(|trial| trial.values[k]);
-            values.filter(|value| (value - bound).abs() <= near).count()
-        };
+        let count = |bound: f64| values().filter(|v| (v - bound).abs() <= near).count();
         let at = match [count(variable.from), count(variable.to)] {
             [0, 0] => "none".to_owned(),
             [lower, 0] => format!("{lower} at the lower"),
             [0, upper] => format!("{upper} at the upper"),
             [lower, upper] => format!("{lower} at the lower, {upper} at the upper"),
         };
-        variables.push_row([
+        table.push_row([
             head(parameter(&variable.name, &variable.keys)),
             short(variable.from),
             short(variable.to),
@@ -229,14 +236,18 @@ fn question(problem: &Optimisation, found: &Optimum) -> Section {
             code(&variable.keys),
         ]);
     }
-    let mut objectives = Table::new("Objectives, sums of what is to be small")
+    table
+}
+
+fn objectives(problem: &Optimisation) -> Table {
+    let mut table = Table::new("Objectives, sums of what is to be small")
         .column("objective", Align::Left)
         .column("column", Align::Left)
         .column("torque N m", Align::Right)
         .column("weight", Align::Right);
-    for objective in &tables.objective {
+    for objective in &problem.tables.objective {
         for term in &objective.term {
-            objectives.push_row([
+            table.push_row([
                 head(words_and_unit(&objective.name)),
                 format!("`{}`", term.column),
                 term.torque_Nm
@@ -245,38 +256,34 @@ fn question(problem: &Optimisation, found: &Optimum) -> Section {
             ]);
         }
     }
-    let mut section = Section::new("What was asked")
-        .push(variables)
-        .push(objectives);
-    if !tables.scatter.is_empty() {
-        let judged = match tables.judged_by.unwrap_or_default() {
-            Judged::Mean => "their mean counts",
-            Judged::Worst => "the worst of them counts",
+    table
+}
+
+fn scatter(problem: &Optimisation) -> Table {
+    let judged = match problem.tables.judged_by.unwrap_or_default() {
+        Judged::Mean => "their mean counts",
+        Judged::Worst => "the worst of them counts",
+    };
+    let mut table = Table::new(format!(
+        "Scatter: every choice is tried on {} pairs, {judged}",
+        problem.samples()
+    ))
+    .column("what scatters", Align::Left)
+    .column("by", Align::Left)
+    .column("keys", Align::Phrase);
+    for one in &problem.tables.scatter {
+        let by = match (&one.normal, &one.uniform) {
+            (Some(normal), _) => format!(
+                "normal, mean {}, standard deviation {}",
+                short(normal.mean),
+                short(normal.deviation)
+            ),
+            (None, Some(range)) => format!("even, {} to {}", short(range.from), short(range.to)),
+            (None, None) => String::new(),
         };
-        let mut scatter = Table::new(format!(
-            "Scatter: every choice is tried on {} pairs, {judged}",
-            problem.samples()
-        ))
-        .column("what scatters", Align::Left)
-        .column("by", Align::Left)
-        .column("keys", Align::Phrase);
-        for one in &tables.scatter {
-            let by = match (&one.normal, &one.uniform) {
-                (Some(normal), _) => format!(
-                    "normal, mean {}, standard deviation {}",
-                    short(normal.mean),
-                    short(normal.deviation)
-                ),
-                (None, Some(range)) => {
-                    format!("even, {} to {}", short(range.from), short(range.to))
-                }
-                (None, None) => String::new(),
-            };
-            scatter.push_row([head(parameter(&one.name, &one.keys)), by, code(&one.keys)]);
-        }
-        section = section.push(scatter);
+        table.push_row([head(parameter(&one.name, &one.keys)), by, code(&one.keys)]);
     }
-    section
+    table
 }
 
 fn code(keys: &[String]) -> String {

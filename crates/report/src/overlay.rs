@@ -150,6 +150,27 @@ pub fn overlaid_systems(results: &[(String, &SystemResult)]) -> Result<Option<Se
     if others.is_empty() || !overlaid || others.iter().any(|(_, r)| r.kind != first.kind) {
         return Ok(None);
     }
+    let common = common_columns(first, others);
+    let mut section = Section::new("Results side by side");
+    if common.is_empty() {
+        return Ok(Some(section.push(Text::paragraph(
+            "The files have no meshes or bearings of the same names; nothing is overlaid.",
+        ))));
+    }
+    let left_out = common.len().saturating_sub(MOST_CHARTS);
+    for column in common.iter().take(MOST_CHARTS) {
+        section = section.push(overlaid_column(results, column, in_time)?);
+    }
+    if left_out > 0 {
+        section = section.push(Text::note(format!(
+            "{left_out} more common columns are not overlaid."
+        )));
+    }
+    Ok(Some(section))
+}
+
+/// Columns that all results have, the foremost first.
+fn common_columns(first: &SystemResult, others: &[(String, &SystemResult)]) -> Vec<Column> {
     let columns_of = |r: &SystemResult| -> Vec<Column> {
         match &r.sweep {
             Some(sweep) => sweep.columns.clone(),
@@ -164,63 +185,43 @@ pub fn overlaid_systems(results: &[(String, &SystemResult)]) -> Result<Option<Se
     let mut common = columns_of(first);
     common.retain(|c| rank(&c.name) <= LAST_RANK && others.iter().all(|all| has(all, c)));
     common.sort_by_key(|column| rank(&column.name));
-    let mut section = Section::new("Results side by side");
-    if common.is_empty() {
-        return Ok(Some(section.push(Text::paragraph(
-            "The files have no meshes or bearings of the same names; nothing is overlaid.",
-        ))));
-    }
-    let left_out = common.len().saturating_sub(MOST_CHARTS);
-    for Column { name, unit, .. } in common.iter().take(MOST_CHARTS) {
-        let curves = results.iter().map(|(_, r)| {
-            if in_time {
-                in_time_curve(r, name)
-            } else {
-                Ok(swept_curve(r, name))
-            }
-        });
-        let curves = curves.collect::<Result<Vec<_>, FileError>>()?;
-        let stem = stem(name, unit);
-        let values = curves.iter().flat_map(|(_, y)| y);
-        let largest = values.fold(0.0, |most: f64, y| most.max(y.abs()));
-        let (factor, unit) = usual_unit(unit, largest);
-        let x = &curves[0].0;
-        let readable = stem
-            .split('/')
-            .skip(1)
-            .collect::<Vec<_>>()
-            .join(": ")
-            .replace('_', " ");
-        let (title, axis) = if in_time {
-            (readable, Axis::new("time", "s"))
-        } else {
-            let title = format!("{readable}, peak to peak on the way up");
-            (title, Axis::new("speed of the varied motion", "rpm"))
-        };
-        let thin = if in_time {
-            min_max::abscissas(x)
-        } else {
-            x.clone()
-        };
-        let mut chart = LineChart::new(title, axis, Axis::new("value", unit)).x_values(thin);
-        for ((file, _), (own, y)) in results.iter().zip(&curves) {
-            let values = interpolated(own, y, x).into_iter().map(|v| factor * v);
-            let values: Vec<f64> = values.collect();
-            let values = if in_time {
-                min_max::values(&values)
-            } else {
-                values
-            };
-            chart = chart.series(LineSeries::new(file.clone(), values));
+    common
+}
+
+/// One column of all results, over the abscissas of the first.
+fn overlaid_column(
+    results: &[(String, &SystemResult)],
+    Column { name, unit, .. }: &Column,
+    in_time: bool,
+) -> Result<LineChart, FileError> {
+    let curve = |(_, r): &(String, &SystemResult)| match in_time {
+        true => in_time_curve(r, name),
+        false => Ok(swept_curve(r, name)),
+    };
+    let curves = results.iter().map(curve).collect::<Result<Vec<_>, _>>()?;
+    let values = curves.iter().flat_map(|(_, y)| y);
+    let largest = values.fold(0.0, |most: f64, y| most.max(y.abs()));
+    let words: Vec<&str> = stem(name, unit).split('/').skip(1).collect();
+    let words = words.join(": ").replace('_', " ");
+    let (factor, unit) = usual_unit(unit, largest);
+    let x = &curves[0].0;
+    let (title, axis, shown) = if in_time {
+        (words, Axis::new("time", "s"), min_max::abscissas(x))
+    } else {
+        let title = format!("{words}, peak to peak on the way up");
+        let axis = Axis::new("speed of the varied motion", "rpm");
+        (title, axis, x.clone())
+    };
+    let mut chart = LineChart::new(title, axis, Axis::new("value", unit)).x_values(shown);
+    for ((file, _), (own, y)) in results.iter().zip(&curves) {
+        let mut values = interpolated(own, y, x);
+        values.iter_mut().for_each(|v| *v *= factor);
+        if in_time {
+            values = min_max::values(&values);
         }
-        section = section.push(chart);
+        chart = chart.series(LineSeries::new(file.clone(), values));
     }
-    if left_out > 0 {
-        section = section.push(Text::note(format!(
-            "{left_out} more common columns are not overlaid."
-        )));
-    }
-    Ok(Some(section))
+    Ok(chart)
 }
 
 type Curve = (Vec<f64>, Vec<f64>);

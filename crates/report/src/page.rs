@@ -5,6 +5,7 @@
 //! three (MIT), which only pages with such a picture carry. A content security policy in the page forbids every
 //! request. All texts are escaped.
 
+mod checks;
 mod error;
 mod field_picture;
 mod flank_chart;

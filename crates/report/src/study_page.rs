@@ -260,67 +260,44 @@ fn main_effects(study: &Study, cases: &[CaseResult], columns: &[Column]) -> Opti
             .column("rank correlation", Align::Right);
     let mut pictures = Vec::new();
     for parameter in &study.tables.parameter {
+        let (words, unit) = column_words::parameter(&parameter.name, &parameter.keys);
         let groups = groups(cases, &parameter.name);
         for column in columns {
-            let mut chart = ScatterChart::new(
-                format!(
-                    "{} over {}",
-                    column.words,
-                    column_words::parameter(&parameter.name, &parameter.keys).0
-                ),
-                axis(column_words::parameter(&parameter.name, &parameter.keys)),
+            let chart = ScatterChart::new(
+                format!("{} over {words}", column.words),
+                axis((words.clone(), unit)),
                 column.axis(),
             );
-            let (mut drawn, mut has_means) = (false, false);
+            let mut curves = Vec::new();
             for (name, values) in column.curves.iter().take(MOST_TORQUES) {
-                let means: Vec<(Option<f64>, f64)> = groups
-                    .iter()
-                    .filter_map(|(_, at, members)| {
-                        Some((*at, mean(members.iter().filter_map(|k| values[*k]))?))
-                    })
-                    .collect();
-                let largest = means.iter().map(|m| m.1).fold(f64::NEG_INFINITY, f64::max);
-                let least = means.iter().map(|m| m.1).fold(f64::INFINITY, f64::min);
-                let points: Vec<[f64; 2]> = cases
-                    .iter()
-                    .zip(values)
-                    .filter_map(|(case, y)| Some([value_of(case, &parameter.name)?, (*y)?]))
-                    .collect();
-                if means.len() > 1 {
-                    let ranks = rank_correlation(&points);
+                let curve = Effect::of(cases, &parameter.name, &groups, values);
+                if let Some([least, largest]) = curve.ends_of_means() {
+                    let ranks = rank_correlation(&curve.points);
                     table.push_row([
-                        column_words::parameter(&parameter.name, &parameter.keys).0,
+                        words.clone(),
                         column.words.clone(),
                         name.clone(),
                         format!("{} {}", short(largest - least), column.unit),
                         ranks.map_or_else(String::new, |r| format!("{r:.2}")),
                     ]);
                 }
-                let line: Vec<[f64; 2]> = (means.iter())
-                    .filter_map(|(at, value)| Some([(*at)?, *value]))
-                    .collect();
-                if line.len() > 1 {
-                    drawn = true;
-                    let series = match points.len() > line.len() {
-                        true => {
-                            has_means = true;
-                            PointSeries::new(name.clone(), points).through(line)
-                        }
-                        false => PointSeries::new(name.clone(), line).joined(),
-                    };
-                    chart = chart.series(series);
-                }
+                curves.extend(curve.drawn(name));
             }
             let mut told = Vec::new();
-            if has_means {
+            if curves.iter().any(|(_, has_means)| *has_means) {
                 told.push("lines: means of groups of cases".to_owned());
             }
             if column.curves.len() > MOST_TORQUES {
                 let count = column.curves.len();
                 told.push(format!("the first {MOST_TORQUES} of {count} torques"));
             }
-            if drawn && pictures.len() < MOST_PICTURES {
-                pictures.push(chart.told(told.join("; ")));
+            if !curves.is_empty() && pictures.len() < MOST_PICTURES {
+                let series = curves.into_iter().map(|(series, _)| series);
+                pictures.push(
+                    series
+                        .fold(chart, ScatterChart::series)
+                        .told(told.join("; ")),
+                );
             }
         }
     }
@@ -331,6 +308,56 @@ fn main_effects(study: &Study, cases: &[CaseResult], columns: &[Column]) -> Opti
     let section = Section::new("What each parameter does").push(Text::paragraph(told));
     let section = pictures.into_iter().fold(section, Section::push);
     Some(section.push(table))
+}
+
+/// What a column is over one parameter.
+struct Effect {
+    /// Of each group: its place on the axis, where it has one, and its mean.
+    means: Vec<(Option<f64>, f64)>,
+    /// Of each case: value of the parameter, and of the column.
+    points: Vec<[f64; 2]>,
+}
+
+impl Effect {
+    fn of(
+        cases: &[CaseResult],
+        parameter: &str,
+        groups: &[(String, Option<f64>, Vec<usize>)],
+        values: &[Option<f64>],
+    ) -> Self {
+        let mean_of = |members: &[usize]| mean(members.iter().filter_map(|k| values[*k]));
+        let means = groups.iter();
+        let means = means.filter_map(|(_, at, members)| Some((*at, mean_of(members)?)));
+        let points = cases.iter().zip(values);
+        let points = points.filter_map(|(case, y)| Some([value_of(case, parameter)?, (*y)?]));
+        Self {
+            means: means.collect(),
+            points: points.collect(),
+        }
+    }
+
+    /// Least and largest mean; none of a single group.
+    fn ends_of_means(&self) -> Option<[f64; 2]> {
+        let means = || self.means.iter().map(|m| m.1);
+        (self.means.len() > 1).then(|| {
+            [
+                means().fold(f64::INFINITY, f64::min),
+                means().fold(f64::NEG_INFINITY, f64::max),
+            ]
+        })
+    }
+
+    /// The series of a chart, and whether its line joins means of several cases; none without a line.
+    fn drawn(self, name: &str) -> Option<(PointSeries, bool)> {
+        let line = self.means.iter();
+        let line = line.filter_map(|(at, value)| Some([(*at)?, *value]));
+        let line: Vec<[f64; 2]> = line.collect();
+        let has_means = self.points.len() > line.len();
+        (line.len() > 1).then(|| match has_means {
+            true => (PointSeries::new(name, self.points).through(line), true),
+            false => (PointSeries::new(name, line).joined(), false),
+        })
+    }
 }
 
 /// Spearman's rank correlation; none where nothing varies.

@@ -63,23 +63,7 @@ pub fn record_files(
     let columns = columns_of(&channels, request)?;
     let mut notes = Vec::new();
     let first = columns[0].1;
-    let mut angle_deg = angles(first, request)?;
-    if let Some(note) = without_wraps(&mut angle_deg) {
-        notes.push(note);
-    }
-    if angle_deg.last() < angle_deg.first() {
-        // A record's angle is positive in the shaft's own sense of turning.
-        angle_deg.iter_mut().for_each(|angle| *angle = -*angle);
-        notes.push("the angle falls: its sign is changed".to_owned());
-    }
-    let places = places_of(&angle_deg);
-    if places.len() < angle_deg.len() {
-        notes.push(format!(
-            "{} values stand at the angle of the one before: of each angle the mean is taken",
-            angle_deg.len() - places.len()
-        ));
-        angle_deg = places.iter().map(|rows| angle_deg[rows.start]).collect();
-    }
+    let (angle_deg, places) = rising_angles(first, request, &mut notes)?;
     let rows = window(&angle_deg, request)?;
     let left_out = angle_deg.len() - rows.len();
     if left_out > 0 {
@@ -88,19 +72,7 @@ pub fn record_files(
             angle_deg.len()
         ));
     }
-    let in_angles = |(head, channel): &(String, &Channel)| {
-        head.starts_with("te_") && ANGLE_DEG.factor(&channel.unit).is_some()
-    };
-    if request.base_radius_mm.is_some() && !columns.iter().any(in_angles) {
-        for (_, channel) in columns.iter().filter(|(head, _)| head.starts_with("te_")) {
-            if LENGTH_UM.factor(&channel.unit).is_none() {
-                ANGLE_DEG.factor_of(&channel.name, &channel.unit)?;
-            }
-        }
-        let problem =
-            "--base-radius-mm: no transmission error of this record is measured as an angle";
-        return Err(MeasuredError::Option(problem.to_owned()));
-    }
+    check_base_radius(&columns, request)?;
     let mut values = Vec::new();
     for (head, channel) in &columns {
         if channel.x != first.x {
@@ -124,10 +96,10 @@ pub fn record_files(
         values.push(column);
     }
     let mut data = String::from("angle_deg");
-    columns.iter().for_each(|(head, _)| {
+    for (head, _) in &columns {
         data.push(',');
         data.push_str(head);
-    });
+    }
     data.push('\n');
     for row in rows {
         let _ = write!(data, "{}", angle_deg[row] + request.angle_offset_deg);
@@ -141,6 +113,49 @@ pub fn record_files(
         data,
         notes,
     })
+}
+
+/// The axis as an angle that rises, each once, with the rows of the channel that stand at it.
+fn rising_angles(
+    channel: &Channel,
+    request: &RecordRequest,
+    notes: &mut Vec<String>,
+) -> Result<(Vec<f64>, Vec<Range<usize>>), MeasuredError> {
+    let mut angle_deg = angles(channel, request)?;
+    notes.extend(without_wraps(&mut angle_deg));
+    if angle_deg.last() < angle_deg.first() {
+        // A record's angle is positive in the shaft's own sense of turning.
+        angle_deg.iter_mut().for_each(|angle| *angle = -*angle);
+        notes.push("the angle falls: its sign is changed".to_owned());
+    }
+    let places = places_of(&angle_deg);
+    if places.len() < angle_deg.len() {
+        notes.push(format!(
+            "{} values stand at the angle of the one before: of each angle the mean is taken",
+            angle_deg.len() - places.len()
+        ));
+        angle_deg = places.iter().map(|rows| angle_deg[rows.start]).collect();
+    }
+    Ok((angle_deg, places))
+}
+
+/// A base radius is stated for a transmission error in angles only.
+fn check_base_radius(
+    columns: &[(String, &Channel)],
+    request: &RecordRequest,
+) -> Result<(), MeasuredError> {
+    let errors = || columns.iter().filter(|(head, _)| head.starts_with("te_"));
+    let mut units = errors().map(|(_, channel)| &channel.unit);
+    if request.base_radius_mm.is_none() || units.any(|unit| ANGLE_DEG.factor(unit).is_some()) {
+        return Ok(());
+    }
+    for (_, channel) in errors() {
+        if LENGTH_UM.factor(&channel.unit).is_none() {
+            ANGLE_DEG.factor_of(&channel.name, &channel.unit)?;
+        }
+    }
+    let problem = "--base-radius-mm: no transmission error of this record is measured as an angle";
+    Err(MeasuredError::Option(problem.to_owned()))
 }
 
 /// Heads with their channels.

@@ -65,83 +65,80 @@ impl GearSurface {
         let tooth = &gear.profile;
         let half_width = 0.5 * gear.tooth.face_width_m;
         let mut heights = vec![-half_width, half_width];
-        heights.extend(
-            heights_m
-                .iter()
-                .filter(|z| z.abs() < half_width * (1.0 - 1e-9)),
-        );
+        let inside = |z: &&f64| z.abs() < half_width * (1.0 - 1e-9);
+        heights.extend(heights_m.iter().filter(inside));
         heights.sort_by(f64::total_cmp);
         heights.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * half_width);
         let (right, before_flank) = half_outline(tooth);
-        let half = right.len() - 1;
         let whole = mirrored(&right);
+        let mut surface = Self {
+            points_m: outlines(tooth, &whole, &heights),
+            quads: Vec::new(),
+            teeth: Vec::new(),
+            flanks: Flanks::Outline {
+                tooth: Box::new(tooth.clone()),
+                heights_m: heights,
+                before_flank,
+                half: right.len() - 1,
+            },
+        };
         let columns = whole.len() * tooth.teeth;
-        let (mut points, mut quads, mut teeth) = (Vec::new(), Vec::new(), Vec::new());
-        for &z in &heights {
-            for number in 0..tooth.teeth {
-                let turn = TAU * number as f64 / tooth.teeth as f64 + z * tooth.twist_rad_per_m();
-                let (s, c) = turn.sin_cos();
-                points.extend(
-                    whole
-                        .iter()
-                        .map(|p| [c * p[0] - s * p[1], s * p[0] + c * p[1], z]),
-                );
-            }
+        let layers = surface.points_m.len() / columns;
+        surface.cover_teeth(columns, layers, whole.len());
+        // Where the faces end: at the bore, or at a ring's outside.
+        let edge = (gear.blank.rim()).map_or(gear.blank.bore_radius_m(), |rim| rim.outer_radius_m);
+        surface.cover_faces(columns, layers, edge);
+        if tooth.internal {
+            // The material lies on the other side of the outline.
+            surface.quads.iter_mut().for_each(|quad| quad.reverse());
         }
-        let layers = heights.len();
+        surface
+    }
+
+    /// Quadrilaterals between the outlines of neighbouring sections, column by column.
+    fn cover_teeth(&mut self, columns: usize, layers: usize, per_tooth: usize) {
         let at = |column: usize, layer: usize| (layer * columns + column % columns) as u32;
         for column in 0..columns {
             for layer in 0..layers - 1 {
-                quads.push([
+                self.quads.push([
                     at(column, layer),
                     at(column + 1, layer),
                     at(column + 1, layer + 1),
                     at(column, layer + 1),
                 ]);
-                teeth.push((column / whole.len()) as i32);
+                self.teeth.push((column / per_tooth) as i32);
             }
         }
-        // Where the faces end: at the bore, or at a ring's outside.
-        let edge = (gear.blank.rim()).map_or(gear.blank.bore_radius_m(), |rim| rim.outer_radius_m);
-        let rings: Vec<u32> = [0, layers - 1]
-            .into_iter()
-            .map(|layer| {
-                let first = points.len() as u32;
-                for column in 0..columns {
-                    let [x, y, z] = points[at(column, layer) as usize];
-                    let radius = x.hypot(y);
-                    points.push([edge * x / radius, edge * y / radius, z]);
-                }
-                first
-            })
-            .collect();
+    }
+
+    /// Both faces from the outline to the radius at which they end, and the cylinder between them.
+    fn cover_faces(&mut self, columns: usize, layers: usize, edge_m: f64) {
+        let at = |column: usize, layer: usize| (layer * columns + column % columns) as u32;
+        let top = layers - 1;
+        let rings = [0, top].map(|layer| {
+            let first = self.points_m.len() as u32;
+            for column in 0..columns {
+                let [x, y, z] = self.points_m[at(column, layer) as usize];
+                let radius = x.hypot(y);
+                self.points_m
+                    .push([edge_m * x / radius, edge_m * y / radius, z]);
+            }
+            first
+        });
         let on = |ring: usize, column: usize| rings[ring] + (column % columns) as u32;
         for column in 0..columns {
             let next = column + 1;
-            quads.push([at(column, 0), on(0, column), on(0, next), at(next, 0)]);
-            let top = layers - 1;
-            quads.push([at(column, top), at(next, top), on(1, next), on(1, column)]);
-            teeth.extend([-1; 2]);
+            self.quads.extend([
+                [at(column, 0), on(0, column), on(0, next), at(next, 0)],
+                [at(column, top), at(next, top), on(1, next), on(1, column)],
+            ]);
+            self.teeth.extend([-1; 2]);
             // A gear cut into its shaft has no bore: its faces end at the axis.
-            if edge > 0.0 {
-                quads.push([on(0, column), on(1, column), on(1, next), on(0, next)]);
-                teeth.push(-1);
+            if edge_m > 0.0 {
+                self.quads
+                    .push([on(0, column), on(1, column), on(1, next), on(0, next)]);
+                self.teeth.push(-1);
             }
-        }
-        if tooth.internal {
-            // The material lies on the other side of the outline.
-            quads.iter_mut().for_each(|quad| quad.reverse());
-        }
-        Self {
-            points_m: points,
-            quads,
-            teeth,
-            flanks: Flanks::Outline {
-                tooth: Box::new(tooth.clone()),
-                heights_m: heights,
-                before_flank,
-                half,
-            },
         }
     }
 
@@ -217,6 +214,20 @@ pub fn flank_directions(
 #[must_use]
 pub fn tooth_outline(tooth: &ToothGeometry) -> Vec<[f64; 2]> {
     mirrored(&half_outline(tooth).0)
+}
+
+/// Points of the outlines of all teeth at all heights.
+fn outlines(tooth: &ToothGeometry, whole: &[[f64; 2]], heights_m: &[f64]) -> Vec<[f64; 3]> {
+    let mut points = Vec::new();
+    for &z in heights_m {
+        for number in 0..tooth.teeth {
+            let turn = TAU * number as f64 / tooth.teeth as f64 + z * tooth.twist_rad_per_m();
+            let (s, c) = turn.sin_cos();
+            let turned = |p: &[f64; 2]| [c * p[0] - s * p[1], s * p[0] + c * p[1], z];
+            points.extend(whole.iter().map(turned));
+        }
+    }
+    points
 }
 
 /// The outline of a tooth from its right half.

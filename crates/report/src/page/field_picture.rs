@@ -1,7 +1,7 @@
 //! A plane mesh of quads coloured by a value.
 
 use super::PageError;
-use super::line_chart::check_range;
+use super::checks::{check_count, check_finite, check_finite_at, check_range, check_some};
 use super::packed::{floats, shorts, words};
 use super::typography::plain;
 use serde_json::{Value, json};
@@ -265,47 +265,13 @@ impl FieldPicture {
     }
 
     fn check(&self) -> Result<(), PageError> {
-        let block = || self.title.clone();
-        if self.nodes_mm.is_empty() || self.quads.is_empty() {
-            return Err(PageError::Empty {
-                block: block(),
-                what: "the mesh",
-            });
-        }
-        let finite =
-            |what: &str, mut values: Box<dyn Iterator<Item = (usize, f64)> + '_>| match values
-                .find(|(_, v)| !v.is_finite())
-            {
-                Some((index, found)) => Err(PageError::NotFinite {
-                    block: block(),
-                    what: what.to_string(),
-                    index,
-                    found,
-                }),
-                None => Ok(()),
-            };
-        finite(
-            "the node list",
-            Box::new(
-                self.nodes_mm
-                    .iter()
-                    .enumerate()
-                    .flat_map(|(i, p)| p.map(|v| (i, v))),
-            ),
-        )?;
-        for (quad, corners) in self.quads.iter().enumerate() {
-            if let Some(&node) = corners
-                .iter()
-                .find(|&&node| node as usize >= self.nodes_mm.len())
-            {
-                return Err(PageError::NoSuchNode {
-                    block: block(),
-                    quad,
-                    node,
-                    nodes: self.nodes_mm.len(),
-                });
-            }
-        }
+        let title = &self.title[..];
+        let none = self.nodes_mm.is_empty() || self.quads.is_empty();
+        check_some(title, "the mesh", none)?;
+        let nodes = self.nodes_mm.iter().enumerate();
+        let nodes = nodes.flat_map(|(i, p)| p.map(|v| (i, v)));
+        check_finite_at(title, "the node list", nodes)?;
+        self.check_quads()?;
         let (values, expected, what) = match &self.values {
             FieldValues::PerNode(values) => {
                 (values, self.nodes_mm.len(), "the list of nodal values")
@@ -314,41 +280,38 @@ impl FieldPicture {
                 (values, self.quads.len(), "the list of element values")
             }
         };
-        if values.len() != expected {
-            let what = what.to_string();
-            return Err(PageError::Count {
-                block: block(),
-                what,
-                found: values.len(),
-                expected,
-            });
+        check_count(title, what, values.len(), expected)?;
+        check_finite(title, what, values)?;
+        let what = "the list of shades";
+        if !self.shades.is_empty() {
+            check_count(title, what, self.shades.len(), self.quads.len())?;
         }
-        finite(what, Box::new(values.iter().copied().enumerate()))?;
-        if !self.shades.is_empty() && self.shades.len() != self.quads.len() {
-            return Err(PageError::Count {
-                block: block(),
-                what: "the list of shades".to_owned(),
-                found: self.shades.len(),
-                expected: self.quads.len(),
-            });
-        }
-        finite(
-            "the list of shades",
-            Box::new(self.shades.iter().copied().enumerate()),
-        )?;
-        finite(
-            "the list of marks",
-            Box::new((self.marks.iter().enumerate()).flat_map(|(i, m)| m.at_mm.map(|v| (i, v)))),
-        )?;
+        check_finite(title, what, &self.shades)?;
+        let marks = self.marks.iter().enumerate();
+        let marks = marks.flat_map(|(i, m)| m.at_mm.map(|v| (i, v)));
+        check_finite_at(title, "the list of marks", marks)?;
         if let Some([low, high]) = self.colour_range {
-            check_range(&self.title, "the colour scale", low, high)?;
+            check_range(title, "the colour scale", low, high)?;
         }
         if let Some(window) = self.window {
-            check_range(&self.title, "the window's width", 0.0, window.width_mm)?;
-            finite(
-                "the window's centre",
-                Box::new(window.centre_mm.into_iter().enumerate()),
-            )?;
+            check_range(title, "the window's width", 0.0, window.width_mm)?;
+            check_finite(title, "the window's centre", &window.centre_mm)?;
+        }
+        Ok(())
+    }
+
+    /// Corners are nodes of the list.
+    fn check_quads(&self) -> Result<(), PageError> {
+        let nodes = self.nodes_mm.len();
+        for (quad, corners) in self.quads.iter().enumerate() {
+            if let Some(&node) = corners.iter().find(|&&node| node as usize >= nodes) {
+                return Err(PageError::NoSuchNode {
+                    block: self.title.clone(),
+                    quad,
+                    node,
+                    nodes,
+                });
+            }
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 //! Drawn as SVG in the page itself: it needs no script.
 
 use super::PageError;
+use super::checks::{check_finite, check_some};
 use super::markup::{escape, legend};
 use super::polar_chart::{round_step, tick};
 use super::typography::{html, plain};
@@ -57,51 +58,22 @@ impl FlankChart {
     }
 
     fn check(&self) -> Result<(), PageError> {
-        if self.outline_mm.len() < 3 {
-            return Err(PageError::Empty {
-                block: self.title.clone(),
-                what: "the outline",
-            });
-        }
+        let none = self.outline_mm.len() < 3;
+        check_some(&self.title, "the outline", none)?;
         let lines = self.lines.iter().map(|l| (&*l.name, &l.points_mm));
         let patches = self.patches_mm.iter().map(|p| ("patch", p));
         let all = lines.chain(patches).chain([("outline", &self.outline_mm)]);
         for (what, points) in all {
-            let mut values = points.iter().flatten().enumerate();
-            if let Some((index, &found)) = values.find(|(_, v)| !v.is_finite()) {
-                return Err(PageError::NotFinite {
-                    block: self.title.clone(),
-                    what: what.to_owned(),
-                    index,
-                    found,
-                });
-            }
+            check_finite(&self.title, what, points.iter().flatten())?;
         }
         Ok(())
     }
 
     pub(super) fn render(&self, page: &mut String) -> Result<(), PageError> {
         self.check()?;
-        let end = |k: usize, pick: fn(f64, f64) -> f64| {
-            let values = self.outline_mm.iter().map(|p| p[k]);
-            values.reduce(pick).unwrap_or(0.0)
-        };
-        let (low, high) = (
-            [0, 1].map(|k| end(k, f64::min)),
-            [0, 1].map(|k| end(k, f64::max)),
-        );
-        let scale = WIDE / (high[0] - low[0]);
-        let tall = (high[1] - low[1]) * scale;
-        let place = |[x, y]: [f64; 2]| [(x - low[0]) * scale, (high[1] - y) * scale];
-        let joined = |points: &[[f64; 2]]| {
-            points.iter().fold(String::new(), |mut text, point| {
-                let [x, y] = place(*point);
-                let _ = write!(text, "{x:.2},{y:.2} ");
-                text
-            })
-        };
+        let frame = Frame::of(&self.outline_mm);
         // Names of clips are those of the page: the outline's own text makes them differ.
-        let outline = joined(&self.outline_mm);
+        let outline = frame.joined(&self.outline_mm);
         let clip = format!("flank{}", outline.len() * 1000 + page.len());
         // Writing to a String does not fail.
         let _ = write!(
@@ -113,14 +85,14 @@ impl FlankChart {
             -MARGIN,
             -MARGIN,
             WIDE + 2.0 * MARGIN,
-            tall + 2.0 * MARGIN,
+            frame.tall() + 2.0 * MARGIN,
             escape(&plain(&self.title))
         );
         for patch in &self.patches_mm {
             let _ = writeln!(
                 page,
                 "<polygon clip-path=\"url(#{clip})\" fill=\"var(--c0)\" fill-opacity=\"0.13\" points=\"{}\"/>",
-                joined(patch)
+                frame.joined(patch)
             );
         }
         let _ = writeln!(
@@ -128,23 +100,73 @@ impl FlankChart {
             "<polygon points=\"{outline}\" fill=\"none\" stroke=\"var(--faint)\"/>"
         );
         for (number, line) in self.lines.iter().enumerate() {
-            let colour = number + 1;
-            if line.points_mm.len() > 1 {
-                let points = joined(&line.points_mm);
-                let _ = writeln!(
-                    page,
-                    "<polyline fill=\"none\" stroke=\"var(--c{colour})\" points=\"{points}\"/>"
-                );
-            }
-            for point in &line.points_mm {
-                let [x, y] = place(*point);
-                let _ = write!(
-                    page,
-                    "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"2\" fill=\"var(--c{colour})\"/>"
-                );
-            }
-            page.push('\n');
+            frame.line(number + 1, &line.points_mm, page);
         }
+        frame.names(page);
+        frame.scale_bar(page);
+        let lines = self.lines.iter().enumerate();
+        page.push_str(&legend(lines.map(|(k, line)| (k + 1, &line.name[..])), ""));
+        page.push_str("</figure>\n");
+        Ok(())
+    }
+}
+
+/// Where points of the flank lie in the drawing.
+struct Frame {
+    low: [f64; 2],
+    high: [f64; 2],
+    scale: f64,
+}
+
+impl Frame {
+    fn of(outline_mm: &[[f64; 2]]) -> Self {
+        let end = |k: usize, pick: fn(f64, f64) -> f64| {
+            let values = outline_mm.iter().map(|p| p[k]);
+            values.reduce(pick).unwrap_or(0.0)
+        };
+        let low = [0, 1].map(|k| end(k, f64::min));
+        let high = [0, 1].map(|k| end(k, f64::max));
+        let scale = WIDE / (high[0] - low[0]);
+        Self { low, high, scale }
+    }
+
+    fn tall(&self) -> f64 {
+        (self.high[1] - self.low[1]) * self.scale
+    }
+
+    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let (x, y) = (x - self.low[0], self.high[1] - y);
+        [x * self.scale, y * self.scale]
+    }
+
+    fn joined(&self, points_mm: &[[f64; 2]]) -> String {
+        points_mm.iter().fold(String::new(), |mut text, point| {
+            let [x, y] = self.place(*point);
+            let _ = write!(text, "{x:.2},{y:.2} ");
+            text
+        })
+    }
+
+    fn line(&self, colour: usize, points_mm: &[[f64; 2]], page: &mut String) {
+        if points_mm.len() > 1 {
+            let points = self.joined(points_mm);
+            let _ = writeln!(
+                page,
+                "<polyline fill=\"none\" stroke=\"var(--c{colour})\" points=\"{points}\"/>"
+            );
+        }
+        for point in points_mm {
+            let [x, y] = self.place(*point);
+            let _ = write!(
+                page,
+                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"2\" fill=\"var(--c{colour})\"/>"
+            );
+        }
+        page.push('\n');
+    }
+
+    fn names(&self, page: &mut String) {
+        let tall = self.tall();
         for (x, y, anchor, word) in [
             (-8.0, 0.5 * tall, "end", "toe"),
             (WIDE + 8.0, 0.5 * tall, "start", "heel"),
@@ -156,21 +178,20 @@ impl FlankChart {
                 "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{word}</text>"
             );
         }
-        let bar = round_step(high[0] - low[0]);
-        let at = tall + 30.0;
+    }
+
+    fn scale_bar(&self, page: &mut String) {
+        let bar = round_step(self.high[0] - self.low[0]);
+        let at = self.tall() + 30.0;
         let _ = write!(
             page,
             "<line x1=\"0\" y1=\"{at:.1}\" x2=\"{0:.1}\" y2=\"{at:.1}\" stroke=\"var(--faint)\" stroke-width=\"2\"/>\
              <text x=\"{1:.1}\" y=\"{2:.1}\">{3} mm</text>\n</svg>\n",
-            bar * scale,
-            bar * scale + 6.0,
+            bar * self.scale,
+            bar * self.scale + 6.0,
             at + 4.0,
             tick(bar)
         );
-        let lines = self.lines.iter().enumerate();
-        page.push_str(&legend(lines.map(|(k, line)| (k + 1, &line.name[..])), ""));
-        page.push_str("</figure>\n");
-        Ok(())
     }
 }
 

@@ -1,6 +1,7 @@
 //! Curves over a common abscissa.
 
 use super::PageError;
+use super::checks::{check_abscissas, check_count, check_finite_at, check_range, check_some};
 use super::packed::floats;
 use super::typography::plain;
 use serde_json::{Value, json};
@@ -179,25 +180,11 @@ impl LineChart {
         }
         let mut series = Vec::with_capacity(self.series.len());
         for s in &self.series {
-            if s.values.len() != self.x_values.len() {
-                return Err(PageError::Count {
-                    block: self.title.clone(),
-                    what: format!("series '{}'", s.name),
-                    found: s.values.len(),
-                    expected: self.x_values.len(),
-                });
-            }
-            if let Some((index, &found)) =
-                s.values.iter().enumerate().find(|(_, v)| v.is_infinite())
-            {
-                let what = format!("series '{}'", s.name);
-                return Err(PageError::NotFinite {
-                    block: self.title.clone(),
-                    what,
-                    index,
-                    found,
-                });
-            }
+            let what = format!("series '{}'", s.name);
+            check_count(&self.title, &what, s.values.len(), self.x_values.len())?;
+            // NaN is a gap.
+            let drawn = s.values.iter().copied().enumerate();
+            check_finite_at(&self.title, &what, drawn.filter(|(_, v)| !v.is_nan()))?;
             series.push(json!({
                 "name": plain(&s.name),
                 "values": floats(s.values.iter().copied()),
@@ -210,12 +197,7 @@ impl LineChart {
                 "shown": s.shown,
             }));
         }
-        if series.is_empty() {
-            return Err(PageError::Empty {
-                block: self.title.clone(),
-                what: "the list of series",
-            });
-        }
+        check_some(&self.title, "the list of series", series.is_empty())?;
         let marks = self.marks.iter();
         let marks = marks.map(|(x, label)| json!({ "order": x, "label": plain(label) }));
         Ok(json!({
@@ -228,43 +210,4 @@ impl LineChart {
             "series": series,
         }))
     }
-}
-
-pub(super) fn check_abscissas(block: &str, what: &'static str, x: &[f64]) -> Result<(), PageError> {
-    if x.is_empty() {
-        return Err(PageError::Empty {
-            block: block.to_string(),
-            what,
-        });
-    }
-    let mut before = f64::NEG_INFINITY;
-    for (index, &found) in x.iter().enumerate() {
-        if !(found.is_finite() && found > before) {
-            return Err(PageError::NotIncreasing {
-                block: block.to_string(),
-                index,
-                found,
-                before,
-            });
-        }
-        before = found;
-    }
-    Ok(())
-}
-
-pub(super) fn check_range(
-    block: &str,
-    what: &'static str,
-    low: f64,
-    high: f64,
-) -> Result<(), PageError> {
-    if low.is_finite() && high.is_finite() && low < high {
-        return Ok(());
-    }
-    Err(PageError::Range {
-        block: block.to_string(),
-        what,
-        low,
-        high,
-    })
 }

@@ -3,6 +3,7 @@
 //! Drawn as SVG in the page itself: it needs no script.
 
 use super::PageError;
+use super::checks::{check_count, check_finite, check_some};
 use super::line_chart::Axis;
 use super::markup::escape;
 use super::polar_chart::round_step;
@@ -77,40 +78,17 @@ impl MapChart {
     }
 
     fn check(&self) -> Result<usize, PageError> {
-        let block = || self.title.clone();
         let lines = self.columns.first().map_or(0, Vec::len);
-        if self.along.is_empty() || lines == 0 {
-            return Err(PageError::Empty {
-                block: block(),
-                what: "the map",
-            });
-        }
-        let counts = self.columns.iter().map(Vec::len);
-        for (what, found, expected) in [("map", self.columns.len(), self.along.len())]
-            .into_iter()
-            .chain(counts.map(|count| ("column", count, lines)))
-        {
-            if found != expected {
-                return Err(PageError::Count {
-                    block: block(),
-                    what: what.to_owned(),
-                    found,
-                    expected,
-                });
-            }
+        let none = self.along.is_empty() || lines == 0;
+        check_some(&self.title, "the map", none)?;
+        check_count(&self.title, "map", self.columns.len(), self.along.len())?;
+        for column in &self.columns {
+            check_count(&self.title, "column", column.len(), lines)?;
         }
         let of_lines = self.lines.iter().flat_map(|(_, points)| points).flatten();
         let values = self.columns.iter().flatten().chain(&self.along);
-        let values = values.chain(of_lines);
-        match values.enumerate().find(|(_, value)| !value.is_finite()) {
-            None => Ok(lines),
-            Some((index, &found)) => Err(PageError::NotFinite {
-                block: block(),
-                what: "values".to_owned(),
-                index,
-                found,
-            }),
-        }
+        check_finite(&self.title, "values", values.chain(of_lines))?;
+        Ok(lines)
     }
 
     pub(super) fn render(&self, page: &mut String) -> Result<(), PageError> {

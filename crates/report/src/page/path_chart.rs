@@ -3,6 +3,7 @@
 //! Drawn as SVG in the page itself: it needs no script.
 
 use super::PageError;
+use super::checks::{check_finite, check_some};
 use super::markup::escape;
 use super::polar_chart::{round_step, tick};
 use super::typography::{html, plain};
@@ -33,21 +34,9 @@ impl PathChart {
     }
 
     pub(super) fn render(&self, page: &mut String) -> Result<(), PageError> {
-        if self.points.is_empty() {
-            return Err(PageError::Empty {
-                block: self.title.clone(),
-                what: "the path",
-            });
-        }
+        check_some(&self.title, "the path", self.points.is_empty())?;
         let all = || self.points.iter().flatten();
-        if let Some((index, &found)) = all().enumerate().find(|(_, v)| !v.is_finite()) {
-            return Err(PageError::NotFinite {
-                block: self.title.clone(),
-                what: "path".to_owned(),
-                index,
-                found,
-            });
-        }
+        check_finite(&self.title, "path", all())?;
         let largest = all().fold(0.0, |a: f64, b| a.max(b.abs()));
         let step = round_step(largest);
         let top = step * (largest / step).ceil().max(1.0);

@@ -3,6 +3,7 @@
 //! Drawn as SVG in the page itself: it needs no script.
 
 use super::PageError;
+use super::checks::{check_count, check_finite, check_some};
 use super::markup::{escape, legend};
 use super::typography::{html, plain};
 use std::f64::consts::TAU;
@@ -59,34 +60,17 @@ impl PolarChart {
     }
 
     fn check(&self) -> Result<f64, PageError> {
-        let block = || self.title.clone();
-        if self.angles_rad.is_empty() || self.series.is_empty() {
-            return Err(PageError::Empty {
-                block: block(),
-                what: "the list of bars",
-            });
+        let none = self.angles_rad.is_empty() || self.series.is_empty();
+        check_some(&self.title, "the list of bars", none)?;
+        for series in &self.series {
+            let what = format!("series '{}'", series.name);
+            let (found, expected) = (series.values.len(), self.angles_rad.len());
+            check_count(&self.title, &what, found, expected)?;
         }
         for series in &self.series {
-            if series.values.len() != self.angles_rad.len() {
-                return Err(PageError::Count {
-                    block: block(),
-                    what: format!("series '{}'", series.name),
-                    found: series.values.len(),
-                    expected: self.angles_rad.len(),
-                });
-            }
+            check_finite(&self.title, &series.name, &series.values)?;
         }
-        let all = self.series.iter().map(|s| (&*s.name, &s.values));
-        for (what, values) in all.chain([("angles", &self.angles_rad)]) {
-            if let Some((index, &found)) = values.iter().enumerate().find(|(_, v)| !v.is_finite()) {
-                return Err(PageError::NotFinite {
-                    block: block(),
-                    what: what.to_owned(),
-                    index,
-                    found,
-                });
-            }
-        }
+        check_finite(&self.title, "angles", &self.angles_rad)?;
         let values = self.series.iter().flat_map(|s| &s.values);
         Ok(values.fold(0.0, |a: f64, b| a.max(*b)))
     }

@@ -2,6 +2,7 @@
 //!
 //! Drawn as SVG in the page itself: it needs no script.
 
+use super::checks::check_some;
 use super::markup::{COLOURS, escape, legend, text_width};
 use super::polar_chart::{round_step, tick};
 use super::typography::{html, plain, svg};
@@ -238,12 +239,8 @@ impl ScatterChart {
     }
 
     fn check(&self) -> Result<(), PageError> {
-        if self.all_points().next().is_none() {
-            return Err(PageError::Empty {
-                block: self.title.clone(),
-                what: "the set of points",
-            });
-        }
+        let none = self.all_points().next().is_none();
+        check_some(&self.title, "the set of points", none)?;
         let fits = |point: &[f64; 2]| {
             let mut pairs = point.iter().zip(self.logarithmic);
             pairs.all(|(v, log)| v.is_finite() && (!log || *v > 0.0))

@@ -1,7 +1,8 @@
 //! Amplitudes over orders as stems on a logarithmic axis.
 
 use super::PageError;
-use super::line_chart::{Axis, check_abscissas};
+use super::checks::{check_abscissas, check_count, check_finite, check_some};
+use super::line_chart::Axis;
 use super::packed::floats;
 use super::typography::plain;
 use serde_json::{Value, json};
@@ -106,47 +107,18 @@ impl SpectrumChart {
         let kept = self.highest_order.map_or(self.orders.len(), |highest| {
             self.orders.partition_point(|m| *m <= highest)
         });
-        if kept == 0 {
-            return Err(PageError::Empty {
-                block: self.title.clone(),
-                what: "the list of orders up to the highest",
-            });
-        }
+        let what = "the list of orders up to the highest";
+        check_some(&self.title, what, kept == 0)?;
         let mut series = Vec::with_capacity(self.series.len());
         for s in &self.series {
-            let what = || format!("series '{}'", s.name);
-            if s.amplitudes.len() != self.orders.len() {
-                let (found, expected) = (s.amplitudes.len(), self.orders.len());
-                return Err(PageError::Count {
-                    block: self.title.clone(),
-                    what: what(),
-                    found,
-                    expected,
-                });
-            }
-            if let Some((index, &found)) = s
-                .amplitudes
-                .iter()
-                .enumerate()
-                .find(|(_, v)| !v.is_finite())
-            {
-                return Err(PageError::NotFinite {
-                    block: self.title.clone(),
-                    what: what(),
-                    index,
-                    found,
-                });
-            }
+            let what = format!("series '{}'", s.name);
+            check_count(&self.title, &what, s.amplitudes.len(), self.orders.len())?;
+            check_finite(&self.title, &what, &s.amplitudes)?;
             series.push(
                 json!({ "name": plain(&s.name), "values": floats(s.amplitudes[..kept].iter().copied()) }),
             );
         }
-        if series.is_empty() {
-            return Err(PageError::Empty {
-                block: self.title.clone(),
-                what: "the list of series",
-            });
-        }
+        check_some(&self.title, "the list of series", series.is_empty())?;
         let highlighted: Vec<Value> = self
             .highlighted
             .iter()

@@ -1,6 +1,7 @@
 //! Tables and key figures.
 
 use super::PageError;
+use super::checks::check_count;
 use super::markup::escape;
 use super::typography::{html, plain};
 use std::fmt::Write as _;
@@ -99,14 +100,8 @@ impl Table {
         }
         page.push_str("</tr></thead>\n<tbody>\n");
         for (i, row) in self.rows.iter().enumerate() {
-            if row.len() != self.columns.len() {
-                return Err(PageError::Count {
-                    block: self.caption.clone(),
-                    what: format!("row {i}"),
-                    found: row.len(),
-                    expected: self.columns.len(),
-                });
-            }
+            let what = format!("row {i}");
+            check_count(&self.caption, &what, row.len(), self.columns.len())?;
             page.push_str("<tr>");
             for (cell, (_, align)) in row.iter().zip(&self.columns) {
                 let _ = write!(page, "<td{}>{}</td>", class(*align), html(cell));

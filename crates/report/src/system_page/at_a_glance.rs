@@ -91,41 +91,7 @@ pub(super) fn tables(
     passings: &[MeshPassing],
 ) -> Vec<Table> {
     let extent = Extent::of(r);
-    let still = || {
-        [
-            "Meshes and bearings",
-            "Line loads of the slices",
-            "Springs, couplings and beams",
-        ]
-        .map(str::to_owned)
-    };
-    let (titles, heads): (_, &[&str]) = match extent {
-        Extent::Time => (
-            [
-                format!("Meshes, bearings and speeds: {}", r.statistics_in_words()),
-                "Line loads of the slices over the same time".to_owned(),
-                "Springs, couplings and beams over the same time".to_owned(),
-            ],
-            &[
-                "mean",
-                "RMS about the mean",
-                "least",
-                "largest",
-                "peak to peak",
-                "dominant Hz",
-            ],
-        ),
-        Extent::Equilibrium => (still(), &["value"]),
-        Extent::Equilibria => (still(), &["mean", "least", "largest", "peak to peak"]),
-    };
-    let [first, slices, rest] = titles.map(|title| {
-        let table = Table::new(title)
-            .column("column", Align::Left)
-            .column("unit", Align::Left);
-        let heads = heads.iter();
-        heads.fold(table, |table, head| table.column(*head, Align::Right))
-    });
-    let mut tables = [first, slices.folded(), rest.folded()];
+    let mut tables = empty_tables(r, extent);
     // The largest amount of each unit, beside which rounding is nothing.
     let mut amounts: BTreeMap<String, f64> = BTreeMap::new();
     for column in &found {
@@ -165,4 +131,41 @@ pub(super) fn tables(
         .into_iter()
         .filter(|table| !table.is_empty())
         .collect()
+}
+
+/// The tables without rows.
+fn empty_tables(r: &SystemResult, extent: Extent) -> [Table; 3] {
+    let (first, over, heads): (_, _, &[&str]) = match extent {
+        Extent::Time => (
+            format!("Meshes, bearings and speeds: {}", r.statistics_in_words()),
+            " over the same time",
+            &[
+                "mean",
+                "RMS about the mean",
+                "least",
+                "largest",
+                "peak to peak",
+                "dominant Hz",
+            ],
+        ),
+        Extent::Equilibrium => ("Meshes and bearings".to_owned(), "", &["value"]),
+        Extent::Equilibria => (
+            "Meshes and bearings".to_owned(),
+            "",
+            &["mean", "least", "largest", "peak to peak"],
+        ),
+    };
+    let with_heads = |title: String| {
+        let table = Table::new(title)
+            .column("column", Align::Left)
+            .column("unit", Align::Left);
+        let heads = heads.iter();
+        heads.fold(table, |table, head| table.column(*head, Align::Right))
+    };
+    let folded = |what: &str| with_heads(format!("{what}{over}")).folded();
+    [
+        with_heads(first),
+        folded("Line loads of the slices"),
+        folded("Springs, couplings and beams"),
+    ]
 }

@@ -55,50 +55,8 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
             continue;
         };
         let (stem, unit) = (stem(last, &column.unit), &column.unit[..]);
-        let owner = owners.join(" ");
-        // Speeds of all bodies share a chart; places and angles have one for each body.
-        let (title, curve) = match *kind {
-            "elements" if stem.starts_with("force_world_") => (
-                format!("{owner}, force in world axes"),
-                stem.replace('_', " "),
-            ),
-            // One chart an axis for all balls of a bearing.
-            "elements" if unit == "m/s²" && stem.contains("_acceleration_") => {
-                let (ball, axis) = stem.split_once("_acceleration_").unwrap_or((stem, ""));
-                (
-                    format!("{owner}, acceleration along {axis} of the balls"),
-                    ball.replace('_', " "),
-                )
-            }
-            "elements" => (
-                format!("{owner}, {}", quantity(unit)),
-                stem.replace('_', " "),
-            ),
-            "bodies" if stem == "angular_velocity_z" => (
-                "Angular velocities about the bodies' own z axes".to_owned(),
-                owner.clone(),
-            ),
-            "joints" if stem.contains("_world_") => (
-                format!(
-                    "{owner}, {} of the joint on body 2 in world axes",
-                    quantity(unit)
-                ),
-                stem.replace('_', " "),
-            ),
-            "joints" if matches!(unit, "N" | "N·m") => (
-                format!("{owner}, {} of the joint on body 2", quantity(unit)),
-                stem.replace('_', " "),
-            ),
-            "bodies" if unit == "m" => (format!("{owner}, place"), stem.replace('_', " ")),
-            "bodies" if unit == "√kg·m" => (
-                format!("{owner}, modal coordinates"),
-                stem.replace('_', " "),
-            ),
-            "bodies" if unit == "rad/s²" && stem.ends_with('z') => (
-                "Angular accelerations about the bodies' own z axes".to_owned(),
-                owner.clone(),
-            ),
-            _ => continue,
+        let Some((title, curve)) = chart_of(kind, &owners.join(" "), stem, unit) else {
+            continue;
         };
         // Pairs of teeth have pictures of their own.
         if !varies(place) || (*kind == "elements" && is_of_pair(last)) {
@@ -128,6 +86,43 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
         }
     }
     groups
+}
+
+/// Title of the chart that shows a column, and the name of its curve; none of what no chart shows.
+fn chart_of(kind: &str, owner: &str, stem: &str, unit: &str) -> Option<(String, String)> {
+    let words = stem.replace('_', " ");
+    // Speeds of all bodies share a chart; places and angles have one for each body.
+    let of_all = |what: &str| {
+        Some((
+            format!("{what} about the bodies' own z axes"),
+            owner.to_owned(),
+        ))
+    };
+    let title = match kind {
+        "elements" if stem.starts_with("force_world_") => format!("{owner}, force in world axes"),
+        // One chart an axis for all balls of a bearing.
+        "elements" if unit == "m/s²" && stem.contains("_acceleration_") => {
+            let (ball, axis) = stem.split_once("_acceleration_").unwrap_or((stem, ""));
+            let title = format!("{owner}, acceleration along {axis} of the balls");
+            return Some((title, ball.replace('_', " ")));
+        }
+        "elements" => format!("{owner}, {}", quantity(unit)),
+        "bodies" if stem == "angular_velocity_z" => return of_all("Angular velocities"),
+        "joints" if stem.contains("_world_") => {
+            let quantity = quantity(unit);
+            format!("{owner}, {quantity} of the joint on body 2 in world axes")
+        }
+        "joints" if matches!(unit, "N" | "N·m") => {
+            format!("{owner}, {} of the joint on body 2", quantity(unit))
+        }
+        "bodies" if unit == "m" => format!("{owner}, place"),
+        "bodies" if unit == "√kg·m" => format!("{owner}, modal coordinates"),
+        "bodies" if unit == "rad/s²" && stem.ends_with('z') => {
+            return of_all("Angular accelerations");
+        }
+        _ => return None,
+    };
+    Some((title, words))
 }
 
 impl Group {
@@ -196,4 +191,12 @@ pub(super) fn left_out(section: Section, groups: &[Group]) -> Section {
         "Not shown, but in the file: {}.",
         names.join("; ")
     )))
+}
+
+/// How a multiple of a mesh frequency is called.
+pub(super) fn harmonic(mesh: &str, multiple: usize) -> String {
+    match multiple {
+        1 => mesh.to_owned(),
+        k => format!("{k}×"),
+    }
 }

@@ -16,6 +16,12 @@ use crate::short_number::{short, usual_unit};
 
 /// What is drawn over the speed: name and value.
 type Figure = (&'static str, fn(&Figures) -> f64);
+const FIGURES: [Figure; 4] = [
+    ("peak to peak", Figures::peak_to_peak),
+    ("RMS about the mean", |f| f.deviation),
+    ("mean", |f| f.mean),
+    ("least", |f| f.least),
+];
 
 /// One figure on one way.
 struct Curve {
@@ -89,25 +95,18 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
     for line in r.incomplete_windows() {
         section = section.push(Text::note(line));
     }
-    let (axis, per_unit) = speed_axis(sweep.windows.iter().map(|w| w.speed_rad_per_s));
-    let rpm = |speed: f64| speed * per_unit;
-    let mut speeds: Vec<f64> = sweep
-        .windows
-        .iter()
-        .map(|w| rpm(w.speed_rad_per_s))
-        .collect();
-    speeds.sort_by(f64::total_cmp);
-    speeds.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * b.abs().max(1.0));
-    let curve = |column: usize, up: bool, value: fn(&Figures) -> f64| -> Vec<f64> {
-        let at = |speed: &f64| {
-            let windows = sweep.windows.iter().zip(&sweep.figures);
-            let mut here = windows.filter(|(w, _)| {
-                w.up == up && (rpm(w.speed_rad_per_s) - speed).abs() < 1e-9 * speed.abs().max(1.0)
-            });
-            here.next().map_or(f64::NAN, |(_, f)| value(&f[column]))
-        };
-        speeds.iter().map(at).collect()
-    };
+    let over = Speeds::of(sweep);
+    for column in chosen(sweep).into_iter().take(MOST_CHARTS) {
+        section = section.push(over.chart(sweep, column));
+    }
+    if let Some(record) = &r.record {
+        section = section.push(run_table(record));
+    }
+    section
+}
+
+/// Columns whose curves are drawn, the foremost first.
+fn chosen(sweep: &SweepResult) -> Vec<usize> {
     let varying = sweep.varying();
     let interesting = |column: &Column| {
         let (name, unit) = (&column.name, &column.unit[..]);
@@ -119,52 +118,87 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
         .filter(|c| interesting(&sweep.columns[*c]) && varying[*c])
         .collect();
     chosen.sort_by_key(|c| rank(&sweep.columns[*c].name));
-    for &column in chosen.iter().take(MOST_CHARTS) {
-        let Column { name, unit, .. } = &sweep.columns[column];
-        let name = stem(name, unit);
-        let figures: [Figure; 4] = [
-            ("peak to peak", Figures::peak_to_peak),
-            ("RMS about the mean", |f| f.deviation),
-            ("mean", |f| f.mean),
-            ("least", |f| f.least),
+    chosen
+}
+
+/// The speeds of a sweep, over which its figures are drawn.
+struct Speeds {
+    axis: Axis,
+    /// From rad/s to what the axis shows.
+    per_unit: f64,
+    /// As the axis shows them, increasing.
+    values: Vec<f64>,
+}
+
+impl Speeds {
+    fn of(sweep: &SweepResult) -> Self {
+        let speeds = || sweep.windows.iter().map(|w| w.speed_rad_per_s);
+        let (axis, per_unit) = speed_axis(speeds());
+        let mut values: Vec<f64> = speeds().map(|speed| speed * per_unit).collect();
+        values.sort_by(f64::total_cmp);
+        values.dedup_by(|a, b| is_same(*a, *b));
+        Self {
+            axis,
+            per_unit,
+            values,
+        }
+    }
+
+    /// A figure of a column at all speeds on one way; NaN where that way has no such speed.
+    fn curve(
+        &self,
+        sweep: &SweepResult,
+        (column, up): (usize, bool),
+        value: fn(&Figures) -> f64,
+    ) -> Vec<f64> {
+        let at = |speed: &f64| {
+            let windows = sweep.windows.iter().zip(&sweep.figures);
+            let mut here = windows
+                .filter(|(w, _)| w.up == up && is_same(w.speed_rad_per_s * self.per_unit, *speed));
+            here.next().map_or(f64::NAN, |(_, f)| value(&f[column]))
+        };
+        self.values.iter().map(at).collect()
+    }
+
+    /// All figures of a column on both ways.
+    fn chart(&self, sweep: &SweepResult, column: usize) -> LineChart {
+        let ways = [
+            (true, "up", LineStyle::Solid),
+            (false, "down", LineStyle::Dashed),
         ];
         let mut curves = Vec::new();
-        for (k, (figure, value)) in figures.into_iter().enumerate() {
-            for (up, way, style) in [
-                (true, "up", LineStyle::Solid),
-                (false, "down", LineStyle::Dashed),
-            ] {
-                if !sweep.windows.iter().any(|w| w.up == up) {
-                    continue;
+        for (place, (figure, value)) in FIGURES.into_iter().enumerate() {
+            for (up, way, style) in ways {
+                if sweep.windows.iter().any(|w| w.up == up) {
+                    curves.push(Curve {
+                        name: format!("{figure}, {way}"),
+                        place,
+                        style,
+                        values: self.curve(sweep, (column, up), value),
+                    });
                 }
-                curves.push(Curve {
-                    name: format!("{figure}, {way}"),
-                    place: k,
-                    style,
-                    values: curve(column, up, value),
-                });
             }
         }
-        let title = readable(name);
+        let Column { name, unit, .. } = &sweep.columns[column];
+        let title = readable(stem(name, unit));
         let label = title.rsplit_once(": ").map_or(&title[..], |(_, what)| what);
         let label = label.to_owned();
         let unit = scaled(unit, curves.iter_mut().map(|curve| &mut curve.values));
-        let mut chart =
-            LineChart::new(title, axis.clone(), Axis::new(label, unit)).x_values(speeds.clone());
-        for curve in curves {
+        let chart = LineChart::new(title, self.axis.clone(), Axis::new(label, unit));
+        let chart = chart.x_values(self.values.clone());
+        curves.into_iter().fold(chart, |chart, curve| {
             let series = LineSeries::new(curve.name, curve.values)
                 .style(curve.style)
                 .colour(SeriesColour::Palette(curve.place));
-            chart = chart.series(if curve.place == 0 {
-                series
-            } else {
-                series.hidden()
-            });
-        }
-        section = section.push(chart);
+            chart.series(match curve.place {
+                0 => series,
+                _ => series.hidden(),
+            })
+        })
     }
-    if let Some(record) = &r.record {
-        section = section.push(run_table(record));
-    }
-    section
+}
+
+/// Whether two speeds are one but for rounding.
+fn is_same(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-9 * b.abs().max(1.0)
 }

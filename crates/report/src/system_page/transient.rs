@@ -2,9 +2,9 @@
 
 use gearmesh_model::FileError;
 use gearmesh_scene::system_run::{MeshPassing, RunRecord, SystemResult, is_prominent, stem};
-use gearmesh_signal::{Window, amplitude_spectrum};
+use gearmesh_signal::{Spectrum, Window, amplitude_spectrum};
 
-use super::columns::{MOST_CHARTS, groups, left_out, scaled, turning, varies};
+use super::columns::{Group, MOST_CHARTS, groups, harmonic, left_out, scaled, turning, varies};
 use crate::min_max;
 use crate::page::{Align, Axis, AxisScale, LineChart, LineSeries, Section, Table, Text};
 use crate::short_number::short;
@@ -78,73 +78,71 @@ pub(super) fn spectra(
         if !of_elements || charts == MOST_CHARTS {
             continue;
         }
-        let mut curves = Vec::new();
-        let mut lines = Vec::new();
-        for (column, curve) in &group.columns {
-            let all = r.read_for_spectrum(column)?;
-            let half = all.len().div_ceil(2).min(LONGEST);
-            let values = &all[all.len() - half..];
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let centred: Vec<f64> = values.iter().map(|x| x - mean).collect();
-            let Ok(spectrum) = amplitude_spectrum(&centred, 1.0 / interval_s, Window::Hann) else {
-                continue;
-            };
-            let right = (r.spectrum_band() * spectrum.values.len() as f64) as usize;
-            lines = (0..right).map(|i| spectrum.at(i)).collect();
-            curves.push((curve, spectrum.values[..right].to_vec()));
+        if let Some(chart) = spectrum_chart(r, &group, interval_s, &meshes)? {
+            section = section.push(chart);
+            charts += 1;
         }
-        let end = meshes
-            .iter()
-            .map(|mesh| SPECTRUM_END * mesh.frequency_hz)
-            .fold(0.0_f64, f64::max);
-        let shown = if end > 0.0 {
-            lines.partition_point(|f| *f <= end)
-        } else {
-            lines.len()
-        };
-        if shown < 4 {
-            continue;
-        }
-        if curves
-            .iter()
-            .all(|(_, values)| values[1..shown].iter().all(|v| *v == 0.0))
-        {
-            continue;
-        }
-        let unit = scaled(&group.unit, curves.iter_mut().map(|(_, values)| values));
-        let strongest = curves
-            .iter()
-            .flat_map(|(_, values)| values[1..shown].iter().copied())
-            .fold(0.0, f64::max);
-        let mut chart = LineChart::new(
-            group.title.clone(),
-            Axis::new("frequency", "Hz"),
-            Axis::new(group.amplitude(), unit),
-        )
-        .y_scale(AxisScale::Logarithmic)
-        .x_values(min_max::abscissas(&lines[1..shown]));
-        for (curve, values) in curves {
-            let floor = DECADES * strongest;
-            let values = min_max::values(&values[1..shown]);
-            let values = values.into_iter().map(|v| v.max(floor)).collect();
-            chart = chart.series(LineSeries::new(curve.clone(), values));
-        }
-        for mesh in &meshes {
-            for k in 1..=HARMONICS {
-                chart = chart.mark(
-                    k as f64 * mesh.frequency_hz,
-                    if k == 1 {
-                        mesh.mesh.name.clone()
-                    } else {
-                        format!("{k}×")
-                    },
-                );
-            }
-        }
-        section = section.push(chart);
-        charts += 1;
     }
     Ok((charts > 0).then_some(section))
+}
+
+/// Spectra of a group's columns; none where they are too short, or nothing moves.
+fn spectrum_chart(
+    r: &SystemResult,
+    group: &Group,
+    interval_s: f64,
+    meshes: &[&MeshPassing],
+) -> Result<Option<LineChart>, FileError> {
+    let mut curves = Vec::new();
+    let mut lines = Vec::new();
+    for (column, curve) in &group.columns {
+        let Some(spectrum) = second_half(&r.read_for_spectrum(column)?, interval_s) else {
+            continue;
+        };
+        let right = (r.spectrum_band() * spectrum.values.len() as f64) as usize;
+        lines = (0..right).map(|i| spectrum.at(i)).collect();
+        curves.push((curve, spectrum.values[..right].to_vec()));
+    }
+    let ends = meshes.iter().map(|mesh| SPECTRUM_END * mesh.frequency_hz);
+    let end = ends.fold(0.0_f64, f64::max);
+    let shown = match end > 0.0 {
+        true => lines.partition_point(|f| *f <= end),
+        false => lines.len(),
+    };
+    let still = |values: &[f64]| values[1..shown].iter().all(|v| *v == 0.0);
+    if shown < 4 || curves.iter().all(|(_, values)| still(values)) {
+        return Ok(None);
+    }
+    let unit = scaled(&group.unit, curves.iter_mut().map(|(_, values)| values));
+    let amplitudes = curves.iter().flat_map(|(_, values)| &values[1..shown]);
+    let floor = DECADES * amplitudes.copied().fold(0.0, f64::max);
+    let mut chart = LineChart::new(
+        group.title.clone(),
+        Axis::new("frequency", "Hz"),
+        Axis::new(group.amplitude(), unit),
+    )
+    .y_scale(AxisScale::Logarithmic)
+    .x_values(min_max::abscissas(&lines[1..shown]));
+    for (curve, values) in curves {
+        let values = min_max::values(&values[1..shown]);
+        let values = values.into_iter().map(|v| v.max(floor)).collect();
+        chart = chart.series(LineSeries::new(curve.clone(), values));
+    }
+    for mesh in meshes {
+        for k in 1..=HARMONICS {
+            chart = chart.mark(k as f64 * mesh.frequency_hz, harmonic(&mesh.mesh.name, k));
+        }
+    }
+    Ok(Some(chart))
+}
+
+/// The spectrum of the second half of a channel, its mean removed.
+fn second_half(all: &[f64], interval_s: f64) -> Option<Spectrum> {
+    let half = all.len().div_ceil(2).min(LONGEST);
+    let values = &all[all.len() - half..];
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let centred: Vec<f64> = values.iter().map(|x| x - mean).collect();
+    amplitude_spectrum(&centred, 1.0 / interval_s, Window::Hann).ok()
 }
 
 pub(super) fn accuracy(r: &SystemResult) -> Result<Section, FileError> {
