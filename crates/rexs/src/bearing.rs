@@ -256,6 +256,10 @@ fn catalogue(
     if !component.kind.starts_with("rolling_bearing") {
         return Ok(None);
     }
+    let none = |why: &str| {
+        source.leave_out(component, About::Nothing, why);
+        Ok(None)
+    };
     let outside = source.number(component, "outer_diameter", MM)?;
     let width = source.number(component, "width", MM)?;
     let dynamic = source.number(component, "radial_dynamic_load_rating", KN)?;
@@ -266,14 +270,9 @@ fn catalogue(
         .unwrap_or_default();
     let clearance = source.number(component, "operating_radial_bearing_clearance", UM)?;
     let Some((_, word)) = TYPES.iter().find(|(rexs, _)| *rexs == kind) else {
-        source.leave_out(
-            component,
-            About::Nothing,
-            format!(
-                "type `{kind}` as balls or rollers: no bearing file, a linear spring in the scene"
-            ),
-        );
-        return Ok(None);
+        return none(&format!(
+            "type `{kind}` as balls or rollers: no bearing file, a linear spring in the scene"
+        ));
     };
     let rows = source
         .integer(component, "number_of_bearing_rows")?
@@ -281,42 +280,28 @@ fn catalogue(
     let (Some(bore), Some(outside), Some(width), Some(dynamic), Some(rest)) =
         (bore_mm, outside, width, dynamic, rest)
     else {
-        source.leave_out(
-            component,
-            About::Nothing,
+        return none(
             "no bearing file: it needs inner_diameter, outer_diameter, width and both load ratings",
         );
-        return Ok(None);
     };
     if rows != 1 || bore >= outside || width <= 0.0 || dynamic <= 0.0 || rest <= 0.0 {
-        source.leave_out(
-            component,
-            About::Nothing,
-            "no bearing file: one row, diameters and load ratings that are possible",
-        );
-        return Ok(None);
-    }
-    let mut text = format!(
-        "# {designation}: for `model = {{ kind = \"quasi-static\", file = ... }}` in the scene\nname = {}\nkind = \"catalogue\"\ntype = \"{word}\"\n",
-        quoted(name)
-    );
-    for (key, value) in [
-        ("bore_mm", bore),
-        ("outside_diameter_mm", outside),
-        ("width_mm", width),
-    ] {
-        text.push_str(&format!("{key} = {}\n", number(value)));
-    }
-    if let Some(clearance) = clearance.filter(|_| *word != "angular-contact") {
-        text.push_str(&format!("radial_clearance_um = {}\n", number(clearance)));
+        return none("no bearing file: one row, diameters and load ratings that are possible");
     }
     if *word == "angular-contact" {
-        source.assume(
-            component,
-            About::Nothing,
-            "bearing file: contact angle of 40 deg unless its row says otherwise",
-        );
-        text.push_str("contact_angle_deg = 40.0\n");
+        let what = "bearing file: contact angle of 40 deg unless its row says otherwise";
+        source.assume(component, About::Nothing, what);
+    }
+    let mut text = format!(
+        "# {designation}: for `model = {{ kind = \"quasi-static\", file = ... }}` in the scene\nname = {}\nkind = \"catalogue\"\ntype = \"{word}\"\nbore_mm = {}\noutside_diameter_mm = {}\nwidth_mm = {}\n",
+        quoted(name),
+        number(bore),
+        number(outside),
+        number(width)
+    );
+    match (*word, clearance) {
+        ("angular-contact", _) => text.push_str("contact_angle_deg = 40.0\n"),
+        (_, Some(um)) => text.push_str(&format!("radial_clearance_um = {}\n", number(um))),
+        (_, None) => {}
     }
     text.push_str(&format!(
         "\n[ratings]\ndynamic_N = {}\nstatic_N = {}\n",

@@ -112,39 +112,46 @@ pub fn read(
     let Some(outer) = outer else {
         return none("neither outer_transverse_module nor outer_pitch_diameter: no pair file");
     };
-    let pressure = match source.number(stage, "nominal_design_pressure_angle_on_drive_side", DEG)? {
-        Some(angle) => angle,
-        None => source
-            .number(stage, "generated_pressure_angle_on_drive_side", DEG)?
-            .unwrap_or_else(|| {
-                source.assume(stage, About::Teeth, "no pressure angle given: 20 deg");
-                20.0
-            }),
-    };
-    let hands = [pinion, gear].map(|g| source.text(g, "spiral_angle_pitch_direction"));
-    let is_right_hand = spiral.abs() > 1e-6
-        && match hands.each_ref().map(Option::as_deref) {
-            [Some(hand), _] => hand == "right",
-            [None, Some(hand)] => hand == "left",
-            [None, None] => {
-                source.assume(
-                    pinion,
-                    About::Teeth,
-                    "no spiral_angle_pitch_direction given: left",
-                );
-                false
-            }
-        };
+    let pressure_angle_deg = pressure_angle_deg(source, stage)?;
+    let is_right_hand = is_right_hand(source, [pinion, gear], spiral);
     Ok(Some(BevelStage {
         pinion: order[0],
         teeth,
         outer_module_mm: outer,
         face_widths_mm: [width_1, width_2],
         shaft_angle_deg: shaft_angle,
-        pressure_angle_deg: pressure,
+        pressure_angle_deg,
         spiral_angle_deg: spiral.abs(),
         is_right_hand,
     }))
+}
+
+fn pressure_angle_deg(source: &Source<'_>, stage: &Component) -> Result<f64, RexsError> {
+    for id in [
+        "nominal_design_pressure_angle_on_drive_side",
+        "generated_pressure_angle_on_drive_side",
+    ] {
+        if let Some(angle) = source.number(stage, id, DEG)? {
+            return Ok(angle);
+        }
+    }
+    source.assume(stage, About::Teeth, "no pressure angle given: 20 deg");
+    Ok(20.0)
+}
+
+/// Whether the pinion spirals with a right hand: what it or its mate states, else left.
+fn is_right_hand(source: &Source<'_>, pair: [&Component; 2], spiral_deg: f64) -> bool {
+    let hands = pair.map(|g| source.text(g, "spiral_angle_pitch_direction"));
+    match hands.each_ref().map(Option::as_deref) {
+        _ if spiral_deg.abs() <= 1e-6 => false,
+        [Some(hand), _] => hand == "right",
+        [None, Some(hand)] => hand == "left",
+        [None, None] => {
+            let what = "no spiral_angle_pitch_direction given: left";
+            source.assume(pair[0], About::Teeth, what);
+            false
+        }
+    }
 }
 
 /// Text of the pair file; none where the stage lacks what it needs, which is reported.
@@ -196,10 +203,8 @@ pub fn pair_file(
     for side in gears {
         for flank in structure.flanks(side.id).into_iter().flatten() {
             let kinds = ["bevel_gear_tool", "bevel_gear_manufacturing_settings"];
-            for id in structure.partners(flank, &kinds) {
-                if let Some(found) = source.model.component(id) {
-                    source.leave_out(found, About::Nothing, "machine settings of other programs: frames and signs differ; the pair file lets the program propose settings, or give them as \"given\"");
-                }
+            for found in structure.parts(source.model, flank, &kinds) {
+                source.leave_out(found, About::Nothing, "machine settings of other programs: frames and signs differ; the pair file lets the program propose settings, or give them as \"given\"");
             }
         }
     }

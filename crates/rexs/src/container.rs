@@ -41,51 +41,7 @@ pub fn unpack(bytes: Vec<u8>) -> Result<Unpacked, RexsError> {
     };
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(broken)?;
     let names: Vec<String> = archive.file_names().map(str::to_owned).collect();
-    let rank = |name: &str| {
-        let lower = name.to_lowercase();
-        let hidden = lower.starts_with("__macosx") || lower.contains("/.");
-        ENDINGS
-            .iter()
-            .position(|e| lower.ends_with(e) && !hidden && !leads_out(&lower))
-    };
-    // The model lies on top, what it refers to in folders.
-    let depth = |name: &str| name.matches('/').count();
-    let mut members: Vec<((usize, usize), &String)> = names
-        .iter()
-        .filter_map(|n| Some(((depth(n), rank(n)?), n)))
-        .collect();
-    members.sort();
-    let outside = names.iter().find(|name| leads_out(name));
-    let Some(&(best, name)) = members.first() else {
-        if let Some(name) = outside {
-            return Err(RexsError::Container {
-                found: format!(
-                    "a zip file whose member `{name}` stands outside of the archive's own folder, which models never do; pack the model again, \
-                     without a folder"
-                ),
-            });
-        }
-        return Err(RexsError::Container {
-            found: format!(
-                "a zip file without a member that ends in {}",
-                ENDINGS.join(", ")
-            ),
-        });
-    };
-    let equals: Vec<&str> = members
-        .iter()
-        .filter(|m| m.0 == best)
-        .map(|m| &m.1[..])
-        .collect();
-    if equals.len() > 1 {
-        return Err(RexsError::Container {
-            found: format!(
-                "a zip file of {} models ({}); unpack it and name one",
-                equals.len(),
-                equals.join(", ")
-            ),
-        });
-    }
+    let name = the_model(&names)?;
     let mut unpacked = Vec::new();
     // One byte more than is allowed tells that there is more, whatever size the archive claims.
     archive
@@ -105,6 +61,48 @@ pub fn unpack(bytes: Vec<u8>) -> Result<Unpacked, RexsError> {
         member: Some(name.clone()),
         further: further.cloned().collect(),
     })
+}
+
+/// The one member of an archive that is a model.
+fn the_model(names: &[String]) -> Result<&String, RexsError> {
+    let container = |found: String| RexsError::Container { found };
+    let rank = |name: &str| {
+        let lower = name.to_lowercase();
+        let hidden = lower.starts_with("__macosx") || lower.contains("/.");
+        ENDINGS
+            .iter()
+            .position(|e| lower.ends_with(e) && !hidden && !leads_out(&lower))
+    };
+    // The model lies on top, what it refers to in folders.
+    let depth = |name: &str| name.matches('/').count();
+    let mut members: Vec<((usize, usize), &String)> = names
+        .iter()
+        .filter_map(|n| Some(((depth(n), rank(n)?), n)))
+        .collect();
+    members.sort();
+    let Some(&(best, name)) = members.first() else {
+        let outside = names.iter().find(|name| leads_out(name));
+        return Err(container(match outside {
+            Some(name) => format!(
+                "a zip file whose member `{name}` stands outside of the archive's own folder, which models never do; pack the model again, \
+                 without a folder"
+            ),
+            None => format!(
+                "a zip file without a member that ends in {}",
+                ENDINGS.join(", ")
+            ),
+        }));
+    };
+    let equals = members.iter().filter(|m| m.0 == best);
+    let equals: Vec<&str> = equals.map(|m| &m.1[..]).collect();
+    if equals.len() > 1 {
+        return Err(container(format!(
+            "a zip file of {} models ({}); unpack it and name one",
+            equals.len(),
+            equals.join(", ")
+        )));
+    }
+    Ok(name)
 }
 
 /// Whether a member's path leads out of the folder in which the archive would be unpacked.

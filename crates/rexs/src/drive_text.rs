@@ -42,31 +42,7 @@ pub fn drive(
     groups: &BTreeMap<i64, usize>,
 ) -> Vec<Held> {
     let mut held = Vec::new();
-    let transmitting = train.loads.iter().filter(|l| l.transmits);
-    let mut torques: Vec<Torque> = transmitting
-        .zip(&train.flow.torque_nm)
-        .map(|(load, &nm)| Torque {
-            shaft: load.shaft,
-            u_mm: load.u_mm,
-            nm,
-            name: load.name.clone(),
-        })
-        .collect();
-    for seat in train.torque_seats() {
-        // What the shaft brings to the link, the link takes from the shaft.
-        let Some(link) = train.flow.link_nm.get(seat.link.0).copied().flatten() else {
-            if let Some(component) = source.model.component(seat.shaft) {
-                source.leave_out(component, About::Lost, format!("the torque at {}, which is part of a loop: it depends on stiffness, which a stage without a mesh in the scene does not have. Nothing acts there, what is behind it carries no load", seat.name));
-            }
-            continue;
-        };
-        torques.push(Torque {
-            shaft: seat.shaft,
-            u_mm: seat.u_mm,
-            nm: -link[seat.link.1],
-            name: format!("torque at {}", seat.name),
-        });
-    }
+    let torques = torques(source, train);
     let mut done: HashSet<usize> = HashSet::new();
     let in_groups = torques.iter();
     let in_groups = in_groups.filter_map(|torque| Some((*groups.get(&torque.shaft)?, torque)));
@@ -107,24 +83,54 @@ pub fn drive(
                 speed_rpm,
                 HELD_NM_PER_RAD,
             ));
-            other_torques(text, train, mine, input);
-            continue;
+        } else {
+            let spring = format!("held at {name}");
+            text.push_str(&format!(
+                "\n# Holds the train where its power goes in; its torque is that of the input.\n[[torsion_spring]]\nname = {}\nbody_2 = {}\nstiffness_Nm_per_rad = {}\n",
+                quoted(&spring),
+                quoted(&body),
+                number(HELD_NM_PER_RAD)
+            ));
+            held.push(Held {
+                spring,
+                at: name,
+                torque_nm: input.map_or(0.0, |t| t.nm),
+            });
         }
-        held.push(Held {
-            spring: format!("held at {name}"),
-            at: name.clone(),
-            torque_nm: input.map_or(0.0, |t| t.nm),
-        });
-        text.push_str(&format!(
-            "\n# Holds the train where its power goes in; its torque is that of the input.\n[[torsion_spring]]\nname = {}\nbody_2 = {}\nstiffness_Nm_per_rad = {}\n",
-            quoted(&format!("held at {name}")),
-            quoted(&body),
-            number(HELD_NM_PER_RAD)
-        ));
         other_torques(text, train, mine, input);
     }
     forces(text, train);
     held
+}
+
+/// Torques of the loads that transmit power, and those that links put on shafts.
+fn torques(source: &Source<'_>, train: &Train) -> Vec<Torque> {
+    let transmitting = train.loads.iter().filter(|l| l.transmits);
+    let mut torques: Vec<Torque> = transmitting
+        .zip(&train.flow.torque_nm)
+        .map(|(load, &nm)| Torque {
+            shaft: load.shaft,
+            u_mm: load.u_mm,
+            nm,
+            name: load.name.clone(),
+        })
+        .collect();
+    for seat in train.torque_seats() {
+        // What the shaft brings to the link, the link takes from the shaft.
+        let Some(link) = train.flow.link_nm.get(seat.link.0).copied().flatten() else {
+            if let Some(component) = source.model.component(seat.shaft) {
+                source.leave_out(component, About::Lost, format!("the torque at {}, which is part of a loop: it depends on stiffness, which a stage without a mesh in the scene does not have. Nothing acts there, what is behind it carries no load", seat.name));
+            }
+            continue;
+        };
+        torques.push(Torque {
+            shaft: seat.shaft,
+            u_mm: seat.u_mm,
+            nm: -link[seat.link.1],
+            name: format!("torque at {}", seat.name),
+        });
+    }
+    torques
 }
 
 /// The torques of a train other than that which goes in where it is held or driven.

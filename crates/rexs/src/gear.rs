@@ -100,16 +100,8 @@ pub fn read(
     name: String,
     file: String,
 ) -> Result<Gear, RexsError> {
-    let teeth = source
-        .integer(component, "number_of_teeth")?
-        .ok_or_else(|| component.lacks("number_of_teeth is missing"))?;
     let internal = component.kind == "ring_gear";
-    // Programs write the teeth of rings with and without sign.
-    let counted = if internal { teeth.abs() } else { teeth };
-    let teeth = u32::try_from(counted)
-        .ok()
-        .filter(|z| (3..=2000).contains(z))
-        .ok_or_else(|| component.lacks(format!("number_of_teeth is {teeth}; allowed are 3 to 2000 (of a ring gear say so by its type)")))?;
+    let teeth = teeth(source, component, internal)?;
     let helix_deg = source
         .number(component, "helix_angle_reference_diameter", DEG)?
         .unwrap_or(0.0);
@@ -118,15 +110,7 @@ pub fn read(
             "helix_angle_reference_diameter is {helix_deg} deg; allowed is less than 80"
         )));
     }
-    let cos = helix_deg.to_radians().cos();
-    let normal = source.number(component, "normal_module", MM)?;
-    let module_mm = match normal {
-        Some(module) => module,
-        None => {
-            let transverse = source.number(component, "transverse_module", MM)?;
-            transverse.ok_or_else(|| component.lacks("normal_module is missing"))? * cos
-        }
-    };
+    let module_mm = normal_module_mm(source, component, helix_deg)?;
     let face_width_mm = source.need(component, "face_width", MM)?;
     for (what, value, most) in [
         ("module", module_mm, 1e3),
@@ -138,9 +122,7 @@ pub fn read(
             );
         }
     }
-    let flanks = structure
-        .flanks(component.id)
-        .map(|id| id.and_then(|id| source.model.component(id)));
+    let flanks = structure.flank_parts(source.model, component.id);
     let mut gear = Gear {
         id: component.id,
         name,
@@ -173,6 +155,31 @@ pub fn read(
     }
     thickness(source, component, &mut gear)?;
     Ok(gear)
+}
+
+fn teeth(source: &Source<'_>, component: &Component, internal: bool) -> Result<u32, RexsError> {
+    let teeth = source
+        .integer(component, "number_of_teeth")?
+        .ok_or_else(|| component.lacks("number_of_teeth is missing"))?;
+    // Programs write the teeth of rings with and without sign.
+    let counted = if internal { teeth.abs() } else { teeth };
+    u32::try_from(counted)
+        .ok()
+        .filter(|z| (3..=2000).contains(z))
+        .ok_or_else(|| component.lacks(format!("number_of_teeth is {teeth}; allowed are 3 to 2000 (of a ring gear say so by its type)")))
+}
+
+fn normal_module_mm(
+    source: &Source<'_>,
+    component: &Component,
+    helix_deg: f64,
+) -> Result<f64, RexsError> {
+    if let Some(module) = source.number(component, "normal_module", MM)? {
+        return Ok(module);
+    }
+    let transverse = source.number(component, "transverse_module", MM)?;
+    let transverse = transverse.ok_or_else(|| component.lacks("normal_module is missing"))?;
+    Ok(transverse * helix_deg.to_radians().cos())
 }
 
 /// A value of both flanks: the right one's where they differ, which is reported.
@@ -255,9 +262,8 @@ fn tool(
     let kinds = ["rack_shaped_tool", "cutter_wheel_tool", "profile_tool"];
     let owners = [flanks[1], flanks[0], Some(component)];
     let found = owners.into_iter().flatten().find_map(|owner| {
-        let tools = structure.partners(owner.id, &kinds);
         // The last step gives the flank, the first one the root.
-        tools.first().and_then(|&id| source.model.component(id))
+        structure.parts(source.model, owner.id, &kinds).next()
     });
     let Some(tool) = found else {
         source.assume(
@@ -420,14 +426,12 @@ fn bore(
     component: &Component,
 ) -> Result<Option<f64>, RexsError> {
     let mut bore = source.positive(component, "inner_diameter", MM)?;
-    for id in structure.partners(component.id, &["gear_body"]) {
-        if let Some(body) = source.model.component(id) {
-            bore = source.positive(body, "inner_diameter", MM)?.or(bore);
-            if source.has(body, "body_contour_coordinate_u")
-                || source.has(body, "gear_body_web_thickness")
-            {
-                source.leave_out(body, About::Blank, "rim, web and contour: the blank is a solid disc with this bore; give [blank] kind = \"thin-rim\" or \"contour\" by hand");
-            }
+    for body in structure.parts(source.model, component.id, &["gear_body"]) {
+        bore = source.positive(body, "inner_diameter", MM)?.or(bore);
+        if source.has(body, "body_contour_coordinate_u")
+            || source.has(body, "gear_body_web_thickness")
+        {
+            source.leave_out(body, About::Blank, "rim, web and contour: the blank is a solid disc with this bore; give [blank] kind = \"thin-rim\" or \"contour\" by hand");
         }
     }
     Ok(bore)

@@ -37,8 +37,8 @@ pub fn seat(
     shift_index: i64,
 ) -> Option<Seat> {
     let between = |kinds: &[&str]| -> Vec<(&Component, i64)> {
-        let all = structure.partners(gear.id, kinds).into_iter();
-        all.filter_map(|id| source.model.component(id))
+        structure
+            .parts(source.model, gear.id, kinds)
             .filter_map(|c| Some((c, other_side(structure, train, c.id, gear.id)?)))
             .collect()
     };

@@ -37,8 +37,8 @@ pub fn material(
     structure: &Structure,
     component: &Component,
 ) -> Result<Material, RexsError> {
-    let ids = structure.partners(component.id, &["material"]);
-    let Some(found) = ids.first().and_then(|&id| source.model.component(id)) else {
+    let mut named = structure.parts(source.model, component.id, &["material"]);
+    let Some(found) = named.next() else {
         source.assume(
             component,
             About::Stiffness,

@@ -91,9 +91,7 @@ pub fn read(
     gear: &Gear,
     is_reversed: bool,
 ) -> Result<Microgeometry, RexsError> {
-    let flanks = structure
-        .flanks(component.id)
-        .map(|id| id.and_then(|id| source.model.component(id)));
+    let flanks = structure.flank_parts(source.model, component.id);
     // The datum face looks to -u unless the file says otherwise.
     let datum_along_u =
         source.text(component, "datum_face_orientation").as_deref() == Some("positive");
@@ -107,26 +105,19 @@ pub fn read(
             datum_is_positive,
             is_reversed,
         };
-        let found = |kinds: &[&str]| -> Vec<&Component> {
-            let ids = structure.partners(flank.id, kinds).into_iter();
-            ids.filter_map(|id| source.model.component(id)).collect()
-        };
+        let found = |kinds: &[&str]| structure.parts(source.model, flank.id, kinds);
         let mut seen: Vec<&str> = Vec::new();
         for m in found(&READ) {
             if seen.contains(&m.kind.as_str()) {
-                source.leave_out(
-                    m,
-                    About::Flanks,
-                    "a second one of its kind on the same flank",
-                );
+                reader.leave_out(m, "a second one of its kind on the same flank");
                 continue;
             }
             seen.push(&m.kind);
             side.extend(reader.modification(m)?);
         }
-        side.extend(reader.ends(&found(&ENDS))?);
+        side.extend(reader.ends(&found(&ENDS).collect::<Vec<_>>())?);
         for m in found(&UNREAD) {
-            source.leave_out(m, About::Flanks, "gear files have no such modification; give it as a topography or as an error of the mesh");
+            reader.leave_out(m, "gear files have no such modification; give it as a topography or as an error of the mesh");
         }
     }
     let [left, right] = sides;
@@ -149,6 +140,10 @@ pub fn read(
 
 type Keys = Vec<(String, String)>;
 
+fn key(name: &str, value: f64) -> (String, String) {
+    (name.to_owned(), number(value))
+}
+
 struct Reader<'a> {
     source: &'a Source<'a>,
     gear: &'a Gear,
@@ -163,15 +158,22 @@ impl Reader<'_> {
         self.source.number(m, id, unit)
     }
 
+    fn leave_out(&self, m: &Component, what: impl Into<String>) {
+        self.source.leave_out(m, About::Flanks, what);
+    }
+
+    fn assume(&self, m: &Component, what: impl Into<String>) {
+        self.source.assume(m, About::Flanks, what);
+    }
+
     fn amount_um(&self, m: &Component, id: &str) -> Result<Option<f64>, RexsError> {
         let found = self
             .value(m, id, MM)?
             .map(|mm| UM_PER_MM * mm)
             .filter(|um| *um != 0.0);
         if let Some(um) = found.filter(|um| um.abs() > 1000.0) {
-            self.source.leave_out(
+            self.leave_out(
                 m,
-                About::Flanks,
                 format!("{id} of {um} um: more than 1000 is no modification"),
             );
             return Ok(None);
@@ -210,116 +212,92 @@ impl Reader<'_> {
             Some("circular") => "arc",
             Some("linear") => "linear",
             Some(other) => {
-                self.source.leave_out(
-                    m,
-                    About::Flanks,
-                    format!("shape `{other}`: taken as parabolic"),
-                );
+                self.leave_out(m, format!("shape `{other}`: taken as parabolic"));
                 "parabolic"
             }
             None => {
-                self.source
-                    .assume(m, About::Flanks, "no shape given: linear");
+                self.assume(m, "no shape given: linear");
                 "linear"
             }
         }
     }
 
     fn modification(&self, m: &Component) -> Result<Keys, RexsError> {
-        let key = |name: &str, value: f64| (name.to_owned(), number(value));
-        Ok(match m.kind.as_str() {
-            "tip_relief" => self.relief(m, "tip_relief")?,
-            "root_relief" => self.relief(m, "root_relief")?,
-            "profile_crowning" => {
-                let tip = self.amount_um(m, "profile_crowning_at_tip")?;
-                let root = self.amount_um(m, "profile_crowning_at_root")?;
-                let highest = self.value(m, "profile_highest_point", MM)?;
-                let highest = highest.map(|d| self.unsigned(d));
-                let Some(tip) = tip.or(root) else {
-                    return Ok(Vec::new());
-                };
-                if let Some(root) = root.filter(|root| *root != tip) {
-                    self.source.leave_out(m, About::Flanks, format!("{root} um at the root: one parabola from the highest point on, {tip} um at the tip"));
-                }
-                let middle = highest.unwrap_or_else(|| {
-                    self.source.assume(
-                        m,
-                        About::Flanks,
-                        "no highest point given: the reference circle",
-                    );
-                    self.gear.reference_diameter_mm()
-                });
-                vec![
-                    key("profile_crowning_um", tip),
-                    key("profile_crowning_diameter_mm", middle),
-                ]
-            }
+        match m.kind.as_str() {
+            "tip_relief" => self.relief(m, "tip_relief"),
+            "root_relief" => self.relief(m, "root_relief"),
+            "profile_crowning" => self.profile_crowning(m),
             "profile_slope" => {
-                let Some(amount) = self.amount_um(m, "profile_slope")? else {
-                    return Ok(Vec::new());
-                };
-                self.source.assume(
-                    m,
-                    About::Flanks,
-                    "sign: positive removes towards the tip; over the whole involute",
-                );
-                vec![key("profile_angle_um", amount)]
+                let sign = "sign: positive removes towards the tip; over the whole involute";
+                self.slope(m, ("profile_slope", "profile_angle_um"), sign, false)
             }
-            "helix_crowning" => {
-                let ends = [
-                    self.amount_um(m, "helix_crowning_amount_datum_face")?,
-                    self.amount_um(m, "helix_crowning_amount_non_datum_face")?,
-                ];
-                let [Some(a), Some(b)] = [ends[0].or(ends[1]), ends[1].or(ends[0])] else {
-                    return Ok(Vec::new());
-                };
-                if a != b {
-                    self.source.leave_out(
-                        m,
-                        About::Flanks,
-                        format!("{a} and {b} um at the two faces: their mean at both"),
-                    );
-                }
-                vec![key("lead_crowning_um", 0.5 * (a + b))]
-            }
+            "helix_crowning" => self.helix_crowning(m),
             "helix_slope" => {
-                let Some(amount) = self.amount_um(m, "helix_slope")? else {
-                    return Ok(Vec::new());
-                };
-                self.source.assume(
-                    m,
-                    About::Flanks,
-                    "sign: positive removes towards the face that is not the datum face",
-                );
-                vec![key(
-                    "flank_angle_um",
-                    if self.datum_is_positive {
-                        -amount
-                    } else {
-                        amount
-                    },
-                )]
+                let sign = "sign: positive removes towards the face that is not the datum face";
+                self.slope(m, ("helix_slope", "flank_angle_um"), sign, true)
             }
             "profile_twist" => {
-                let Some(amount) = self.amount_um(m, "profile_twist")? else {
-                    return Ok(Vec::new());
-                };
-                self.source.assume(
-                    m,
-                    About::Flanks,
-                    "sign: positive where the profile's slope grows from the datum face on",
-                );
-                vec![key(
-                    "twist_um",
-                    if self.datum_is_positive {
-                        -amount
-                    } else {
-                        amount
-                    },
-                )]
+                let sign = "sign: positive where the profile's slope grows from the datum face on";
+                self.slope(m, ("profile_twist", "twist_um"), sign, true)
             }
-            _ => self.topography(m)?,
-        })
+            _ => self.topography(m),
+        }
+    }
+
+    fn profile_crowning(&self, m: &Component) -> Result<Keys, RexsError> {
+        let tip = self.amount_um(m, "profile_crowning_at_tip")?;
+        let root = self.amount_um(m, "profile_crowning_at_root")?;
+        let highest = self.value(m, "profile_highest_point", MM)?;
+        let Some(tip) = tip.or(root) else {
+            return Ok(Vec::new());
+        };
+        if let Some(root) = root.filter(|root| *root != tip) {
+            self.leave_out(m, format!("{root} um at the root: one parabola from the highest point on, {tip} um at the tip"));
+        }
+        let middle = highest.map_or_else(
+            || {
+                self.assume(m, "no highest point given: the reference circle");
+                self.gear.reference_diameter_mm()
+            },
+            |d| self.unsigned(d),
+        );
+        Ok(vec![
+            key("profile_crowning_um", tip),
+            key("profile_crowning_diameter_mm", middle),
+        ])
+    }
+
+    fn helix_crowning(&self, m: &Component) -> Result<Keys, RexsError> {
+        let ends = [
+            self.amount_um(m, "helix_crowning_amount_datum_face")?,
+            self.amount_um(m, "helix_crowning_amount_non_datum_face")?,
+        ];
+        let [Some(a), Some(b)] = [ends[0].or(ends[1]), ends[1].or(ends[0])] else {
+            return Ok(Vec::new());
+        };
+        if a != b {
+            self.leave_out(
+                m,
+                format!("{a} and {b} um at the two faces: their mean at both"),
+            );
+        }
+        Ok(vec![key("lead_crowning_um", 0.5 * (a + b))])
+    }
+
+    /// An amount under a key of ours. `from_datum`: its sign depends on where the datum face is.
+    fn slope(
+        &self,
+        m: &Component,
+        (id, ours): (&str, &str),
+        sign: &str,
+        from_datum: bool,
+    ) -> Result<Keys, RexsError> {
+        let Some(amount) = self.amount_um(m, id)? else {
+            return Ok(Vec::new());
+        };
+        self.assume(m, sign);
+        let is_reversed = from_datum && self.datum_is_positive;
+        Ok(vec![key(ours, if is_reversed { -amount } else { amount })])
     }
 
     fn relief(&self, m: &Component, name: &str) -> Result<Keys, RexsError> {
@@ -332,9 +310,8 @@ impl Reader<'_> {
             &format!("{name}_datum_length"),
         )?;
         let Some(start) = start else {
-            self.source.leave_out(
+            self.leave_out(
                 m,
-                About::Flanks,
                 format!("{amount} um: neither a diameter nor a length at which it begins is given"),
             );
             return Ok(Vec::new());
@@ -345,12 +322,12 @@ impl Reader<'_> {
             false => [self.gear.base_diameter_mm(), tip],
         };
         if !(low..high).contains(&start) {
-            self.source.leave_out(m, About::Flanks, format!("{amount} um from a diameter of {start:.4} mm on: not on the flank, {low:.4} to {high:.4} mm"));
+            self.leave_out(m, format!("{amount} um from a diameter of {start:.4} mm on: not on the flank, {low:.4} to {high:.4} mm"));
             return Ok(Vec::new());
         }
         Ok(vec![
-            (format!("{name}_um"), number(amount)),
-            (format!("{name}_start_diameter_mm"), number(start)),
+            key(&format!("{name}_um"), amount),
+            key(&format!("{name}_start_diameter_mm"), start),
             (format!("{name}_shape"), format!("\"{}\"", self.shape(m))),
         ])
     }
@@ -378,11 +355,7 @@ impl Reader<'_> {
                     ));
                 }
                 (None, _) => {}
-                _ => self.source.leave_out(
-                    m,
-                    About::Flanks,
-                    "end relief without a length on the face",
-                ),
+                _ => self.leave_out(m, "end relief without a length on the face"),
             }
         }
         let Some(&(amount, length, shape, is_positive)) = found.first() else {
@@ -403,8 +376,8 @@ impl Reader<'_> {
             }
         };
         Ok(vec![
-            ("end_relief_um".to_owned(), number(amount)),
-            ("end_relief_length_mm".to_owned(), number(length)),
+            key("end_relief_um", amount),
+            key("end_relief_length_mm", length),
             ("end_relief_shape".to_owned(), format!("\"{shape}\"")),
             ("end_relief_end".to_owned(), format!("\"{end}\"")),
         ])
@@ -422,11 +395,7 @@ impl Reader<'_> {
             .source
             .list(m, "topographical_modification_amounts", MM)?;
         let (Some(diameters), Some(places), Some(amounts)) = (diameters, places, amounts) else {
-            self.source.leave_out(
-                m,
-                About::Flanks,
-                "topography without diameters, coordinates and amounts",
-            );
+            self.leave_out(m, "topography without diameters, coordinates and amounts");
             return Ok(Vec::new());
         };
         let increasing =
@@ -437,9 +406,7 @@ impl Reader<'_> {
             || !increasing(&places)
             || amounts.len() != diameters.len() * places.len()
         {
-            self.source.leave_out(
-                m,
-                About::Flanks, format!(
+            self.leave_out(m, format!(
                     "topography of {} diameters, {} places and {} amounts: no full grid of increasing points, diameters without sign",
                     diameters.len(),
                     places.len(),
@@ -448,7 +415,7 @@ impl Reader<'_> {
             );
             return Ok(Vec::new());
         }
-        self.source.assume(m, About::Flanks, "places over the face count from the face at the lower u; positive amounts remove material");
+        self.assume(m, "places over the face count from the face at the lower u; positive amounts remove material");
         let half = 0.5 * self.gear.face_width_mm;
         // z increases, as u does; against u the table runs from its other end.
         let along_z = |mut values: Vec<f64>| {

@@ -2,6 +2,7 @@
 //! shaft, planets on their bearings.
 
 use crate::bearing::{AxialSupport, Bearing, RIGID_TILT};
+use crate::gear::Gear;
 use crate::in_time::Running;
 use crate::ledger::About;
 use crate::mesh_model::{Meshes, mesh_model};
@@ -64,16 +65,7 @@ pub fn read(
     let place = |id: i64| train.gears.place(id).ok_or("a gear is missing".to_owned());
     let [sun, planet, ring_gear] = [sun.part, parts.planets[0], ring.part].map(place);
     let (sun, planet, ring_gear) = (sun?, planet?, ring_gear?);
-    let [s, p, r] = [sun, planet, ring_gear].map(|i| &train.gears[i].gear);
-    if (s.helix_deg + p.helix_deg).abs() > 1e-6
-        || (r.helix_deg.abs() - p.helix_deg.abs()).abs() > 1e-6
-    {
-        return Err(format!(
-            "helix angles do not go together: sun {}, planet {}, ring {} deg",
-            s.helix_deg, p.helix_deg, r.helix_deg
-        ));
-    }
-    let hand = p.helix_deg;
+    let hand = hand_deg([sun, planet, ring_gear].map(|i| &train.gears[i].gear))?;
     let shaft = train.shaft(train.gears[sun].shaft);
     let own = shaft.and_then(|s| Some((s.frame?, s.sign())));
     let (own, sign) = own.ok_or("the sun's shaft has no place")?;
@@ -86,24 +78,8 @@ pub fn read(
     };
     let frames: Vec<Option<Frame>> = parts.planets.iter().map(|&p| frame_of(p)).collect();
     let distance_mm = distance_mm(source, train, parts, (&own, &frames[0]), [sun, planet]);
-    let teeth = s.teeth + r.teeth;
-    let angles_deg = match angles_deg((own.origin_mm, axis), &frames, teeth) {
-        Some((angles_deg, moved_deg)) => {
-            if moved_deg > ROUNDING_DEG {
-                let about = format!(
-                    "its teeth do not fit where its planets are: moved by up to {moved_deg:.3} deg about its axis, \
-                     to the nearest places where they do"
-                );
-                source.assume(stage, About::Place, about);
-            }
-            angles_deg
-        }
-        None => {
-            let about = "its planets have no places of their own around the axis: at equal angles";
-            source.assume(stage, About::Small, about);
-            equal_deg(parts.planets.len())
-        }
-    };
+    let teeth = train.gears[sun].gear.teeth + train.gears[ring_gear].gear.teeth;
+    let angles_deg = told_angles_deg(source, stage, (own.origin_mm, axis), &frames, teeth);
     let is_against = |frame: &Option<Frame>| frame.is_some_and(|f| dot(f.axes[0], axis) < 0.0);
     let bearings = of_planet(
         structure,
@@ -115,32 +91,23 @@ pub fn read(
     let planets = planets.filter_map(|(&id, frame)| Some((train.gears.place(id)?, frame)));
     let planets: Vec<(usize, Option<Frame>)> = planets.collect();
     let others = planets.iter().skip(1).map(|(gear, _)| *gear).collect();
-    let on_no_shaft = { planets.into_iter() }.chain([(ring_gear, frame_of(ring.part))]);
-    let against_u = { on_no_shaft }
-        .filter(|(_, frame)| is_against(frame))
-        .map(|(gear, _)| gear)
-        .collect();
-    let ring_shaft = ring.shaft;
+    let on_no_shaft = planets
+        .into_iter()
+        .chain([(ring_gear, frame_of(ring.part))]);
+    let against_u = on_no_shaft.filter(|(_, frame)| is_against(frame));
+    let against_u = against_u.map(|(gear, _)| gear).collect();
     if standing == 2
-        && let Some(on) = ring_shaft
+        && let Some(on) = ring.shaft
         && let Some(frame) = train.shaft(on).and_then(|s| s.frame)
     {
         let seated = &mut train.gears[ring_gear];
         (seated.shaft, seated.mid_mm) = (on, frame.u_of(middle));
     }
     train.gears[ring_gear].gear.helix_deg = hand;
-    let mut carriers = Vec::new();
-    for &id in parts.carriers.iter().filter(|_| standing != 2) {
-        let Some(shaft) = train.shaft(id) else {
-            continue;
-        };
-        carriers.push((id, shaft.nearest_mm(Some(middle))));
-    }
-    // Both halves of a carrier turn as one.
-    let halves = carriers.windows(2).map(|pair| [pair[0].0, pair[1].0]);
-    train
-        .links
-        .extend(halves.map(|shafts| Link { shafts, ratio: 1.0 }));
+    let carriers = match standing {
+        2 => Vec::new(),
+        _ => join_carriers(train, &parts.carriers, middle),
+    };
     source.assume(
         stage,
         About::Small,
@@ -167,6 +134,53 @@ pub fn read(
         link,
         against_u,
     })
+}
+
+/// Helix angle of the planets, with which sun and ring go together \[°\].
+fn hand_deg([sun, planet, ring]: [&Gear; 3]) -> Result<f64, String> {
+    let (s, p, r) = (sun.helix_deg, planet.helix_deg, ring.helix_deg);
+    if (s + p).abs() > 1e-6 || (r.abs() - p.abs()).abs() > 1e-6 {
+        return Err(format!(
+            "helix angles do not go together: sun {s}, planet {p}, ring {r} deg"
+        ));
+    }
+    Ok(p)
+}
+
+/// Angles of the planets, and a word about them where they are not those of the file.
+fn told_angles_deg(
+    source: &Source<'_>,
+    stage: &Component,
+    axis: ([f64; 3], [f64; 3]),
+    frames: &[Option<Frame>],
+    teeth: u32,
+) -> Vec<f64> {
+    let Some((angles_deg, moved_deg)) = angles_deg(axis, frames, teeth) else {
+        let about = "its planets have no places of their own around the axis: at equal angles";
+        source.assume(stage, About::Small, about);
+        return equal_deg(frames.len());
+    };
+    if moved_deg > ROUNDING_DEG {
+        let about = format!(
+            "its teeth do not fit where its planets are: moved by up to {moved_deg:.3} deg about its axis, \
+             to the nearest places where they do"
+        );
+        source.assume(stage, About::Place, about);
+    }
+    angles_deg
+}
+
+/// Shafts of the carrier with the place of the set along them; they turn as one.
+fn join_carriers(train: &mut Train, shafts: &[i64], middle_mm: [f64; 3]) -> Vec<(i64, f64)> {
+    let known = shafts.iter().filter_map(|&id| Some((id, train.shaft(id)?)));
+    let carriers = known.map(|(id, shaft)| (id, shaft.nearest_mm(Some(middle_mm))));
+    let carriers: Vec<(i64, f64)> = carriers.collect();
+    // Both halves of a carrier turn as one.
+    let halves = carriers.windows(2).map(|pair| [pair[0].0, pair[1].0]);
+    train
+        .links
+        .extend(halves.map(|shafts| Link { shafts, ratio: 1.0 }));
+    carriers
 }
 
 /// Tells which planets have other flanks than the first one, whose the scene gives to all.

@@ -115,6 +115,50 @@ fn train(
     of: &mut Of,
     found: &mut Flow,
 ) {
+    let (reached, closing) = reach(root, links, of);
+    let relative: BTreeMap<i64, f64> = reached.iter().map(|r| (r.shaft, r.relative)).collect();
+    let on = reached.iter().filter_map(|r| of.torques.get(&r.shaft));
+    let mut mine: Vec<usize> = on.flatten().copied().collect();
+    mine.sort_unstable();
+    for &i in &closing {
+        let [a, b] = links[i].shafts.map(|s| relative[&s]);
+        if (b / a / links[i].ratio - 1.0).abs() > SAME_SPEED {
+            found.locked.push((i, b / a));
+        }
+    }
+    // What nothing drives stands: pins and axles.
+    let stands = mine.is_empty() && reached.len() == 1;
+    let root_rpm = stated_rpm.get(&root).copied().unwrap_or_else(|| {
+        if stands {
+            return 0.0;
+        }
+        found.assumed_speed.push(root);
+        // Power goes in at the first torque that is stated.
+        let first = mine.iter().find(|&&i| found.torque_nm[i] != 0.0);
+        let sense = first.map_or(1.0, |&i| {
+            found.torque_nm[i].signum() * relative[&torques[i].shaft].signum()
+        });
+        sense * ASSUMED_RPM
+    });
+    for (&shaft, ratio) in &relative {
+        found.speed_rpm.insert(shaft, root_rpm * ratio);
+        let stated = stated_rpm.get(&shaft).copied();
+        let other = |n: &f64| (n / (root_rpm * ratio) - 1.0).abs() > SAME_SPEED;
+        found
+            .other_speed
+            .extend(stated.filter(other).map(|n| (shaft, n)));
+    }
+    balance(root_rpm, torques, &mine, &relative, found);
+    torques_of_links(
+        (&reached, &relative),
+        (links, &closing),
+        (torques, &mine),
+        found,
+    );
+}
+
+/// Shafts that a root reaches over links, and the links that close loops.
+fn reach(root: i64, links: &[Link], of: &mut Of) -> (Vec<Reached>, Vec<usize>) {
     let mut reached = vec![Reached {
         shaft: root,
         relative: 1.0,
@@ -149,44 +193,20 @@ fn train(
             });
         }
     }
-    let relative: BTreeMap<i64, f64> = reached.iter().map(|r| (r.shaft, r.relative)).collect();
-    let on = reached.iter().filter_map(|r| of.torques.get(&r.shaft));
-    let mut mine: Vec<usize> = on.flatten().copied().collect();
-    mine.sort_unstable();
-    let closing: Vec<usize> = closing.into_iter().collect();
-    for &i in &closing {
-        let [a, b] = links[i].shafts.map(|s| relative[&s]);
-        if (b / a / links[i].ratio - 1.0).abs() > SAME_SPEED {
-            found.locked.push((i, b / a));
-        }
-    }
-    // What nothing drives stands: pins and axles.
-    let stands = mine.is_empty() && reached.len() == 1;
-    let root_rpm = stated_rpm.get(&root).copied().unwrap_or_else(|| {
-        if stands {
-            return 0.0;
-        }
-        found.assumed_speed.push(root);
-        // Power goes in at the first torque that is stated.
-        let first = mine.iter().find(|&&i| found.torque_nm[i] != 0.0);
-        let sense = first.map_or(1.0, |&i| {
-            found.torque_nm[i].signum() * relative[&torques[i].shaft].signum()
-        });
-        sense * ASSUMED_RPM
-    });
-    for (&shaft, ratio) in &relative {
-        found.speed_rpm.insert(shaft, root_rpm * ratio);
-        let stated = stated_rpm.get(&shaft).copied();
-        let other = |n: &f64| (n / (root_rpm * ratio) - 1.0).abs() > SAME_SPEED;
-        found
-            .other_speed
-            .extend(stated.filter(other).map(|n| (shaft, n)));
-    }
-    balance(root_rpm, torques, &mine, &relative, found);
-    let in_loop = loops(&reached, links, &closing);
+    (reached, closing.into_iter().collect())
+}
+
+/// What each link that is part of no loop passes, by the balance of power.
+fn torques_of_links(
+    (reached, relative): (&[Reached], &BTreeMap<i64, f64>),
+    (links, closing): (&[Link], &[usize]),
+    (torques, mine): (&[TorqueOn], &[usize]),
+    found: &mut Flow,
+) {
+    let in_loop = loops(reached, links, closing);
     // From the leaves to the root: what comes together behind a link goes through it.
     let mut behind: BTreeMap<i64, f64> = relative.keys().map(|&s| (s, 0.0)).collect();
-    for &i in &mine {
+    for &i in mine {
         *behind.entry(torques[i].shaft).or_insert(0.0) +=
             found.torque_nm[i] * relative[&torques[i].shaft];
     }

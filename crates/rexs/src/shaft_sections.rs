@@ -26,10 +26,7 @@ pub fn read(
 ) -> Result<Shaft, RexsError> {
     let mut sections = Vec::new();
     let mut end_mm = 0.0;
-    for id in structure.partners(component.id, &["shaft_section"]) {
-        let Some(piece) = source.model.component(id) else {
-            continue;
-        };
+    for piece in structure.parts(source.model, component.id, &["shaft_section"]) {
         let Some(length) = source.positive(piece, "length", MM)? else {
             source.leave_out(piece, About::Stiffness, "a section without length");
             continue;
@@ -38,56 +35,12 @@ pub fn read(
             .number(piece, "u_coordinate_on_shaft", MM)?
             .unwrap_or(end_mm);
         end_mm = start + length;
-        let value = |id: &str| source.number(piece, id, MM);
-        let [outer_0, outer_1] = [value("outer_diameter_begin")?, value("outer_diameter_end")?];
-        let [inner_0, inner_1] = [value("inner_diameter_begin")?, value("inner_diameter_end")?];
-        let Some(outer) = outer_0.or(outer_1).filter(|d| *d > 0.0) else {
-            source.leave_out(
-                piece,
-                About::Stiffness,
-                "a section without an outer diameter",
-            );
+        let Some(diameters) = diameters_mm(source, piece)? else {
+            let what = "a section without an outer diameter";
+            source.leave_out(piece, About::Stiffness, what);
             continue;
         };
-        let outer = [
-            outer_0.unwrap_or(outer),
-            outer_1.filter(|d| *d > 0.0).unwrap_or(outer),
-        ];
-        let inner = [
-            inner_0.or(inner_1).unwrap_or(0.0),
-            inner_1.or(inner_0).unwrap_or(0.0),
-        ];
-        let is_taper = outer[0] != outer[1] || inner[0] != inner[1];
-        if is_taper {
-            // Bending stiffness goes with d^4: 1/d^4 along the taper, and in the middles of its pieces.
-            let [a, b] = outer;
-            let exact = (a.powi(-3) - b.powi(-3)) / (3.0 * (b - a));
-            let middles = (0..TAPER_PIECES)
-                .map(|k| a + (b - a) * (k as f64 + 0.5) / TAPER_PIECES as f64)
-                .map(|d| d.powi(-4) / TAPER_PIECES as f64);
-            let off = (middles.sum::<f64>() / exact - 1.0).abs();
-            source.assume(
-                piece,
-                About::by(off > 1e-2 || inner[0] != inner[1], About::Stiffness),
-                format!("a taper: {TAPER_PIECES} cylinders of its diameters in their middles"),
-            );
-        }
-        let pieces = if is_taper { TAPER_PIECES } else { 1 };
-        for k in 0..pieces {
-            let at = |d: [f64; 2]| d[0] + (d[1] - d[0]) * (k as f64 + 0.5) / pieces as f64;
-            let [outer_mm, mut inner_mm] = [at(outer), at(inner).max(0.0)];
-            if inner_mm >= outer_mm {
-                source.leave_out(piece, About::Stiffness, format!("an inner diameter of {inner_mm} mm, which is not below the outer one: solid"));
-                inner_mm = 0.0;
-            }
-            let step = length / pieces as f64;
-            sections.push(Section {
-                start_mm: start + k as f64 * step,
-                end_mm: start + (k + 1) as f64 * step,
-                outer_mm,
-                inner_mm,
-            });
-        }
+        add_pieces(source, piece, (start, length), diameters, &mut sections);
     }
     sections.sort_by(|a, b| a.start_mm.total_cmp(&b.start_mm));
     let mut sections = part_overlaps(source, component, sections);
@@ -100,6 +53,74 @@ pub fn read(
     shaft.material = material(source, structure, component)?;
     shaft.speed_rpm = speed.filter(|n| *n != 0.0 && defines != Some(false));
     Ok(shaft)
+}
+
+/// Outer and inner diameters of a section at its begin and end \[mm\]; none without an outer one.
+fn diameters_mm(
+    source: &Source<'_>,
+    piece: &Component,
+) -> Result<Option<[[f64; 2]; 2]>, RexsError> {
+    let value = |id: &str| source.number(piece, id, MM);
+    let [outer_0, outer_1] = [value("outer_diameter_begin")?, value("outer_diameter_end")?];
+    let [inner_0, inner_1] = [value("inner_diameter_begin")?, value("inner_diameter_end")?];
+    let outer = outer_0.or(outer_1).filter(|d| *d > 0.0);
+    Ok(outer.map(|outer| {
+        let end = outer_1.filter(|d| *d > 0.0).unwrap_or(outer);
+        [
+            [outer_0.unwrap_or(outer), end],
+            [
+                inner_0.or(inner_1).unwrap_or(0.0),
+                inner_1.or(inner_0).unwrap_or(0.0),
+            ],
+        ]
+    }))
+}
+
+/// A section as cylinders: one, or those that stand for a taper.
+fn add_pieces(
+    source: &Source<'_>,
+    piece: &Component,
+    (start, length): (f64, f64),
+    [outer, inner]: [[f64; 2]; 2],
+    sections: &mut Vec<Section>,
+) {
+    let is_taper = outer[0] != outer[1] || inner[0] != inner[1];
+    if is_taper {
+        // Bending stiffness goes with d^4: 1/d^4 along the taper, and in the middles of its pieces.
+        let [a, b] = outer;
+        let exact = (a.powi(-3) - b.powi(-3)) / (3.0 * (b - a));
+        let middles = (0..TAPER_PIECES)
+            .map(|k| a + (b - a) * (k as f64 + 0.5) / TAPER_PIECES as f64)
+            .map(|d| d.powi(-4) / TAPER_PIECES as f64);
+        let off = (middles.sum::<f64>() / exact - 1.0).abs();
+        source.assume(
+            piece,
+            About::by(off > 1e-2 || inner[0] != inner[1], About::Stiffness),
+            format!("a taper: {TAPER_PIECES} cylinders of its diameters in their middles"),
+        );
+    }
+    let pieces = if is_taper { TAPER_PIECES } else { 1 };
+    for k in 0..pieces {
+        let at = |d: [f64; 2]| d[0] + (d[1] - d[0]) * (k as f64 + 0.5) / pieces as f64;
+        let [outer_mm, mut inner_mm] = [at(outer), at(inner).max(0.0)];
+        if inner_mm >= outer_mm {
+            source.leave_out(
+                piece,
+                About::Stiffness,
+                format!(
+                    "an inner diameter of {inner_mm} mm, which is not below the outer one: solid"
+                ),
+            );
+            inner_mm = 0.0;
+        }
+        let step = length / pieces as f64;
+        sections.push(Section {
+            start_mm: start + k as f64 * step,
+            end_mm: start + (k + 1) as f64 * step,
+            outer_mm,
+            inner_mm,
+        });
+    }
 }
 
 /// Where pieces overlap, all of them are there, as a collar that is drawn over a shaft.

@@ -3,7 +3,7 @@
 use crate::effort;
 use crate::error::RexsError;
 use crate::ledger::{About, Ledger};
-use crate::model::{Model, Relation};
+use crate::model::{Component, Model, Relation};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
@@ -192,6 +192,17 @@ impl Structure {
         found
     }
 
+    /// The components themselves.
+    pub fn parts<'m>(
+        &self,
+        model: &'m Model,
+        id: i64,
+        kinds: &[&str],
+    ) -> impl Iterator<Item = &'m Component> + use<'m> {
+        let ids = self.partners(id, kinds).into_iter();
+        ids.filter_map(|id| model.component(id))
+    }
+
     fn found_partners(&self, id: i64, kinds: &[&str]) -> Vec<i64> {
         let mut found = Vec::new();
         let mut seen = HashSet::new();
@@ -226,6 +237,11 @@ impl Structure {
             }
         }
         found
+    }
+
+    /// The components themselves.
+    pub fn flank_parts<'m>(&self, model: &'m Model, gear: i64) -> [Option<&'m Component>; 2] {
+        self.flanks(gear).map(|id| model.component(id?))
     }
 
     /// What stands inside and outside of a bearing or coupling: the two sides.

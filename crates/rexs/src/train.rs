@@ -285,57 +285,8 @@ fn join_stages(
         };
         match stage.kind.as_str() {
             "cylindrical_stage" => {
-                let place = |id: i64| {
-                    let place = train.gears.place(id);
-                    place.filter(|&place| train.gears[place].shaft >= 0)
-                };
-                let [Some(a), Some(b)] = gears.map(place) else {
-                    // Stages of planets are reported with the planetary stage.
-                    if !structure
-                        .partners(stage.id, &["planetary_stage"])
-                        .is_empty()
-                    {
-                        continue;
-                    }
-                    source.leave_out(
-                        stage,
-                        About::Lost,
-                        format!(
-                            "between {} and {}, of which the scene does not have both",
-                            g1.words(),
-                            g2.words()
-                        ),
-                    );
-                    continue;
-                };
-                if let Some(&first) = pairs.get(&[a.min(b), a.max(b)]) {
-                    let what = format!(
-                        "its gears are in mesh already in {}",
-                        train.meshes[first].name
-                    );
-                    source.leave_out(stage, About::Nothing, what);
-                    continue;
-                }
-                let [first, second] = [&train.gears[a], &train.gears[b]];
-                demand_mates(stage, [&first.gear, &second.gear])?;
-                train.links.push(Link {
-                    shafts: [first.shaft, second.shaft],
-                    ratio: -f64::from(first.gear.teeth) / f64::from(second.gear.teeth),
-                });
-                pairs.insert([a.min(b), a.max(b)], train.meshes.len());
-                train.meshes.push(Mesh {
-                    stage: stage.id,
-                    name: names.unique(
-                        if stage.name.is_empty() {
-                            "stage"
-                        } else {
-                            &stage.name
-                        },
-                        stage.id,
-                    ),
-                    gears: [a, b],
-                    link: train.links.len() - 1,
-                });
+                let mates = (stage, [g1, g2]);
+                join_cylindrical(source, structure, (train, &mut pairs), names, mates)?;
             }
             "bevel_stage" => bevel_stage(source, structure, train, stage, [g1, g2])?,
             _ => source.leave_out(
@@ -348,6 +299,54 @@ fn join_stages(
             ),
         }
     }
+    Ok(())
+}
+
+/// Joins two gears of the scene, once.
+fn join_cylindrical(
+    source: &Source<'_>,
+    structure: &Structure,
+    (train, pairs): (&mut Train, &mut HashMap<[usize; 2], usize>),
+    names: &mut Names,
+    (stage, gears): (&Component, [&Component; 2]),
+) -> Result<(), RexsError> {
+    let place = |gear: &Component| {
+        let place = train.gears.place(gear.id);
+        place.filter(|&place| train.gears[place].shaft >= 0)
+    };
+    let [Some(a), Some(b)] = gears.map(place) else {
+        // Stages of planets are reported with the planetary stage.
+        let planetary = structure.partners(stage.id, &["planetary_stage"]);
+        if planetary.is_empty() {
+            let [g1, g2] = gears.map(Component::words);
+            let what = format!("between {g1} and {g2}, of which the scene does not have both");
+            source.leave_out(stage, About::Lost, what);
+        }
+        return Ok(());
+    };
+    if let Some(&first) = pairs.get(&[a.min(b), a.max(b)]) {
+        let name = &train.meshes[first].name;
+        let what = format!("its gears are in mesh already in {name}");
+        source.leave_out(stage, About::Nothing, what);
+        return Ok(());
+    }
+    let [first, second] = [&train.gears[a], &train.gears[b]];
+    demand_mates(stage, [&first.gear, &second.gear])?;
+    train.links.push(Link {
+        shafts: [first.shaft, second.shaft],
+        ratio: -f64::from(first.gear.teeth) / f64::from(second.gear.teeth),
+    });
+    let name = match stage.name.is_empty() {
+        true => "stage",
+        false => &stage.name,
+    };
+    pairs.insert([a.min(b), a.max(b)], train.meshes.len());
+    train.meshes.push(Mesh {
+        stage: stage.id,
+        name: names.unique(name, stage.id),
+        gears: [a, b],
+        link: train.links.len() - 1,
+    });
     Ok(())
 }
 

@@ -3,6 +3,7 @@
 use crate::by_number::grouped;
 use crate::error::RexsError;
 use crate::ledger::About;
+use crate::model::Component;
 use crate::placement::{Frame, add, frame};
 use crate::source::Source;
 use crate::structure::Structure;
@@ -52,49 +53,56 @@ pub fn place_shafts(
         };
         follow_hubs(train, &hubs_of, placed, &mut queue);
         for &mesh in meshes_of.get(&placed).into_iter().flatten() {
-            let gears = train.meshes[mesh].gears.map(|g| train.gears[g].clone());
-            let frames = [0, 1].map(|i| train.shaft(gears[i].shaft).and_then(|s| s.frame));
-            let (known, open) = match frames {
-                [Some(known), None] => ((known, 0), 1),
-                [None, Some(known)] => ((known, 1), 0),
-                _ => continue,
-            };
-            let ids = [gears[0].gear.id, gears[1].gear.id];
+            let gears = train.meshes[mesh].gears;
+            let ids = gears.map(|g| train.gears[g].gear.id);
             let stage = stages.get(&ids).and_then(|&id| source.model.component(id));
-            let Some(stage) = stage else { continue };
-            let sum = gears[0].gear.reference_diameter_mm() + gears[1].gear.reference_diameter_mm();
-            let distance = source
-                .number(stage, "center_distance", MM)?
-                .unwrap_or(0.5 * sum);
-            let angle = source
-                .number(stage, "rotating_angle_around_neg_u_axis", DEG)?
-                .unwrap_or(0.0);
-            // From gear 1 to gear 2: the w axis, turned about -u.
-            let (sin, cos) = angle.to_radians().sin_cos();
-            let (frame, from) = known;
-            let towards = if from == 0 { 1.0 } else { -1.0 };
-            let across = frame.direction([0.0, towards * distance * sin, towards * distance * cos]);
-            let along = [from, open].map(|i| gears[i].mid_mm);
-            let shift = if along.iter().all(|m| m.is_finite()) {
-                along[0] - along[1]
-            } else {
-                0.0
-            };
-            let origin = add(add(frame.origin_mm, across, 1.0), frame.axes[0], shift);
-            let id = gears[open].shaft;
-            if let Some(shaft) = train.shaft_mut(id) {
-                shaft.frame = Some(Frame {
-                    origin_mm: origin,
-                    axes: frame.axes,
-                });
-                queue.push_back(id);
+            if let Some(stage) = stage {
+                queue.extend(place_mate(source, train, stage, gears)?);
             }
-            let what = format!(
-                "no support_vector given: {distance} mm from its mate at {angle} deg, faces in the middle of each other"
-            );
-            source.assume_of(id, About::Place, what);
         }
     }
+}
+
+/// Places the shaft of one gear of a stage by that of the other, where one of them alone has a place.
+fn place_mate(
+    source: &Source<'_>,
+    train: &mut Train,
+    stage: &Component,
+    gears: [usize; 2],
+) -> Result<Option<i64>, RexsError> {
+    let gears = gears.map(|g| &train.gears[g]);
+    let (frame, from) = match gears.map(|g| train.shaft(g.shaft).and_then(|s| s.frame)) {
+        [Some(known), None] => (known, 0),
+        [None, Some(known)] => (known, 1),
+        _ => return Ok(None),
+    };
+    let sum = gears[0].gear.reference_diameter_mm() + gears[1].gear.reference_diameter_mm();
+    let distance = source.number(stage, "center_distance", MM)?;
+    let distance = distance.unwrap_or(0.5 * sum);
+    let angle = source.number(stage, "rotating_angle_around_neg_u_axis", DEG)?;
+    let angle = angle.unwrap_or(0.0);
+    // From gear 1 to gear 2: the w axis, turned about -u.
+    let (sin, cos) = angle.to_radians().sin_cos();
+    let towards = if from == 0 { 1.0 } else { -1.0 };
+    let across = frame.direction([0.0, towards * distance * sin, towards * distance * cos]);
+    let along = [from, 1 - from].map(|i| gears[i].mid_mm);
+    let shift = if along.iter().all(|m| m.is_finite()) {
+        along[0] - along[1]
+    } else {
+        0.0
+    };
+    let origin_mm = add(add(frame.origin_mm, across, 1.0), frame.axes[0], shift);
+    let id = gears[1 - from].shaft;
+    let placed = train.shaft_mut(id).map(|shaft| {
+        let axes = frame.axes;
+        shaft.frame = Some(Frame { origin_mm, axes });
+        id
+    });
+    let what = format!(
+        "no support_vector given: {distance} mm from its mate at {angle} deg, faces in the middle of each other"
+    );
+    source.assume_of(id, About::Place, what);
+    Ok(placed)
 }
 
 /// Hubs of loose gears stand where the shafts do that carry them, and the other way round.
