@@ -1,8 +1,10 @@
 //! Section nodes of a bevel tooth and the ring below it, and the quads between them.
 
+use gearmesh_elements::CellKind;
 use gearmesh_geometry::Flank;
 
 use crate::bevel_level::Levels;
+use crate::face::FaceShape;
 
 /// Nodes of a section.
 #[derive(Debug, Clone, Copy)]
@@ -145,13 +147,51 @@ impl Grid {
     }
 }
 
+/// What hexahedra of this order are.
+pub(crate) const fn cell_kind(order: usize) -> CellKind {
+    match order {
+        1 => CellKind::Hex8,
+        _ => CellKind::Hex20,
+    }
+}
+
+/// A quad of order + 1 by order + 1 nodes.
+pub(crate) fn grid_quad(order: usize, node: impl Fn(usize, usize) -> usize) -> [[usize; 3]; 3] {
+    let mut quad = [[0; 3]; 3];
+    for (a, line) in quad.iter_mut().enumerate().take(order + 1) {
+        for (b, slot) in line.iter_mut().enumerate().take(order + 1) {
+            *slot = node(a, b);
+        }
+    }
+    quad
+}
+
+/// Its corners, counter-clockwise.
+pub(crate) fn corners_of(quad: &[[usize; 3]; 3], order: usize) -> [usize; 4] {
+    let p = order;
+    [quad[0][0], quad[p][0], quad[p][p], quad[0][p]]
+}
+
+/// The face of a hexahedron over a step of the outline from node `k` and a layer from section `l`: its places.
+pub(crate) fn outline_face(
+    order: usize,
+    (k, l): (usize, usize),
+) -> (FaceShape, Vec<(usize, usize)>) {
+    let p = order;
+    let corners = [(k, l), (k + p, l), (k + p, l + p), (k, l + p)];
+    let middles = [(k + 1, l), (k + 2, l + 1), (k + 1, l + 2), (k, l + 1)];
+    match p {
+        1 => (FaceShape::Quad4, corners.to_vec()),
+        _ => (FaceShape::Quad8, [corners, middles].concat()),
+    }
+}
+
 /// Section nodes and sections of a hexahedron in VTK's order.
 pub(crate) fn hexahedron(
     quad: &[[usize; 3]; 3],
     order: usize,
 ) -> impl Iterator<Item = (usize, usize)> {
-    let p = order;
-    let corners = [quad[0][0], quad[p][0], quad[p][p], quad[0][p]];
+    let (p, corners) = (order, corners_of(quad, order));
     let middles = [quad[1][0], quad[2][1], quad[1][2], quad[0][1]];
     let at = |nodes: [usize; 4], section: usize| nodes.map(|node| (node, section));
     let mut all = [at(corners, 0), at(corners, p)].concat();

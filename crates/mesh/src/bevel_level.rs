@@ -17,6 +17,7 @@ use gearmesh_geometry::Flank;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 use crate::grading::{Pieces, graded};
+use crate::plane::{apart, arc_lengths, coons, lerp};
 
 /// Places at which the fillet is looked at.
 const LOOKS: usize = 24;
@@ -101,37 +102,16 @@ impl<'a> Levels<'a> {
         let contour = gear.body.contour.iter();
         meridian.extend(contour.map(|p| p.z_m.map(|z| [p.radius_m, z])));
 
-        let fewest = |least: usize| Pieces { least, even: false };
-        let shares = |length: f64, size: &dyn Fn(f64) -> f64, least: usize| -> Vec<f64> {
-            let places = graded(0.0, length, size, fewest(least));
-            places.into_iter().map(|s| s / length).collect()
-        };
         let middle = 0.5 * (ends[0] + ends[1]);
-        let (mut lengths, mut half_width): ([f64; 4], f64) = ([0.0; 4], 0.0);
-        let mut roots = [0.0; 2];
-        for (k, side) in SIDES.into_iter().enumerate() {
-            let looked = look(gear, side, middle)?;
-            let radius = |p: [f64; 2]| blank.meridian_m(middle, p[1])[1];
-            lengths[1] += 0.5 * looked.at_p;
-            lengths[2] += 0.5 * (looked.arcs[LOOKS] - looked.at_p);
-            let top = blank.addendum_m(middle) - looked.points[LOOKS][1];
-            lengths[3] += 0.5 * top / looked.angles[LOOKS].cos();
-            let root = looked.points[0];
-            roots[k] = root[0] * radius(root);
-            half_width += 0.5 * (root[0] * radius(root)).abs();
-        }
-        let pitch = 2.0 * PI / blank.teeth as f64;
-        let at_root = blank.meridian_m(middle, -blank.dedendum_m(middle))[1];
-        lengths[0] = 0.5 * (pitch * at_root - (roots[1] - roots[0]));
+        let ([space, low, high, flank], half_width) = half_lengths_m(gear, middle)?;
         let fine = mesh.fillet_m;
-        let [_, low, high, flank] = lengths;
         let low_shares = shares(low, &|_| fine, 3);
         let high_shares = shares(high, &|_| fine, 2);
         let last = |shares: &[f64], length: f64| length * (1.0 - shares[shares.len() - 2]);
         let begin = last(&high_shares, high);
         let flank_shares = shares(flank, &|s| (begin + GROWTH * s).min(mesh.flank_m), 4);
         let begin = low * low_shares[1];
-        let bottom = lengths[0].max(0.1 * half_width);
+        let bottom = space.max(0.1 * half_width);
         let bottom_shares = shares(
             bottom,
             &|s| (begin + GROWTH * (bottom - s)).min(mesh.flank_m),
@@ -147,8 +127,7 @@ impl<'a> Levels<'a> {
         let ring = shares(ring_m, &|s| (fine + GROWTH * s).min(0.5 * mesh.body_m), 4);
         let mut body = Vec::new();
         for (piece, pair) in meridian.windows(2).enumerate() {
-            let length = [0, 1]
-                .map(|k| (pair[1][k][0] - pair[0][k][0]).hypot(pair[1][k][1] - pair[0][k][1]));
+            let length = [0, 1].map(|k| apart(pair[0][k], pair[1][k]));
             let size = if piece == 0 { 0.6 } else { 1.0 } * mesh.body_m;
             let n = ((length[0].max(length[1]) / size).ceil() as usize).max(1) * order;
             body.extend((1..=n).map(|i| (piece, i as f64 / n as f64)));
@@ -228,7 +207,7 @@ impl<'a> Levels<'a> {
             line.extend(sides[k].flank[1..].iter().map(|p| plane(*p)));
             line
         });
-        let (beside, columns) = self.columns();
+        let (beside, _) = self.columns();
         let foot = [0, 1].map(|k| outlines[k][beside]);
         let width = foot[1][0] - foot[0][0];
         let tangent = CUT_TANGENT * width * FRAC_PI_4.cos();
@@ -243,24 +222,7 @@ impl<'a> Levels<'a> {
         top.extend(&cut[1..]);
         top.extend(outlines[1][..beside].iter().rev());
         let ring_bottom = -blank.dedendum_m(cone) - self.ring_m;
-        let edge = scale * half_pitch;
-        let q = [0, 1].map(|k| {
-            let even = [-1.0, 1.0][k] * edge * (1.0 - 2.0 * beside as f64 / columns as f64);
-            0.5 * (foot[k][0] + even)
-        });
-        let parts = |from: f64, to: f64, n: usize| {
-            (0..n).map(move |i| from + (to - from) * i as f64 / n as f64)
-        };
-        let even: Vec<f64> = parts(-edge, q[0], beside)
-            .chain(parts(q[0], q[1], columns - 2 * beside))
-            .chain(parts(q[1], edge, beside))
-            .chain([edge])
-            .collect();
-        // Columns of a shallow ring may go aside by less.
-        let share = (self.ring_m / (RING_IN_MODULES * self.gear.mean_module_m())).min(1.0);
-        let low: Vec<f64> = (top.iter().zip(&even))
-            .map(|(top, even)| top[0] + share * (even - top[0]))
-            .collect();
+        let low = self.columns_below(&top, foot, scale * half_pitch);
         let place = |p: [f64; 2]| {
             let [z, r] = blank.meridian_m(cone, p[1]);
             polar(r, middle + p[0] / scale, z)
@@ -283,15 +245,8 @@ impl<'a> Levels<'a> {
             let share = shares[i];
             for (t, below) in s.across.iter().zip(&cut) {
                 let above = [ends[0][0] + t * (ends[1][0] - ends[0][0]), tip];
-                nodes.push(place(std::array::from_fn(|axis| {
-                    let corners = (1.0 - share) * ((1.0 - t) * foot[0][axis] + t * foot[1][axis])
-                        + share * ((1.0 - t) * ends[0][axis] + t * ends[1][axis]);
-                    (1.0 - t) * r[axis]
-                        + t * l[axis]
-                        + (1.0 - share) * below[axis]
-                        + share * above[axis]
-                        - corners
-                })));
+                let at = coons([r, l], [*below, above], [foot, ends], (share, *t));
+                nodes.push(place(at));
             }
         }
         let points = |line: &Vec<[f64; 2]>| line.iter().map(|p| place(*p)).collect();
@@ -302,6 +257,27 @@ impl<'a> Levels<'a> {
             outline_m: [heights(&outlines[0]), heights(&outlines[1])],
             outline_points_m: [points(&outlines[0]), points(&outlines[1])],
         })
+    }
+
+    /// Where the columns of the ring's grid end below: even, those of the cut in its middle.
+    fn columns_below(&self, top: &[[f64; 2]], foot: [[f64; 2]; 2], edge: f64) -> Vec<f64> {
+        let (beside, columns) = self.columns();
+        let q = [0, 1].map(|k| {
+            let even = [-1.0, 1.0][k] * edge * (1.0 - 2.0 * beside as f64 / columns as f64);
+            0.5 * (foot[k][0] + even)
+        });
+        let parts = |from: f64, to: f64, n: usize| {
+            (0..n).map(move |i| from + (to - from) * i as f64 / n as f64)
+        };
+        let even = parts(-edge, q[0], beside)
+            .chain(parts(q[0], q[1], columns - 2 * beside))
+            .chain(parts(q[1], edge, beside))
+            .chain([edge]);
+        // Columns of a shallow ring may go aside by less.
+        let share = (self.ring_m / (RING_IN_MODULES * self.gear.mean_module_m())).min(1.0);
+        (top.iter().zip(even))
+            .map(|(top, even)| top[0] + share * (even - top[0]))
+            .collect()
     }
 
     /// One side of the outline.
@@ -403,16 +379,41 @@ fn look(gear: &BevelGear, side: Flank, cone: f64) -> Result<Looked, BevelError> 
     })
 }
 
+/// Shares of a length at which its pieces begin and end.
+fn shares(length: f64, size: &dyn Fn(f64) -> f64, least: usize) -> Vec<f64> {
+    let places = graded(0.0, length, size, Pieces::at_least(least));
+    places.into_iter().map(|s| s / length).collect()
+}
+
+/// In the section at a cone distance, the mean of both sides \[m\]: half the space, the fillet up to P, from there to the
+/// flank, the flank; and half the width of the tooth at its root.
+fn half_lengths_m(gear: &BevelGear, cone: f64) -> Result<([f64; 4], f64), BevelError> {
+    let blank = gear.blank();
+    let (mut lengths, mut half_width): ([f64; 4], f64) = ([0.0; 4], 0.0);
+    let mut roots = [0.0; 2];
+    for (k, side) in SIDES.into_iter().enumerate() {
+        let looked = look(gear, side, cone)?;
+        let radius = |p: [f64; 2]| blank.meridian_m(cone, p[1])[1];
+        lengths[1] += 0.5 * looked.at_p;
+        lengths[2] += 0.5 * (looked.arcs[LOOKS] - looked.at_p);
+        let top = blank.addendum_m(cone) - looked.points[LOOKS][1];
+        lengths[3] += 0.5 * top / looked.angles[LOOKS].cos();
+        let root = looked.points[0];
+        roots[k] = root[0] * radius(root);
+        half_width += 0.5 * (root[0] * radius(root)).abs();
+    }
+    let pitch = 2.0 * PI / blank.teeth as f64;
+    let at_root = blank.meridian_m(cone, -blank.dedendum_m(cone))[1];
+    lengths[0] = 0.5 * (pitch * at_root - (roots[1] - roots[0]));
+    Ok((lengths, half_width))
+}
+
 /// Shares of the way from P to the tip of the nodes of both outlines, in the mean.
 fn mean_shares(outlines: &[Vec<[f64; 2]>; 2], first: usize) -> Vec<f64> {
     let n = outlines[0].len() - first;
     let mut mean = vec![0.0; n];
     for line in outlines {
-        let mut arcs = vec![0.0];
-        for pair in line[first..].windows(2) {
-            let step = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
-            arcs.push(arcs[arcs.len() - 1] + step);
-        }
+        let arcs = arc_lengths(&line[first..]);
         for (sum, arc) in mean.iter_mut().zip(&arcs) {
             *sum += 0.5 * arc / arcs[n - 1];
         }
@@ -430,10 +431,6 @@ fn with_middles(shares: Vec<f64>, order: usize) -> Vec<f64> {
         all.extend([0.5 * (pair[0] + pair[1]), pair[1]]);
     }
     all
-}
-
-fn lerp(a: [f64; 2], b: [f64; 2], share: f64) -> [f64; 2] {
-    [0, 1].map(|k| a[k] + share * (b[k] - a[k]))
 }
 
 fn polar(r: f64, angle: f64, z: f64) -> [f64; 3] {

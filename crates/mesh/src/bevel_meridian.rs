@@ -7,10 +7,12 @@
 use gearmesh_bevel::BevelGear;
 
 use crate::MeshError;
+use crate::bevel_grid::grid_quad;
 use crate::bevel_level::Levels;
 use crate::bevel_twist::Torsion;
 use crate::grading::{Pieces, graded};
 use crate::mid_sides::{CurvedSides, MidSides};
+use crate::plane::{apart, lerp};
 use crate::plane_mesher::{PlaneProblem, Region, mesh_plane};
 use crate::python::PythonEnvironment;
 
@@ -119,67 +121,13 @@ impl Meridian {
             .copied()
             .step_by(order)
             .collect();
-        let last = lines.len() - 1;
-        let distance = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
-        let layers = along.len() - 1;
-        let begin = distance(lines[0][0], lines[0][1]) / layers as f64;
-        // As long as a part of the thickness, and no longer than the shorter pieces of the lines that begin there.
-        let piece = |k: usize| {
-            let lengths = [0, 1].map(|side| distance(lines[k][side], lines[k + 1][side]));
-            lengths[0].min(lengths[1])
-        };
-        let size: Vec<f64> = (0..=last)
-            .map(|k| {
-                let thickness = distance(lines[k][0], lines[k][1]);
-                let before = if k > 0 { piece(k - 1) } else { f64::INFINITY };
-                let behind = if k < last { piece(k) } else { f64::INFINITY };
-                let longest = (thickness / THROUGH).min(before).min(behind);
-                longest.min(gear.mesh.body_m)
-            })
-            .collect();
-        // One side from the ring to the bore, both ends included.
-        let side = |k: usize| -> Vec<[f64; 3]> {
-            let mut points: Vec<[f64; 3]> = Vec::new();
-            let mut below = 0.0;
-            for (piece, pair) in lines.windows(2).enumerate() {
-                let length = distance(pair[0][k], pair[1][k]);
-                let wanted = |s: f64| {
-                    let between = size[piece] + (size[piece + 1] - size[piece]) * s / length;
-                    between.min(begin + GROWTH * (below + s))
-                };
-                // gmsh paves with lines over two pieces, which must not go round a corner.
-                let pieces = Pieces {
-                    least: 2,
-                    even: true,
-                };
-                let places = graded(0.0, length, wanted, pieces);
-                let skipped = usize::from(piece > 0);
-                points.extend(places.iter().skip(skipped).map(|s| {
-                    let [r, z] = lerp(pair[0][k], pair[1][k], s / length);
-                    [z, r, wanted(*s)]
-                }));
-                below += length;
-            }
-            points
-        };
-        let [toe, heel] = [side(0), side(1)];
-        let width = distance(lines[last][0], lines[last][1]);
-        let at_bore = 2 * ((0.5 * width / size[last]).ceil() as usize).max(1);
-        // Counter-clockwise: along the bore to the heel, up to the ring, along it to the toe, down to the bore.
-        let mut points: Vec<[f64; 3]> = (0..=at_bore)
-            .map(|i| {
-                let [r, z] = lerp(lines[last][0], lines[last][1], i as f64 / at_bore as f64);
-                [z, r, size[last]]
-            })
-            .collect();
-        points.extend(heel.iter().rev().skip(1));
-        let ring_end = points.len() - 1;
-        points.extend((1..layers).rev().map(|i| {
-            let [r, z] = lerp(lines[0][0], lines[0][1], along[i]);
-            [z, r, begin]
-        }));
-        let ring_begin = points.len();
-        points.extend(&toe[..toe.len() - 1]);
+        let outline = Outline::of(lines, &along, gear.mesh.body_m);
+        let Outline {
+            points,
+            at_bore,
+            ring_end,
+            ring_begin,
+        } = outline;
         let count = points.len();
         let problem = PlaneProblem {
             name: format!("body of {}", gear.name),
@@ -278,6 +226,90 @@ impl Meridian {
     }
 }
 
+/// The outline of a body with the lengths wanted at its points, counter-clockwise: along the bore to the heel, up to the
+/// ring, along it to the toe, down to the bore.
+struct Outline {
+    /// \[z, radius, length\] \[m\].
+    points: Vec<[f64; 3]>,
+    /// Pieces along the bore.
+    at_bore: usize,
+    /// The points of the ring at the heel and at the toe.
+    ring_end: usize,
+    ring_begin: usize,
+}
+
+impl Outline {
+    fn of(lines: &[[[f64; 2]; 2]], along: &[f64], body_m: f64) -> Self {
+        let (last, layers) = (lines.len() - 1, along.len() - 1);
+        let begin = apart(lines[0][0], lines[0][1]) / layers as f64;
+        let size = lengths_at_lines(lines, body_m);
+        let [toe, heel] = [0, 1].map(|k| side_points(lines, k, &size, begin));
+        let width = apart(lines[last][0], lines[last][1]);
+        let at_bore = 2 * ((0.5 * width / size[last]).ceil() as usize).max(1);
+        let mut points: Vec<[f64; 3]> = (0..=at_bore)
+            .map(|i| {
+                let [r, z] = lerp(lines[last][0], lines[last][1], i as f64 / at_bore as f64);
+                [z, r, size[last]]
+            })
+            .collect();
+        points.extend(heel.iter().rev().skip(1));
+        let ring_end = points.len() - 1;
+        points.extend((1..layers).rev().map(|i| {
+            let [r, z] = lerp(lines[0][0], lines[0][1], along[i]);
+            [z, r, begin]
+        }));
+        let ring_begin = points.len();
+        points.extend(&toe[..toe.len() - 1]);
+        Self {
+            points,
+            at_bore,
+            ring_end,
+            ring_begin,
+        }
+    }
+}
+
+/// Wanted lengths at the places of the lines: a part of the thickness, and no longer than the shorter pieces of the lines
+/// that begin there.
+fn lengths_at_lines(lines: &[[[f64; 2]; 2]], body_m: f64) -> Vec<f64> {
+    let last = lines.len() - 1;
+    let piece = |k: usize| {
+        let lengths = [0, 1].map(|side| apart(lines[k][side], lines[k + 1][side]));
+        lengths[0].min(lengths[1])
+    };
+    (0..=last)
+        .map(|k| {
+            let thickness = apart(lines[k][0], lines[k][1]);
+            let before = if k > 0 { piece(k - 1) } else { f64::INFINITY };
+            let behind = if k < last { piece(k) } else { f64::INFINITY };
+            let longest = (thickness / THROUGH).min(before).min(behind);
+            longest.min(body_m)
+        })
+        .collect()
+}
+
+/// One side from the ring to the bore, both ends included, with lengths that grow from that at the ring.
+fn side_points(lines: &[[[f64; 2]; 2]], side: usize, size: &[f64], begin: f64) -> Vec<[f64; 3]> {
+    let mut points: Vec<[f64; 3]> = Vec::new();
+    let mut below = 0.0;
+    for (piece, pair) in lines.windows(2).enumerate() {
+        let length = apart(pair[0][side], pair[1][side]);
+        let wanted = |s: f64| {
+            let between = size[piece] + (size[piece + 1] - size[piece]) * s / length;
+            between.min(begin + GROWTH * (below + s))
+        };
+        // gmsh paves with lines over two pieces, which must not go round a corner.
+        let places = graded(0.0, length, wanted, Pieces::EVEN);
+        let skipped = usize::from(piece > 0);
+        points.extend(places.iter().skip(skipped).map(|s| {
+            let [r, z] = lerp(pair[0][side], pair[1][side], s / length);
+            [z, r, wanted(*s)]
+        }));
+        below += length;
+    }
+    points
+}
+
 /// The section of each node that is one of the ring's.
 fn sections_of(nodes: usize, ring: &[usize]) -> Vec<Option<usize>> {
     let mut of = vec![None; nodes];
@@ -285,17 +317,6 @@ fn sections_of(nodes: usize, ring: &[usize]) -> Vec<Option<usize>> {
         of[*node] = Some(section);
     }
     of
-}
-
-/// A quad of order + 1 by order + 1 nodes.
-fn grid_quad(order: usize, node: impl Fn(usize, usize) -> usize) -> [[usize; 3]; 3] {
-    let mut quad = [[0; 3]; 3];
-    for (a, line) in quad.iter_mut().enumerate().take(order + 1) {
-        for (b, slot) in line.iter_mut().enumerate().take(order + 1) {
-            *slot = node(a, b);
-        }
-    }
-    quad
 }
 
 /// Pieces of a line from the ring to the bore, and the quads whose middles have their radii.
@@ -340,8 +361,4 @@ fn check_lines(lines: &[[[f64; 2]; 2]]) -> Result<(), MeshError> {
         }
     }
     Ok(())
-}
-
-fn lerp(a: [f64; 2], b: [f64; 2], share: f64) -> [f64; 2] {
-    [0, 1].map(|k| a[k] + share * (b[k] - a[k]))
 }

@@ -5,17 +5,16 @@
 //! one is the right side of the next.
 
 use gearmesh_bevel::{BevelError, BevelGear};
-use gearmesh_elements::CellKind;
 use gearmesh_geometry::{Element, Flank};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 use crate::MeshError;
-use crate::bevel_grid::{Grid, hexahedron};
+use crate::bevel_grid::{Grid, cell_kind, corners_of, hexahedron, outline_face};
 use crate::bevel_level::{Level, Levels};
 use crate::bevel_meridian::{BodyGrid, Meridian};
 use crate::elements::ElementList;
-use crate::face::{FaceShape, OutlineFace};
+use crate::face::OutlineFace;
 use crate::quality::{self, QualityReport};
 
 const NONE: u32 = u32::MAX;
@@ -89,38 +88,12 @@ impl BevelMesh {
             levels,
             made,
         } = sections;
-        let order = *order;
-        let shape = if order == 1 {
-            CellKind::Hex8
-        } else {
-            CellKind::Hex20
-        };
+        let (order, teeth) = (*order, gear.blank().teeth);
         let grid = Grid::of(levels, order);
         let meridian = Meridian::new(gear, levels, order, body)?;
-        let count = grid.section_nodes();
-        let mut local = vec![NONE; count * grid.sections];
         let mut own: Vec<[f64; 3]> = Vec::new();
-        for node in 0..count {
-            for (section, level) in made.iter().enumerate() {
-                if grid.is_used(node, section) && !grid.own(node).1 {
-                    local[node * grid.sections + section] = own.len() as u32;
-                    own.push(level.nodes[node]);
-                }
-            }
-        }
-        let at_ring: Vec<&[f64]> = made.iter().map(|l| l.columns_rad.as_slice()).collect();
-        let azimuths = meridian.azimuths_rad(&at_ring);
-        let mut in_body = vec![NONE; meridian.nodes.len() * grid.columns];
-        for (node, [z, radius]) in meridian.nodes.iter().enumerate() {
-            for column in 0..grid.columns {
-                if is_in_body(&grid, &meridian, node, column) && meridian.section[node].is_none() {
-                    in_body[node * grid.columns + column] = own.len() as u32;
-                    let (sin, cos) = azimuths[node][column].sin_cos();
-                    own.push([radius * cos, radius * sin, *z]);
-                }
-            }
-        }
-        let teeth = gear.blank().teeth;
+        let local = number_sections(&grid, made, &mut own);
+        let in_body = number_body(&grid, &meridian, made, &mut own);
         let in_sector = own.len();
         let turned = (0..teeth).flat_map(|tooth| {
             let (sin, cos) = (TAU * tooth as f64 / teeth as f64).sin_cos();
@@ -129,22 +102,21 @@ impl BevelMesh {
                 .map(move |[x, y, z]| [cos * x - sin * y, sin * x + cos * y, *z])
         });
         let nodes: Vec<[f64; 3]> = turned.collect();
-        let mut outline_m: [Vec<Vec<[f64; 2]>>; 2] = [Vec::new(), Vec::new()];
-        for level in made {
-            for (all, line) in outline_m.iter_mut().zip(&level.outline_m) {
-                all.push(line.clone());
-            }
-        }
+        let outline = |k: usize| {
+            made.iter()
+                .map(|level| level.outline_m[k].clone())
+                .collect()
+        };
         let mut mesh = Self {
             nodes,
-            elements: ElementList::new(shape),
+            elements: ElementList::new(cell_kind(order)),
             quality: QualityReport {
                 smallest: 1.0,
                 mean: 1.0,
                 worst_m: [0.0; 3],
             },
             along: levels.spacing.along.clone(),
-            outline_m,
+            outline_m: [outline(0), outline(1)],
             teeth,
             grid,
             meridian,
@@ -152,31 +124,37 @@ impl BevelMesh {
             in_body,
             in_sector,
         };
-        let mut elements = ElementList::new(shape);
-        let quads = grid.quads();
-        for tooth in 0..teeth {
-            for quad in &quads {
-                for first in (0..grid.sections - 1).step_by(order) {
-                    elements.push(
-                        hexahedron(quad, order)
-                            .map(|(node, section)| mesh.node(tooth, node, first + section)),
-                    );
-                }
-            }
-            for quad in &mesh.meridian.quads {
-                for first in (0..grid.columns).step_by(order) {
-                    elements.push(
-                        hexahedron(quad, order)
-                            .map(|(node, column)| mesh.body_node(tooth, node, first + column)),
-                    );
-                }
-            }
-        }
-        mesh.elements = elements;
+        mesh.elements = mesh.hexahedra();
         // All sectors are alike.
         let one = (mesh.elements.len() / teeth) as u32;
         mesh.quality = mesh.worst((0..one).collect());
         Ok(mesh)
+    }
+
+    /// Elements of all sectors: those of tooth and ring, then those of the body.
+    fn hexahedra(&self) -> ElementList {
+        let (grid, order) = (&self.grid, self.grid.order);
+        let mut elements = ElementList::new(cell_kind(order));
+        let quads = grid.quads();
+        for tooth in 0..self.teeth {
+            for quad in &quads {
+                for first in (0..grid.sections - 1).step_by(order) {
+                    elements.push(
+                        hexahedron(quad, order)
+                            .map(|(node, section)| self.node(tooth, node, first + section)),
+                    );
+                }
+            }
+            for quad in &self.meridian.quads {
+                for first in (0..grid.columns).step_by(order) {
+                    elements.push(
+                        hexahedron(quad, order)
+                            .map(|(node, column)| self.body_node(tooth, node, first + column)),
+                    );
+                }
+            }
+        }
+        elements
     }
 
     /// Quality of some elements.
@@ -275,8 +253,7 @@ impl BevelMesh {
         let of_tooth = |tooth: usize| {
             let quads = quads.iter().enumerate();
             let cell = quads.map(move |(number, quad)| {
-                let corners = [quad[0][0], quad[p][0], quad[p][p], quad[0][p]];
-                let corners = corners.map(|node| self.node(tooth, node, middle));
+                let corners = corners_of(quad, p).map(|node| self.node(tooth, node, middle));
                 (corners, self.elements_of(tooth, number..number + 1))
             });
             let first = tooth * self.in_one() + in_cell;
@@ -395,12 +372,7 @@ impl BevelMesh {
             };
             for layer in 0..layers {
                 let (k, l) = (step * p, layer * p);
-                let corners = [(k, l), (k + p, l), (k + p, l + p), (k, l + p)];
-                let middles = [(k + 1, l), (k + 2, l + 1), (k + 1, l + 2), (k, l + 1)];
-                let (shape, at) = match p {
-                    1 => (FaceShape::Quad4, corners.to_vec()),
-                    _ => (FaceShape::Quad8, [corners, middles].concat()),
-                };
+                let (shape, at) = outline_face(p, (k, l));
                 let element = tooth * self.in_one() + quad * layers + layer;
                 faces.push(OutlineFace {
                     shape,
@@ -465,4 +437,42 @@ impl<'a> Sections<'a> {
 /// Whether elements have a node at a place of the meridian and a column.
 fn is_in_body(grid: &Grid, meridian: &Meridian, node: usize, column: usize) -> bool {
     usize::from(meridian.between[node]) + column % grid.order <= 1
+}
+
+/// Nodes of a sector's tooth and ring, by section node and section; [`NONE`] where there is none, or where it is the
+/// next sector's.
+fn number_sections(grid: &Grid, made: &[Level], own: &mut Vec<[f64; 3]>) -> Vec<u32> {
+    let count = grid.section_nodes();
+    let mut local = vec![NONE; count * grid.sections];
+    for node in 0..count {
+        for (section, level) in made.iter().enumerate() {
+            if grid.is_used(node, section) && !grid.own(node).1 {
+                local[node * grid.sections + section] = own.len() as u32;
+                own.push(level.nodes[node]);
+            }
+        }
+    }
+    local
+}
+
+/// Nodes of a sector's body, by node of the meridian and column; [`NONE`] at the ring, too.
+fn number_body(
+    grid: &Grid,
+    meridian: &Meridian,
+    made: &[Level],
+    own: &mut Vec<[f64; 3]>,
+) -> Vec<u32> {
+    let at_ring: Vec<&[f64]> = made.iter().map(|l| l.columns_rad.as_slice()).collect();
+    let azimuths = meridian.azimuths_rad(&at_ring);
+    let mut in_body = vec![NONE; meridian.nodes.len() * grid.columns];
+    for (node, [z, radius]) in meridian.nodes.iter().enumerate() {
+        for column in 0..grid.columns {
+            if is_in_body(grid, meridian, node, column) && meridian.section[node].is_none() {
+                in_body[node * grid.columns + column] = own.len() as u32;
+                let (sin, cos) = azimuths[node][column].sin_cos();
+                own.push([radius * cos, radius * sin, *z]);
+            }
+        }
+    }
+    in_body
 }

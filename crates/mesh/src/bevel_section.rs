@@ -4,15 +4,14 @@
 //! section of the cylinder that touches the tooth there. x points up the tooth, y counter-clockwise.
 
 use gearmesh_bevel::BevelGear;
-use gearmesh_elements::CellKind;
 use gearmesh_geometry::{Element, Flank};
 use nalgebra::Vector3;
 
 use crate::MeshError;
-use crate::bevel_grid::{Grid, hexahedron};
+use crate::bevel_grid::{Grid, cell_kind, grid_quad, hexahedron, outline_face};
 use crate::bevel_level::{Level, Levels};
 use crate::elements::ElementList;
-use crate::face::{FaceShape, OutlineFace};
+use crate::face::OutlineFace;
 
 /// Pieces of the outline from P to the flank, and from there to the tip.
 const PIECES: [usize; 2] = [16, 64];
@@ -126,21 +125,11 @@ impl BevelSection {
             }
         }
         let id = |n: usize, level: usize| number[n * (p + 1) + level];
-        let shape = if p == 1 {
-            CellKind::Hex8
-        } else {
-            CellKind::Hex20
-        };
-        let mut elements = ElementList::new(shape);
+        let mut elements = ElementList::new(cell_kind(p));
         let mut of_quad = Vec::new();
         for row in (0..rows - 1).step_by(p) {
             for column in (0..columns - 1).step_by(p) {
-                let mut quad = [[0; 3]; 3];
-                for (a, line) in quad.iter_mut().enumerate().take(p + 1) {
-                    for (b, slot) in line.iter_mut().enumerate().take(p + 1) {
-                        *slot = section(row + a, column + b);
-                    }
-                }
+                let quad = grid_quad(p, |a, b| section(row + a, column + b));
                 let hexahedron = hexahedron(&quad, p).map(|(n, level)| id(n, level));
                 of_quad.push(elements.push(hexahedron));
             }
@@ -154,24 +143,19 @@ impl BevelSection {
         let faces = (0..rows - 1)
             .step_by(p)
             .map(|row| {
-                let corners = [(0, 0), (p, 0), (p, p), (0, p)];
-                let middles = [(1, 0), (2, 1), (1, 2), (0, 1)];
-                let (shape, at) = match p {
-                    1 => (FaceShape::Quad4, corners.to_vec()),
-                    _ => (FaceShape::Quad8, [corners, middles].concat()),
-                };
+                let (shape, at) = outline_face(p, (row, 0));
                 let first = row / p * per_row;
                 let quad = if own == 0 { first } else { first + per_row - 1 };
                 OutlineFace {
                     shape,
                     nodes: at
                         .iter()
-                        .map(|&(a, level)| id(section(row + a, own), level))
+                        .map(|&(a, level)| id(section(a, own), level))
                         .collect(),
                     element: of_quad[quad],
                     places_m: at
                         .iter()
-                        .map(|&(a, level)| [heights[row + a], level as f64 / p as f64])
+                        .map(|&(a, level)| [heights[a], level as f64 / p as f64])
                         .collect(),
                 }
             })

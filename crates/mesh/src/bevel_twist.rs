@@ -3,6 +3,8 @@
 //! r ∇θ is the shear of the elements by the twist of the teeth, 2πr dA the volume behind dA: shear has its least mean square. The equation is that of
 //! Saint-Venant's torsion of a shaft of changing diameter (S. P. Timoshenko, J. N. Goodier, *Theory of Elasticity*, section on that case).
 
+use crate::bevel_grid::corners_of;
+
 /// Residual over the first one at which azimuths are good.
 const SOLVED: f64 = 1e-13;
 
@@ -15,7 +17,7 @@ impl Torsion {
     /// Of the quads of a meridian, order `p`, with the places of their nodes.
     pub(crate) fn new(quads: &[[[usize; 3]; 3]], p: usize, nodes: &[[f64; 2]]) -> Self {
         let quads = quads.iter().map(|quad| {
-            let corners = [quad[0][0], quad[p][0], quad[p][p], quad[0][p]];
+            let corners = corners_of(quad, p);
             let at = corners.map(|n| nodes[n]);
             let mut matrix = [[0.0; 4]; 4];
             let g = 1.0 / 3f64.sqrt();

@@ -237,11 +237,12 @@ impl<'g, F: Fn(f64) -> f64> Sector<'g, F> {
 
     /// The region between two circles, and the circles of nodes within it, where it is paved regularly.
     fn region(&mut self, i: usize, outer: &[usize], inner: &[usize]) -> (Region, Vec<Vec<usize>>) {
-        let even = Pieces {
-            least: 2,
-            even: true,
-        };
-        let radii = graded(self.levels[i].0, self.levels[i + 1].0, &self.size, even);
+        let radii = graded(
+            self.levels[i].0,
+            self.levels[i + 1].0,
+            &self.size,
+            Pieces::EVEN,
+        );
         let steps = &radii[1..radii.len() - 1];
         let (mut loops, edges) = self.outline(outer, inner, steps);
         let openings = self.openings_in(i);

@@ -12,6 +12,7 @@
 
 use crate::cut_line::CutLine;
 use crate::grading::{Pieces, graded};
+use crate::plane::{apart, arc_lengths, coons, lerp};
 use gearmesh_geometry::{ProfileCurve, ToothGeometry};
 
 /// How finely a [`ContactSection`] is meshed.
@@ -106,20 +107,8 @@ impl ContactSection {
             (grading.smallest_m + grading.growth * distance.max(0.0)).min(grading.largest_m)
         };
 
-        // Rows. Nodes at the load's centre, at the end of the flank and at the tip corner.
         let along = |s: f64| growing((s - s_centre).abs() - grading.plateau_m);
-        let mut arcs = vec![s_cut];
-        for to in [s_centre, s_end, s_tip] {
-            let from = arcs[arcs.len() - 1];
-            // Two marks closer than this are one: an element must not be a sliver.
-            if to - from > 0.2 * grading.smallest_m {
-                let pieces = Pieces {
-                    least: 1,
-                    even: false,
-                };
-                arcs.extend(&graded(from, to, along, pieces)[1..]);
-            }
-        }
+        let arcs = rows(s_cut, [s_centre, s_end, s_tip], along, grading.smallest_m);
         let centre = arcs.partition_point(|&s| s < s_centre - 1e-3 * grading.smallest_m);
         let share_of = |arc: f64| (arc - s_cut) / (s_tip - s_cut);
 
@@ -128,19 +117,11 @@ impl ContactSection {
             (edges.loaded)(s_centre),
             (edges.opposite)(share_of(s_centre)),
         );
-        let width = (beyond[0] - at[0]).hypot(beyond[1] - at[1]);
-        let shares: Vec<f64> = graded(
-            0.0,
-            width,
-            growing,
-            Pieces {
-                least: 4,
-                even: false,
-            },
-        )
-        .into_iter()
-        .map(|depth| depth / width)
-        .collect();
+        let width = apart(beyond, at);
+        let shares: Vec<f64> = graded(0.0, width, growing, Pieces::at_least(4))
+            .into_iter()
+            .map(|depth| depth / width)
+            .collect();
 
         let right: Vec<[f64; 2]> = arcs.iter().map(|&s| (edges.loaded)(s)).collect();
         let left: Vec<[f64; 2]> = arcs
@@ -149,18 +130,13 @@ impl ContactSection {
             .collect();
         let last = arcs.len() - 1;
         let columns = shares.len();
+        let corners = [[right[0], left[0]], [right[last], left[last]]];
         let mut nodes = Vec::with_capacity(arcs.len() * columns);
         for ((&arc, &r), &l) in arcs.iter().zip(&right).zip(&left) {
             let s = share_of(arc);
             for &t in &shares {
-                let bottom = cut.at(t);
-                let top = (edges.tip)(t);
-                nodes.push(std::array::from_fn(|axis| {
-                    let corners = (1.0 - s) * ((1.0 - t) * right[0][axis] + t * left[0][axis])
-                        + s * ((1.0 - t) * right[last][axis] + t * left[last][axis]);
-                    (1.0 - t) * r[axis] + t * l[axis] + (1.0 - s) * bottom[axis] + s * top[axis]
-                        - corners
-                }));
+                let sides = [cut.at(t), (edges.tip)(t)];
+                nodes.push(coons([r, l], sides, corners, (s, t)));
             }
         }
         let mut quads = Vec::with_capacity((arcs.len() - 1) * (columns - 1));
@@ -190,6 +166,19 @@ impl ContactSection {
     }
 }
 
+/// Places of the rows. Nodes at the load's centre, at the end of the flank and at the tip corner.
+fn rows(cut: f64, marks: [f64; 3], along: impl Fn(f64) -> f64, smallest_m: f64) -> Vec<f64> {
+    let mut arcs = vec![cut];
+    for to in marks {
+        let from = arcs[arcs.len() - 1];
+        // Two marks closer than this are one: an element must not be a sliver.
+        if to - from > 0.2 * smallest_m {
+            arcs.extend(&graded(from, to, &along, Pieces::at_least(1))[1..]);
+        }
+    }
+    arcs
+}
+
 /// A broken line by the share of its length.
 struct Polyline {
     points: Vec<[f64; 2]>,
@@ -198,11 +187,7 @@ struct Polyline {
 
 impl Polyline {
     fn new(points: Vec<[f64; 2]>) -> Self {
-        let mut lengths = vec![0.0];
-        for w in points.windows(2) {
-            let piece = (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]);
-            lengths.push(lengths[lengths.len() - 1] + piece);
-        }
+        let lengths = arc_lengths(&points);
         Self { points, lengths }
     }
 
@@ -211,8 +196,6 @@ impl Polyline {
         let wanted = share * self.lengths[last];
         let k = self.lengths.partition_point(|l| *l < wanted).clamp(1, last);
         let w = (wanted - self.lengths[k - 1]) / (self.lengths[k] - self.lengths[k - 1]);
-        std::array::from_fn(|axis| {
-            self.points[k - 1][axis] + w * (self.points[k][axis] - self.points[k - 1][axis])
-        })
+        lerp(self.points[k - 1], self.points[k], w)
     }
 }

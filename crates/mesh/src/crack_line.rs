@@ -7,6 +7,7 @@
 //! sound ones too.
 
 use crate::MeshError;
+use crate::plane::apart;
 use crate::tooth_cell::ToothCell;
 use gearmesh_geometry::{CrackDefinition, Flank, GearDefinition, ProfileCurve};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
@@ -48,10 +49,6 @@ impl Line {
         let along = from[0] * self.direction[0] + from[1] * self.direction[1];
         apart(p, self.at(along.clamp(0.0, self.depth)))
     }
-}
-
-fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 impl CrackLine {

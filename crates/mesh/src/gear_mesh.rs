@@ -127,31 +127,11 @@ impl GearMesh {
             None => !section.web_only[quad] || layers.web.contains(&layer),
             Some(radius) => reach(quad) <= radius * (1.0 + SAME_RADIUS),
         };
-        // Section node and level of the nodes of a quad's element, VTK order.
-        let places = |quad: usize, layer: usize| -> Vec<(usize, usize)> {
-            let corners = section.quads[quad];
-            let at = |nodes: [usize; 4], level: usize| nodes.map(|n| (n, level));
-            match section.mid_sides.get(quad) {
-                None => [at(corners, layer), at(corners, layer + 1)].concat(),
-                Some(&middles) => {
-                    let (low, high) = (2 * layer, 2 * layer + 2);
-                    [
-                        at(corners, low),
-                        at(corners, high),
-                        at(middles, low),
-                        at(middles, high),
-                        at(corners, low + 1),
-                    ]
-                    .concat()
-                }
-            }
-        };
-
         let mut node_of = vec![NONE; section.nodes.len() * n_levels];
         let mut element_of = vec![NONE; section.quads.len() * n_layers];
         for quad in 0..section.quads.len() {
             for layer in (0..n_layers).filter(|&l| in_layer(quad, l)) {
-                for (n, level) in places(quad, layer) {
+                for (n, level) in places(&section, quad, layer) {
                     node_of[n * n_levels + level] = 0;
                 }
             }
@@ -169,7 +149,7 @@ impl GearMesh {
         let mut elements = ElementList::new(shape);
         for quad in 0..section.quads.len() {
             for layer in (0..n_layers).filter(|&l| in_layer(quad, l)) {
-                let places = places(quad, layer).into_iter();
+                let places = places(&section, quad, layer).into_iter();
                 element_of[quad * n_layers + layer] =
                     elements.push(places.map(|(n, level)| node_of[n * n_levels + level]));
             }
@@ -244,5 +224,25 @@ impl GearMesh {
     /// Degrees of freedom before anything is fixed.
     pub fn dofs(&self) -> usize {
         3 * self.nodes.len()
+    }
+}
+
+/// Section node and level of the nodes of a quad's element in a layer, VTK order.
+fn places(section: &Section, quad: usize, layer: usize) -> Vec<(usize, usize)> {
+    let corners = section.quads[quad];
+    let at = |nodes: [usize; 4], level: usize| nodes.map(|n| (n, level));
+    match section.mid_sides.get(quad) {
+        None => [at(corners, layer), at(corners, layer + 1)].concat(),
+        Some(&middles) => {
+            let (low, high) = (2 * layer, 2 * layer + 2);
+            [
+                at(corners, low),
+                at(corners, high),
+                at(middles, low),
+                at(middles, high),
+                at(corners, low + 1),
+            ]
+            .concat()
+        }
     }
 }

@@ -9,6 +9,19 @@ pub struct Pieces {
     pub even: bool,
 }
 
+impl Pieces {
+    /// So many or more.
+    pub const fn at_least(least: usize) -> Self {
+        Self { least, even: false }
+    }
+
+    /// An even number of them.
+    pub const EVEN: Self = Self {
+        least: 2,
+        even: true,
+    };
+}
+
 /// Positions from `from` to `to` whose spacing follows `size(position)`.
 pub fn graded(from: f64, to: f64, size: impl Fn(f64) -> f64, pieces: Pieces) -> Vec<f64> {
     let samples = 400;

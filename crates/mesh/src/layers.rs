@@ -136,18 +136,14 @@ impl Layers {
             let middle = 0.5 * (from + to);
             let inside = (gear.blank.web())
                 .is_none_or(|w| (middle - w.offset_m).abs() < 0.5 * w.thickness_m);
-            let any = Pieces {
-                least: 1,
-                even: false,
-            };
             let first = planes.len() - 1;
             if inside {
-                let half = graded(from, middle, thickness, any);
+                let half = graded(from, middle, thickness, Pieces::at_least(1));
                 planes.extend(&half[1..]);
                 planes.extend(half.iter().rev().skip(1).map(|z| from + to - z));
                 web = first..planes.len() - 1;
             } else {
-                planes.extend(&graded(from, to, thickness, any)[1..]);
+                planes.extend(&graded(from, to, thickness, Pieces::at_least(1))[1..]);
             }
         }
         if gear.blank.web().is_none() {

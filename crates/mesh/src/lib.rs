@@ -58,6 +58,7 @@ pub mod mesh_size;
 mod meshed_spans;
 pub mod mid_sides;
 mod opening_outline;
+mod plane;
 pub mod plane_mesher;
 pub mod python;
 pub mod quality;

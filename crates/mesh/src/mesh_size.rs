@@ -94,15 +94,7 @@ impl MeshSize {
             circle_nodes: 0.0,
             cut_nodes: column(side, all),
         };
-        let mut circles = region_circles(gear);
-        let deep = repeating_down_to_m(gear).first().copied();
-        if let Some(deep) = deep {
-            let inside = circles.iter().position(|(radius, _)| *radius < deep);
-            let at = inside.unwrap_or(circles.len());
-            circles.insert(at, (deep, circles[at - 1].1));
-            // Between two circles of one radius there is nothing.
-            circles.dedup_by(|inner, outer| inner.0 >= outer.0);
-        }
+        let (circles, deep) = circles_down(gear);
         let below = if circles[0].1 { web } else { all };
         size.circle_nodes = teeth * column(ring, below);
         let length = element_length(gear, ring_size);
@@ -119,20 +111,14 @@ impl MeshSize {
                 all + stubs.count() as f64
             };
             if element == Element::Tet10 {
-                let share = web_share(gear, web_only);
-                let thin = thinnest(gear, web_only);
-                let volume = cubes(gear, outer, inner, &|r| length(r).min(thin)) * share;
-                body_nodes += TET_NODES * volume;
-                size.elements += TETRAHEDRA * volume;
-                let across = (outer - inner) * gear.tooth.face_width_m * share;
-                size.cut_nodes += 4.0 * across / gear.mesh.body_m.powi(2);
+                let [nodes, tetrahedra, cut] =
+                    free_tetrahedra(gear, (outer, inner, web_only), &length);
+                body_nodes += nodes;
+                size.elements += tetrahedra;
+                size.cut_nodes += cut;
                 continue;
             }
-            let even = Pieces {
-                least: 2,
-                even: true,
-            };
-            let radial = graded(outer, inner, &length, even).len() as f64 - 1.0;
+            let radial = graded(outer, inner, &length, Pieces::EVEN).len() as f64 - 1.0;
             let is_hub = gear
                 .blank
                 .web()
@@ -164,6 +150,38 @@ impl MeshSize {
         }
         Some(size)
     }
+}
+
+/// Circles between regions, outermost first, with whether the web alone lies below each; and how far down all repeats
+/// with the teeth.
+fn circles_down(gear: &GearDefinition) -> (Vec<(f64, bool)>, Option<f64>) {
+    let mut circles = region_circles(gear);
+    let deep = repeating_down_to_m(gear).first().copied();
+    if let Some(deep) = deep {
+        let inside = circles.iter().position(|(radius, _)| *radius < deep);
+        let at = inside.unwrap_or(circles.len());
+        circles.insert(at, (deep, circles[at - 1].1));
+        // Between two circles of one radius there is nothing.
+        circles.dedup_by(|inner, outer| inner.0 >= outer.0);
+    }
+    (circles, deep)
+}
+
+/// Nodes, tetrahedra and nodes of the cut of a region between two circles.
+fn free_tetrahedra(
+    gear: &GearDefinition,
+    (outer, inner, web_only): (f64, f64, bool),
+    length: &impl Fn(f64) -> f64,
+) -> [f64; 3] {
+    let share = web_share(gear, web_only);
+    let thin = thinnest(gear, web_only);
+    let volume = cubes(gear, outer, inner, &|r| length(r).min(thin)) * share;
+    let across = (outer - inner) * gear.tooth.face_width_m * share;
+    [
+        TET_NODES * volume,
+        TETRAHEDRA * volume,
+        4.0 * across / gear.mesh.body_m.powi(2),
+    ]
 }
 
 /// Refuses a body of tetrahedra that would take gmsh longer than it is given.

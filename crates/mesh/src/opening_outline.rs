@@ -52,7 +52,7 @@ fn slot_outline(s: &Slots, body_m: f64) -> Vec<(f64, f64)> {
     let inner_centre = half - (c / (r_in + c)).asin();
     // Places along a piece of the outline, each followed by the middle of the side after it.
     let sides = |from: f64, to: f64, corner: &dyn Fn(f64) -> f64, least: usize| -> Vec<f64> {
-        let ends = graded(from, to, |x| size(corner(x)), Pieces { least, even: false });
+        let ends = graded(from, to, |x| size(corner(x)), Pieces::at_least(least));
         let with_middles = ends.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
         with_middles.chain([to]).collect()
     };

@@ -1,10 +1,11 @@
 //! The whole cross-section: tooth cells and body sectors copied round the axis and joined.
 
 use crate::MeshError;
+use crate::body::BodyProblem;
 use crate::body_circles::first_tooth;
 use crate::crack_line::CrackLine;
 use crate::meshed_spans::MeshedSpans;
-use crate::plane_mesher::{PlaneMeshError, mesh_plane};
+use crate::plane_mesher::{PlaneMesh, PlaneMeshError, mesh_plane};
 use crate::python::PythonEnvironment;
 use crate::ring_radius::ring_radius_m;
 use crate::tooth_blocks::ToothBlocks;
@@ -48,6 +49,16 @@ pub struct Section {
     pub body_quads: Vec<Range<usize>>,
 }
 
+/// The left side of each sector is the right side of the next.
+fn join_sides(sectors: &mut [Vec<usize>], left_side: &[usize], right_side: &[usize]) {
+    for sector in 0..sectors.len() {
+        let next = (sector + 1) % sectors.len();
+        for (&left, &right) in left_side.iter().zip(right_side) {
+            sectors[sector][left] = sectors[next][right];
+        }
+    }
+}
+
 fn rotated(p: [f64; 2], angle: f64) -> [f64; 2] {
     let (s, c) = angle.sin_cos();
     [c * p[0] - s * p[1], s * p[0] + c * p[1]]
@@ -71,7 +82,6 @@ impl Section {
     pub fn new(gear: &GearDefinition, python: &PythonEnvironment) -> Result<Self, MeshError> {
         let teeth = gear.tooth.teeth;
         let sectors = gear.sectors();
-        let teeth_per_sector = teeth / sectors;
         let cell_problem = ToothBlocks::new(gear);
         let shape = gear.mesh.element.cell();
         if shape == CellKind::Tet10 {
@@ -98,63 +108,51 @@ impl Section {
             }
             cell.extend_below(below, mesh);
         }
-        let ring_per_tooth = cell.bottom.len() - 1;
         let mut section = Self::of_teeth(cell, teeth, sectors, span.first_tooth);
-        let Self {
-            nodes,
-            quads,
-            mid_sides,
-            web_only,
-            cell,
-            cell_nodes,
-            body_nodes,
-            body_quads,
-            ..
-        } = &mut section;
-        // Sectors: ring nodes are the cells'; the left edge of each is the right edge of the next.
-        *body_nodes = vec![vec![usize::MAX; body_mesh.nodes.len()]; sectors];
-        for (sector, map) in body_nodes.iter_mut().enumerate() {
-            for (k, &local) in body.ring.iter().enumerate() {
-                let tooth =
-                    (span.first_tooth + sector * teeth_per_sector + k / ring_per_tooth) % teeth;
-                map[local] = cell_nodes[tooth][cell.bottom[k % ring_per_tooth]];
-            }
-            for (local, &p) in body_mesh.nodes.iter().enumerate() {
-                if map[local] == usize::MAX && !body.left_side.contains(&local) {
-                    map[local] = nodes.len();
-                    nodes.push(rotated(p, TAU * sector as f64 / sectors as f64));
-                }
-            }
-        }
-        for sector in 0..sectors {
-            let next = (sector + 1) % sectors;
-            for (&left, &right) in body.left_side.iter().zip(&body.right_side) {
-                body_nodes[sector][left] = body_nodes[next][right];
-            }
-        }
-
-        body_quads.clear();
-        for map in body_nodes.iter() {
-            body_quads.push(quads.len()..quads.len() + body_mesh.quads.len());
-            quads.extend(body_mesh.quads.iter().map(|q| q.map(|n| map[n])));
-            mid_sides.extend(body_mesh.mid_sides.iter().map(|m| m.map(|n| map[n])));
-            web_only.extend(
-                body_mesh
-                    .owners
-                    .iter()
-                    .map(|&region| body.web_region[region]),
-            );
-        }
-        let mut bore: Vec<usize> = body_nodes
-            .iter()
-            .flat_map(|map| body.bore.iter().map(|&local| map[local]))
-            .collect();
-        bore.sort_unstable();
-        bore.dedup();
-        section.bore = bore;
+        section.number_body(body, body_mesh);
+        section.add_body(body, body_mesh);
         section.crack = crack;
         section.body_right_side = found.body.right_side;
         Ok(section)
+    }
+
+    /// Nodes of all sectors of the body: those of the ring are the cells', the left edge of each sector is the right edge
+    /// of the next.
+    fn number_body(&mut self, body: &BodyProblem, mesh: &PlaneMesh) {
+        let (teeth, sectors) = (self.cell_nodes.len(), self.body_nodes.len());
+        let ring_per_tooth = self.cell.bottom.len() - 1;
+        self.body_nodes = vec![vec![usize::MAX; mesh.nodes.len()]; sectors];
+        for (sector, map) in self.body_nodes.iter_mut().enumerate() {
+            for (k, &local) in body.ring.iter().enumerate() {
+                let tooth = self.first_tooth + sector * (teeth / sectors) + k / ring_per_tooth;
+                let place = self.cell.bottom[k % ring_per_tooth];
+                map[local] = self.cell_nodes[tooth % teeth][place];
+            }
+            for (local, &p) in mesh.nodes.iter().enumerate() {
+                if map[local] == usize::MAX && !body.left_side.contains(&local) {
+                    map[local] = self.nodes.len();
+                    self.nodes
+                        .push(rotated(p, TAU * sector as f64 / sectors as f64));
+                }
+            }
+        }
+        join_sides(&mut self.body_nodes, &body.left_side, &body.right_side);
+    }
+
+    /// Quads and bore of all sectors of the body.
+    fn add_body(&mut self, body: &BodyProblem, mesh: &PlaneMesh) {
+        self.body_quads.clear();
+        for map in &self.body_nodes {
+            let first = self.quads.len();
+            self.body_quads.push(first..first + mesh.quads.len());
+            (self.quads).extend(mesh.quads.iter().map(|q| q.map(|n| map[n])));
+            (self.mid_sides).extend(mesh.mid_sides.iter().map(|m| m.map(|n| map[n])));
+            let in_web = mesh.owners.iter().map(|&region| body.web_region[region]);
+            self.web_only.extend(in_web);
+            self.bore.extend(body.bore.iter().map(|&local| map[local]));
+        }
+        self.bore.sort_unstable();
+        self.bore.dedup();
     }
 
     /// The cells of all teeth, joined; no body yet.
@@ -170,12 +168,7 @@ impl Section {
                 }
             }
         }
-        for tooth in 0..teeth {
-            let next = (tooth + 1) % teeth;
-            for (&left, &right) in cell.left_side.iter().zip(&cell.right_side) {
-                cell_nodes[tooth][left] = cell_nodes[next][right];
-            }
-        }
+        join_sides(&mut cell_nodes, &cell.left_side, &cell.right_side);
         let mut quads = Vec::with_capacity(teeth * cell.quads.len());
         let mut mid_sides = Vec::new();
         let mut centres = Vec::new();

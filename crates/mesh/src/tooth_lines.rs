@@ -82,7 +82,7 @@ impl HalfLines {
         let innermost = layer.thickness_m * (1.0 - shares[shares.len() - 1]);
         let growing = |length: f64, largest: f64, least: usize| {
             let size = |from_layer: f64| (innermost + GRADING * from_layer).min(largest);
-            graded(0.0, length, size, Pieces { least, even: false })
+            graded(0.0, length, size, Pieces::at_least(least))
         };
         // Cut and tip land have the same number of pieces from the layer to the centre line.
         let [x, y] = offset_points[cut_position];
@@ -145,10 +145,9 @@ fn outline_arcs(gear: &GearDefinition, curve: &ProfileCurve) -> (Vec<f64>, usize
         curve.tip_start_m(),
     );
     let size = |s: f64| (h_fillet + GRADING * (s - form).max(0.0)).min(h_flank);
-    let pieces = |least: usize| Pieces { least, even: false };
-    let mut arcs = graded(0.0, cut, size, pieces(3));
+    let mut arcs = graded(0.0, cut, size, Pieces::at_least(3));
     let cut_position = arcs.len() - 1;
-    arcs.extend(&graded(cut, end, size, pieces(4))[1..]);
+    arcs.extend(&graded(cut, end, size, Pieces::at_least(4))[1..]);
     if tip > end {
         arcs.push(tip);
     }
