@@ -1,7 +1,8 @@
 //! The blank of a gear's definition in a file: solid, with web and openings, ring, shaft, or a mesh from elsewhere.
 
 use gearmesh_geometry::{
-    Blank, Contour, ContourPoint, Holes, LengthUnit, Lugs, MeshedBody, Openings, Slots, Web,
+    Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, Lugs, MeshedBody, Openings, Rim,
+    Slots, Web,
 };
 
 use crate::file_error::FileError;
@@ -44,54 +45,62 @@ impl Record for Blank {
             rim.held_z_m = back.zip(front).map(|(back, front)| [back, front]);
             f.optional("lugs", &mut rim.lugs, Lugs::fields)
         })?;
-        if !f.is_reading() {
-            return Ok(());
+        if f.is_reading() {
+            let openings = match (slots, holes) {
+                (Some(_), Some(_)) => return Err(f.contradiction("holes", "there are slots, too")),
+                (slots, holes) => slots.map(Openings::Slots).or(holes.map(Openings::Holes)),
+            };
+            let parts = (web, contour, openings);
+            *self = blank_of(f, bore_radius_m, parts, (meshed, shaft, rim))?;
         }
-        let openings = match (slots, holes) {
-            (Some(_), Some(_)) => return Err(f.contradiction("holes", "there are slots, too")),
-            (slots, holes) => slots.map(Openings::Slots).or(holes.map(Openings::Holes)),
-        };
-        if let Some(rim) = rim {
-            if shaft.is_some() || meshed.is_some() || web.is_some() || openings.is_some() {
-                let what = "there is a shaft, a web, openings or a mesh from elsewhere, too";
-                return Err(f.contradiction("rim", what));
-            }
-            *self = Self::Ring(rim);
-            return Ok(());
-        }
-        if let Some(shaft) = shaft {
-            if meshed.is_some() || web.is_some() || contour.is_some() || openings.is_some() {
-                let what = "there is a web, a contour, openings or a mesh from elsewhere, too";
-                return Err(f.contradiction("shaft", what));
-            }
-            if bore_radius_m != 0.0 {
-                return Err(f.contradiction("shaft", "there is a bore, too"));
-            }
-            *self = Self::CutIntoShaft(shaft);
-            return Ok(());
-        }
-        *self = match (meshed, web, contour) {
-            (Some(body), None, None) if openings.is_none() => Self::Meshed {
-                bore_radius_m,
-                body,
-            },
-            (Some(_), ..) => {
-                let what = "there is a web, a contour or openings, too";
-                return Err(f.contradiction("meshed", what));
-            }
-            (None, Some(web), contour) => Self::Webbed {
-                bore_radius_m,
-                web,
-                contour,
-                openings,
-            },
-            (None, None, None) => Self::Solid {
-                bore_radius_m,
-                openings,
-            },
-            (None, None, Some(_)) => return Err(f.contradiction("contour", "there is no web")),
-        };
         Ok(())
+    }
+}
+
+/// The blank that has these parts; refuses those that exclude each other.
+fn blank_of(
+    f: &Fields<'_>,
+    bore_radius_m: f64,
+    (web, contour, openings): (Option<Web>, Option<Contour>, Option<Openings>),
+    (meshed, shaft, rim): (Option<MeshedBody>, Option<CutIntoShaft>, Option<Rim>),
+) -> Result<Blank, FileError> {
+    if let Some(rim) = rim {
+        if shaft.is_some() || meshed.is_some() || web.is_some() || openings.is_some() {
+            let what = "there is a shaft, a web, openings or a mesh from elsewhere, too";
+            return Err(f.contradiction("rim", what));
+        }
+        return Ok(Blank::Ring(rim));
+    }
+    if let Some(shaft) = shaft {
+        if meshed.is_some() || web.is_some() || contour.is_some() || openings.is_some() {
+            let what = "there is a web, a contour, openings or a mesh from elsewhere, too";
+            return Err(f.contradiction("shaft", what));
+        }
+        if bore_radius_m != 0.0 {
+            return Err(f.contradiction("shaft", "there is a bore, too"));
+        }
+        return Ok(Blank::CutIntoShaft(shaft));
+    }
+    match (meshed, web, contour) {
+        (Some(body), None, None) if openings.is_none() => Ok(Blank::Meshed {
+            bore_radius_m,
+            body,
+        }),
+        (Some(_), ..) => {
+            let what = "there is a web, a contour or openings, too";
+            Err(f.contradiction("meshed", what))
+        }
+        (None, Some(web), contour) => Ok(Blank::Webbed {
+            bore_radius_m,
+            web,
+            contour,
+            openings,
+        }),
+        (None, None, None) => Ok(Blank::Solid {
+            bore_radius_m,
+            openings,
+        }),
+        (None, None, Some(_)) => Err(f.contradiction("contour", "there is no web")),
     }
 }
 

@@ -54,34 +54,7 @@ impl ReducedGear {
         if let Some(near_field) = &self.near_field {
             check_near_field(near_field, flanks * stations * stations)?;
         }
-        for (index, gauge) in self.gauges.iter().enumerate() {
-            let name = &gauge.name;
-            if gauge.tooth >= teeth {
-                return Err(out_of_range(
-                    &format!("the tooth of gauge \"{name}\""),
-                    gauge.tooth,
-                    "less than teeth",
-                ));
-            }
-            if self.gauges[..index].iter().any(|other| other.name == *name) || name.is_empty() {
-                return Err(out_of_range(
-                    "a gauge name",
-                    format!("\"{name}\""),
-                    "unique and not empty",
-                ));
-            }
-            let item = format!("error_estimate_relative of gauge \"{name}\"");
-            check_error(&item, gauge.error_estimate_relative)?;
-            let item = format!("adjoint of gauge \"{name}\"");
-            check_array(
-                &item,
-                &gauge.adjoint,
-                teeth * flanks * loads * 3,
-                "teeth * flanks * loads * 3",
-            )?;
-            let item = format!("own_tooth of gauge \"{name}\"");
-            check_array(&item, &gauge.own_tooth, flanks * loads, "flanks * loads")?;
-        }
+        self.check_gauges()?;
         self.check_dynamics()?;
         self.check_crack().and(self.check_shaft_faces())?;
         self.check_bore()?;
@@ -98,6 +71,30 @@ impl ReducedGear {
         check_finite("the symmetry check", self.checks.symmetry)?;
         let identity = self.checks.pattern_identity;
         check_finite("the pattern identity check", identity)
+    }
+
+    /// Names are unique, teeth there, rows as long as the loads.
+    fn check_gauges(&self) -> Result<(), ReducedGearError> {
+        let (teeth, flanks, loads) = (self.teeth, self.flanks.len(), self.grid.len());
+        for (index, gauge) in self.gauges.iter().enumerate() {
+            let name = &gauge.name;
+            let of = |what: &str| format!("{what} of gauge \"{name}\"");
+            if gauge.tooth >= teeth {
+                let (what, allowed) = (of("the tooth"), "less than teeth");
+                return Err(out_of_range(&what, gauge.tooth, allowed));
+            }
+            if self.gauges[..index].iter().any(|other| other.name == *name) || name.is_empty() {
+                let (found, allowed) = (format!("\"{name}\""), "unique and not empty");
+                return Err(out_of_range("a gauge name", found, allowed));
+            }
+            let item = of("error_estimate_relative");
+            check_error(&item, gauge.error_estimate_relative)?;
+            let (count, what) = (teeth * flanks * loads * 3, "teeth * flanks * loads * 3");
+            check_array(&of("adjoint"), &gauge.adjoint, count, what)?;
+            let (count, what) = (flanks * loads, "flanks * loads");
+            check_array(&of("own_tooth"), &gauge.own_tooth, count, what)?;
+        }
+        Ok(())
     }
 
     /// The gear's definition, where it is known, is that of this body and holds quantities that there can be.

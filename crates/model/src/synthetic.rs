@@ -88,33 +88,7 @@ pub fn small_reduced_gear() -> ReducedGear {
         slices: 1,
     };
     let loads = grid.len();
-    // Teeth of even number are stiffer, as those over a spoke are. Symmetric in its two triples by construction.
-    let compliance = |a: (usize, usize, usize), b: (usize, usize, usize)| {
-        let around = (a.0 + teeth - b.0) % teeth;
-        let apart = around.min(teeth - around) as f64;
-        let weight = |t: (usize, usize, usize)| 1.0 + 0.3 * (t.0 % own) as f64 + 0.1 * t.2 as f64;
-        let same_side = if a.1 == b.1 { 1.0 } else { -0.4 };
-        1e-9 * same_side
-            * weight(a)
-            * weight(b)
-            * (-apart - 0.2 * (a.2 as f64 - b.2 as f64).abs()).exp()
-    };
-    let mut c_hub = Vec::new();
-    for load_tooth in 0..own {
-        for load_flank in 0..2 {
-            for response_tooth in 0..teeth {
-                for response_flank in 0..2 {
-                    for l in 0..loads {
-                        let load = (load_tooth, load_flank, l);
-                        c_hub.extend(
-                            (0..loads)
-                                .map(|m| compliance(load, (response_tooth, response_flank, m))),
-                        );
-                    }
-                }
-            }
-        }
-    }
+    let c_hub = decaying_compliance(teeth, own, loads);
     let pair = |i: usize| (i / loads % loads, i % loads);
     let c_tooth = (0..2 * loads * loads)
         .map(|i| 2e-10 * (-(pair(i).0 as f64 - pair(i).1 as f64).abs()).exp())
@@ -144,19 +118,7 @@ pub fn small_reduced_gear() -> ReducedGear {
         c_hub,
         c_tooth,
         opposite_distance_m: vec![0.004, 0.003, 0.002, 0.0041, 0.0031, 0.0021],
-        near_field: Some(NearField {
-            half_width_m: 1e-4,
-            roll_angles_rad: vec![0.2, 0.3, 0.4, 0.5],
-            contact_m2_per_n: vec![1.4e-11, 1.2e-11, 1.3e-11, 2.0e-11],
-            mesh_m2_per_n: (0..18)
-                .map(|i| {
-                    let (a, b) = (f64::from(i / 3 % 3), f64::from(i % 3));
-                    9e-12 * (-(a - b).abs()).exp()
-                })
-                .collect(),
-            element_m: 1.25e-5,
-            residual: 2e-3,
-        }),
+        near_field: Some(near_field()),
         gauges: vec![
             gauge("root", 0, Flank::Right),
             gauge("opposite", 3, Flank::Left),
@@ -188,23 +150,75 @@ pub fn small_reduced_gear() -> ReducedGear {
         shaft_faces: None,
         bore: None,
         bevel: None,
-        provenance: Provenance {
-            program: "gearmesh".to_owned(),
-            version: "0.0.0".to_owned(),
-            created_utc: "2000-01-01T00:00:00Z".to_owned(),
-            threads: 2,
-            element: "none".to_owned(),
-            nodes: 12,
-            elements: 2,
-            dofs: 24,
-            stage_seconds: vec![("mesh".to_owned(), 0.5), ("assemble".to_owned(), 0.25)],
-            effort: vec![("factorisations".to_owned(), 1.0)],
-        },
+        provenance: provenance(),
         checks: ReductionChecks {
             symmetry: 1e-16,
             pattern_identity: 2e-12,
             further: vec![("residual".to_owned(), 3e-13)],
         },
+    }
+}
+
+/// Symmetric in its two triples by construction: (tooth, flank, load). Teeth of even number are stiffer, as those over
+/// a spoke are.
+fn decaying_compliance(teeth: usize, own: usize, loads: usize) -> Vec<f64> {
+    let compliance = |a: (usize, usize, usize), b: (usize, usize, usize)| {
+        let around = (a.0 + teeth - b.0) % teeth;
+        let apart = around.min(teeth - around) as f64;
+        let weight = |t: (usize, usize, usize)| 1.0 + 0.3 * (t.0 % own) as f64 + 0.1 * t.2 as f64;
+        let same_side = if a.1 == b.1 { 1.0 } else { -0.4 };
+        1e-9 * same_side
+            * weight(a)
+            * weight(b)
+            * (-apart - 0.2 * (a.2 as f64 - b.2 as f64).abs()).exp()
+    };
+    let mut c_hub = Vec::new();
+    for load_tooth in 0..own {
+        for load_flank in 0..2 {
+            for response_tooth in 0..teeth {
+                for response_flank in 0..2 {
+                    for l in 0..loads {
+                        let load = (load_tooth, load_flank, l);
+                        c_hub.extend(
+                            (0..loads)
+                                .map(|m| compliance(load, (response_tooth, response_flank, m))),
+                        );
+                    }
+                }
+            }
+        }
+    }
+    c_hub
+}
+
+fn near_field() -> NearField {
+    NearField {
+        half_width_m: 1e-4,
+        roll_angles_rad: vec![0.2, 0.3, 0.4, 0.5],
+        contact_m2_per_n: vec![1.4e-11, 1.2e-11, 1.3e-11, 2.0e-11],
+        mesh_m2_per_n: (0..18)
+            .map(|i| {
+                let (a, b) = (f64::from(i / 3 % 3), f64::from(i % 3));
+                9e-12 * (-(a - b).abs()).exp()
+            })
+            .collect(),
+        element_m: 1.25e-5,
+        residual: 2e-3,
+    }
+}
+
+fn provenance() -> Provenance {
+    Provenance {
+        program: "gearmesh".to_owned(),
+        version: "0.0.0".to_owned(),
+        created_utc: "2000-01-01T00:00:00Z".to_owned(),
+        threads: 2,
+        element: "none".to_owned(),
+        nodes: 12,
+        elements: 2,
+        dofs: 24,
+        stage_seconds: vec![("mesh".to_owned(), 0.5), ("assemble".to_owned(), 0.25)],
+        effort: vec![("factorisations".to_owned(), 1.0)],
     }
 }
 
@@ -293,19 +307,7 @@ pub fn small_bevel_gear() -> ReducedGear {
             }
         }
     }
-    let (mut points_m, mut normals) = (Vec::new(), Vec::new());
-    for facing in [-1.0, 1.0] {
-        for u in &grid.roll_angles_rad {
-            for along in &grid.z_m {
-                let [cone, height] = [0.042 + along, 0.005 * (u - 0.5)];
-                let radius = (cone + height) * 0.5_f64.sqrt();
-                let turn = facing * 0.06 - 10.0 * along;
-                let (sin, cos) = turn.sin_cos();
-                points_m.extend([radius * cos, radius * sin, (cone - height) * 0.5_f64.sqrt()]);
-                normals.extend([facing * sin, -facing * cos, 0.0]);
-            }
-        }
-    }
+    let (points_m, normals) = on_cones(&grid);
     let stations = grid.roll_angles_rad.len();
     ReducedGear {
         name: "synthetic bevel gear".to_owned(),
@@ -356,6 +358,24 @@ pub fn small_bevel_gear() -> ReducedGear {
         flanks,
         ..small_reduced_gear()
     }
+}
+
+/// Points on cones, with normals that face both ways round.
+fn on_cones(grid: &FlankGrid) -> (Vec<f64>, Vec<f64>) {
+    let (mut points_m, mut normals) = (Vec::new(), Vec::new());
+    for facing in [-1.0, 1.0] {
+        for u in &grid.roll_angles_rad {
+            for along in &grid.z_m {
+                let [cone, height] = [0.042 + along, 0.005 * (u - 0.5)];
+                let radius = (cone + height) * 0.5_f64.sqrt();
+                let turn = facing * 0.06 - 10.0 * along;
+                let (sin, cos) = turn.sin_cos();
+                points_m.extend([radius * cos, radius * sin, (cone - height) * 0.5_f64.sqrt()]);
+                normals.extend([facing * sin, -facing * cos, 0.0]);
+            }
+        }
+    }
+    (points_m, normals)
 }
 
 /// A crack in tooth 4 of [`small_reduced_gear`], two rows.
