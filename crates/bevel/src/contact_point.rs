@@ -100,7 +100,7 @@ impl EdgeLine {
     }
 
     /// Value of the line's equation, its gradient and second derivatives by the flank's parameters.
-    fn equation(&self, flank: &Flank, p: &SurfacePoint) -> (f64, [f64; 2], [f64; 3]) {
+    fn equation(&self, flank: &Flank, p: &SurfacePoint) -> LineEquation {
         // L and h are linear in z and the radius.
         let by_z = flank.blank.cone_place(1.0, 0.0);
         let by_radius = flank.blank.cone_place(0.0, 1.0);
@@ -133,6 +133,80 @@ enum Meeting {
     Edge(EdgeLine),
     /// Points of both lines.
     Lines([EdgeLine; 2]),
+}
+
+/// Newton's equations for the parameters on both flanks and the gear's turn.
+struct System {
+    residual: Vector5<f64>,
+    slopes: Matrix5<f64>,
+}
+
+/// Value of a line's equation, its gradient and second derivatives.
+type LineEquation = (f64, [f64; 2], [f64; 3]);
+
+impl System {
+    /// Rows 0 to 2: both points are one. `arm`: change of the gear's point by its turn.
+    fn coincide(p: &[SurfacePoint; 2], arm: &Vector3<f64>, size: f64) -> Self {
+        let gap = (p[0].r - p[1].r) / size;
+        let mut residual = Vector5::zeros();
+        let mut slopes = Matrix5::zeros();
+        for i in 0..3 {
+            residual[i] = gap[i];
+            for k in 0..2 {
+                slopes[(i, k)] = p[0].dr[k][i] / size;
+                slopes[(i, 2 + k)] = -p[1].dr[k][i] / size;
+            }
+            slopes[(i, 4)] = -arm[i] / size;
+        }
+        Self { residual, slopes }
+    }
+
+    /// Rows 3 and 4: the normals are opposite. Tangents are held for the step.
+    fn oppose_normals(&mut self, p: &[SurfacePoint; 2], axis: Vector3<f64>) {
+        let tangents = p[0].tangents(&p[0].dr[0]);
+        let turned = axis.cross(&p[1].n);
+        for (row, t) in tangents.iter().enumerate() {
+            self.residual[3 + row] = t.dot(&(p[0].n + p[1].n));
+            for k in 0..2 {
+                self.slopes[(3 + row, k)] = t.dot(&p[0].dn[k]);
+                self.slopes[(3 + row, 2 + k)] = t.dot(&p[1].dn[k]);
+            }
+            self.slopes[(3 + row, 4)] = t.dot(&turned);
+        }
+    }
+
+    /// One row: the member's point lies on the line.
+    fn stay_on(&mut self, line: &EdgeLine, (value, c, _): LineEquation, row: usize, size: f64) {
+        self.residual[row] = value / size;
+        for (k, slope) in c.iter().enumerate() {
+            self.slopes[(row, 2 * line.member + k)] = slope / size;
+        }
+    }
+
+    /// Row 4: the tangent of member `m`'s edge, r_a c_b − r_b c_a, is across the other's normal.
+    fn touch_edge(
+        &mut self,
+        m: usize,
+        (_, c, cc): LineEquation,
+        p: &[SurfacePoint; 2],
+        axis: Vector3<f64>,
+    ) {
+        let (e, n) = (&p[m], &p[1 - m]);
+        let tangent = e.dr[0] * c[1] - e.dr[1] * c[0];
+        let scale = 1.0 / tangent.norm();
+        self.residual[4] = tangent.dot(&n.n) * scale;
+        for k in 0..2 {
+            let change =
+                e.ddr[k] * c[1] + e.dr[0] * cc[1 + k] - e.ddr[1 + k] * c[0] - e.dr[1] * cc[k];
+            self.slopes[(4, 2 * m + k)] = change.dot(&n.n) * scale;
+            self.slopes[(4, 2 * (1 - m) + k)] = tangent.dot(&n.dn[k]) * scale;
+        }
+        let turned = match m {
+            0 => tangent.dot(&axis.cross(&n.n)),
+            _ => axis.cross(&tangent).dot(&n.n),
+        };
+        self.slopes[(4, 4)] = turned * scale;
+    }
 }
 
 impl Mesh<'_> {
@@ -183,69 +257,27 @@ impl Mesh<'_> {
                 pinion.placed(&own[0], pinion_turn),
                 gear.placed(&own[1], turn),
             ];
-            let gap = (p[0].r - p[1].r) / size;
             let arm = axis.cross(&(p[1].r - gear.apex_m));
-            let mut residual = Vector5::zeros();
-            let mut slopes = Matrix5::zeros();
-            for i in 0..3 {
-                residual[i] = gap[i];
-                for k in 0..2 {
-                    slopes[(i, k)] = p[0].dr[k][i] / size;
-                    slopes[(i, 2 + k)] = -p[1].dr[k][i] / size;
-                }
-                slopes[(i, 4)] = -arm[i] / size;
-            }
+            let mut system = System::coincide(&p, &arm, size);
             match meeting {
-                Meeting::Faces => {
-                    // Tangents are held for the step.
-                    let tangents = p[0].tangents(&p[0].dr[0]);
-                    let turned = axis.cross(&p[1].n);
-                    for (row, t) in tangents.iter().enumerate() {
-                        residual[3 + row] = t.dot(&(p[0].n + p[1].n));
-                        for k in 0..2 {
-                            slopes[(3 + row, k)] = t.dot(&p[0].dn[k]);
-                            slopes[(3 + row, 2 + k)] = t.dot(&p[1].dn[k]);
-                        }
-                        slopes[(3 + row, 4)] = t.dot(&turned);
-                    }
-                }
+                Meeting::Faces => system.oppose_normals(&p, axis),
                 Meeting::Lines(lines) => {
                     for (row, line) in lines.iter().enumerate() {
-                        let m = line.member;
-                        let (value, c, _) = line.equation(self.flanks[m], &own[m]);
-                        residual[3 + row] = value / size;
-                        for k in 0..2 {
-                            slopes[(3 + row, 2 * m + k)] = c[k] / size;
-                        }
+                        system.stay_on(
+                            line,
+                            line.equation(self.flanks[line.member], &own[line.member]),
+                            3 + row,
+                            size,
+                        );
                     }
                 }
                 Meeting::Edge(line) => {
-                    let m = line.member;
-                    let (value, c, cc) = line.equation(self.flanks[m], &own[m]);
-                    residual[3] = value / size;
-                    for k in 0..2 {
-                        slopes[(3, 2 * m + k)] = c[k] / size;
-                    }
-                    // Tangent of the edge r_a c_b − r_b c_a on the other's normal.
-                    let (e, n) = (&p[m], &p[1 - m]);
-                    let tangent = e.dr[0] * c[1] - e.dr[1] * c[0];
-                    let scale = 1.0 / tangent.norm();
-                    residual[4] = tangent.dot(&n.n) * scale;
-                    for k in 0..2 {
-                        let change = e.ddr[k] * c[1] + e.dr[0] * cc[1 + k]
-                            - e.ddr[1 + k] * c[0]
-                            - e.dr[1] * cc[k];
-                        slopes[(4, 2 * m + k)] = change.dot(&n.n) * scale;
-                        slopes[(4, 2 * (1 - m) + k)] = tangent.dot(&n.dn[k]) * scale;
-                    }
-                    let turned = if m == 0 {
-                        tangent.dot(&axis.cross(&n.n))
-                    } else {
-                        axis.cross(&tangent).dot(&n.n)
-                    };
-                    slopes[(4, 4)] = turned * scale;
+                    let equation = line.equation(self.flanks[line.member], &own[line.member]);
+                    system.stay_on(line, equation, 3, size);
+                    system.touch_edge(line.member, equation, &p, axis);
                 }
             }
+            let System { residual, slopes } = system;
             let error = residual.norm();
             if error < 1e-13 || (error < 1e-10 && error >= 0.5 * last) {
                 if p[0].n.dot(&p[1].n) > 0.0 && matches!(meeting, Meeting::Faces) {

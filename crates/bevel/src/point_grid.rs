@@ -57,10 +57,8 @@ impl PointGrid {
         for head in &HEADS[PLACES..] {
             has_normals |= NumberTable::head_among(path, [head, HEADS[0]])? == *head;
         }
-        let mut heads = HEADS.to_vec();
-        if !has_normals {
-            heads.truncate(PLACES);
-        }
+        let given = if has_normals { HEADS.len() } else { PLACES };
+        let mut heads = HEADS[..given].to_vec();
         if is_measured {
             heads.push(DEVIATION);
         }
@@ -70,21 +68,7 @@ impl PointGrid {
             let problem = format!("{rows} points, allowed are {MOST_POINTS}; leave rows out");
             return Err(table.error(problem));
         }
-        let mut size = [0; 2];
-        for k in 0..2 {
-            for (row, &value) in table.column(k).iter().enumerate() {
-                if value.fract() != 0.0 || !(1.0..=MOST_POINTS as f64).contains(&value) {
-                    let problem = format!("found {value}, allowed is a whole number from 1");
-                    return Err(table.error_at(row, k, problem));
-                }
-                size[k] = size[k].max(value as usize);
-            }
-            if size[k] < LEAST[k] {
-                let what = ["sectors", "heights"][k];
-                let problem = format!("{} {what}, at least {} are needed", size[k], LEAST[k]);
-                return Err(table.error(problem));
-            }
-        }
+        let size = grid_size(&table)?;
         let mut places: Vec<Option<GridPoint>> = vec![None; size[0] * size[1]];
         for row in 0..rows {
             let at = |column: usize| table.column(column)[row];
@@ -95,13 +79,10 @@ impl PointGrid {
                 Vector3::z()
             };
             if (normal.norm() - 1.0).abs() > UNIT_SLACK {
-                let problem = format!(
-                    "the normal ({}, {}, {}) is {:.4} long, allowed is 1",
-                    normal.x,
-                    normal.y,
-                    normal.z,
-                    normal.norm()
-                );
+                let [x, y, z]: [f64; 3] = normal.into();
+                let length = normal.norm();
+                let problem =
+                    format!("the normal ({x}, {y}, {z}) is {length:.4} long, allowed is 1");
                 return Err(table.error_at(row, PLACES, problem));
             }
             let [sector, height] = [at(0), at(1)].map(|x| x as usize - 1);
@@ -118,16 +99,14 @@ impl PointGrid {
             *place = Some(GridPoint {
                 r: vector(2) * 1e-3 + Vector3::z() * apex_m,
                 normal: normal.normalize(),
-                deviation_m: if is_measured {
-                    1e-6 * at(heads.len() - 1)
-                } else {
-                    0.0
+                deviation_m: match is_measured {
+                    true => 1e-6 * at(given),
+                    false => 0.0,
                 },
                 row,
             });
         }
-        let missing = places.iter().position(Option::is_none);
-        if let Some(place) = missing {
+        if let Some(place) = places.iter().position(Option::is_none) {
             let (sector, height) = (place / size[1] + 1, place % size[1] + 1);
             let problem = format!(
                 "sector {sector} has no height {height}; a grid of {} sectors and {} heights needs {} rows",
@@ -163,6 +142,26 @@ impl PointGrid {
     pub(crate) fn error(&self, problem: String) -> InputError {
         self.table.error(problem)
     }
+}
+
+/// Sectors and heights of a list.
+fn grid_size(table: &NumberTable) -> Result<[usize; 2], InputError> {
+    let mut size = [0; 2];
+    for k in 0..2 {
+        for (row, &value) in table.column(k).iter().enumerate() {
+            if value.fract() != 0.0 || !(1.0..=MOST_POINTS as f64).contains(&value) {
+                let problem = format!("found {value}, allowed is a whole number from 1");
+                return Err(table.error_at(row, k, problem));
+            }
+            size[k] = size[k].max(value as usize);
+        }
+        if size[k] < LEAST[k] {
+            let what = ["sectors", "heights"][k];
+            let problem = format!("{} {what}, at least {} are needed", size[k], LEAST[k]);
+            return Err(table.error(problem));
+        }
+    }
+    Ok(size)
 }
 
 /// Normals from the chords to neighbouring points; 0 where these do not span a plane.

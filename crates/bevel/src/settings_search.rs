@@ -93,36 +93,7 @@ pub fn settings_for(
     };
     let mut x = Unknowns::zeros();
     let begin = residual(&x).ok_or_else(lost)?;
-    let newton = |mut x: Unknowns, left: f64| -> Option<Unknowns> {
-        let mut f = residual(&x)? - begin * left;
-        for _ in 0..MOST_STEPS {
-            if f.norm() < 1e-12 {
-                return Some(x);
-            }
-            let mut slopes = SMatrix::<f64, 7, 7>::zeros();
-            for i in 0..7 {
-                let mut up = x;
-                up[i] += DIFFERENCE;
-                let mut down = x;
-                down[i] -= DIFFERENCE;
-                slopes.set_column(
-                    i,
-                    &((residual(&up)? - residual(&down)?) / (2.0 * DIFFERENCE)),
-                );
-            }
-            let step = slopes.lu().solve(&f)?;
-            if step.amax() > 0.5 {
-                return None;
-            }
-            x -= step;
-            let next = residual(&x)? - begin * left;
-            if next.norm() > 0.5 * f.norm() {
-                return (next.norm() < 1e-10).then_some(x);
-            }
-            f = next;
-        }
-        None
-    };
+    let newton = |x: Unknowns, left: f64| newton(&residual, x, begin * left);
     let (mut done, mut share) = (0.0, FIRST_SHARE);
     while done < 1.0 {
         let goal: f64 = f64::min(done + share, 1.0);
@@ -141,6 +112,41 @@ pub fn settings_for(
         Some(mill) if mill.point_radius_m > 0.0 && mill.radial_m > 0.0 => Ok(found),
         _ => Err(lost()),
     }
+}
+
+/// Newton's method from unknowns nearby to those at which the residual is `wanted`; none where it does not get there.
+fn newton(
+    residual: &impl Fn(&Unknowns) -> Option<Unknowns>,
+    mut x: Unknowns,
+    wanted: Unknowns,
+) -> Option<Unknowns> {
+    let mut f = residual(&x)? - wanted;
+    for _ in 0..MOST_STEPS {
+        if f.norm() < 1e-12 {
+            return Some(x);
+        }
+        let mut slopes = SMatrix::<f64, 7, 7>::zeros();
+        for i in 0..7 {
+            let beside = |step: f64| {
+                let mut x = x;
+                x[i] += step;
+                residual(&x)
+            };
+            let difference = beside(DIFFERENCE)? - beside(-DIFFERENCE)?;
+            slopes.set_column(i, &(difference / (2.0 * DIFFERENCE)));
+        }
+        let step = slopes.lu().solve(&f)?;
+        if step.amax() > 0.5 {
+            return None;
+        }
+        x -= step;
+        let next = residual(&x)? - wanted;
+        if next.norm() > 0.5 * f.norm() {
+            return (next.norm() < 1e-10).then_some(x);
+        }
+        f = next;
+    }
+    None
 }
 
 /// An ease-off asked for: amounts at the ends of the flank \[m\].
@@ -213,14 +219,13 @@ pub fn settings_for_ease_off(
     for _ in 0..40 {
         let mut slopes = DMatrix::zeros(f.len(), N);
         for i in 0..N {
-            let mut up = x.clone();
-            up[i] += DIFFERENCE;
-            let mut down = x.clone();
-            down[i] -= DIFFERENCE;
-            slopes.set_column(
-                i,
-                &((residual(&up)? - residual(&down)?) / (2.0 * DIFFERENCE)),
-            );
+            let beside = |step: f64| {
+                let mut x = x.clone();
+                x[i] += step;
+                residual(&x)
+            };
+            let difference = beside(DIFFERENCE)? - beside(-DIFFERENCE)?;
+            slopes.set_column(i, &(difference / (2.0 * DIFFERENCE)));
         }
         let gradient = slopes.transpose() * &f;
         let normal = slopes.transpose() * &slopes;

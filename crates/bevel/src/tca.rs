@@ -5,7 +5,7 @@ use crate::assembly::{Assembly, AssemblyError};
 use crate::between_positions::between_positions;
 use crate::blank::PairBlank;
 use crate::contact_ellipse::ContactEllipse;
-use crate::contact_path::{ContactKind, first_touch, pair_contacts};
+use crate::contact_path::{ContactKind, PairContacts, first_touch, pair_contacts};
 use crate::contact_point::{Mesh, Touch};
 use crate::contact_search::ContactSearch;
 use crate::ease_off::{EaseOff, EaseOffMap};
@@ -110,43 +110,17 @@ pub fn tooth_contact(
     }
     let search = ContactSearch::new(mesh)?;
     let contacts = pair_contacts(&search, request.per_pitch);
-    // The gear is pushed by the pair that brings it farthest.
+    let leaders = leaders(&mesh, &contacts, request.per_pitch)?;
     let n = request.per_pitch as i64;
-    let mut leaders = vec![(0, f64::NEG_INFINITY); request.per_pitch];
-    for (i, _, touch) in &contacts.contacts {
-        let (slot, lead) = (i.rem_euclid(n) as usize, mesh.lead_rad(touch));
-        if lead > leaders[slot].1 {
-            leaders[slot] = (*i, lead);
-        }
-    }
-    if leaders.iter().any(|(_, lead)| !lead.is_finite()) {
-        return Err(BevelError::NoContact {
-            hint: "at some turns no tooth reaches its mate, edges included; make the errors smaller",
-        });
-    }
     let between = between_positions(&search, &contacts, &leaders);
     let leads = leaders.iter().map(|(_, lead)| *lead);
     let leads = leads.chain(between.iter().map(|(_, touch)| mesh.lead_rad(touch)));
     let largest = leads.clone().fold(f64::NEG_INFINITY, f64::max);
     let smallest = leads.fold(f64::INFINITY, f64::min);
-    let point = |kind: ContactKind, touch: &Touch, leading: bool, is_between: bool| {
-        let lead = mesh.lead_rad(touch);
-        let places = [0, 1].map(|k| {
-            flanks[k]
-                .point(touch.at[k])
-                .map_or([f64::NAN; 2], |p| flanks[k].place(&p.r))
-        });
-        PathPoint {
-            pinion_turn_rad: touch.pinion_turn_rad,
-            error_rad: lead - largest,
-            lead_rad: lead,
-            is_between,
-            kind,
-            leading,
-            places_m: places,
-            ellipse: (kind == ContactKind::Flanks).then(|| ContactEllipse::at(touch)),
-            touch: *touch,
-        }
+    let point = |kind, touch: &Touch, leading, is_between| {
+        let mut point = path_point(&mesh, kind, touch, largest);
+        (point.leading, point.is_between) = (leading, is_between);
+        point
     };
     let steps = contacts.contacts.iter().map(|(i, kind, touch)| {
         let leads = mesh.lead_rad(touch) >= leaders[i.rem_euclid(n) as usize].1;
@@ -189,6 +163,48 @@ pub fn tooth_contact(
         edge_share: edges / leading,
         path,
     })
+}
+
+/// Of each turn the contact of the pair that brings the gear farthest, by which it is pushed, and the lead.
+fn leaders(
+    mesh: &Mesh<'_>,
+    contacts: &PairContacts,
+    per_pitch: usize,
+) -> Result<Vec<(i64, f64)>, BevelError> {
+    let n = per_pitch as i64;
+    let mut leaders = vec![(0, f64::NEG_INFINITY); per_pitch];
+    for (i, _, touch) in &contacts.contacts {
+        let (slot, lead) = (i.rem_euclid(n) as usize, mesh.lead_rad(touch));
+        if lead > leaders[slot].1 {
+            leaders[slot] = (*i, lead);
+        }
+    }
+    if leaders.iter().any(|(_, lead)| !lead.is_finite()) {
+        return Err(BevelError::NoContact {
+            hint: "at some turns no tooth reaches its mate, edges included; make the errors smaller",
+        });
+    }
+    Ok(leaders)
+}
+
+/// A contact as a point of the path; whether it leads is not known yet.
+fn path_point(mesh: &Mesh<'_>, kind: ContactKind, touch: &Touch, largest_rad: f64) -> PathPoint {
+    let lead_rad = mesh.lead_rad(touch);
+    let place = |k: usize| {
+        let point = mesh.flanks[k].point(touch.at[k]);
+        point.map_or([f64::NAN; 2], |p| mesh.flanks[k].place(&p.r))
+    };
+    PathPoint {
+        pinion_turn_rad: touch.pinion_turn_rad,
+        error_rad: lead_rad - largest_rad,
+        lead_rad,
+        is_between: false,
+        kind,
+        leading: false,
+        places_m: [place(0), place(1)],
+        ellipse: (kind == ContactKind::Flanks).then(|| ContactEllipse::at(touch)),
+        touch: *touch,
+    }
 }
 
 /// Conjugate flanks have no path of contact.

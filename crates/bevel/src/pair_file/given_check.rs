@@ -38,63 +38,24 @@ pub(super) fn check(
     for (side, s) in FlankSide::BOTH.into_iter().zip(settings) {
         let key = |of: &str| format!("{}.{of}", side.word());
         let Some(mill) = s.face_mill() else { continue };
-        let q = mill.cradle_angle_rad;
-        if q * member.hand.sign() <= 0.0 {
-            let (cuts, sign) = match q > 0.0 {
-                true => ("right", "negative"),
-                false => ("left", "positive"),
-            };
-            let cuts = if q == 0.0 {
-                "neither hand".to_owned()
-            } else {
-                format!("a {cuts} hand")
-            };
-            let sign = if q == 0.0 {
-                "positive for a right, negative for a left hand"
-            } else {
-                sign
-            };
-            let problem = format!(
-                "found {:.4} degrees, which cuts {cuts}; the {name} has a {} hand (bevel.pinion_hand), allowed is {sign}. Are the members \
-                 exchanged, or does the source count the cradle the other way round?",
-                q.to_degrees(),
-                member.hand.word()
-            );
-            return Err(keys.error(&key("cradle_angle_deg"), problem));
-        }
-        let root = s.root_angle_rad;
-        let allowed = [
-            member.root_angle_rad - CONE_RAD,
-            member.pitch_angle_rad + CONE_RAD,
+        let found = [
+            (
+                "cradle_angle_deg",
+                other_hand(mill.cradle_angle_rad, member, name),
+            ),
+            (
+                "machine_root_angle_deg",
+                far_cone(s.root_angle_rad, member, mate, name),
+            ),
+            (
+                "ratio_of_roll",
+                s.roll
+                    .and_then(|roll| upside_down(roll.ratio, member, name)),
+            ),
         ];
-        if root < allowed[0] || root > allowed[1] {
-            let exchanged = if (root - mate.root_angle_rad).abs() < CONE_RAD {
-                format!(
-                    " It is near that of the {}, {:.4} degrees: are the members exchanged?",
-                    mate.name,
-                    mate.root_angle_rad.to_degrees()
-                )
-            } else {
-                String::new()
-            };
-            let problem = format!(
-                "found {:.4} degrees, the {name}'s root angle is {:.4}; allowed is {:.4} to {:.4}, within 5 degrees of its root and pitch cone.{exchanged}",
-                root.to_degrees(),
-                member.root_angle_rad.to_degrees(),
-                allowed[0].to_degrees(),
-                allowed[1].to_degrees()
-            );
-            return Err(keys.error(&key("machine_root_angle_deg"), problem));
-        }
-        if let Some(roll) = s.roll {
-            let wanted = rolling(member);
-            let is_near = (roll.ratio / wanted - 1.0).abs() <= ROLL;
-            if !is_near && (roll.ratio * wanted - 1.0).abs() <= UPSIDE_DOWN {
-                let problem = format!(
-                    "found {:.6}, the {name}'s pitch cone rolls with {wanted:.6}: it is near that turned upside down; this is work over cradle",
-                    roll.ratio
-                );
-                return Err(keys.error(&key("ratio_of_roll"), problem));
+        for (of, problem) in found {
+            if let Some(problem) = problem {
+                return Err(keys.error(&key(of), problem));
             }
         }
     }
@@ -115,4 +76,62 @@ pub(super) fn check(
         return Err(keys.error("concave.point_radius_mm", problem));
     }
     Ok(())
+}
+
+/// What is wrong with a cradle angle that cuts the other hand, or none.
+fn other_hand(cradle_angle_rad: f64, member: &MemberBlank, name: &str) -> Option<String> {
+    let q = cradle_angle_rad;
+    let (cuts, allowed) = match q * member.hand.sign() {
+        product if product > 0.0 => return None,
+        _ if q > 0.0 => ("a right hand", "negative"),
+        _ if q == 0.0 => {
+            let allowed = "positive for a right, negative for a left hand";
+            ("neither hand", allowed)
+        }
+        _ => ("a left hand", "positive"),
+    };
+    Some(format!(
+        "found {:.4} degrees, which cuts {cuts}; the {name} has a {} hand (bevel.pinion_hand), allowed is {allowed}. Are the members \
+         exchanged, or does the source count the cradle the other way round?",
+        q.to_degrees(),
+        member.hand.word()
+    ))
+}
+
+/// What is wrong with a machine root angle beyond root and pitch cone.
+fn far_cone(root_rad: f64, member: &MemberBlank, mate: &MemberBlank, name: &str) -> Option<String> {
+    let allowed = [
+        member.root_angle_rad - CONE_RAD,
+        member.pitch_angle_rad + CONE_RAD,
+    ];
+    if !(root_rad < allowed[0] || root_rad > allowed[1]) {
+        return None;
+    }
+    let exchanged = if (root_rad - mate.root_angle_rad).abs() < CONE_RAD {
+        format!(
+            " It is near that of the {}, {:.4} degrees: are the members exchanged?",
+            mate.name,
+            mate.root_angle_rad.to_degrees()
+        )
+    } else {
+        String::new()
+    };
+    Some(format!(
+        "found {:.4} degrees, the {name}'s root angle is {:.4}; allowed is {:.4} to {:.4}, within 5 degrees of its root and pitch cone.{exchanged}",
+        root_rad.to_degrees(),
+        member.root_angle_rad.to_degrees(),
+        allowed[0].to_degrees(),
+        allowed[1].to_degrees()
+    ))
+}
+
+/// What is wrong with a ratio of roll that is turned upside down.
+fn upside_down(ratio: f64, member: &MemberBlank, name: &str) -> Option<String> {
+    let wanted = rolling(member);
+    let is_near = (ratio / wanted - 1.0).abs() <= ROLL;
+    (!is_near && (ratio * wanted - 1.0).abs() <= UPSIDE_DOWN).then(|| {
+        format!(
+            "found {ratio:.6}, the {name}'s pitch cone rolls with {wanted:.6}: it is near that turned upside down; this is work over cradle"
+        )
+    })
 }
