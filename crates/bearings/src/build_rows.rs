@@ -6,6 +6,7 @@ use crate::ball_row::{BallRow, Groove};
 use crate::barrel_row::{BarrelLamina, BarrelRow};
 use crate::definition::{
     BallBearingKind, BallGeometry, BarrelShape, BearingDefinition, BearingGeometry, RollerGeometry,
+    Taper,
 };
 use crate::four_point_row::{Arc, FourPointRow};
 use crate::line_contact::LineContact;
@@ -196,33 +197,52 @@ pub(crate) fn roller_row(
             offset_m: offset(outer, 1.0),
             contact: contact(along - 1.0 / race_radius(outer_angle, 1.0)),
         },
-        rib: g.taper.map(|taper| {
-            let apex_m = pitch_radius_m / axis_angle.sin();
-            let end_radius = taper.end_radius_ratio * (apex_m + 0.5 * g.length_m);
-            let centre_m = 0.5 * g.length_m - end_radius;
-            let large = 0.5 * g.diameter_m + 0.5 * g.length_m * half_taper.tan();
-            // Towards the inner race, where the rib is.
-            let sine = (large - taper.rib_height_m) / end_radius;
-            let cosine = (1.0 - sine * sine).sqrt();
-            let inward = (axis.1.abs(), sense * axis.0);
-            let normal = (
-                axis.0 * cosine - inward.0 * sine,
-                axis.1 * cosine - inward.1 * sine,
-            );
-            let centre = (
-                pitch_radius_m + axis.0 * centre_m,
-                middle_z_m + axis.1 * centre_m,
-            );
-            Rib {
-                centre_m,
-                normal,
-                offset_m: normal.0 * centre.0 + normal.1 * centre.1,
-                stiffness_n_per_m15: 4.0 / 3.0 * modulus * end_radius.sqrt(),
-            }
+        rib: (g.taper).map(|taper| {
+            rib(
+                g,
+                &taper,
+                (middle_z_m, sense),
+                (axis_angle, half_taper),
+                modulus,
+            )
         }),
         mass_kg,
         inertia_kg_m2: (own, 0.5 * own + mass_kg * g.length_m.powi(2) / 12.0),
         missing: Vec::new(),
+    }
+}
+
+/// The rib at the large end of tapered rollers.
+fn rib(
+    g: &RollerGeometry,
+    taper: &Taper,
+    (middle_z_m, sense): (f64, f64),
+    (axis_angle, half_taper): (f64, f64),
+    modulus: f64,
+) -> Rib {
+    let pitch_radius_m = 0.5 * g.pitch_diameter_m;
+    let axis = (axis_angle.sin(), -sense * axis_angle.cos());
+    let apex_m = pitch_radius_m / axis_angle.sin();
+    let end_radius = taper.end_radius_ratio * (apex_m + 0.5 * g.length_m);
+    let centre_m = 0.5 * g.length_m - end_radius;
+    let large = 0.5 * g.diameter_m + 0.5 * g.length_m * half_taper.tan();
+    // Towards the inner race, where the rib is.
+    let sine = (large - taper.rib_height_m) / end_radius;
+    let cosine = (1.0 - sine * sine).sqrt();
+    let inward = (axis.1.abs(), sense * axis.0);
+    let normal = (
+        axis.0 * cosine - inward.0 * sine,
+        axis.1 * cosine - inward.1 * sine,
+    );
+    let centre = (
+        pitch_radius_m + axis.0 * centre_m,
+        middle_z_m + axis.1 * centre_m,
+    );
+    Rib {
+        centre_m,
+        normal,
+        offset_m: normal.0 * centre.0 + normal.1 * centre.1,
+        stiffness_n_per_m15: 4.0 / 3.0 * modulus * end_radius.sqrt(),
     }
 }
 

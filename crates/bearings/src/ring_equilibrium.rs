@@ -1,6 +1,6 @@
 //! Where the inner ring of a bearing comes to rest under a load.
 
-use nalgebra::Vector5;
+use nalgebra::{Matrix5, Vector5};
 
 use crate::element_place::ElementPlaces;
 use crate::error::BearingError;
@@ -233,31 +233,7 @@ impl QuasiStaticBearing {
         operation: &Operation,
         (anchor, places, lost): (Option<&Anchor>, Option<&mut ElementPlaces>, &mut usize),
     ) -> Result<RingPose, BearingError> {
-        let arm = self.rows[0].pitch_radius_m();
-        let scale = Vector5::new(1.0, 1.0, 1.0, arm, arm);
-        let [x, y, z] = load.force_n;
-        let (moments, held) = match load.tilt {
-            TiltCondition::Moments(m) => (m, false),
-            TiltCondition::Held(_) => ([0.0; 2], true),
-        };
-        let applied = Vector5::new(x, y, z, moments[0], moments[1]);
-        let mut free = [true; 5];
-        free[2] = self.locates;
-        (free[3], free[4]) = (!held, !held);
-        let spring = anchor.map_or(0.0, |anchor| anchor.spring_n_per_m);
-        // Forces, with moments over the pitch radius.
-        let residual = |pose: &RingPose, ring: &RingLoad| {
-            let mut r = (ring.five() + applied).component_div(&scale);
-            if let Some(anchor) = anchor {
-                r -= (pose.to_five() - anchor.at).component_mul(&scale) * spring;
-            }
-            for (entry, free) in r.iter_mut().zip(free) {
-                if !free {
-                    *entry = 0.0;
-                }
-            }
-            r
-        };
+        let balance = RingBalance::of(self, load, anchor);
         let mut pose = start;
         // Without places every search of an element begins from the ring's place alone.
         let mut known = places;
@@ -271,59 +247,38 @@ impl QuasiStaticBearing {
         if let Some(known) = &mut known {
             known.take_from(&found);
         }
-        let mut r = residual(&pose, &ring);
+        let mut r = balance.residual(&pose, &ring);
         let mut lift = 0.0_f64;
         let mut rounding_n = 0.0;
-        let bearing_size = applied.component_div(&scale).norm().max(1e-9);
         for iteration in 0..MOST_STEPS {
             let size = r.norm();
-            let within = ring.five().component_div(&scale).norm().max(bearing_size);
+            let within = balance.size_n(&ring);
             if size <= 1e-13 * within {
                 return Ok(pose);
             }
-            let mut matrix = -ring.tangent.fixed_view::<5, 5>(0, 0).into_owned();
-            for i in 0..5 {
-                for j in 0..5 {
-                    matrix[(i, j)] /= scale[i] * scale[j];
-                }
-            }
-            let mut stiffest = 1e3_f64;
-            for i in 0..5 {
-                matrix[(i, i)] += spring;
-                stiffest = stiffest.max(matrix[(i, i)].abs());
-            }
+            let (matrix, stiffest) = balance.matrix(&ring, lift);
             // What a change of the last digit of an element's place does.
-            rounding_n = 4.0 * f64::EPSILON * arm * stiffest;
-            for (i, is_free) in free.iter().enumerate() {
-                if !is_free {
-                    for j in 0..5 {
-                        matrix[(i, j)] = 0.0;
-                        matrix[(j, i)] = 0.0;
-                    }
-                    matrix[(i, i)] = stiffest;
-                }
-                matrix[(i, i)] += (lift + 1e-14) * stiffest;
-            }
+            rounding_n = 4.0 * f64::EPSILON * balance.arm_m * stiffest;
             let Some(step) = matrix.lu().solve(&r) else {
                 lift = (10.0 * lift).max(1e-6);
                 continue;
             };
             let length = step.norm();
             // Finer than the places of the elements can be told: what is unbalanced then decides.
-            if length <= 1e-16 * arm {
+            if length <= 1e-16 * balance.arm_m {
                 break;
             }
             let factor = (100e-6 / length).min(1.0);
-            let next = pose.moved(&(step * factor).component_div(&scale));
+            let next = pose.moved(&(step * factor).component_div(&balance.scale));
             let found = evaluate(&next, &known);
             *lost += usize::from(found.is_err());
             match found {
-                Ok((found, places)) if residual(&next, &found).norm() < size => {
+                Ok((found, places)) if balance.residual(&next, &found).norm() < size => {
                     (pose, ring) = (next, found);
                     if let Some(known) = &mut known {
                         known.take_from(&places);
                     }
-                    r = residual(&pose, &ring);
+                    r = balance.residual(&pose, &ring);
                     lift = if lift < 1e-9 { 0.0 } else { 0.1 * lift };
                 }
                 _ => {
@@ -337,15 +292,94 @@ impl QuasiStaticBearing {
                 }
             }
         }
-        let within = ring.five().component_div(&scale).norm().max(bearing_size);
+        let within = balance.size_n(&ring);
         if r.norm() <= (1e-9 * within).max(rounding_n) {
             return Ok(pose);
         }
         Err(BearingError::NoEquilibrium {
             unbalanced_n: r.norm(),
             iterations: MOST_STEPS,
-            hint: hint(&applied, arm, operation),
+            hint: hint(&balance.applied, balance.arm_m, operation),
         })
+    }
+}
+
+/// The equations of a ring: what is applied, what holds it, and in which of its five directions it is free.
+struct RingBalance<'a> {
+    anchor: Option<&'a Anchor>,
+    /// Pitch radius, by which moments are measured as forces.
+    arm_m: f64,
+    scale: Vector5<f64>,
+    applied: Vector5<f64>,
+    free: [bool; 5],
+}
+
+impl<'a> RingBalance<'a> {
+    fn of(
+        bearing: &QuasiStaticBearing,
+        load: &AppliedBearingLoad,
+        anchor: Option<&'a Anchor>,
+    ) -> Self {
+        let arm_m = bearing.rows[0].pitch_radius_m();
+        let [x, y, z] = load.force_n;
+        let (moments, tilts) = match load.tilt {
+            TiltCondition::Moments(m) => (m, true),
+            TiltCondition::Held(_) => ([0.0; 2], false),
+        };
+        Self {
+            anchor,
+            arm_m,
+            scale: Vector5::new(1.0, 1.0, 1.0, arm_m, arm_m),
+            applied: Vector5::new(x, y, z, moments[0], moments[1]),
+            free: [true, true, bearing.locates, tilts, tilts],
+        }
+    }
+
+    /// What is unbalanced: forces, with moments over the pitch radius.
+    fn residual(&self, pose: &RingPose, ring: &RingLoad) -> Vector5<f64> {
+        let mut r = (ring.five() + self.applied).component_div(&self.scale);
+        if let Some(anchor) = self.anchor {
+            r -= (pose.to_five() - anchor.at).component_mul(&self.scale) * anchor.spring_n_per_m;
+        }
+        for (entry, free) in r.iter_mut().zip(self.free) {
+            if !free {
+                *entry = 0.0;
+            }
+        }
+        r
+    }
+
+    /// The larger of what is applied and what the bearing answers.
+    fn size_n(&self, ring: &RingLoad) -> f64 {
+        let applied = self.applied.component_div(&self.scale).norm().max(1e-9);
+        ring.five().component_div(&self.scale).norm().max(applied)
+    }
+
+    /// The tangent with springs, directions that are not free held, lifted by a share of its stiffest entry; and that
+    /// entry.
+    fn matrix(&self, ring: &RingLoad, lift: f64) -> (Matrix5<f64>, f64) {
+        let mut matrix: Matrix5<f64> = -ring.tangent.fixed_view::<5, 5>(0, 0).into_owned();
+        for i in 0..5 {
+            for j in 0..5 {
+                matrix[(i, j)] /= self.scale[i] * self.scale[j];
+            }
+        }
+        let mut stiffest = 1e3_f64;
+        for i in 0..5 {
+            matrix[(i, i)] += self.anchor.map_or(0.0, |anchor| anchor.spring_n_per_m);
+            stiffest = stiffest.max(matrix[(i, i)].abs());
+        }
+        for (i, is_free) in self.free.iter().enumerate() {
+            if !is_free {
+                for j in 0..5 {
+                    matrix[(i, j)] = 0.0;
+                    matrix[(j, i)] = 0.0;
+                }
+                matrix[(i, i)] = stiffest;
+            }
+            matrix[(i, i)] += (lift + 1e-14) * stiffest;
+        }
+        (matrix, stiffest)
     }
 }
 
