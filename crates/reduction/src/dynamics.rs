@@ -60,26 +60,16 @@ pub(crate) fn dynamics(
     let mut of_front = None;
     if let (Some(front), Some(faces)) = (&mut model.shaft_faces, request.faces) {
         let momenta = body.mass_product(density, faces.front())?;
-        let product = |with: MatRef<'_, f64>| -> Vec<f64> {
-            let matrix = momenta.transpose() * with;
-            (0..36).map(|n| matrix[(n / 6, n % 6)]).collect()
-        };
-        let mass = front.mass.insert(FaceMass {
-            mass: product(faces.front()),
-            coupling: product(rigid.motions.as_ref()),
-            modes: Vec::new(),
-        });
-        of_front = Some((momenta, &mut mass.modes));
+        let mass = face_mass(&momenta, faces, &rigid.motions);
+        of_front = Some((momenta, &mut front.mass.insert(mass).modes));
     }
     let rows = on_all_teeth(&body.mesh, &directions(loads.iter().flatten()));
     if request.hub == HubSupport::ReferencePoint {
-        let flank = rows
-            .par_iter()
-            .flat_map_iter(|row| (0..6).map(|q| product(row, rigid.motions.as_ref(), q)))
-            .collect();
+        let motions = rigid.motions.as_ref();
+        let flank = (rows.par_iter()).flat_map_iter(|row| (0..6).map(|q| product(row, motions, q)));
         model.reference_point = Some(ReferencePoint {
             place_m: REFERENCE_M,
-            flank,
+            flank: flank.collect(),
         });
         if !gauges.is_empty() {
             let strain = strain_of_rigid_motions(gauges, rigid.motions.as_ref());
@@ -117,11 +107,24 @@ pub(crate) fn dynamics(
         held.iter().for_each(take);
     }
     let residuals = found.modes.iter().map(|mode| mode.relative_residual);
-    let worst = residuals.fold(0.0, f64::max);
-    checks.push(("residual of the natural modes".to_string(), worst));
+    let check = "residual of the natural modes".to_string();
+    checks.push((check, residuals.fold(0.0, f64::max)));
     basis.complete_to_hz = found.complete_to_hz;
     model.modes = Some(basis);
     Ok(Some(found.solves))
+}
+
+/// Mass of motions of the front face, and its coupling with those of the whole gear; its modes are still to come.
+fn face_mass(momenta: &Mat<f64>, faces: &HeldFaces, motions: &Mat<f64>) -> FaceMass {
+    let product = |with: MatRef<'_, f64>| -> Vec<f64> {
+        let matrix = momenta.transpose() * with;
+        (0..36).map(|n| matrix[(n / 6, n % 6)]).collect()
+    };
+    FaceMass {
+        mass: product(faces.front()),
+        coupling: product(motions.as_ref()),
+        modes: Vec::new(),
+    }
 }
 
 /// MᵀU of a field for each column of momenta.

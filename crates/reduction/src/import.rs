@@ -90,13 +90,7 @@ pub fn reduce_imported(
     stages.lap("model");
     let grid = flank_grid(gear);
     let (flanks, teeth, count) = (&gear.reduction.flanks, gear.tooth.teeth, grid.len());
-    let loads: Vec<Vec<Vec<GridLoad>>> = (0..teeth)
-        .into_par_iter()
-        .map(|tooth| {
-            let of_side = |&side| flank_loads(gear, &mesh, &grid, tooth, side);
-            flanks.iter().map(of_side).collect()
-        })
-        .collect();
+    let loads = loads_of_teeth(gear, &mesh, &grid);
     stages.lap("loads");
 
     progress.stage("tooth submodels");
@@ -117,12 +111,8 @@ pub fn reduce_imported(
     let whole = WholeGear::new(&mesh.model, &dofs, progress, &mut stages)?;
     progress.stage("solving flank loads");
     let normals = normals(loads.iter().flatten().flatten());
-    let mut values = Vec::with_capacity(normals.len() * normals.len());
-    whole.solve_each(&dofs, &normals, progress, |_, u| {
-        values.par_extend(normals.par_iter().map(|v| dot(v, u)));
-    });
     let rows = HubRows {
-        values,
+        values: energies(&whole, &dofs, &normals, progress),
         flanks: flanks.len(),
         teeth,
         count,
@@ -131,33 +121,20 @@ pub fn reduce_imported(
 
     progress.stage("checking");
     let symmetry = rows.asymmetry();
-    let first = (0, flanks[0]);
-    let deformation = Deformation::Spatial;
-    let submodel = ToothSubmodel::of_tooth(&mesh.model, &mesh, first, &loads[0][0], deformation)?;
-    let identity = pattern_identity(
-        (&submodel, &blocks[0].c_tooth),
-        &normals[..count],
-        &rows,
-        |loads, each| whole.solve_each(&dofs, loads, &crate::Silent, each),
-        |patterns| whole.energy_products(&dofs, patterns),
-    );
     checked("symmetry of C_hub", symmetry, SYMMETRY_ALLOWED)?;
+    let of_first = (&loads[0][0][..], &blocks[0], &normals[..count]);
+    let identity = identity_of_patterns(&mesh, flanks[0], of_first, &rows, (&whole, &dofs))?;
     checked("the pattern identity", identity, IDENTITY_ALLOWED)?;
-    let c_hub = rows.into_blocks();
     stages.lap("checks");
     let gauges = gauges(gear, &mesh, &loads, &whole, &dofs, progress)?;
     stages.lap("gauges");
-    let effort = vec![
-        ("factorisations".to_string(), 1.0),
-        (
-            "right-hand sides".to_string(),
-            (normals.len() + gauges.len()) as f64,
-        ),
-        (
-            "DOF of the whole gear".to_string(),
-            dofs.free_count() as f64,
-        ),
+    let solved = (normals.len() + gauges.len()) as f64;
+    let effort = [
+        ("factorisations", 1.0),
+        ("right-hand sides", solved),
+        ("DOF of the whole gear", dofs.free_count() as f64),
     ];
+    let effort = effort.map(|(what, count)| (what.to_string(), count));
     let spread = (
         "spread of the near field over the teeth".to_string(),
         spread,
@@ -168,7 +145,7 @@ pub fn reduce_imported(
         young_pa: gear.material.young_pa,
         poisson: gear.material.poisson,
         flanks: flanks.clone(),
-        c_hub,
+        c_hub: rows.into_blocks(),
         c_tooth,
         gauges,
         checks: ReductionChecks {
@@ -176,10 +153,58 @@ pub fn reduce_imported(
             pattern_identity: identity,
             further: vec![spread],
         },
-        provenance: provenance(&mesh.model, dofs.free_count(), stages, effort),
+        provenance: provenance(&mesh.model, dofs.free_count(), stages, effort.to_vec()),
         ..ReducedGear::default()
     };
     Ok(of_definition(gear, grid, near_field, found))
+}
+
+/// Loads of all flanks, `[tooth][flank][load]`.
+fn loads_of_teeth(
+    gear: &GearDefinition,
+    mesh: &ImportedMesh,
+    grid: &FlankGrid,
+) -> Vec<Vec<Vec<GridLoad>>> {
+    let teeth = (0..gear.tooth.teeth).into_par_iter();
+    teeth
+        .map(|tooth| {
+            let of_side = |&side| flank_loads(gear, mesh, grid, tooth, side);
+            gear.reduction.flanks.iter().map(of_side).collect()
+        })
+        .collect()
+}
+
+/// What each load does along each other one, row by row of the loads.
+fn energies(
+    whole: &WholeGear,
+    dofs: &DofMap,
+    normals: &[&SparseVector],
+    progress: &dyn Progress,
+) -> Vec<f64> {
+    let mut values = Vec::with_capacity(normals.len() * normals.len());
+    whole.solve_each(dofs, normals, progress, |_, u| {
+        values.par_extend(normals.par_iter().map(|v| dot(v, u)));
+    });
+    values
+}
+
+/// How far the patterns' identity is off, at the first flank of tooth 0.
+fn identity_of_patterns(
+    mesh: &ImportedMesh,
+    flank: Flank,
+    (loads, blocks, normals): (&[GridLoad], &ToothBlocks, &[&SparseVector]),
+    rows: &HubRows,
+    (whole, dofs): (&WholeGear, &DofMap),
+) -> Result<f64, ReductionError> {
+    let deformation = Deformation::Spatial;
+    let submodel = ToothSubmodel::of_tooth(&mesh.model, mesh, (0, flank), loads, deformation)?;
+    Ok(pattern_identity(
+        (&submodel, &blocks.c_tooth),
+        normals,
+        rows,
+        |loads, each| whole.solve_each(dofs, loads, &crate::Silent, each),
+        |patterns| whole.energy_products(dofs, patterns),
+    ))
 }
 
 /// C_tooth, `[flank][load][response]`, and W, `[flank][load station][response station]`, of one tooth.

@@ -19,7 +19,7 @@ use crate::tooth_vectors::on_tooth;
 use crate::{Progress, ReductionError};
 use faer::{Mat, Side};
 use gearmesh_fe::DoubledNodes;
-use gearmesh_geometry::{CrackDefinition, GearDefinition};
+use gearmesh_geometry::{CrackDefinition, Flank, GearDefinition};
 use gearmesh_model::{GaugeRows, RootCrack};
 
 /// Eigenvalues of RRᵀ below this share of the largest compliance that the crack adds are left out: no compliance errs
@@ -67,64 +67,28 @@ pub fn root_crack(
         .map(|g| gauge_row(gear, &body.mesh, &body.model, g, 0))
         .collect::<Result<_, _>>()?;
     let touches = |row: &SparseVector| row.iter().any(|e| nodes.contains(&((e.0 / 3) as u32)));
-    for (gauge, row) in gear.gauges.iter().zip(&gauges) {
-        if gauge.tooth == definition.tooth && touches(row) {
-            return Err(ReductionError::AtCrack {
-                what: format!("gauge {}", gauge.name),
-            });
-        }
-    }
-    if loads.iter().any(|load| touches(&load.normal)) {
-        return Err(ReductionError::AtCrack {
-            what: "the loaded flank".to_owned(),
-        });
+    let near = gear.gauges.iter().zip(&gauges);
+    let mut near = near.filter(|(gauge, row)| gauge.tooth == definition.tooth && touches(row));
+    let what = match near.next() {
+        Some((gauge, _)) => Some(format!("gauge {}", gauge.name)),
+        None => { loads.iter() }
+            .any(|load| touches(&load.normal))
+            .then(|| "the loaded flank".to_owned()),
+    };
+    if let Some(what) = what {
+        return Err(ReductionError::AtCrack { what });
     }
 
     let on_flank = directions(loads);
-    let coupling = doubled.coupling().iter();
-    let vectors: Vec<&SparseVector> = (coupling.chain(on_flank.iter().copied()))
-        .chain(&gauges)
-        .collect();
     let columns: Vec<SparseVector> = (doubled.coupling().iter())
         .map(|column| on_tooth(&body.mesh, column, definition.tooth))
         .collect();
-    let (jumps, of_flank, teeth) = (doubled.count(), on_flank.len(), gear.tooth.teeth);
-    // K_pᵀ K⁻¹ of the jumps themselves, of the loads on all teeth, and of the gauges.
-    let mut of_jumps = Mat::zeros(jumps, jumps);
-    let mut of_loads = Mat::zeros(jumps, teeth * of_flank);
-    let mut of_gauges = Mat::zeros(jumps, gauges.len());
-    for (batch, chunk) in columns.chunks(BATCH).enumerate() {
-        let rows: Vec<&SparseVector> = chunk.iter().collect();
-        let readings = body.readings(&rows, &vectors, &crate::Silent);
-        for (number, reading) in readings.iter().enumerate() {
-            let row = batch * BATCH + number;
-            let at = |tooth: usize| &reading[tooth * vectors.len()..][..vectors.len()];
-            for (column, value) in at(definition.tooth)[..jumps].iter().enumerate() {
-                of_jumps[(row, column)] = *value;
-            }
-            for tooth in 0..teeth {
-                for (column, value) in at(tooth)[jumps..][..of_flank].iter().enumerate() {
-                    of_loads[(row, tooth * of_flank + column)] = *value;
-                }
-            }
-            for (column, gauge) in gear.gauges.iter().enumerate() {
-                of_gauges[(row, column)] = at(gauge.tooth)[jumps + of_flank + column];
-            }
-        }
-        progress.advance(batch * BATCH + chunk.len(), jumps);
-    }
+    let (jumps, of_flank) = (doubled.count(), on_flank.len());
+    let read = (&doubled, &on_flank[..], &gauges[..]);
+    let products = jump_products(gear, (body, definition.tooth), read, &columns, progress);
+    let [mut of_jumps, mut of_loads, mut of_gauges] = products;
     if let Some(faces) = faces {
-        let of_side = gear
-            .reduction
-            .flanks
-            .iter()
-            .position(|&s| s == definition.side);
-        let flanks = gear.reduction.flanks.len();
-        let first = of_side.unwrap_or_default() * of_flank;
-        let flank = Mat::from_fn(teeth * of_flank, faces.flank.ncols(), |row, q| {
-            let (tooth, place) = (row / of_flank, row % of_flank);
-            faces.flank[(tooth * flanks * of_flank + first + place, q)]
-        });
+        let flank = at_faces(gear, definition.side, faces, of_flank);
         let own = faces.read(&columns);
         of_jumps -= faces.excess(own.as_ref(), own.as_ref());
         of_loads -= faces.excess(own.as_ref(), flank.as_ref());
@@ -156,6 +120,57 @@ pub fn root_crack(
         asymmetry: factor.asymmetry(),
         jumps,
     })
+}
+
+/// What the held faces feel of the loads on one side of all teeth, so many each.
+fn at_faces(gear: &GearDefinition, side: Flank, faces: &HeldFaces, of_flank: usize) -> Mat<f64> {
+    let sides = &gear.reduction.flanks;
+    let first = sides.iter().position(|&s| s == side).unwrap_or_default() * of_flank;
+    let (rows, columns) = (gear.tooth.teeth * of_flank, faces.flank.ncols());
+    Mat::from_fn(rows, columns, |row, q| {
+        let (tooth, place) = (row / of_flank, row % of_flank);
+        faces.flank[(tooth * sides.len() * of_flank + first + place, q)]
+    })
+}
+
+/// K_pᵀ K⁻¹ of the jumps themselves, of the loads on all teeth, and of the gauges. `columns`: the jumps' coupling on the
+/// cracked tooth.
+fn jump_products(
+    gear: &GearDefinition,
+    (body, cracked): (&GearBody, usize),
+    (doubled, on_flank, gauges): (&DoubledNodes, &[&SparseVector], &[SparseVector]),
+    columns: &[SparseVector],
+    progress: &dyn Progress,
+) -> [Mat<f64>; 3] {
+    let coupling = doubled.coupling().iter();
+    let vectors: Vec<&SparseVector> = (coupling.chain(on_flank.iter().copied()))
+        .chain(gauges)
+        .collect();
+    let (jumps, of_flank, teeth) = (doubled.count(), on_flank.len(), gear.tooth.teeth);
+    let mut of_jumps = Mat::zeros(jumps, jumps);
+    let mut of_loads = Mat::zeros(jumps, teeth * of_flank);
+    let mut of_gauges = Mat::zeros(jumps, gauges.len());
+    for (batch, chunk) in columns.chunks(BATCH).enumerate() {
+        let rows: Vec<&SparseVector> = chunk.iter().collect();
+        let readings = body.readings(&rows, &vectors, &crate::Silent);
+        for (number, reading) in readings.iter().enumerate() {
+            let row = batch * BATCH + number;
+            let at = |tooth: usize| &reading[tooth * vectors.len()..][..vectors.len()];
+            for (column, value) in at(cracked)[..jumps].iter().enumerate() {
+                of_jumps[(row, column)] = *value;
+            }
+            for tooth in 0..teeth {
+                for (column, value) in at(tooth)[jumps..][..of_flank].iter().enumerate() {
+                    of_loads[(row, tooth * of_flank + column)] = *value;
+                }
+            }
+            for (column, gauge) in gear.gauges.iter().enumerate() {
+                of_gauges[(row, column)] = at(gauge.tooth)[jumps + of_flank + column];
+            }
+        }
+        progress.advance(batch * BATCH + chunk.len(), jumps);
+    }
+    [of_jumps, of_loads, of_gauges]
 }
 
 impl CrackedRows {

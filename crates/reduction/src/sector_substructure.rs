@@ -7,7 +7,8 @@ use crate::sector_condensation::SectorCondensation;
 use crate::sector_stiffness::sector_stiffness;
 use crate::separating_circle::separating_circle;
 use crate::tooth_substructure::{ToothSubstructure, gather, sum_in_order};
-use faer::Mat;
+use faer::sparse::SparseColMatRef;
+use faer::{Mat, MatRef};
 use gearmesh_fe::{
     CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation, StiffnessMatrix,
     SymbolicFactor, assemble_mass, assemble_stiffness,
@@ -47,6 +48,57 @@ pub struct SectorSubstructure {
     pub condensation: SectorCondensation,
 }
 
+/// Nodes of sector 0 that are free, by their numbers, and what they are: the feet of its teeth, and its body.
+fn sector_nodes(
+    mesh: &impl RepeatedMesh,
+    tooth: &ToothSubstructure,
+    fixed: &[bool],
+    body: &Part,
+) -> Vec<SectorNode> {
+    let teeth = mesh.teeth();
+    let mut listed: Vec<(u32, SectorNode)> = Vec::new();
+    for a in 0..teeth / mesh.sectors() {
+        listed.extend((0..tooth.boundary_count()).map(|b| {
+            let node = tooth.boundary_node((mesh.first_tooth() + a) % teeth, b);
+            (node, SectorNode::Tooth(a, b))
+        }));
+    }
+    let body_nodes = mesh.body_nodes(0).into_iter().enumerate();
+    listed.extend(body_nodes.map(|(i, node)| (node, SectorNode::Body(i))));
+    // Stable: where several names fit, that of the first tooth is kept.
+    listed.sort_by_key(|(node, _)| *node);
+    listed.dedup_by_key(|(node, _)| *node);
+    // Where the ring is outside the web its nodes belong to teeth only.
+    listed.retain(|(node, name)| {
+        !fixed[*node as usize]
+            && (matches!(name, SectorNode::Tooth(..)) || body.place(*node).is_some())
+    });
+    listed.into_iter().map(|(_, name)| name).collect()
+}
+
+/// Body and feet condensed to the nodes of the cuts, of a whole gear by its ring where that pays. Number of the
+/// sector's nodes, those of the cuts, and whether it is the whole gear. `circle`: nodes that are eliminated late in a whole gear.
+fn condensed(
+    (body, body_nodes): (SparseColMatRef<'_, usize, f64>, &[usize]),
+    (foot, tooth_nodes): (MatRef<'_, f64>, &[Vec<usize>]),
+    (nodes, cuts, is_whole): (usize, &[usize], bool),
+    circle: impl FnOnce() -> Vec<usize>,
+    progress: &dyn Progress,
+) -> Result<SectorCondensation, FeError> {
+    if is_whole
+        && let Some(ringed) =
+            SectorCondensation::ringed((body, body_nodes), (foot, tooth_nodes), progress)?
+    {
+        return Ok(ringed);
+    }
+    let feet = (|i, j| foot[(i, j)], tooth_nodes);
+    let stiffness = sector_stiffness(nodes, (body, body_nodes), feet)?;
+    let late = if is_whole { circle() } else { Vec::new() };
+    let before = |symbolic: &SymbolicFactor| progress.expect(symbolic.expected_seconds());
+    let at_once = StaticCondensation::announced(stiffness, &late, cuts, before)?;
+    Ok(SectorCondensation::AtOnce(Box::new(at_once)))
+}
+
 impl SectorSubstructure {
     /// Condenses sector 0 to the cuts R (before its first tooth) and L (its image, behind the last one).
     ///
@@ -63,31 +115,15 @@ impl SectorSubstructure {
         let own = teeth / sectors;
         let first_tooth = mesh.first_tooth();
 
-        let mut listed: Vec<(u32, SectorNode)> = Vec::new();
-        for a in 0..own {
-            listed.extend((0..tooth.boundary_count()).map(|b| {
-                let node = tooth.boundary_node((first_tooth + a) % teeth, b);
-                (node, SectorNode::Tooth(a, b))
-            }));
-        }
-        let body_nodes = mesh.body_nodes(0).into_iter().enumerate();
-        listed.extend(body_nodes.map(|(i, node)| (node, SectorNode::Body(i))));
-        // Stable: where several names fit, that of the first tooth is kept.
-        listed.sort_by_key(|(node, _)| *node);
-        listed.dedup_by_key(|(node, _)| *node);
-        listed.retain(|(node, _)| !fixed[*node as usize]);
         let body_elements = mesh.body_elements(0);
         let body = Part::new(model, &body_elements)?;
-        // Where the ring is outside the web its nodes belong to teeth only.
-        listed.retain(|(node, name)| {
-            matches!(name, SectorNode::Tooth(..)) || body.place(*node).is_some()
-        });
+        let names = sector_nodes(mesh, tooth, fixed, &body);
         let images: Vec<Vec<u32>> = (0..sectors)
             .map(|sector| {
                 let in_body = mesh.body_nodes(sector);
-                let names = listed.iter().map(|(_, name)| *name);
                 names
-                    .map(|name| match name {
+                    .iter()
+                    .map(|name| match *name {
                         SectorNode::Tooth(a, b) => {
                             tooth.boundary_node((first_tooth + sector * own + a) % teeth, b)
                         }
@@ -118,41 +154,18 @@ impl SectorSubstructure {
                 nodes.filter_map(place).collect::<Vec<_>>()
             })
         };
-        let foot = tooth.condensation.stiffness();
-        let ringed = match sectors {
-            1 => SectorCondensation::ringed(
-                (body_stiffness.as_ref(), &body_nodes),
-                (foot, &tooth_nodes),
-                progress,
-            )?,
-            _ => None,
-        };
-        let condensation = match ringed {
-            Some(ringed) => ringed,
-            None => {
-                let stiffness = sector_stiffness(
-                    images[0].len(),
-                    (body_stiffness.as_ref(), &body_nodes),
-                    (|i, j| foot[(i, j)], &tooth_nodes),
-                )?;
-                let late: Vec<usize> = match sectors {
-                    1 => {
-                        let elements = body_elements.iter();
-                        let elements = elements.map(|&e| model.element_nodes(e as usize));
-                        let circle =
-                            separating_circle(mesh.nodes(), elements, |n| !fixed[n as usize]);
-                        circle.into_iter().filter_map(place).collect()
-                    }
-                    _ => Vec::new(),
-                };
-                let before = |symbolic: &SymbolicFactor| {
-                    progress.expect(symbolic.expected_seconds());
-                };
-                let kept = cuts.concat();
-                let at_once = StaticCondensation::announced(stiffness, &late, &kept, before)?;
-                SectorCondensation::AtOnce(Box::new(at_once))
-            }
-        };
+        let condensation = condensed(
+            (body_stiffness.as_ref(), &body_nodes),
+            (tooth.condensation.stiffness(), &tooth_nodes),
+            (images[0].len(), &cuts.concat(), sectors == 1),
+            || {
+                let elements = body_elements.iter();
+                let elements = elements.map(|&e| model.element_nodes(e as usize));
+                let circle = separating_circle(mesh.nodes(), elements, |n| !fixed[n as usize]);
+                circle.into_iter().filter_map(place).collect()
+            },
+            progress,
+        )?;
         Ok(Self {
             sectors,
             own,
