@@ -11,7 +11,7 @@ use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
 use crate::barrel_row::BarrelRow;
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
-use crate::element_search::{ElementSearch, NO_FORCE_N, Unbalanced};
+use crate::element_search::{Balance, ElementSearch, NO_FORCE_N, Unbalanced};
 use crate::error::BearingError;
 
 /// One roller at its angle.
@@ -26,11 +26,8 @@ pub(crate) struct Barrel<'a> {
 
 /// Everything at one place of the roller.
 struct State {
-    /// Force on the roller (r, z, φ) and minus its change with the place.
-    residual: Vector3<f64>,
-    tangent: Matrix3<f64>,
-    /// Sum of the sizes of all forces.
-    scale: f64,
+    /// Of the roller: r, z, φ.
+    balance: Balance<3>,
     loads: [f64; 2],
     largest: [f64; 2],
     /// Force on the sphere, its change with the sphere's middle at a place of the roller, and with the roller's place.
@@ -46,16 +43,8 @@ struct Point {
 }
 
 impl Unbalanced<3> for State {
-    fn residual(&self) -> Vector3<f64> {
-        self.residual
-    }
-
-    fn tangent(&self) -> Matrix3<f64> {
-        self.tangent
-    }
-
-    fn scale_n(&self) -> f64 {
-        self.scale
+    fn balance(&self) -> &Balance<3> {
+        &self.balance
     }
 }
 
@@ -65,13 +54,13 @@ impl State {
     fn add(&mut self, point: &Point, n: &Vector2<f64>, (load, slope): (f64, f64), distance: f64) {
         let moves = Matrix2x3::new(1.0, 0.0, point.by_tilt[0], 0.0, 1.0, point.by_tilt[1]);
         let along = moves.tr_mul(n);
-        self.residual -= along * load;
-        self.tangent += along * (along * slope).transpose();
+        self.balance.residual -= along * load;
+        self.balance.tangent += along * (along * slope).transpose();
         let turning = (moves.tr_mul(&moves) - along * along.transpose()) * (load / distance);
-        self.tangent += turning;
+        self.balance.tangent += turning;
         // The second derivative of a point by φ is minus its arm.
-        self.tangent[(2, 2)] -= load * n.dot(&point.arm);
-        self.scale += load;
+        self.balance.tangent[(2, 2)] -= load * n.dot(&point.arm);
+        self.balance.scale += load;
     }
 }
 
@@ -94,9 +83,11 @@ impl Barrel<'_> {
         let groove = Vector2::new(row.groove_centre_m.0, row.groove_centre_m.1);
         let length = row.lamina_length_m;
         let mut state = State {
-            residual: Vector3::zeros(),
-            tangent: Matrix3::zeros(),
-            scale: 0.0,
+            balance: Balance {
+                residual: Vector3::zeros(),
+                tangent: Matrix3::zeros(),
+                scale: 0.0,
+            },
             loads: [0.0; 2],
             largest: [0.0; 2],
             pressed: Vector3::zeros(),
@@ -187,7 +178,7 @@ impl Barrel<'_> {
             Some(near) => near,
             None => self.equilibrium(self.start())?,
         };
-        if state.scale > NO_FORCE_N {
+        if state.balance.scale > NO_FORCE_N {
             *found = Some(place);
         }
         self.state(&place, &mut *each_lamina);
@@ -208,6 +199,7 @@ impl Barrel<'_> {
         };
         // The roller follows the sphere: H δv = Jᵀ A δs, with Jᵀ A the transpose of what its place does to the force.
         let followed = state
+            .balance
             .tangent
             .lu()
             .solve(&state.by_place.transpose())

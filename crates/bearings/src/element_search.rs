@@ -16,13 +16,18 @@ const TIGHT: f64 = 1e-13;
 const LOOSE: f64 = 1e-9;
 
 /// What an element feels at a place.
-pub(crate) trait Unbalanced<const N: usize> {
+pub(crate) struct Balance<const N: usize> {
     /// Force on the element by its coordinates \[N, N·m\]; zero at equilibrium.
-    fn residual(&self) -> SVector<f64, N>;
+    pub residual: SVector<f64, N>,
     /// −∂residual/∂place.
-    fn tangent(&self) -> SMatrix<f64, N, N>;
+    pub tangent: SMatrix<f64, N, N>,
     /// Sum of the sizes of all forces \[N\].
-    fn scale_n(&self) -> f64;
+    pub scale: f64,
+}
+
+/// What is known of an element at a place.
+pub(crate) trait Unbalanced<const N: usize> {
+    fn balance(&self) -> &Balance<N>;
 }
 
 /// How places are measured.
@@ -54,20 +59,20 @@ where
         state_at: impl Fn(&SVector<f64, N>) -> S,
     ) -> Result<(SVector<f64, N>, S), GivenUp<N, S>> {
         let squares = self.arms.component_mul(&self.arms);
-        let size_of = |state: &S| state.residual().component_div(&self.arms).norm();
+        let size_of = |state: &S| state.balance().residual.component_div(&self.arms).norm();
         let (mut place, mut state) = (start, state_at(&start));
         let mut size = size_of(&state);
         let mut lift = 0.0_f64;
         for _ in 0..MOST_ITERATIONS {
-            if size <= TIGHT * state.scale_n() || state.scale_n() <= NO_FORCE_N {
+            if size <= TIGHT * state.balance().scale || state.balance().scale <= NO_FORCE_N {
                 return Ok((place, state));
             }
-            let mut raised = state.tangent();
+            let mut raised = state.balance().tangent;
             let stiffest = raised.diagonal().component_div(&squares).max().max(1e3);
             for i in 0..N {
                 raised[(i, i)] += (lift + 1e-14) * stiffest * squares[i];
             }
-            let Some(step) = raised.lu().solve(&state.residual()) else {
+            let Some(step) = raised.lu().solve(&state.balance().residual) else {
                 lift = (10.0 * lift).max(1e-6);
                 continue;
             };
@@ -81,13 +86,13 @@ where
             if left < size {
                 (place, state, size) = (next, found, left);
                 lift = if lift < 1e-8 { 0.0 } else { 0.1 * lift };
-            } else if size <= LOOSE * state.scale_n() && lift > 1e-3 {
+            } else if size <= LOOSE * state.balance().scale && lift > 1e-3 {
                 return Ok((place, state));
             } else {
                 lift = (10.0 * lift).max(1e-6);
             }
         }
-        if size <= LOOSE * state.scale_n() + NO_FORCE_N {
+        if size <= LOOSE * state.balance().scale + NO_FORCE_N {
             return Ok((place, state));
         }
         Err(GivenUp {

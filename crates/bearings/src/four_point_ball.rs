@@ -11,7 +11,7 @@ use nalgebra::{Matrix2, Matrix2x6, Matrix3, Vector2, Vector3};
 use crate::axial_plane::AxialPlane;
 use crate::element_load::{ElementLoad, OtherSide};
 use crate::element_place::ElementPlace;
-use crate::element_search::{ElementSearch, NO_FORCE_N, Unbalanced};
+use crate::element_search::{Balance, ElementSearch, NO_FORCE_N, Unbalanced};
 use crate::error::BearingError;
 use crate::four_point_row::{Arc, FourPointRow};
 use crate::ring_load::{RingLoad, by_ring};
@@ -43,24 +43,13 @@ struct State {
     /// Force of the inner contacts on the ring, and its change by a displacement of the ball against the ring.
     force: Vector3<f64>,
     by_point: Matrix3<f64>,
-    /// Force on the ball in its plane, zero at equilibrium, and minus its change with the place.
-    residual: Vector2<f64>,
-    tangent: Matrix2<f64>,
-    /// Sum of the sizes of all forces.
-    scale: f64,
+    /// Of the ball in its plane.
+    balance: Balance<2>,
 }
 
 impl Unbalanced<2> for State {
-    fn residual(&self) -> Vector2<f64> {
-        self.residual
-    }
-
-    fn tangent(&self) -> Matrix2<f64> {
-        self.tangent
-    }
-
-    fn scale_n(&self) -> f64 {
-        self.scale
+    fn balance(&self) -> &Balance<2> {
+        &self.balance
     }
 }
 
@@ -77,9 +66,11 @@ impl FourPointBall<'_> {
             w: at.w,
             force: Vector3::zeros(),
             by_point: Matrix3::zeros(),
-            residual: Vector2::new(self.centrifugal_n, 0.0),
-            tangent: Matrix2::zeros(),
-            scale: self.centrifugal_n,
+            balance: Balance {
+                residual: Vector2::new(self.centrifugal_n, 0.0),
+                tangent: Matrix2::zeros(),
+                scale: self.centrifugal_n,
+            },
         };
         for (arc, contact) in row.inner.iter().zip(&mut state.inner) {
             let groove = &arc.groove;
@@ -99,14 +90,14 @@ impl FourPointBall<'_> {
             state.force += n * load;
             state.by_point += n * (n * slope).transpose() + m * (m * (load / length)).transpose()
                 - at.t * (at.t * (load * cosine / at.radius)).transpose();
-            state.scale += load;
+            state.balance.scale += load;
             *contact = Contact {
                 load,
                 angle_rad: sine.atan2(cosine),
             };
         }
-        state.residual -= plane.tr_mul(&state.force);
-        state.tangent += plane.tr_mul(&(state.by_point * plane));
+        state.balance.residual -= plane.tr_mul(&state.force);
+        state.balance.tangent += plane.tr_mul(&(state.by_point * plane));
         for (arc, contact) in row.outer.iter().zip(&mut state.outer) {
             let groove = &arc.groove;
             let d = place - Vector2::new(groove.centre_radius_m, groove.centre_z_m);
@@ -119,9 +110,10 @@ impl FourPointBall<'_> {
             }
             let n = Vector2::new(cosine, sine);
             let m = Vector2::new(-sine, cosine);
-            state.residual -= n * load;
-            state.tangent += n * (n * slope).transpose() + m * (m * (load / length)).transpose();
-            state.scale += load;
+            state.balance.residual -= n * load;
+            state.balance.tangent +=
+                n * (n * slope).transpose() + m * (m * (load / length)).transpose();
+            state.balance.scale += load;
             *contact = Contact {
                 load,
                 angle_rad: sine.atan2(cosine),
@@ -179,7 +171,7 @@ impl FourPointBall<'_> {
             Some(near) => near,
             None => self.equilibrium(self.start())?,
         };
-        if state.scale > NO_FORCE_N {
+        if state.balance.scale > NO_FORCE_N {
             *found = Some(Vector3::new(place[0], place[1], 0.0));
             self.add_to_ring(&state, ring);
         }
@@ -192,7 +184,7 @@ impl FourPointBall<'_> {
         }
         let (w, force, by_point) = (&state.w, &state.force, &state.by_point);
         ring.add_at_fixed_point(w, force, by_point);
-        let Some(inverse) = state.tangent.try_inverse() else {
+        let Some(inverse) = state.balance.tangent.try_inverse() else {
             return;
         };
         let plane = self.plane.vectors();

@@ -12,7 +12,7 @@ use crate::axial_plane::AxialPlane;
 use crate::bent_race::{BentAtRoller, LaminaOnRace};
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
-use crate::element_search::{ElementSearch, NO_FORCE_N, Unbalanced};
+use crate::element_search::{Balance, ElementSearch, NO_FORCE_N, Unbalanced};
 use crate::error::BearingError;
 use crate::line_contact::LineContact;
 use crate::ring_load::{RingLoad, by_ring};
@@ -52,28 +52,18 @@ struct InnerPoint {
     by_tilt: Vector2<f64>,
 }
 
-/// Force on the roller (r, z, about the circumferential direction) and −∂force/∂place.
+/// Everything at one place of the roller.
 struct State {
-    residual: Vector3<f64>,
-    tangent: Matrix3<f64>,
-    /// Sum of the sizes of all forces.
-    scale: f64,
+    /// Of the roller: r, z, about the circumferential direction.
+    balance: Balance<3>,
     inner_load: f64,
     outer_load: f64,
     rib_load: f64,
 }
 
 impl Unbalanced<3> for State {
-    fn residual(&self) -> Vector3<f64> {
-        self.residual
-    }
-
-    fn tangent(&self) -> Matrix3<f64> {
-        self.tangent
-    }
-
-    fn scale_n(&self) -> f64 {
-        self.scale
+    fn balance(&self) -> &Balance<3> {
+        &self.balance
     }
 }
 
@@ -86,7 +76,7 @@ impl Roller<'_> {
         each_lamina: &mut impl FnMut(f64, f64),
     ) -> Result<ElementLoad, BearingError> {
         let (place, state) = self.equilibrium(found.take())?;
-        if state.scale > NO_FORCE_N {
+        if state.balance.scale > NO_FORCE_N {
             *found = Some(place);
         }
         self.add_to_rings(&place, &state, ring, bent);
@@ -173,9 +163,11 @@ impl Roller<'_> {
         let (_, across) = self.axes(place[2]);
         let centrifugal = row.mass_kg * row.pitch_radius_m * self.orbit * self.orbit;
         let mut state = State {
-            residual: Vector3::new(centrifugal, 0.0, -self.gyroscopic_nm()),
-            tangent: Matrix3::zeros(),
-            scale: centrifugal,
+            balance: Balance {
+                residual: Vector3::new(centrifugal, 0.0, -self.gyroscopic_nm()),
+                tangent: Matrix3::zeros(),
+                scale: centrifugal,
+            },
             inner_load: 0.0,
             outer_load: 0.0,
             rib_load: 0.0,
@@ -207,13 +199,16 @@ impl Roller<'_> {
                 state.outer_load += load;
             }
         }
-        state.scale += state.inner_load + state.outer_load + state.rib_load;
+        state.balance.scale += state.inner_load + state.outer_load + state.rib_load;
         if row.rib.is_none() {
             // Led along z by the ribs.
-            state.residual[1] = 0.0;
-            state.tangent.set_row(1, &nalgebra::RowVector3::zeros());
-            state.tangent.set_column(1, &Vector3::zeros());
-            state.tangent[(1, 1)] = 1.0;
+            state.balance.residual[1] = 0.0;
+            state
+                .balance
+                .tangent
+                .set_row(1, &nalgebra::RowVector3::zeros());
+            state.balance.tangent.set_column(1, &Vector3::zeros());
+            state.balance.tangent[(1, 1)] = 1.0;
         }
         state
     }
@@ -290,15 +285,15 @@ impl Roller<'_> {
         let begin = start.unwrap_or_else(|| self.start());
         let first = self.newton(begin, None);
         let unbalanced = |state: &State| {
-            let size = state.residual.norm();
-            size > 1e-6 * state.scale && state.scale > NO_FORCE_N
+            let size = state.balance.residual.norm();
+            size > 1e-6 * state.balance.scale && state.balance.scale > NO_FORCE_N
         };
         match &first {
             Ok((_, state)) if !unbalanced(state) => return first,
             _ => {}
         }
         let mut place = begin;
-        let mut spring = self.state(&begin).scale / 1e-6;
+        let mut spring = self.state(&begin).balance.scale / 1e-6;
         for _ in 0..MOST_PROXIMAL_STEPS {
             let Ok((next, _)) = self.newton(place, Some((place, spring))) else {
                 break;
@@ -330,8 +325,8 @@ impl Roller<'_> {
             let mut state = self.state(place);
             if let Some((at, stiffness)) = spring {
                 let springs = arms.component_mul(&arms) * stiffness;
-                state.residual -= springs.component_mul(&(place - at));
-                state.tangent += Matrix3::from_diagonal(&springs);
+                state.balance.residual -= springs.component_mul(&(place - at));
+                state.balance.tangent += Matrix3::from_diagonal(&springs);
             }
             state
         });
@@ -358,10 +353,10 @@ impl Roller<'_> {
         ring: &mut RingLoad,
         bent: Option<BentAtRoller<'_>>,
     ) {
-        if state.scale <= NO_FORCE_N {
+        if state.balance.scale <= NO_FORCE_N {
             return;
         }
-        let mut tangent = state.tangent;
+        let mut tangent = state.balance.tangent;
         let stiffest = tangent[(0, 0)];
         for place in 0..3 {
             if tangent[(place, place)] == 0.0 {
@@ -499,17 +494,17 @@ fn add_point(
     stiffness: &nalgebra::Matrix2<f64>,
     by_tilt: &Vector2<f64>,
 ) {
-    state.residual[0] += force[0];
-    state.residual[1] += force[1];
-    state.residual[2] += by_tilt.dot(force);
+    state.balance.residual[0] += force[0];
+    state.balance.residual[1] += force[1];
+    state.balance.residual[2] += by_tilt.dot(force);
     let by_tilt_force = stiffness * by_tilt;
-    let mut block = state.tangent.fixed_view_mut::<2, 2>(0, 0);
+    let mut block = state.balance.tangent.fixed_view_mut::<2, 2>(0, 0);
     block += stiffness;
     for axis in 0..2 {
-        state.tangent[(axis, 2)] += by_tilt_force[axis];
-        state.tangent[(2, axis)] += by_tilt_force[axis];
+        state.balance.tangent[(axis, 2)] += by_tilt_force[axis];
+        state.balance.tangent[(2, axis)] += by_tilt_force[axis];
     }
     // ∂by_tilt/∂φ is minus the point's place along the roller, turned twice.
     let second = Vector2::new(by_tilt[1], -by_tilt[0]);
-    state.tangent[(2, 2)] += by_tilt.dot(&by_tilt_force) - second.dot(force);
+    state.balance.tangent[(2, 2)] += by_tilt.dot(&by_tilt_force) - second.dot(force);
 }
