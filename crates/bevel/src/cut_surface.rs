@@ -142,17 +142,13 @@ impl CutSurface {
         let sign = self.side.sign();
         let (sin, cos) = self.settings.blade_angle_rad().sin_cos();
         let held = self.settings.roll.is_none();
-        let motion = self.motion(if held { Jet::constant(0.0) } else { jb });
+        let turn = if held { Jet::constant(0.0) } else { jb };
+        let motion = self.motion(turn);
         // A point on the line p₀ + s g along the blade, normal n.
         let (start, up, normal, edge) = match self.settings.tool {
             Tool::FaceMill(mill) => {
                 let (st, ct) = ja.sin_cos();
-                let cradle = if held {
-                    Jet::constant(mill.cradle_angle_rad)
-                } else {
-                    jb + mill.cradle_angle_rad
-                };
-                let (sq, cq) = cradle.sin_cos();
+                let (sq, cq) = (turn + mill.cradle_angle_rad).sin_cos();
                 let (s, r) = (mill.radial_m, mill.point_radius_m);
                 let zero = Jet::constant(0.0);
                 (
@@ -231,14 +227,10 @@ impl CutSurface {
         let (sin, cos) = mill.blade_angle_rad.sin_cos();
         let (ja, jb) = (Jet::parameter(a, 0), Jet::parameter(b, 1));
         let held = self.settings.roll.is_none();
-        let motion = self.motion(if held { Jet::constant(0.0) } else { jb });
+        let turn = if held { Jet::constant(0.0) } else { jb };
+        let motion = self.motion(turn);
         let (st, ct) = ja.sin_cos();
-        let cradle = if held {
-            Jet::constant(mill.cradle_angle_rad)
-        } else {
-            jb + mill.cradle_angle_rad
-        };
-        let (sq, cq) = cradle.sin_cos();
+        let (sq, cq) = (turn + mill.cradle_angle_rad).sin_cos();
         let rho = mill.edge_radius_m;
         let radius = mill.point_radius_m - sign * rho * (1.0 - sin) / cos;
         // Centre of the edge's circle, and the meshing equation n·v(centre) = 0 for the angle λ of the normal.
