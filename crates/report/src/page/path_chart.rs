@@ -4,9 +4,8 @@
 
 use super::PageError;
 use super::checks::{check_finite, check_some};
-use super::markup::escape;
-use super::polar_chart::{round_step, tick};
-use super::typography::{html, plain};
+use super::polar_chart::{open_square, round_step, tick};
+use super::typography::html;
 use std::fmt::Write as _;
 
 /// Half the width of the drawing, in its own units.
@@ -41,17 +40,7 @@ impl PathChart {
         let step = round_step(largest);
         let top = step * (largest / step).ceil().max(1.0);
         let scale = FIELD / top;
-        let wide = 2.0 * HALF;
-        // Writing to a String does not fail.
-        let _ = write!(
-            page,
-            "<figure class=\"polar\">\n<figcaption>{}</figcaption>\n\
-             <svg viewBox=\"{} {} {wide} {wide}\" role=\"img\" aria-label=\"{}\">\n",
-            html(&self.title),
-            -HALF,
-            -HALF,
-            escape(&plain(&self.title))
-        );
+        open_square(&self.title, HALF, page);
         let lines = (top / step).round() as i32;
         for line in -lines..=lines {
             let value = tick(step * f64::from(line));

@@ -84,17 +84,7 @@ impl PolarChart {
             1.0
         };
         let scale = RADIUS / top;
-        let wide = 2.0 * HALF;
-        // Writing to a String does not fail.
-        let _ = write!(
-            page,
-            "<figure class=\"polar\">\n<figcaption>{}</figcaption>\n\
-             <svg viewBox=\"{} {} {wide} {wide}\" role=\"img\" aria-label=\"{}\">\n",
-            html(&self.title),
-            -HALF,
-            -HALF,
-            escape(&plain(&self.title))
-        );
+        open_square(&self.title, HALF, page);
         self.grid(page, (step, top, scale));
         let width = (0.45 * TAU * 60.0 / self.angles_rad.len() as f64).clamp(2.0, 14.0);
         for (number, series) in self.series.iter().enumerate() {
@@ -177,6 +167,21 @@ pub(super) fn round_step(largest: f64) -> f64 {
     // A sum in decimal digits: 0.30000000000000004 has no place in a picture.
     let found = step.unwrap_or(10.0) * power;
     format!("{found:.3e}").parse().unwrap_or(found)
+}
+
+/// Begins a square figure whose drawing reaches so far from its middle.
+pub(super) fn open_square(title: &str, half: f64, page: &mut String) {
+    let wide = 2.0 * half;
+    // Writing to a String does not fail.
+    let _ = write!(
+        page,
+        "<figure class=\"polar\">\n<figcaption>{}</figcaption>\n\
+         <svg viewBox=\"{} {} {wide} {wide}\" role=\"img\" aria-label=\"{}\">\n",
+        html(title),
+        -half,
+        -half,
+        escape(&plain(title))
+    );
 }
 
 #[cfg(test)]
