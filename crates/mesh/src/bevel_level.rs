@@ -385,8 +385,8 @@ fn shares(length: f64, size: &dyn Fn(f64) -> f64, least: usize) -> Vec<f64> {
     places.into_iter().map(|s| s / length).collect()
 }
 
-/// In the section at a cone distance, the mean of both sides \[m\]: half the space, the fillet up to P, from there to the
-/// flank, the flank; and half the width of the tooth at its root.
+/// In the section at a cone distance, the mean of both sides \[m\]: half the space, the fillet up to P, from there to
+/// the flank, the flank; and half the width of the tooth at its root.
 fn half_lengths_m(gear: &BevelGear, cone: f64) -> Result<([f64; 4], f64), BevelError> {
     let blank = gear.blank();
     let (mut lengths, mut half_width): ([f64; 4], f64) = ([0.0; 4], 0.0);

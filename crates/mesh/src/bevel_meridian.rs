@@ -226,8 +226,8 @@ impl Meridian {
     }
 }
 
-/// The outline of a body with the lengths wanted at its points, counter-clockwise: along the bore to the heel, up to the
-/// ring, along it to the toe, down to the bore.
+/// The outline of a body with the lengths wanted at its points, counter-clockwise: along the bore to the heel, up to
+/// the ring, along it to the toe, down to the bore.
 struct Outline {
     /// \[z, radius, length\] \[m\].
     points: Vec<[f64; 3]>,
@@ -269,8 +269,8 @@ impl Outline {
     }
 }
 
-/// Wanted lengths at the places of the lines: a part of the thickness, and no longer than the shorter pieces of the lines
-/// that begin there.
+/// Wanted lengths at the places of the lines: a part of the thickness, and no longer than the shorter pieces of the
+/// lines that begin there.
 fn lengths_at_lines(lines: &[[[f64; 2]; 2]], body_m: f64) -> Vec<f64> {
     let last = lines.len() - 1;
     let piece = |k: usize| {

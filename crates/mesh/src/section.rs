@@ -116,8 +116,8 @@ impl Section {
         Ok(section)
     }
 
-    /// Nodes of all sectors of the body: those of the ring are the cells', the left edge of each sector is the right edge
-    /// of the next.
+    /// Nodes of all sectors of the body: those of the ring are the cells', the left edge of each sector is the right
+    /// edge of the next.
     fn number_body(&mut self, body: &BodyProblem, mesh: &PlaneMesh) {
         let (teeth, sectors) = (self.cell_nodes.len(), self.body_nodes.len());
         let ring_per_tooth = self.cell.bottom.len() - 1;

@@ -133,8 +133,8 @@ fn at_faces(gear: &GearDefinition, side: Flank, faces: &HeldFaces, of_flank: usi
     })
 }
 
-/// K_pᵀ K⁻¹ of the jumps themselves, of the loads on all teeth, and of the gauges. `columns`: the jumps' coupling on the
-/// cracked tooth.
+/// K_pᵀ K⁻¹ of the jumps themselves, of the loads on all teeth, and of the gauges. `columns`: the jumps' coupling on
+/// the cracked tooth.
 fn jump_products(
     gear: &GearDefinition,
     (body, cracked): (&GearBody, usize),
