@@ -213,6 +213,28 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
             crack.left_out
         ));
     }
+    lines.extend(of_body(model));
+    let list = |shown: Vec<String>| shown.join(", ");
+    let times = p.stage_seconds.iter();
+    let times = times.map(|(name, s)| format!("{name} {s:.1} s"));
+    lines.push(format!(
+        "time on {} threads: {}",
+        p.threads,
+        list(times.collect())
+    ));
+    if !p.effort.is_empty() {
+        let counts = p
+            .effort
+            .iter()
+            .map(|(name, count)| format!("{count} {name}"));
+        lines.push(format!("effort: {}", list(counts.collect())));
+    }
+    lines
+}
+
+/// Mass, support and natural modes, where the model has them.
+fn of_body(model: &ReducedGear) -> Vec<String> {
+    let mut lines = Vec::new();
     if let Some(body) = &model.rigid_body {
         let support = match &model.reference_point {
             Some(_) => "bore rigid on a reference point",
@@ -235,24 +257,6 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
             basis.frequencies_hz()[0],
             basis.nodal_diameters[0]
         ));
-    }
-    let times: Vec<String> = p
-        .stage_seconds
-        .iter()
-        .map(|(name, s)| format!("{name} {s:.1} s"))
-        .collect();
-    lines.push(format!(
-        "time on {} threads: {}",
-        p.threads,
-        times.join(", ")
-    ));
-    if !p.effort.is_empty() {
-        let counts: Vec<String> = p
-            .effort
-            .iter()
-            .map(|(name, count)| format!("{count} {name}"))
-            .collect();
-        lines.push(format!("effort: {}", counts.join(", ")));
     }
     lines
 }

@@ -61,6 +61,10 @@ pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
     };
     let (mut chapters, mut systems) = (Vec::new(), Vec::new());
     let mut figures = Vec::new();
+    let mut keep = |(section, own): StressSection| {
+        figures.extend(own);
+        section
+    };
     let files = file_names(&a.results);
     // Of pairs, of multibody results.
     let mut names = [Vec::new(), Vec::new()];
@@ -77,13 +81,9 @@ pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
                     true => Some(result_stress::of_system(&how, &result, path, watch)?),
                     false => None,
                 };
-                let stress = stress.map(|(section, own)| {
-                    figures.extend(own);
-                    section
-                });
                 systems.push(SystemChapter {
                     result: *result,
-                    stress,
+                    stress: stress.map(&mut keep),
                 });
                 names[1].push(files[k].clone());
                 continue;
@@ -99,14 +99,10 @@ pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
             true => Some(stress_at_rest(&how, &result, path, watch)?),
             false => None,
         };
-        let stress = stress.map(|(section, own)| {
-            figures.extend(own);
-            section
-        });
         chapters.push(SceneChapter {
             result,
             record,
-            stress,
+            stress: stress.map(&mut keep),
         });
     }
     let page = scene_page(&chapters, &systems).map_err(Failure::work)?;

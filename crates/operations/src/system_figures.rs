@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use gearmesh_scene::system_run::{ResultKind, SystemResult, is_overdamped};
+use gearmesh_model::Column;
+use gearmesh_scene::system_run::{Figures, ResultKind, SweepResult, SystemResult, is_overdamped};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
@@ -35,77 +36,82 @@ pub fn figures(result: &SystemResult) -> Result<Value, Failure> {
     if let losses @ Value::Object(_) = losses::json(result)? {
         value["losses"] = losses;
     }
-    match result.kind {
-        ResultKind::Transient => {
-            let passings = result.mesh_passings().map_err(Failure::work)?;
-            let columns = result.summaries(|_| true).map_err(Failure::work)?;
-            let columns = columns.iter().map(|c| {
-                json!({
-                    "name": c.name, "unit": c.unit, "mean": c.figures.mean, "deviation": c.figures.deviation, "least": c.figures.least,
-                    "largest": c.figures.largest, "dominant_Hz": c.dominant_hz,
-                    "complete": !passings.iter().any(|mesh| mesh.leaves_incomplete(&c.name)),
-                })
-            });
-            value["rows"] = json!(result.rows.rows());
-            value["statistics_from_s"] = json!(result.statistics_from_s);
-            value["samples_per_row"] = json!(result.samples_per_row);
-            value["columns"] = columns.collect();
-            let meshes = passings.iter().map(|mesh| {
-                json!({
-                    "name": mesh.mesh.name, "mean_frequency_Hz": mesh.frequency_hz, "pitches": mesh.pitches(),
-                    "revolutions": mesh.revolutions,
-                })
-            });
-            value["meshes"] = meshes.collect();
-        }
-        ResultKind::SpeedSweep => {
-            if let Some(sweep) = &result.sweep {
-                let windows = sweep.windows.iter().zip(&sweep.figures);
-                let windows = windows.map(|(window, figures)| {
-                    json!({
-                        "speed_rpm": window.speed_rad_per_s * 60.0 / TAU, "up": window.up, "from_s": window.from_s, "to_s": window.to_s,
-                        "mean": figures.iter().map(|f| f.mean).collect::<Vec<_>>(),
-                        "deviation": figures.iter().map(|f| f.deviation).collect::<Vec<_>>(),
-                        "least": figures.iter().map(|f| f.least).collect::<Vec<_>>(),
-                        "largest": figures.iter().map(|f| f.largest).collect::<Vec<_>>(),
-                    })
-                });
-                value["windows"] = windows.collect();
-                let names = sweep.columns.iter().map(|column| &column.name);
-                value["columns"] = json!(names.collect::<Vec<_>>());
-                let units = sweep.columns.iter().map(|column| &column.unit);
-                value["units"] = json!(units.collect::<Vec<_>>());
-            }
-        }
+    let of_kind = match result.kind {
+        ResultKind::Transient => of_rows(result)?,
+        ResultKind::SpeedSweep => result.sweep.as_ref().map_or(json!({}), of_sweep),
         ResultKind::Static => {
-            let read = |column: &gearmesh_model::Column| {
+            let read = |column: &Column| {
                 let values = result.rows.read(&column.name).map_err(Failure::work)?;
                 Ok((column.name.clone(), json!(values)))
             };
             let columns = result.rows.columns().iter().map(read);
-            value["columns"] = Value::Object(columns.collect::<Result<_, Failure>>()?);
+            json!({"columns": Value::Object(columns.collect::<Result<_, Failure>>()?)})
         }
-        ResultKind::Eigen => {
-            let points = result.eigen.iter().map(|found| {
-                let of_sets = found.set_modes(&result.bodies, &result.head.sets);
-                let modes = found.modes.iter().zip(&found.participation).enumerate();
-                let modes = modes.map(|(k, (mode, shares))| {
-                    let kinds = of_sets.iter().map(|set| (set.set.clone(), json!(set.kinds[k].name())));
-                    json!({
-                        "kind_in_set": kinds.collect::<serde_json::Map<_, _>>(),
-                        "frequency_Hz": mode.frequency_hz(), "damping_ratio": mode.damping_ratio(), "growth_per_s": mode.growth_per_s,
-                        "overdamped": is_overdamped(mode),
-                        "participation": result.bodies.iter().zip(shares).map(|(b, s)| (b.clone(), json!(s))).collect::<serde_json::Map<_, _>>(),
-                    })
-                });
-                json!({
-                    "load_factor": found.point.load_factor,
-                    "speed_rpm": found.point.speed_rad_per_s.map(|speed| speed * 60.0 / TAU),
-                    "modes": modes.collect::<Vec<_>>(),
-                })
-            });
-            value["points"] = points.collect();
-        }
+        ResultKind::Eigen => of_points(result),
+    };
+    for (key, figures) in of_kind.as_object().into_iter().flatten() {
+        value[key] = figures.clone();
     }
     Ok(value)
+}
+
+fn of_rows(result: &SystemResult) -> Result<Value, Failure> {
+    let passings = result.mesh_passings().map_err(Failure::work)?;
+    let columns = result.summaries(|_| true).map_err(Failure::work)?;
+    let columns = columns.iter().map(|c| {
+        json!({
+            "name": c.name, "unit": c.unit, "mean": c.figures.mean, "deviation": c.figures.deviation, "least": c.figures.least,
+            "largest": c.figures.largest, "dominant_Hz": c.dominant_hz,
+            "complete": !passings.iter().any(|mesh| mesh.leaves_incomplete(&c.name)),
+        })
+    });
+    let meshes = passings.iter().map(|mesh| {
+        json!({
+            "name": mesh.mesh.name, "mean_frequency_Hz": mesh.frequency_hz, "pitches": mesh.pitches(),
+            "revolutions": mesh.revolutions,
+        })
+    });
+    Ok(json!({
+        "rows": result.rows.rows(), "statistics_from_s": result.statistics_from_s, "samples_per_row": result.samples_per_row,
+        "columns": columns.collect::<Vec<_>>(), "meshes": meshes.collect::<Vec<_>>(),
+    }))
+}
+
+fn of_sweep(sweep: &SweepResult) -> Value {
+    let windows = sweep.windows.iter().zip(&sweep.figures);
+    let windows = windows.map(|(window, figures)| {
+        let all = |figure: fn(&Figures) -> f64| figures.iter().map(figure).collect::<Vec<_>>();
+        json!({
+            "speed_rpm": window.speed_rad_per_s * 60.0 / TAU, "up": window.up, "from_s": window.from_s, "to_s": window.to_s,
+            "mean": all(|f| f.mean), "deviation": all(|f| f.deviation), "least": all(|f| f.least), "largest": all(|f| f.largest),
+        })
+    });
+    let columns = || sweep.columns.iter();
+    json!({
+        "windows": windows.collect::<Vec<_>>(),
+        "columns": columns().map(|column| &column.name).collect::<Vec<_>>(),
+        "units": columns().map(|column| &column.unit).collect::<Vec<_>>(),
+    })
+}
+
+fn of_points(result: &SystemResult) -> Value {
+    let points = result.eigen.iter().map(|found| {
+        let of_sets = found.set_modes(&result.bodies, &result.head.sets);
+        let modes = found.modes.iter().zip(&found.participation).enumerate();
+        let modes = modes.map(|(k, (mode, shares))| {
+            let kinds = of_sets.iter().map(|set| (set.set.clone(), json!(set.kinds[k].name())));
+            json!({
+                "kind_in_set": kinds.collect::<serde_json::Map<_, _>>(),
+                "frequency_Hz": mode.frequency_hz(), "damping_ratio": mode.damping_ratio(), "growth_per_s": mode.growth_per_s,
+                "overdamped": is_overdamped(mode),
+                "participation": result.bodies.iter().zip(shares).map(|(b, s)| (b.clone(), json!(s))).collect::<serde_json::Map<_, _>>(),
+            })
+        });
+        json!({
+            "load_factor": found.point.load_factor,
+            "speed_rpm": found.point.speed_rad_per_s.map(|speed| speed * 60.0 / TAU),
+            "modes": modes.collect::<Vec<_>>(),
+        })
+    });
+    json!({"points": points.collect::<Vec<_>>()})
 }
