@@ -20,29 +20,12 @@ use outcome::{Curve, LineSpectrum, Outcome};
 use serde_json::json;
 use series::{Form, Series, open};
 use std::f64::consts::TAU;
+use std::path::Path;
 
 /// Runs the command.
 pub fn run(a: &SignalArguments) -> Result<(), Failure> {
     match &a.analysis {
-        SignalAnalysis::Columns { result, json } => {
-            let result = open(result)?;
-            let columns = result.rows.columns().iter();
-            if *json {
-                let each = |c: &Column| json!({ "name": c.name, "unit": c.unit, "description": c.description });
-                console::json(&json!({ "columns": columns.map(each).collect::<Vec<_>>() }));
-                return Ok(());
-            }
-            let width = column_width(columns.clone().map(|column| &column.name), 0);
-            for Column {
-                name,
-                unit,
-                description,
-            } in columns
-            {
-                console::data(format!("{name:width$}  {unit:8}  {description}"));
-            }
-            Ok(())
-        }
+        SignalAnalysis::Columns { result, json } => columns(result, *json),
         SignalAnalysis::Statistics { series } => {
             statistics(&Series::read(series, None, Form::Instants)?).finish(series)
         }
@@ -117,6 +100,28 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
             map(&read, blocks, *peaks)?.finish(series)
         }
     }
+}
+
+/// Lists the columns of a result.
+fn columns(result: &Path, as_json: bool) -> Result<(), Failure> {
+    let result = open(result)?;
+    let columns = result.rows.columns().iter();
+    if as_json {
+        let each =
+            |c: &Column| json!({ "name": c.name, "unit": c.unit, "description": c.description });
+        console::json(&json!({ "columns": columns.map(each).collect::<Vec<_>>() }));
+        return Ok(());
+    }
+    let width = column_width(columns.clone().map(|column| &column.name), 0);
+    for Column {
+        name,
+        unit,
+        description,
+    } in columns
+    {
+        console::data(format!("{name:width$}  {unit:8}  {description}"));
+    }
+    Ok(())
 }
 
 /// Amplitudes of values at the places of a series over frequency or order, mean removed. Orders end where the
@@ -314,17 +319,11 @@ fn map(series: &Series, blocks: OrderBlocks, peaks: usize) -> Result<Outcome, Fa
         let speed = at.map_or(f64::NAN, |row| rpm(row.speed_rad_per_s));
         outcome.rows.push(vec![envelope.at(line), amplitude, speed]);
     }
+    let speeds: Vec<f64> = rows.iter().map(|row| rpm(row.speed_rad_per_s)).collect();
+    let times: Vec<f64> = rows.iter().map(|row| series.start_s + row.time_s).collect();
     outcome.curves = vec![
-        Curve::new(
-            "speed",
-            "rpm",
-            rows.iter().map(|row| rpm(row.speed_rad_per_s)).collect(),
-        ),
-        Curve::new(
-            "time",
-            "s",
-            rows.iter().map(|row| series.start_s + row.time_s).collect(),
-        ),
+        Curve::new("speed", "rpm", speeds.clone()),
+        Curve::new("time", "s", times.clone()),
     ];
     for line in 0..lines {
         let values = rows.iter().map(|row| row.spectrum.values[line]);
@@ -338,11 +337,9 @@ fn map(series: &Series, blocks: OrderBlocks, peaks: usize) -> Result<Outcome, Fa
         .all(|pair| pair[1].speed_rad_per_s > pair[0].speed_rad_per_s);
     let ends = [first, &rows[rows.len() - 1]].map(|row| row.speed_rad_per_s);
     let (over, along, axis) = if rises && ends[1] > RUN_UP * ends[0] {
-        let speeds = rows.iter().map(|row| rpm(row.speed_rad_per_s));
-        ("speed", speeds.collect(), Axis::new("speed", "rpm"))
+        ("speed", speeds, Axis::new("speed", "rpm"))
     } else {
-        let times = rows.iter().map(|row| series.start_s + row.time_s);
-        ("time", times.collect(), Axis::new("time", "s"))
+        ("time", times, Axis::new("time", "s"))
     };
     let columns = rows.iter().map(|row| row.spectrum.values[..lines].to_vec());
     let chart = MapChart::new(
