@@ -345,7 +345,7 @@ impl Ball<'_> {
                 break;
             };
             let step = inverse * state.residual;
-            // Rounding of the ball's place: nothing finer can be told.
+            // Rounding of the ball's place: nothing finer can be resolved.
             if step.norm() <= 4e-16 * self.row.pitch_radius_m {
                 return Ok((place, state));
             }

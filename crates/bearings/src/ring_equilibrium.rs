@@ -264,7 +264,7 @@ impl QuasiStaticBearing {
                 continue;
             };
             let length = step.norm();
-            // Finer than the places of the elements can be told: what is unbalanced then decides.
+            // Finer than the places of the elements can be resolved: what is unbalanced then decides.
             if length <= 1e-16 * balance.arm_m {
                 break;
             }

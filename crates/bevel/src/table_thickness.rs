@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::tooth::Tooth;
 
-/// A difference above this share of the mean normal module is told.
+/// A difference above this share of the mean normal module is reported.
 const MOST_OFF: f64 = 0.05;
 /// So far along the axis an origin is sought, in mean normal modules.
 const REACH: f64 = 1.5;

@@ -221,7 +221,7 @@ impl GearMesh {
     /// pose of the axes at the same moment, `found` memory for the flanks there.
     ///
     /// # Errors
-    /// [`DrivetrainError`] if the axes stand so that flanks cannot be told.
+    /// [`DrivetrainError`] if the axes stand so that the flanks in contact are not known.
     pub fn transmission_error_on_axes_m(
         &mut self,
         gears: &Pose,

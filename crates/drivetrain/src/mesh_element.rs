@@ -159,7 +159,7 @@ impl MeshElement {
         self.pair.motion(gear_1, gear_2)
     }
 
-    /// Transmission error at the last motion, not a number where none can be told.
+    /// Transmission error at the last motion, not a number where there is none.
     fn transmission_error_m(&mut self, view: &View<'_>, motion: &RelativeMotion) -> f64 {
         let told = match &mut self.axes {
             // Between two pairs of teeth, and where gears are apart, the nearest flanks are continued.

@@ -213,7 +213,7 @@ fn follow(
                 stride = (2.0 * stride).min(whole);
             }
             Err(error) if stride > LEAST_STRIDE * whole && path.may_help(&error) => {
-                // What the trial took is told, too.
+                // What the trial took counts, too.
                 found.iterations = trial.iterations;
                 stride *= 0.25;
             }

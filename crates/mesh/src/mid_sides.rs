@@ -126,7 +126,7 @@ mod tests {
             let [x, y] = polar(1.0, angle);
             assert!((mesh.nodes[n][0] - x).hypot(mesh.nodes[n][1] - y) < 1e-15);
         }
-        // Straight where nothing was told.
+        // Straight where nothing was stated.
         let [x, y] = mesh.nodes[mesh.mid_sides[0][2]];
         assert!(x.hypot(y) < 2.0 - 0.02);
         assert_eq!(middles.interleaved(&[0, 1], true).len(), 4);

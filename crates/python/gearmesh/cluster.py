@@ -172,7 +172,7 @@ class _Connection:
             from distributed import Client, LocalCluster
         except ImportError as cause:
             raise ImportError("studies on a cluster need dask.distributed: pip install 'gearmesh[dask]'") from cause
-        # It tells each try to reconnect with a traceback; what matters is told here.
+        # It tells each try to reconnect with a traceback; what matters is reported here.
         self._logger = logging.getLogger("distributed.client")
         self._level = self._logger.level
         self._logger.setLevel(logging.CRITICAL)

@@ -27,8 +27,8 @@ def program(*arguments: str | os.PathLike[str] | float, progress: Progress = Fal
 
     progress: see gearmesh.progress.Progress; none unless told otherwise.
 
-    Raises InputError (exit code 2) or WorkError (1) with the program's message, KeyboardInterrupt on Ctrl-C, which the
-    program is told; FileNotFoundError where there is no program: it is installed with the wheel, or named by GEARMESH_PROGRAM.
+    Raises InputError (exit code 2) or WorkError (1) with the program's message, KeyboardInterrupt on Ctrl-C, which is
+    passed on to the program; FileNotFoundError where there is no program: it is installed with the wheel, or named by GEARMESH_PROGRAM.
     """
     words = [str(os.fspath(a)) if isinstance(a, os.PathLike) else str(a) for a in arguments]
     # Notebooks ask for colours, which would stand in the messages.

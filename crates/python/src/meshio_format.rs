@@ -71,7 +71,7 @@ impl MeshioFormat {
         Err(PyValueError::new_err(message))
     }
 
-    /// What meshio's writer is told beside the mesh. Older programs do not read VTK 5.1; an .xdmf file that has its
+    /// What meshio's writer gets beside the mesh. Older programs do not read VTK 5.1; an .xdmf file that has its
     /// numbers in it needs no second file, which would be `gear.h5` and might be somebody's model.
     pub fn write_options<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let options = PyDict::new(py);

@@ -4,7 +4,7 @@
 //!
 //! From a scene file to a result: which models, which effects, which loads; nothing else is computed.
 //!
-//! | scene | how it is told | module |
+//! | scene | how it is stated | module |
 //! | --- | --- | --- |
 //! | one gear pair, static positions over driver angles | `[pair]` | [`pair`] |
 //! | a bevel pair under torques | `[bevel]` and `[load]` | [`pair`] |

@@ -57,7 +57,7 @@ pub enum SeriesError {
     },
     /// Sidebands that share lines.
     #[error(
-        "sidebands {modulator} apart cannot be told apart on lines {line_spacing} apart with a search of {search_lines} lines: \
+        "sidebands {modulator} apart cannot be separated on lines {line_spacing} apart with a search of {search_lines} lines: \
          take a longer series"
     )]
     SidebandsMerge {

@@ -117,12 +117,12 @@ fn about_z(angle: f64) -> Matrix3<f64> {
 #[ignore = "reduces a gear with its modes, half a minute"]
 fn a_real_gear_with_modes_at_rest_and_struck() {
     let scene = Scene::new();
-    at_rest_it_gives_way_as_without_modes(&scene);
+    at_rest_it_deflects_as_without_modes(&scene);
     struck_it_rings_at_its_own_frequencies(&scene);
 }
 
 /// Ω²η = Q(η) by Newton with the mesh's own tangent; then the loads are those of the gear without modes.
-fn at_rest_it_gives_way_as_without_modes(scene: &Scene) {
+fn at_rest_it_deflects_as_without_modes(scene: &Scene) {
     let omega_squared = &scene.model.modal_basis().unwrap().omega_squared;
     for count in [3, 12] {
         let (mut reduced, mut modal) = (scene.mesh(0), scene.mesh(count));

@@ -47,7 +47,7 @@ fn table(study: &Study, outcome: &StudyOutcome) -> Vec<String> {
     let names: Vec<String> = cases.iter().map(|result| result.case.name()).collect();
     let width = column_width(&names, 4);
     let found = cases.iter().find_map(|case| case.figures.as_ref().ok());
-    // Of runs in time it is told whether it is stated or not.
+    // Of runs in time it is reported whether it is stated or not.
     let has_series = found.is_some_and(|all| {
         all.iter()
             .any(|c| matches!(c.value, SelectedValue::Series(_)))

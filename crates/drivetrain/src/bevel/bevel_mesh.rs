@@ -66,7 +66,7 @@ fn no_point_contact(blank: &PairBlank, design: &PairDesign, flank: Flank) -> Dri
     }
 }
 
-/// A pair of teeth as its contact is told.
+/// A pair of teeth as its contact has it.
 struct NearFlanks {
     teeth: [usize; 2],
     /// Place up the flanks of gear 1 and gear 2, and its derivatives by the increments of the pose.

@@ -1,6 +1,6 @@
 //! An element whose law is a function of the calling program: for prototypes, at the price of its calls.
 //!
-//! The law is told the motion of marker B as seen in A and gives the load on B. Its tangents are taken by differences:
+//! The law gets the motion of marker B as seen in A and gives the load on B. Its tangents are taken by differences:
 //!
 //! ```text
 //! ∂load/∂x_i ≈ (load(x + h_i e_i) − load(x)) / h_i,   h = 1e-8 (m, rad) and 1e-6 (m/s, rad/s)

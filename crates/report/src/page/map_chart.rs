@@ -20,7 +20,7 @@ const SIZE: [f64; 2] = [400.0, 250.0];
 const MARGIN: f64 = 76.0;
 const MARGIN_RIGHT: f64 = 24.0;
 
-/// Decades below the largest value that are told apart, and colours of a decade.
+/// Decades below the largest value that are distinguished, and colours of a decade.
 const DECADES: usize = 4;
 const SHADES: usize = 6;
 

@@ -163,7 +163,7 @@ fn a_record_of_either_shaft_shows_mesh_and_holes() {
     assert!(c.best_offset_rad.unwrap().abs() < 1e-4);
 }
 
-/// The offset with the best correlation is told; figures are those without it.
+/// The offset with the best correlation is reported; figures are those without it.
 #[test]
 fn an_offset_is_reported_and_not_applied() {
     let by = 0.05;

@@ -113,7 +113,7 @@ const INTERACTIVE_S: f64 = 0.1;
 /// A last step of the reference that changes the columns by more than this is too large.
 const SETTLED: f64 = 0.01;
 
-/// Runs a scene in all settings worth a look. `progress` is told what was run, and how many are known to come.
+/// Runs a scene in all settings worth a look. `progress` gets what was run, and how many are known to come.
 ///
 /// # Errors
 /// [`StudyError`] for a scene whose reference cannot be run, and on a stop.
@@ -187,7 +187,7 @@ pub fn accuracy(
         Goal::Interactive(INTERACTIVE_S),
     ] {
         if let Some(rungs) = choice(&found.tried, goal, &doubts) {
-            // Once more, as the user will: what is told is what it does.
+            // Once more, as the user will: what is reported is what it does.
             let measured = bench.measure(&case_of(&found.knobs, &rungs))?;
             let errors = judge(&measured);
             found.advice.push(Advice {

@@ -107,7 +107,7 @@ fn values_at(problem: &Optimisation, shares: &[f64]) -> Vec<f64> {
     variables.zip(shares).map(value).collect()
 }
 
-/// Searches for the least objectives. Runs of multibody scenes write in the folder `scratch`. `progress` is told how many of how many searches
+/// Searches for the least objectives. Runs of multibody scenes write in the folder `scratch`. `progress` gets how many of how many searches
 /// are done.
 ///
 /// # Errors

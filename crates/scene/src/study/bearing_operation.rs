@@ -71,7 +71,7 @@ fn operation([inner_rpm, outer_rpm]: [f64; 2]) -> Operation {
 const MOST: [f64; 4] = [1e9, 100.0, 1e7, 1e9];
 
 impl BearingOperation {
-    /// From the table; `document` is told of in complaints.
+    /// From the table; complaints name `document`.
     ///
     /// # Errors
     /// [`InputError`] for unknown keys and numbers out of their range.

@@ -29,7 +29,7 @@ const WAITING: Duration = Duration::from_millis(200);
 /// Digits of the digest in a file's name.
 const NAME_DIGITS: usize = 16;
 
-/// What is told of a mode.
+/// What is reported of a mode.
 const MODE_COLUMNS: [&str; 2] = ["frequency_Hz", "damping_ratio"];
 
 /// The columns that a run of the scene will have, and what may be asked of them.
@@ -256,7 +256,7 @@ fn say(error: FileError) -> String {
     error.to_string()
 }
 
-/// What is told of a series: all its figures, or the one that is asked for.
+/// What is reported of a series: all its figures, or the one that is asked for.
 fn told(one: &Wanted, unit: &str, figures: Figures) -> Selected {
     let value = one.figure().and_then(|figure| figure.value(&figures));
     Selected {

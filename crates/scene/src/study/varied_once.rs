@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 
-/// Refuses two of the tables called `list` that have one name, for they cannot be told apart in results, and two that
+/// Refuses two of the tables called `list` that have one name, for results could not distinguish them, and two that
 /// set one key, of which one would be without effect, unless only one of them varies `at_a_time`. `varied`: of each
 /// table its name and its keys.
 ///

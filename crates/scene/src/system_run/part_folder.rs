@@ -232,7 +232,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// Runs that start as others end: each gets the folder for itself or is told that it is in use, and nothing is
+    /// Runs that start as others end: each gets the folder for itself or hears that it is in use, and nothing is
     /// left.
     #[test]
     fn runs_that_begin_as_others_end_are_clean() {

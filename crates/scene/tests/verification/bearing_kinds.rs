@@ -197,7 +197,7 @@ fn an_axial_support_bears_one_way() {
 
 /// A bearing in a housing: both deflect one after the other, and the ring is a body between them.
 #[test]
-fn a_housing_gives_way_behind_its_bearing() {
+fn a_housing_deflects_behind_its_bearing() {
     let folder = tempfile::tempdir().unwrap();
     let model = "model = { kind = \"linear\", radial_stiffness_N_per_mm = 1e5, axial_stiffness_N_per_mm = 5e4, tilt_stiffness_Nm_per_rad = 3e4 }\n\
                  housing = { ring_mass_kg = 0.1, ring_inertia_kg_m2 = [1e-5, 1e-5, 2e-5], stiffness_N_per_mm = [2e4, 3e4, 1e4], stiffness_Nm_per_rad = [1e3, 1e3, 1e3] }";

@@ -135,7 +135,7 @@ fn a_machine_runs_on_digital_surfaces() {
     }
 }
 
-/// A spring whose ends coincide has no direction: it is told.
+/// A spring whose ends coincide has no direction: it is reported.
 #[test]
 fn a_spring_between_places_that_coincide_is_told() {
     let scene = text("scene_pendulum.toml");

@@ -210,7 +210,7 @@ fn speeds_that_miss_a_kinematic_ratio_are_refused() {
     build(&stated("planet", &stated("sun", &text, -600.0), 683.333333)).unwrap();
 }
 
-/// What a reader of the result is told of the mesh is counted against the carrier, as before the run: the sun passes
+/// What a reader of the result sees of the mesh is counted against the carrier, as before the run: the sun passes
 /// z_s |ω_s − ω_c|/2π teeth a second, and the planet makes its revolutions in the carrier.
 #[test]
 fn passed_teeth_of_a_result_are_counted_against_the_carrier() {

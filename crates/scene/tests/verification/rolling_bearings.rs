@@ -159,7 +159,7 @@ fn a_series_of_angles_has_the_speed_of_its_motion() {
     );
 }
 
-/// A missing file is named at its key; a fault in it is told with its own file and line.
+/// A missing file is named at its key; a fault in it is reported with its own file and line.
 #[test]
 fn bad_bearing_files_are_told() {
     let folder = tempfile::tempdir().unwrap();

@@ -50,7 +50,7 @@ fn the_pendulum_swings_with_its_period() {
     );
 }
 
-/// A spring between a body that turns and one whose speed nobody states is told; speeds that are stated are not.
+/// A spring between a body that turns and one whose speed nobody states is reported; speeds that are stated are not.
 #[test]
 fn a_body_that_a_spring_will_jerk_is_told() {
     let scene = |speed: &str| {

@@ -145,7 +145,7 @@ fn a_correction_beyond_the_law_is_damped() {
     assert!(calls.load(Ordering::Relaxed) < 200);
 }
 
-/// What no step can do without is told as the element has said it, and soon.
+/// What no step can do without is reported as the element has said it, and soon.
 #[test]
 fn an_element_that_fails_for_good_ends_the_run_with_its_words() {
     for until_s in [0.0025, 0.5] {

@@ -351,7 +351,7 @@ fn bores_on_rollers_that_nothing_holds_or_follows_are_refused() {
 }
 
 /// Planets whose bores rollers press on pins that bend: the pin's station under the rollers moves as the beam in closed
-/// form under what they press (a_pin_between_two_plates_gives_way_as_a_beam), and the set runs in time with its energy.
+/// form under what they press (a_pin_between_two_plates_deflects_as_a_beam), and the set runs in time with its energy.
 #[test]
 fn rollers_press_on_pins_that_bend() {
     let folder = tempfile::tempdir().unwrap();

@@ -90,7 +90,7 @@ fn assert_torque(found: &[f64], expected: f64, what: &str) {
     assert!(off.abs() < IN_THE_MEAN, "{what}: {off:e} off, {found:?}");
 }
 
-/// In phase at equal angles all pairs carry the same; what is left of the forces of two meshes is what the pin bears.
+/// In phase at equal angles all pairs carry the same; what is left of the forces of two meshes is what the pin carries.
 /// The carrier deflects in the sense of its torque, by another amount where planets and partners feel both their
 /// meshes.
 #[test]
@@ -101,7 +101,7 @@ fn meshed_planets_of_reduced_gears_are_in_equilibrium() {
     // The sun turns 1.5 times as fast against the carrier.
     let kind = over_a_period("set sun", 360.0 / 24.0 / 1.5);
     let own = "coupling = \"own-mesh\"";
-    let gives_way = |keys: &str| -> Vec<f64> {
+    let deflection_rad = |keys: &str| -> Vec<f64> {
         let result = run(&of_reduced(&pairs(&kind, keys, keys), ""), folder.path());
         let read = |name: &str| result.rows.read(name).unwrap();
         let [sun, ring] = ["sun speed", "ring axis"]
@@ -143,7 +143,7 @@ fn meshed_planets_of_reduced_gears_are_in_equilibrium() {
         let both = sun_rad.iter().zip(&turned);
         both.map(|(sun, carrier)| carrier + 0.5 * sun).collect()
     };
-    let (together, apart) = (gives_way(""), gives_way(own));
+    let (together, apart) = (deflection_rad(""), deflection_rad(own));
     let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
     let most = together.iter().chain(&apart);
     assert!(most.into_iter().all(|turn| (1e-6..1e-3).contains(turn)));

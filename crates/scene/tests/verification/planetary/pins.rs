@@ -39,7 +39,7 @@ fn in_carrier(result: &SystemResult, planet: usize) -> Vector2<f64> {
 /// it does not matter what the teeth hold; κ = 6(1 + ν)/(7 + 6ν) of a full circle. Both meshes push a planet round with
 /// 2F cos α = T/3a, out by nothing.
 #[test]
-fn a_pin_between_two_plates_gives_way_as_a_beam() {
+fn a_pin_between_two_plates_deflects_as_a_beam() {
     let folder = tempfile::tempdir().unwrap();
     write_gears(folder.path(), [24, 36], ALPHA_DEG);
     let kind = "kind = \"static\"\nmotion = \"set sun speed\"\nangles_deg = [0.0]";
