@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use gearmesh_contact::CondensedFlanks;
 use gearmesh_drivetrain::{GearMesh, Pose};
 use gearmesh_dynamics::{BodyMotion, Marker, MarkerPair};
 use gearmesh_geometry::{Flank, GearDefinition, InputError};
@@ -10,12 +9,10 @@ use gearmesh_model::ReducedGear;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::LoadedSystem;
-use super::gear_mesh::PreparedMesh;
 use super::gears::BodyGear;
 use super::meshes_together::{MeshesTogether, MovingError};
 use super::parts::Parts;
 use super::parts_in_motion::{MovingParts, moving_parts};
-use super::shafts::PlacedShaft;
 use super::start::settle_phases;
 use crate::system_run::body_column;
 
@@ -174,12 +171,7 @@ impl LoadedSystem {
     pub fn gears_in_motion(&self) -> Result<GearsInMotion, InputError> {
         let tables = &self.scene.tables;
         let files = (&self.scene.document, self.scene.folder.as_path());
-        let mut bodies = self.bodies()?;
-        let mut shafts = Vec::new();
-        for (i, table) in tables.shaft.iter().enumerate() {
-            let at = (files.0, format!("shaft.{i}"));
-            shafts.push(PlacedShaft::new(table, at, &mut bodies)?);
-        }
+        let (bodies, shafts) = self.bodies_and_shafts()?;
         let mut places = vec![None; bodies.list.len()];
         let mut gears = Vec::new();
         for (place, body) in bodies.list.iter().enumerate() {
@@ -198,13 +190,7 @@ impl LoadedSystem {
                 bore,
             });
         }
-        let condensed = CondensedFlanks::default();
-        let prepare = |(i, table)| {
-            let (key, with) = (format!("gear_mesh.{i}"), (&bodies, &condensed));
-            PreparedMesh::new(table, files, key, with, &mut Parts::default())
-        };
-        let prepared = tables.gear_mesh.iter().enumerate().map(prepare);
-        let prepared = prepared.collect::<Result<Vec<PreparedMesh>, InputError>>()?;
+        let prepared = self.prepared_meshes(&bodies, &mut Parts::default())?;
         let mut turned = bodies.clone();
         let at = (files.0, self.seeks_rest());
         settle_phases(&mut turned, &prepared, at, &mut Vec::new())?;

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | read the gears that bodies name | `gears.rs` |
 //! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
+//! | all bodies, shafts and meshes | `bodies_and_meshes.rs` |
 //! | shafts; gears that are cut into them | `shafts.rs`, `cut_into_shaft.rs` |
 //! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs`; of bevel gears `bevel_mesh.rs` |
 //! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `willis.rs`, `carriers.rs` |
@@ -25,6 +26,7 @@ mod bearings;
 mod bevel_hybrid;
 mod bevel_mesh;
 mod bodies;
+mod bodies_and_meshes;
 mod carriers;
 mod consistency;
 mod coupled;
@@ -71,21 +73,19 @@ pub use parts_in_motion::{
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use gearmesh_contact::CondensedFlanks;
-use gearmesh_dynamics::{Motion, System, SystemBuilder};
+use gearmesh_dynamics::{Motion, Redundancy, System, SystemBuilder};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
 use self::bearings::tangent::Tangent;
 use self::bearings::{cages, housing, rigid};
-use self::bodies::{Bodies, PlacedBody};
-use self::coupled::{Groups, MeshOfGroup, is_eligible};
+use self::bodies::Bodies;
+use self::coupled::{Groups, is_eligible};
 use self::elements::Manner;
-use self::gear_mesh::{MeshPlace, PreparedMesh};
+use self::gear_mesh::PreparedMesh;
 use self::gears::{BodyGear, GearFiles};
 use self::joints::PlacedMotion;
 use self::parts::Parts;
-use self::shafts::PlacedShaft;
 use self::start_at_rest::start_in_equilibrium;
 use self::start_speeds::Holds;
 use super::built::{BuiltBody, BuiltGauge, BuiltSystem};
@@ -222,34 +222,9 @@ impl LoadedSystem {
             host: &self.scene.host,
         };
         let mut parts = Parts::default();
-        let mut bodies = self.bodies()?;
-        let mut shafts = Vec::new();
-        for (i, table) in tables.shaft.iter().enumerate() {
-            shafts.push(PlacedShaft::new(
-                table,
-                (document, format!("shaft.{i}")),
-                &mut bodies,
-            )?);
-        }
+        let (mut bodies, shafts) = self.bodies_and_shafts()?;
         self.refuse_repeated_names()?;
-        let mut meshes: Vec<PreparedMesh> = Vec::new();
-        let condensed = CondensedFlanks::default();
-        for (i, table) in tables.gear_mesh.iter().enumerate() {
-            let (key, with) = (format!("gear_mesh.{i}"), (&bodies, &condensed));
-            let mesh = PreparedMesh::new(table, files, key, with, &mut parts)?;
-            if let Some(earlier) = meshes
-                .iter()
-                .find(|other| other.bodies.iter().all(|body| mesh.bodies.contains(body)))
-            {
-                let keys = TableKeys::new(document, &mesh.key);
-                let problem = format!(
-                    "`{}` and `{}` are in mesh already in `{}`; remove one of the two",
-                    table.gear_1, table.gear_2, earlier.name
-                );
-                return Err(keys.error("gear_2", problem));
-            }
-            meshes.push(mesh);
-        }
+        let meshes = self.prepared_meshes(&bodies, &mut parts)?;
         self.check_flexibility(&bodies, &meshes)?;
         let joints = joints::place(&tables.joint, document, &bodies)?;
         let motions = joints::motions(
@@ -346,30 +321,13 @@ impl LoadedSystem {
         let built_meshes = (meshes.iter())
             .map(|mesh| mesh.describe(&bodies, in_time.then_some(&fastest), steady.as_ref()))
             .collect();
-        let mut groups = Groups::new(&tables.body, document, &bodies, (&meshes, seated))?;
-        let mut left: Vec<Vec<MeshOfGroup>> = groups.meshes.iter().map(|_| Vec::new()).collect();
-        for (mesh, group) in meshes.into_iter().zip(&groups.of_mesh) {
-            let key = mesh.key.clone();
-            let keys = TableKeys::new(document, &key);
-            let own = match group {
-                Some(group) => MeshPlace::Group(&mut left[*group]),
-                None => MeshPlace::Own(&mut builder),
-            };
-            mesh.add(&bodies, (&gauges, &keys), own, &mut parts)?;
-        }
-        for meshes in left {
-            groups.add(meshes, (document, &bodies), (&mut builder, &mut parts))?;
-        }
+        let groups = Groups::new(&tables.body, document, &bodies, (&meshes, seated))?;
+        let with = (&bodies, &gauges[..]);
+        self.add_meshes((meshes, groups), with, &mut builder, &mut parts)?;
         self.add_gravity(&bodies, &mut builder, &mut parts);
         self.check_output(&bodies, &parts)?;
         let system = builder.build().map_err(|e| self.scene.complaint(&e))?;
-        for redundancy in system.redundant() {
-            let (joint, count) = (&redundancy.joint, redundancy.equations);
-            parts.notes.push(format!(
-                "joint `{joint}`: {count} of its equations follow from {}; they are watched, and its reaction is shared among these joints as the first of them take it",
-                redundancy.implied_by.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-            ));
-        }
+        parts.notes.extend(system.redundant().iter().map(in_words));
         let built_bodies = bodies
             .list
             .into_iter()
@@ -396,18 +354,6 @@ impl LoadedSystem {
             cages,
             tangents: parts.tangents,
         })
-    }
-
-    fn bodies(&self) -> Result<Bodies, InputError> {
-        let mut bodies = Bodies::default();
-        for (i, (table, gear)) in self.scene.tables.body.iter().zip(&self.gears).enumerate() {
-            let key = format!("body.{i}");
-            let keys = TableKeys::new(&self.scene.document, &key);
-            bodies
-                .list
-                .push(PlacedBody::new(table, &keys, gear.clone())?);
-        }
-        Ok(bodies)
     }
 
     fn gauges(
@@ -499,4 +445,14 @@ impl LoadedSystem {
             )),
         );
     }
+}
+
+/// What becomes of the equations of a joint that follow from others.
+fn in_words(redundancy: &Redundancy) -> String {
+    let (joint, count) = (&redundancy.joint, redundancy.equations);
+    let implied = redundancy.implied_by.iter().map(|name| format!("`{name}`"));
+    format!(
+        "joint `{joint}`: {count} of its equations follow from {}; they are watched, and its reaction is shared among these joints as the first of them take it",
+        implied.collect::<Vec<_>>().join(", ")
+    )
 }
