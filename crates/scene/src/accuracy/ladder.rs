@@ -146,14 +146,7 @@ pub fn accuracy(
         yielding: reference.yielding.clone(),
         open: Vec::new(),
     };
-    let mut singles = Vec::new();
-    for (number, knob) in found.knobs.iter().enumerate() {
-        for rung in 0..knob.rungs.len() - 1 {
-            let mut rungs = top.clone();
-            rungs[number] = rung;
-            singles.push((rungs, Some(number)));
-        }
-    }
+    let singles = one_lower(&found.knobs, &top);
     let count = singles.len() + MOST_COMBINATIONS;
     let mut done = 0;
     let mut attempt = |found: &mut Accuracy, (rungs, alone): (Vec<usize>, Option<usize>)| {
@@ -180,6 +173,26 @@ pub fn accuracy(
     for rungs in foretold_front(&found, &top) {
         attempt(&mut found, (rungs, None))?;
     }
+    advise(bench, &mut found, &reference)?;
+    add_effects(bench, &mut found)?;
+    Ok(found)
+}
+
+/// Rungs of which one is lower than the top, and the number of its knob.
+fn one_lower(knobs: &[Knob], top: &[usize]) -> Vec<(Vec<usize>, Option<usize>)> {
+    let mut singles = Vec::new();
+    for (number, knob) in knobs.iter().enumerate() {
+        for rung in 0..knob.rungs.len() - 1 {
+            let mut rungs = top.to_vec();
+            rungs[number] = rung;
+            singles.push((rungs, Some(number)));
+        }
+    }
+    singles
+}
+
+/// Finds the cheapest setting for each goal among those that were tried.
+fn advise(bench: &Bench<'_>, found: &mut Accuracy, reference: &Measured) -> Result<(), StudyError> {
     let doubts = found.doubts();
     for goal in [
         Goal::Within(0.01),
@@ -189,7 +202,7 @@ pub fn accuracy(
         if let Some(rungs) = choice(&found.tried, goal, &doubts) {
             // Once more, as the user will: what is reported is what it does.
             let measured = bench.measure(&case_of(&found.knobs, &rungs))?;
-            let errors = judge(&measured);
+            let errors = bench.errors(&measured.values, &reference.values);
             found.advice.push(Advice {
                 goal,
                 toml: to_paste(&found.knobs, &rungs, &|table| bench.name_of(table)),
@@ -199,33 +212,39 @@ pub fn accuracy(
             found.open.push(goal);
         }
     }
+    Ok(())
+}
+
+/// Runs the scene with each effect that it has not, and without each that it has.
+fn add_effects(bench: &Bench<'_>, found: &mut Accuracy) -> Result<(), StudyError> {
     let (effects, left_out) = bench.effects();
     found.left_out.extend(left_out);
-    if !effects.is_empty() {
-        let as_it_is = bench.measure(&Case::default())?;
-        for effect in effects {
-            stopped(bench)?;
-            match bench.measure(&effect.case) {
-                Ok(other) => {
-                    let (without, with) = match effect.present {
-                        true => (&other, &as_it_is),
-                        false => (&as_it_is, &other),
-                    };
-                    found.effects.push(EffectFound {
-                        changes: bench.errors(&with.values, &without.values),
-                        without: without.effort,
-                        with: with.effort,
-                        effect,
-                    });
-                }
-                Err(error) => {
-                    stopped(bench)?;
-                    found.failed.push(format!("{}: {error}", effect.name));
-                }
+    if effects.is_empty() {
+        return Ok(());
+    }
+    let as_it_is = bench.measure(&Case::default())?;
+    for effect in effects {
+        stopped(bench)?;
+        match bench.measure(&effect.case) {
+            Ok(other) => {
+                let (without, with) = match effect.present {
+                    true => (&other, &as_it_is),
+                    false => (&as_it_is, &other),
+                };
+                found.effects.push(EffectFound {
+                    changes: bench.errors(&with.values, &without.values),
+                    without: without.effort,
+                    with: with.effort,
+                    effect,
+                });
+            }
+            Err(error) => {
+                stopped(bench)?;
+                found.failed.push(format!("{}: {error}", effect.name));
             }
         }
     }
-    Ok(found)
+    Ok(())
 }
 
 pub(super) fn top_of(knobs: &[Knob]) -> Vec<usize> {
