@@ -135,6 +135,7 @@ fn solve(
     work.warm = false;
     let given = work.deflection;
     if start == Start::Cold {
+        work.factored.clear();
         work.start_from_springs(problem, load);
     }
     let mut effort = Effort::default();

@@ -145,14 +145,16 @@ impl Workspace {
             }
             row[0] += slope[list[i]];
         };
-        self.factored.clone_from(&self.list);
-        self.factor
-            .factor(list.len(), fill_row)
-            .map_err(|bad| NlcpError::NotPositiveDefinite {
-                slice: self.list[bad.index],
+        self.factored.clear();
+        let shifted = self.factor.factor(list.len(), fill_row).map_err(|bad| {
+            NlcpError::NotPositiveDefinite {
+                slice: list[bad.index],
                 pivot: bad.pivot,
                 diagonal: bad.diagonal,
-            })
+            }
+        })?;
+        self.factored.extend_from_slice(&self.list);
+        Ok(shifted)
     }
 
     /// Newton correction of the listed forces at fixed approach, `−(C + diag δ')⁻¹ g`, into `correction`.
