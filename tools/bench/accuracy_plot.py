@@ -16,7 +16,7 @@ from matplotlib.lines import Line2D  # noqa: E402
 
 
 # Distinct with all kinds of sight, as far as there are so many (Okabe and Ito, Color universal design, 2008).
-COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#8C6D1F", "#000000", "#6A3D9A", "#33A02C", "#882255", "#44AA99", "#999933"]
+COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#8C6D1F", "#000000", "#6A3D9A", "#33A02C", "#882255", "#44AA99", "#999933", "#CC6677"]
 
 
 def knob_of(setting: dict) -> str:
