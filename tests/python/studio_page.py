@@ -89,7 +89,10 @@ class Page:
         self.page.goto(address)
 
     def hear(self, said):
-        """Keeps what the console complains of. Without a graphics card each picture of a WebGL canvas is read back, which the driver calls a stall."""
+        """Keeps what the console complains of.
+
+        Without a graphics card each picture of a WebGL canvas is read back, which the driver calls a stall.
+        """
         if said.type in ("error", "warning") and "GPU stall due to ReadPixels" not in said.text:
             self.complaints.append(said.text)
 

@@ -59,8 +59,9 @@ pub enum Iterate {
     Single,
     /// The first guess of a step: iterates nearby will follow.
     First,
-    /// A correction of the iterate at which it was asked last, or what comes of it for output. What hardly changes between them may be taken from there, as far as the force is that of this
-    /// motion to rounding.
+    /// A motion next to the one at which the element was asked last: a correction of an iterate, or its outcome for
+    /// output. What hardly changes between them may be taken from there, as far as the force is that of this motion to
+    /// rounding.
     Correction,
 }
 

@@ -112,8 +112,9 @@ pub fn equilibrium(
     follow(system, (start, lambda), Path::Loads, params)
 }
 
-/// The equilibrium at another time, from an earlier one: joints and elements go on from the motion that they were last committed to, in as
-/// many steps of time as are needed. For a series of equilibria in which turns are counted and couplings hold.
+/// The equilibrium at another time, from an earlier one: joints and elements go on from the motion that they were last
+/// committed to, in as many steps of time as are needed. For a series of equilibria in which turns are counted and
+/// couplings hold.
 ///
 /// # Errors
 /// As [`equilibrium`].
@@ -282,7 +283,7 @@ fn settle(
     let mut moved = None;
     for iteration in 1..=params.most_iterations.max(1) {
         *iterations += 1;
-        // Where the way along the last correction has just been looked at.
+        // From the second iteration on elements were asked nearby.
         let iterate = match moved {
             Some(_) => Iterate::Correction,
             None => Iterate::Single,

@@ -17,7 +17,7 @@ pub(crate) fn halved(
     [low, high]
 }
 
-/// Where a function that has one sign at the first end and the other at the second one is zero, but for `rounding` of its
+/// Zero of a function that has one sign at the first end and the other at the second one, to within `rounding` of its
 /// value: regula falsi that halves the value of an end which stays (Dowell and Jarratt, A modified regula falsi method,
 /// BIT 11 (1971): the Illinois algorithm).
 pub(crate) fn crossing(

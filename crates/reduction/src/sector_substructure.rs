@@ -76,8 +76,8 @@ fn sector_nodes(
     listed.into_iter().map(|(_, name)| name).collect()
 }
 
-/// Body and feet condensed to the nodes of the cuts, of a whole gear by its ring where that pays. `nodes`: number of the
-/// sector's nodes. `circle`: nodes that are eliminated late in a whole gear.
+/// Body and feet condensed to the nodes of the cuts, of a whole gear by its ring where that pays. `nodes`: number of
+/// nodes of the sector. `circle`: nodes that are eliminated late in a whole gear.
 fn condensed(
     (body, body_nodes): (SparseColMatRef<'_, usize, f64>, &[usize]),
     (foot, tooth_nodes): (MatRef<'_, f64>, &[Vec<usize>]),

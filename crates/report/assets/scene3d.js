@@ -215,7 +215,10 @@ export class Scene3d extends View3d {
     if (isNew) this.look("pair");
   }
 
-  /** `show` and `at`, of other gears if need be: at once, or, where pictures are slow, once answers rest, so that curves do not wait for them. */
+  /**
+   * `show` and `at`, of other gears if need be: at once, or, where pictures are slow, once no answer follows, so that
+   * curves do not wait for them.
+   */
   follow(answer, torque, most, angle, gears = this.gears) {
     clearTimeout(this.#following);
     const now = () => {

@@ -1,7 +1,8 @@
 //! Force between a ball and a surface, with all its derivatives in the surface's own frame.
 //!
-//! The surface is given by the approach δ(w) of a ball whose centre stands at w in the frame of the surface, by its gradient n (towards the surface)
-//! and by its second derivatives N. With u the velocity of the ball's centre against that frame and σ its spin against it,
+//! The surface is given by the approach δ(w) of a ball whose centre stands at w in the frame of the surface, by its
+//! gradient n (towards the surface) and by its second derivatives N. With u the velocity of the ball's centre against
+//! that frame and σ its spin against it,
 //!
 //! ```text
 //! δ̇ = n·u,   s = u − δ̇ n + (D/2) σ × n              slip

@@ -1,8 +1,8 @@
 //! The primal-dual active set method: Newton corrections on the slices that touch.
 //!
-//! A factor is used again while the set stays and the residual falls fast enough: with r₁ after a correction from r₀, the
-//! next one by the same factor is expected to leave r₁²/r₀. Newton's own convergence is quadratic, so that the last of
-//! its factorisations is seldom needed.
+//! A factor is used again while the set stays and the residual falls fast enough: with r₁ after a correction from r₀,
+//! the next one by the same factor is expected to leave r₁²/r₀. Newton's own convergence is quadratic, so that the last
+//! of its factorisations is seldom needed.
 
 use super::effort::Effort;
 use super::state::Evaluation;

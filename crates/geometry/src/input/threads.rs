@@ -5,7 +5,8 @@ use super::InputError;
 /// What rayon reads.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
 
-/// Most threads: far more than a machine has cores. rayon would begin as many as it is asked for before the first one works.
+/// Most threads: far more than a machine has cores. rayon would begin as many as it is asked for before the first one
+/// works.
 const MOST: usize = 1024;
 
 /// Refuses a number of threads that the machine would only be busy to begin. To be called before the first loop on

@@ -107,8 +107,8 @@ fn values_at(problem: &Optimisation, shares: &[f64]) -> Vec<f64> {
     variables.zip(shares).map(value).collect()
 }
 
-/// Searches for the least objectives. Runs of multibody scenes write in the folder `scratch`. `progress` gets how many of how many searches
-/// are done.
+/// Searches for the least objectives. Runs of multibody scenes write in the folder `scratch`. `progress` gets how many
+/// of how many searches are done.
 ///
 /// # Errors
 /// [`StudyError`] for a file whose keys, columns or torques the scene does not have, and where no choice can be computed.

@@ -439,7 +439,8 @@ fn a_key_of_a_bevel_pair_in_motion_is_optimised() {
     assert!((before / of_study[0] - 1.0).abs() < 1e-6, "{of_study:?}");
     let best = found.front[0].objectives[0];
     assert!((best / of_study[1] - 1.0).abs() < 1e-3, "{of_study:?}");
-    // A key that the file does not have, and a value that it does not take, are reported with the key of the study's file.
+    // A key that the file does not have, and a value that it does not take, are reported with the key of the study's
+    // file.
     for (from, to, told) in [
         (
             "pinion.ellipse_half_length_mm.0",

@@ -95,7 +95,8 @@ impl BodyGear {
         }
     }
 
-    /// Numbers of its gear file that look like those of another unit; those of a model were reported when it was reduced.
+    /// Numbers of its gear file that look like those of another unit; those of a model were reported when it was
+    /// reduced.
     pub(super) fn unit_slips(&self) -> Vec<InputError> {
         self.cylindrical()
             .map_or_else(Vec::new, |gear| gear.unit_slips())
@@ -321,7 +322,8 @@ impl Gear {
         microgeometry_words(&self.definition, self.microgeometry_of_scene)
     }
 
-    /// Numbers of its gear file that look like those of another unit; those of a model were reported when it was reduced.
+    /// Numbers of its gear file that look like those of another unit; those of a model were reported when it was
+    /// reduced.
     pub(super) fn unit_slips(&self) -> Vec<InputError> {
         if self.model.is_some() {
             return Vec::new();

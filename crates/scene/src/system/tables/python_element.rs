@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// `[[python_element]]`: a force element for prototypes, run from Python only (docs/python.md). Its function gets the motion
-/// of body 2 as seen from body 1 and gives force and moment on body 2, axes of the marker of body 1.
+/// `[[python_element]]`: a force element for prototypes, run from Python only (docs/python.md). Its function gets the
+/// motion of body 2 as seen from body 1 and gives force and moment on body 2, axes of the marker of body 1.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PythonElementTable {
