@@ -11,7 +11,8 @@ from pathlib import Path
 
 import psutil
 
-# Where distributions put it.
+PROGRAM = os.environ.get("GEARMESH_PROGRAM", "target/debug/gearmesh")
+# Where distributions put the browser.
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 # So long a server or a browser may take to begin or to end.
 END_S = 60.0

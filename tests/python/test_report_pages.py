@@ -8,8 +8,6 @@ import pytest
 import gearmesh as gm
 import studio_page
 
-pytestmark = pytest.mark.skipif(studio_page.chromium() is None, reason="no Chromium: `cargo xtask prepare` names the package")
-
 BEARING = "fe_models/bearing_9_balls.toml"
 STUDY = """design = "grid"
 columns = ["displacement_y_um", "pressure_inner_largest_MPa", "life_L10_Mrev"]

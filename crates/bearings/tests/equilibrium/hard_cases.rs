@@ -32,7 +32,7 @@ fn rest(
 
 /// 10⁻³ N is carried as well as a million times more.
 #[test]
-fn tiny_and_heavy_loads_are_borne() {
+fn tiny_and_heavy_loads_are_carried() {
     for text in [B218, TAPERED] {
         let bearing = bearing(text);
         for force in [1e-3, 1.0, 1e5] {

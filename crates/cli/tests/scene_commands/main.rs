@@ -27,6 +27,7 @@ mod pages;
 mod pair_common;
 mod plan;
 mod planetary_gearbox;
+mod planetary_rexs;
 mod random_gearboxes;
 mod recover;
 mod report;

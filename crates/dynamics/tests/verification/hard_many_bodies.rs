@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use gearmesh_dynamics::elements::SpringDamper;
 use gearmesh_dynamics::{Body, Marker, MarkerPair, Params, Simulation, System};
 
-use crate::hard_cases::finish;
+use crate::hard_joints::finish;
 use crate::mechanisms::problems::chain;
 
 const BODIES: usize = 1000;

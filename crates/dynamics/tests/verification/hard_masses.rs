@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use gearmesh_dynamics::elements::SpringDamper;
 use gearmesh_dynamics::{Body, Marker, MarkerPair, Params, System};
 
-use crate::hard_cases::finish;
+use crate::hard_joints::finish;
 
 /// A tonne and a gram on one spring, 5 Hz against each other: the gram swings with ω² = k (1/m + 1/M), and momentum
 /// and, by the scheme without numerical damping, energy are kept to rounding.
