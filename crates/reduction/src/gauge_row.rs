@@ -5,10 +5,10 @@
 //!
 //! *Quadratic elements*: its mean over what the faces have in common with the gauge.
 //!
-//! *Linear elements*: their strain is accurate at the centres of the faces only. In each layer of elements it is taken
-//! there and as linear between the centres; the mean over the gauge's length is that of this broken line, since a gauge
-//! that covers a part of a face should not read its centre. Layers are averaged with the width that gauge and layer
-//! have in common.
+//! *Linear elements*: their strain is accurate at the centres of the faces only. It is taken there, and a curve goes
+//! through the centres of each layer of elements, along the profile, and through the layers, across it. The gauge reads
+//! the mean of these curves: one that covers a part of a face should not read its centre, and at the peak of the strain,
+//! where gauges are placed, straight lines between the centres lie below it.
 
 use crate::ReductionError;
 use crate::face_overlap::overlap_points;
@@ -20,6 +20,8 @@ use gearmesh_mesh::OutlineFace;
 use gearmesh_model::GaugeRows;
 use std::collections::BTreeMap;
 
+/// So much of a piece of the curve a neighbour's piece must be long to have a say in it.
+const NEAREST: f64 = 0.25;
 /// Layers whose edges differ by less are one \[m\].
 const SAME_LAYER_M: f64 = 1e-9;
 
@@ -97,7 +99,7 @@ pub(crate) fn readings(
     if faces.iter().any(|face| face.shape.is_quadratic()) {
         everywhere(faces, along, across)
     } else {
-        between_centres(faces, along, across)
+        at_centres(faces, along, across)
     }
 }
 
@@ -116,31 +118,27 @@ fn everywhere(faces: &[OutlineFace], along: [f64; 2], across: [f64; 2]) -> Vec<R
         .collect()
 }
 
-/// Centres of faces, weighted by the integral of the broken line between them.
-fn between_centres(faces: &[OutlineFace], along: [f64; 2], across: [f64; 2]) -> Vec<Reading<'_>> {
-    let overlap = |a: [f64; 2], b: [f64; 2]| (a[1].min(b[1]) - a[0].max(b[0])).max(0.0);
+/// Centres of faces, weighted by the integral of the curve through them along the profile and across it.
+fn at_centres(faces: &[OutlineFace], along: [f64; 2], across: [f64; 2]) -> Vec<Reading<'_>> {
     let same = |a: [f64; 2], b: [f64; 2]| (0..2).all(|k| (a[k] - b[k]).abs() < SAME_LAYER_M);
-    let mut layers: Vec<[f64; 2]> = faces
-        .iter()
-        .map(|face| face.range_m(1))
-        .filter(|&z| overlap(z, across) > 0.0)
-        .collect();
+    let centre = |face: &OutlineFace| face.place_m(face.shape.centre())[0];
+    let mut layers: Vec<[f64; 2]> = faces.iter().map(|face| face.range_m(1)).collect();
     layers.sort_by(|a, b| a[0].total_cmp(&b[0]));
     layers.dedup_by(|a, b| same(*a, *b));
+    let middles: Vec<f64> = layers.iter().map(|z| 0.5 * (z[0] + z[1])).collect();
     let mut readings = Vec::new();
-    for layer in layers {
-        let centre = |face: &OutlineFace| face.place_m(face.shape.centre())[0][0];
-        let mut strip: Vec<(f64, &OutlineFace)> = faces
-            .iter()
+    for (layer, width) in layers.into_iter().zip(curve_integral(&middles, across)) {
+        if width == 0.0 {
+            continue;
+        }
+        let mut strip: Vec<&OutlineFace> = { faces.iter() }
             .filter(|face| same(face.range_m(1), layer))
-            .map(|face| (centre(face), face))
             .collect();
-        strip.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let centres: Vec<f64> = strip.iter().map(|(centre, _)| *centre).collect();
-        let shares = broken_line_integral(&centres, along);
-        let width = overlap(layer, across);
-        let covered = strip.iter().zip(shares).filter(|(_, share)| *share != 0.0);
-        readings.extend(covered.map(|((_, face), share)| Reading {
+        strip.sort_by(|a, b| centre(a)[0].total_cmp(&centre(b)[0]));
+        let centres: Vec<f64> = strip.iter().map(|face| centre(face)[0]).collect();
+        let shares = curve_integral(&centres, along);
+        let covered = strip.into_iter().zip(shares).filter(|(_, share)| *share != 0.0);
+        readings.extend(covered.map(|(face, share)| Reading {
             face,
             natural: face.shape.centre(),
             area_m2: width * share,
@@ -206,19 +204,30 @@ pub(crate) fn strain_weights(
         .collect())
 }
 
-/// Weights w with ∫ f ds = Σ w_i f(x_i) over `range` for the broken line f through the points x; constant beyond the
-/// first and last of them.
-fn broken_line_integral(x: &[f64], range: [f64; 2]) -> Vec<f64> {
+/// Weights w with ∫ f ds = Σ w_i f(x_i) over `range` for the curve f through the points x: between two of them the cubic
+/// through these and their neighbours, constant beyond the first and last of them. A neighbour nearer than
+/// [`NEAREST`] of the piece is left out, so that small differences do not grow.
+fn curve_integral(x: &[f64], range: [f64; 2]) -> Vec<f64> {
     let mut weights = vec![0.0; x.len()];
     let last = x.len() - 1;
     weights[0] += (range[1].min(x[0]) - range[0]).max(0.0);
     weights[last] += (range[1] - range[0].max(x[last])).max(0.0);
     for i in 0..last {
         let (from, to) = (range[0].max(x[i]), range[1].min(x[i + 1]));
-        if to > from {
-            let share = (0.5 * (from + to) - x[i]) / (x[i + 1] - x[i]);
-            weights[i] += (to - from) * (1.0 - share);
-            weights[i + 1] += (to - from) * share;
+        if to <= from {
+            continue;
+        }
+        let far = |a: usize, b: usize| (x[a] - x[b]).abs() >= NEAREST * (x[i + 1] - x[i]);
+        let first = if i > 0 && far(i, i - 1) { i - 1 } else { i };
+        let end = if i + 1 < last && far(i + 1, i + 2) { i + 2 } else { i + 1 };
+        // Two Gauss points integrate a cubic exactly.
+        for sign in [-1.0, 1.0] {
+            let s = 0.5 * (from + to) + sign * 0.5 * (to - from) / f64::sqrt(3.0);
+            for j in first..=end {
+                let others = (first..=end).filter(|&k| k != j);
+                let share: f64 = others.map(|k| (s - x[k]) / (x[j] - x[k])).product();
+                weights[j] += 0.5 * (to - from) * share;
+            }
         }
     }
     weights
@@ -226,29 +235,35 @@ fn broken_line_integral(x: &[f64], range: [f64; 2]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::broken_line_integral;
+    use super::curve_integral;
 
+    /// ∫ f ds over a range, from values at the points.
+    fn integral(x: &[f64], range: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
+        let weights = curve_integral(x, range).into_iter();
+        weights.zip(x).map(|(w, s)| w * f(*s)).sum()
+    }
+
+    /// With two neighbours a cubic, with one a parabola, beyond the ends a constant.
     #[test]
-    fn the_broken_line_is_integrated_exactly() {
-        let x = [0.0, 1.0, 2.5, 3.0, 5.0];
-        let f = |s: f64| 2.0 - 0.7 * s;
-        for range in [[0.2, 0.7], [0.5, 2.7], [1.0, 5.0], [2.6, 2.8]] {
-            let sum: f64 = broken_line_integral(&x, range)
-                .iter()
-                .zip(x)
-                .map(|(w, s)| w * f(s))
-                .sum();
-            let exact = (range[1] - range[0]) * f(0.5 * (range[0] + range[1]));
-            assert!((sum - exact).abs() < 1e-14, "{range:?}");
+    fn polynomials_are_integrated_exactly() {
+        let x = [0.0, 1.0, 2.5, 3.0, 5.0, 6.0];
+        let cubic = |s: f64| 2.0 - 0.7 * s + 0.3 * s * s - 0.05 * s.powi(3);
+        let stem = |s: f64| 2.0 * s - 0.35 * s * s + 0.1 * s.powi(3) - 0.0125 * s.powi(4);
+        for range in [[1.2, 1.7], [1.0, 2.7], [2.6, 5.0]] {
+            let exact = stem(range[1]) - stem(range[0]);
+            let found = integral(&x, range, cubic);
+            assert!((found - exact).abs() < 1e-13, "{range:?}: {found} {exact}");
         }
-        // A kink between the points is kept, and the line goes on flat beyond its ends.
-        let weights = broken_line_integral(&[0.0, 1.0, 2.0], [-1.0, 1.5]);
-        let expected = [1.0 + 0.5, 0.5 + 0.375, 0.125];
-        assert!(
-            weights
-                .iter()
-                .zip(expected)
-                .all(|(w, e)| (w - e).abs() < 1e-15)
-        );
+        let found = integral(&x, [0.2, 0.9], |s| s * s);
+        assert!((found - (0.9f64.powi(3) - 0.2f64.powi(3)) / 3.0).abs() < 1e-14);
+        assert!((integral(&x, [-2.0, 0.0], cubic) - 4.0).abs() < 1e-14);
+        assert_eq!(curve_integral(&[1.0], [0.5, 3.0]), [2.5]);
+    }
+
+    /// Of neighbours that nearly coincide only one has a say: a small difference of the others does not grow.
+    #[test]
+    fn near_neighbours_are_left_out() {
+        let weights = curve_integral(&[-0.1, 0.0, 5.0, 5.1], [0.0, 5.0]);
+        assert_eq!(weights, [0.0, 2.5, 2.5, 0.0]);
     }
 }
