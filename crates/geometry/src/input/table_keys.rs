@@ -1,7 +1,9 @@
 //! The keys of one table, for complaints about their values.
 
-use super::{InputDocument, InputError};
+use std::borrow::Cow;
 use std::fmt::Display;
+
+use super::{InputDocument, InputError};
 
 /// A number in a complaint: hundreds of zeros say less than an exponent.
 pub(super) fn found_number(value: f64) -> String {
@@ -13,22 +15,25 @@ pub(super) fn found_number(value: f64) -> String {
 }
 
 /// A table of a document.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct TableKeys<'a> {
     document: &'a InputDocument,
     /// Dotted path of the table, empty for the file itself.
-    table: &'a str,
+    table: Cow<'a, str>,
 }
 
 impl<'a> TableKeys<'a> {
     /// The table at a dotted path, items of lists by number: `gauge.0`.
-    pub fn new(document: &'a InputDocument, table: &'a str) -> Self {
-        Self { document, table }
+    pub fn new(document: &'a InputDocument, table: impl Into<Cow<'a, str>>) -> Self {
+        Self {
+            document,
+            table: table.into(),
+        }
     }
 
     /// A complaint about the value of `key`; of the table as a whole where `key` is empty.
     pub fn error(&self, key: &str, problem: impl Display) -> InputError {
-        let path = match (self.table, key) {
+        let path = match (&*self.table, key) {
             (table, "") => table.to_string(),
             ("", key) => key.to_string(),
             (table, key) => format!("{table}.{key}"),
