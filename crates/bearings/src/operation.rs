@@ -1,7 +1,11 @@
 //! Under what a bearing is evaluated: speeds, and how balls roll.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// How the spin axis of a ball lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Control {
     /// No spin at the outer race (Jones).
     #[default]

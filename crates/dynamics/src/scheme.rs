@@ -80,6 +80,17 @@ pub enum StepControl {
     Adaptive(AdaptiveStep),
 }
 
+impl StepControl {
+    /// The longest step \[s\].
+    #[must_use]
+    pub fn longest_s(&self) -> f64 {
+        match self {
+            Self::Fixed { step_s } => *step_s,
+            Self::Adaptive(limits) => limits.largest_step_s,
+        }
+    }
+}
+
 /// Limits of the adaptive step. The error of one step is estimated as |C| h² |v̇_{n+1} − v̇_n| for each degree of freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AdaptiveStep {

@@ -19,13 +19,16 @@ use std::f64::consts::PI;
 use gearmesh_dynamics::elements::{Law, LawTangent, MarkerElement, PairLoad};
 use gearmesh_dynamics::{MarkerPair, Power, RelativeMotion};
 use nalgebra::{SMatrix, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::rebound::Rebound;
 use crate::dual::Dual;
 use crate::error::BearingError;
 
 /// Which ring has the land.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum LandSide {
     /// The outer ring, round the cage.
     Outer,

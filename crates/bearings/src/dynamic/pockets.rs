@@ -9,6 +9,8 @@
 
 use gearmesh_dynamics::BodyMotion;
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::rebound::Rebound;
 use super::surface_contact::{ElasticLoad, Touch};
@@ -16,9 +18,11 @@ use super::traction::Traction;
 use crate::error::BearingError;
 
 /// Shape of a pocket.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum PocketShape {
     /// A bore along the radius: the ball may move along it.
+    #[default]
     Cylindrical,
     /// A sphere, which holds the ball every way: the balls guide the cage.
     Spherical,

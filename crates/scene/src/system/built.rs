@@ -78,7 +78,7 @@ pub struct BuiltPart {
 }
 
 /// A gear mesh.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct BuiltMesh {
     /// Name of the force element, or of the joint for `kinematic`.
     pub name: String,

@@ -4,6 +4,8 @@ use gearmesh_dynamics::DynamicsError;
 use gearmesh_geometry::InputError;
 
 use super::scene::SystemScene;
+use super::tables::joint::MotionTable;
+use super::tables::load::LoadTable;
 
 impl SystemScene {
     /// The complaint of a system at the place in the file that it is about: the first joint that it names, the force
@@ -34,38 +36,29 @@ impl SystemScene {
     /// and shafts, joints and motions, force elements.
     pub(super) fn named_tables(&self) -> [Vec<(String, String)>; 3] {
         let t = &self.tables;
-        let named = |list: &str, names: Vec<String>| -> Vec<(String, String)> {
-            names
-                .into_iter()
-                .enumerate()
-                .map(|(i, name)| (format!("{list}.{i}"), name))
-                .collect()
-        };
-        macro_rules! names {
-            ($list:ident) => {
-                named(
-                    stringify!($list),
-                    t.$list.iter().map(|table| table.name.clone()).collect(),
-                )
-            };
-        }
-        let motions = named(
-            "motion",
-            t.motion.iter().map(|table| table.name()).collect(),
-        );
-        let loads = named("load", t.load.iter().map(|table| table.name()).collect());
-        [
-            [names!(body), names!(shaft)].concat(),
-            [names!(joint), motions].concat(),
-            [
-                loads,
-                names!(spring),
-                names!(torsion_spring),
-                names!(bushing),
-                names!(bearing),
-                names!(gear_mesh),
-            ]
-            .concat(),
-        ]
+        let bodies = [
+            named("body", &t.body, |one| one.name.clone()),
+            named("shaft", &t.shaft, |one| one.name.clone()),
+        ];
+        let joints = [
+            named("joint", &t.joint, |one| one.name.clone()),
+            named("motion", &t.motion, MotionTable::name),
+        ];
+        let elements = [
+            named("load", &t.load, LoadTable::name),
+            named("spring", &t.spring, |one| one.name.clone()),
+            named("torsion_spring", &t.torsion_spring, |one| one.name.clone()),
+            named("bushing", &t.bushing, |one| one.1.name.clone()),
+            named("bearing", &t.bearing, |one| one.name.clone()),
+            named("gear_mesh", &t.gear_mesh, |one| one.name.clone()),
+        ];
+        [bodies.concat(), joints.concat(), elements.concat()]
     }
+}
+
+fn named<T>(list: &str, tables: &[T], name: impl Fn(&T) -> String) -> Vec<(String, String)> {
+    let names = tables.iter().map(name).enumerate();
+    names
+        .map(|(i, name)| (format!("{list}.{i}"), name))
+        .collect()
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use gearmesh_drivetrain::{BevelSlices, Damped, GearMesh, ReducedTeeth, TeethModel};
+use gearmesh_drivetrain::{BevelSlices, GearMesh, ReducedTeeth, TeethModel};
 use gearmesh_geometry::{Flank, InputError};
 use gearmesh_model::{ReducedGear, read_reduced_gear};
 
@@ -87,51 +87,35 @@ impl SceneBevel<'_> {
             gearmesh_drivetrain::FlankKinematics::layout(&kinematics).face_widths_m[0];
         let nominal =
             (model.nominal_force_N).map_or(REFERENCE_LINE_LOAD_N_PER_M * face_width_m, f64::from);
-        let fault = |error| self.keys.error("", error);
-        let teeth = |side: Flank| -> Result<Box<dyn TeethModel>, InputError> {
+        let slices = gearmesh_drivetrain::FlankKinematics::layout(&kinematics).slices;
+        let teeth = |side: Flank| -> Result<(Flank, Box<dyn TeethModel>), InputError> {
             let teeth = match (models, &model.half_space) {
                 (Some(models), None) => {
                     let models = [&*models[0], &*models[1]];
                     let local = (model.local.unwrap_or_default(), nominal);
                     let made = kinematics.reduced_teeth(side, models, local);
-                    let key = self
-                        .table
-                        .bevel_models
-                        .as_ref()
-                        .map_or("", |_| "bevel_models");
+                    let files = self.table.bevel_models.as_ref();
+                    let key = files.map_or("", |_| "bevel_models");
                     made.map_err(|e| self.keys.error(key, e))?
                 }
                 (_, stated) => {
                     let material = material(stated.as_ref());
                     let contact = kinematics.surface_contact([material; 2]);
-                    ReducedTeeth::of_flanks(contact, nominal).map_err(fault)?
+                    ReducedTeeth::of_flanks(contact, nominal).map_err(self.fault())?
                 }
             };
-            let Some(damping) = &model.damping else {
-                return Ok(Box::new(teeth));
-            };
-            let damping = damping.damping();
-            let slices = gearmesh_drivetrain::FlankKinematics::layout(&kinematics).slices;
-            let damped = Damped::new(teeth, damping, slices);
-            Ok(Box::new(
-                damped.map_err(|e| self.model_keys.error("damping", e))?,
-            ))
+            Ok((side, self.damped(&model.damping, teeth, slices)?))
         };
-        let [first, others @ ..] = sides else {
-            return Err(self.teeth_keys.error("flanks", "names no flanks"));
-        };
+        let teeth: Vec<_> = sides
+            .iter()
+            .map(|side| teeth(*side))
+            .collect::<Result<_, _>>()?;
         let flanks = Box::new(kinematics.clone());
-        let mut mesh = GearMesh::of_flanks(flanks, *first, teeth(*first)?).map_err(fault)?;
-        for side in others {
-            mesh = mesh.with_side(*side, teeth(*side)?).map_err(fault)?;
-        }
-        for (gear, count) in modes.into_iter().enumerate() {
-            if let (Some(models), true) = (models, count > 0) {
-                let vibrating = mesh.with_modes(gear + 1, &models[gear], count);
-                mesh = vibrating.map_err(fault)?;
-            }
-        }
-        self.with_friction(mesh)
+        let mesh = self.of_sides(teeth, |side, teeth| {
+            GearMesh::of_flanks(flanks, side, teeth)
+        })?;
+        let models = [0, 1].map(|gear: usize| models.map(|models| &*models[gear]));
+        self.with_modes(mesh, models, modes)
     }
 
     /// What the model needs and what it does not use; `of_bodies`: whether a body names its reduced gear.

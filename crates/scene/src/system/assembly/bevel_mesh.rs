@@ -8,141 +8,99 @@ use gearmesh_drivetrain::{
     BevelMesh, BevelSlices, DrivetrainError, FacetKind, FacetSize, FlankKinematics, GearMesh,
     PowerStiffness, SlicePressure, ToothPairs,
 };
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::point_contact::contact_modulus_pa;
 use gearmesh_geometry::{Flank, InputError};
 
 use super::bevel_hybrid::BevelModels;
 use super::bodies::Bodies;
-use super::gear_mesh::{PreparedMesh, pose, seat};
-use super::mesh_model::refuse_material;
+use super::gear_mesh::PreparedMesh;
 use super::mesh_stiffness::{impact_law, stated_impact};
 use super::parts::Parts;
-use crate::system::tables::gear_mesh::{
-    BevelSurfaceTable, GearMeshTable, PathWord, TeethTable, TouchingFlanks,
-};
+use super::scene_mesh::SceneMesh;
+use crate::system::tables::gear_mesh::{BevelSurfaceTable, PathWord, TouchingFlanks};
 use crate::system::tables::mesh_model::{HertzTable, ImpactTable, MeshModel};
 use crate::system::tables::{MM, UM};
 
-/// A table with all that its flanks are made from.
-pub(super) struct SceneBevel<'a> {
-    pub table: &'a GearMeshTable,
-    pub teeth: TeethTable,
-    pub keys: TableKeys<'a>,
-    pub model_keys: TableKeys<'a>,
-    pub teeth_keys: TableKeys<'a>,
-    pub file: &'a Path,
-    pub folder: &'a Path,
-}
+/// A mesh of bevel gears, with the file of their pair.
+pub(super) type SceneBevel<'a> = SceneMesh<'a, &'a Path>;
 
 impl SceneBevel<'_> {
     /// The mesh of two bodies.
     pub(super) fn prepare(
         &self,
-        (key, numbers): (&str, [usize; 2]),
+        mut prepared: PreparedMesh,
         bodies: &Bodies,
         parts: &mut Parts,
     ) -> Result<PreparedMesh, InputError> {
+        let numbers = prepared.bodies;
         self.refuse_unused(bodies, numbers)?;
-        let models = self.models(bodies, numbers)?;
-        let document = InputDocument::read(self.file)?;
+        prepared.models = self.models(bodies, numbers)?;
+        let models = prepared.models.as_ref();
+        let document = InputDocument::read(self.flanks)?;
         let file = PairFile::from_document(&document)?;
         let (design, _) = (file.checked_design(&document))
             .map_err(|error| self.keys.error("bevel_pair", error))?;
-        let seats = [
-            seat(
-                &self.teeth.eccentricity_1,
-                &self.teeth_keys,
-                "eccentricity_1",
-            )?,
-            seat(
-                &self.teeth.eccentricity_2,
-                &self.teeth_keys,
-                "eccentricity_2",
-            )?,
-        ];
-        let at_start = pose(bodies, numbers, &seats);
-        let sides = self.teeth.flanks.flanks().to_vec();
+        let at_start = prepared.pose(bodies);
+        let misplaced = |error| self.keys.error("gear_2", error);
         let fault = |error: DrivetrainError| match error {
             DrivetrainError::Bevel(error) => {
                 self.keys.error("bevel_pair", error.in_file(&document))
             }
             error => self.keys.error("bevel_pair", error),
         };
-        let mut of_nodes = None;
-        let (base_radii_m, slice_width_m, corners, mesh) = match &self.table.model {
+        let smooth = || BevelMesh::new(&file.blank, &design).map_err(fault);
+        let (modes, sides) = (
+            numbers.map(|number| bodies.list[number].modes),
+            &prepared.sides,
+        );
+        prepared.tooth_pairs = self.tooth_pairs(models, file.blank.data.face_width_m)?;
+        let (levers_m, corners, mesh) = match &self.table.model {
             MeshModel::Hybrid(model) => {
-                let slices = self.slices(model, models.as_ref())?;
-                let mut flanks =
-                    BevelSlices::new(&file.blank, &design, slices).map_err(|e| match e {
-                        DrivetrainError::Value { .. } => self.model_keys.error("slices", e),
-                        _ => fault(e),
-                    })?;
-                let located = flanks.locate(&at_start);
-                located.map_err(|e| self.keys.error("gear_2", e))?;
-                let (levers_m, width_m) = (flanks.pair().levers_m(), flanks.layout().width_m());
-                let corners = flanks.pair().flank_corners_m();
-                let modes = numbers.map(|number| bodies.list[number].modes);
-                let mesh = self.hybrid(flanks, (model, models.as_ref(), modes), &sides)?;
-                (levers_m, width_m, corners, mesh)
+                let slices = self.slices(model, models)?;
+                let made = BevelSlices::new(&file.blank, &design, slices);
+                let mut flanks = made.map_err(|e| match e {
+                    DrivetrainError::Value { .. } => self.model_keys.error("slices", e),
+                    _ => fault(e),
+                })?;
+                flanks.locate(&at_start).map_err(misplaced)?;
+                prepared.slice_width_m = flanks.layout().width_m();
+                let (levers_m, corners) =
+                    (flanks.pair().levers_m(), flanks.pair().flank_corners_m());
+                let mesh = self.hybrid(flanks, (model, models, modes), sides)?;
+                (levers_m, corners, mesh)
             }
             MeshModel::NodeToSurface(model) => {
-                let mut flanks = BevelMesh::new(&file.blank, &design).map_err(fault)?;
-                let located = flanks.locate(&at_start);
-                located.map_err(|e| self.keys.error("gear_2", e))?;
+                let mut flanks = smooth()?;
+                flanks.locate(&at_start).map_err(misplaced)?;
                 self.check_models(&flanks, bodies, numbers)?;
                 let (levers_m, corners) = (flanks.levers_m(), flanks.flank_corners_m());
-                let modes = numbers.map(|number| bodies.list[number].modes);
-                let made = self.node_surfaces(flanks, (model, models.as_ref(), modes), &sides)?;
-                of_nodes = Some(made.tooth_pairs);
-                (levers_m, made.slice_width_m, corners, made.mesh)
+                let made = self.node_surfaces(flanks, (model, models, modes), sides)?;
+                prepared.slice_width_m = made.slice_width_m;
+                prepared.tooth_pairs = made.tooth_pairs;
+                (levers_m, corners, made.mesh)
             }
             MeshModel::Impact(model) => {
-                let mut flanks = BevelMesh::new(&file.blank, &design).map_err(fault)?;
+                let mut flanks = smooth()?;
                 if let Some(surface) = self.table.bevel_surface {
                     let divided = flanks.with_facets(facets(surface));
                     flanks = divided.map_err(|e| self.keys.error("bevel_surface", e))?;
                 }
-                let located = flanks.locate(&at_start);
-                located.map_err(|e| self.keys.error("gear_2", e))?;
+                flanks.locate(&at_start).map_err(misplaced)?;
                 self.check_models(&flanks, bodies, numbers)?;
-                let (levers_m, width_m) = (flanks.levers_m(), flanks.layout().width_m());
-                let corners = flanks.flank_corners_m();
-                (
-                    levers_m,
-                    width_m,
-                    corners,
-                    self.mesh(flanks, model, &sides)?,
-                )
+                prepared.slice_width_m = flanks.layout().width_m();
+                let (levers_m, corners) = (flanks.levers_m(), flanks.flank_corners_m());
+                (levers_m, corners, self.mesh(flanks, model, sides)?)
             }
             _ => return Err(self.other_model()),
         };
-        let flank_corners_m = corners.into_iter().flatten().flatten().collect();
-        let tooth_pairs = match of_nodes {
-            Some(pairs) => pairs,
-            None => self.tooth_pairs(models.as_ref(), file.blank.data.face_width_m)?,
-        };
-        self.effects(
-            (&file, design.backlash_m(&file.blank), models.is_some()),
-            parts,
-        );
-        Ok(PreparedMesh {
-            name: self.table.name.clone(),
-            key: key.to_owned(),
-            model: self.table.model.kind(),
-            bodies: numbers,
-            teeth: file.blank.data.teeth,
-            base_radii_m,
-            seats,
-            mesh: Some(mesh),
-            sides,
-            touching_at_start: self.teeth.touching_at_start,
-            slice_width_m,
-            models,
-            tooth_pairs,
-            stage: None,
-            flank_corners_m,
-        })
+        let backlash_m = design.backlash_m(&file.blank);
+        self.effects((&file, backlash_m, models.is_some()), parts);
+        prepared.built.teeth = file.blank.data.teeth;
+        prepared.built.base_radii_m = levers_m;
+        prepared.built.flank_corners_m = corners.into_iter().flatten().flatten().collect();
+        prepared.mesh = Some(mesh);
+        Ok(prepared)
     }
 
     /// Whether the reduced gears of the bodies are those of the pair.
@@ -174,34 +132,31 @@ impl SceneBevel<'_> {
     /// What of the table bevel flanks do not use.
     fn refuse_unused(&self, bodies: &Bodies, numbers: [usize; 2]) -> Result<(), InputError> {
         const UNUSED: &str = "is not used by a bevel pair; remove it";
+        let surface = given!(self.table; bevel_surface);
+        let models = given!(self.table; bevel_models);
         match &self.table.model {
             MeshModel::Impact(model) => {
-                self.model_keys
-                    .refuse(&given!(model; stiffness, slices), UNUSED)?;
+                (self.model_keys).refuse(&given!(model; stiffness, slices), UNUSED)?;
                 let problem = "is not used by kind = \"impact\"; remove it, or take \"hybrid\"";
-                self.keys
-                    .refuse(&given!(self.table; bevel_models), problem)?;
+                self.keys.refuse(&models, problem)?;
             }
             MeshModel::NodeToSurface(_) => {
                 let problem =
                     "belongs to kind = \"impact\"; patches are stated in the model, remove it";
-                self.keys
-                    .refuse(&given!(self.table; bevel_surface), problem)?;
+                self.keys.refuse(&surface, problem)?;
                 let problem = "is not used by kind = \"node-to-surface\"; name the models as `gear` of bodies with flexibility = \"modal\", or remove it";
-                self.keys
-                    .refuse(&given!(self.table; bevel_models), problem)?;
+                self.keys.refuse(&models, problem)?;
             }
             MeshModel::Hybrid(model) => {
                 let problem = "belongs to kind = \"impact\"; slices cut smooth flanks, remove it";
-                self.keys
-                    .refuse(&given!(self.table; bevel_surface), problem)?;
+                self.keys.refuse(&surface, problem)?;
                 let of_bodies = numbers.iter().any(|i| bodies.list[*i].bevel().is_some());
                 self.check_hybrid(model, of_bodies)?;
             }
             _ => return Err(self.other_model()),
         }
-        self.keys
-            .refuse(&given!(self.table; microgeometry), UNUSED)?;
+        let microgeometry = given!(self.table; microgeometry);
+        self.keys.refuse(&microgeometry, UNUSED)?;
         let errors = [
             ("errors_1", !self.teeth.errors_1.is_empty()),
             ("errors_2", !self.teeth.errors_2.is_empty()),
@@ -232,50 +187,25 @@ impl SceneBevel<'_> {
         model: &ImpactTable,
         sides: &[Flank],
     ) -> Result<GearMesh, InputError> {
-        let fault = |error| self.keys.error("", error);
+        let law = |stiffness| impact_law(model, &self.model_keys, stiffness, 1);
         let laws = match self.hertz(model)? {
             Some(modulus_pa) => {
                 kinematics = kinematics.with_hertz();
                 Flank::ALL.map(|side| {
                     let k = kinematics.hertz_stiffness(side, modulus_pa);
-                    impact_law(
-                        model,
-                        &self.model_keys,
-                        PowerStiffness::n_per_m_e(k, 1.5),
-                        1,
-                    )
+                    law(PowerStiffness::n_per_m_e(k, 1.5))
                 })
             }
             None => {
                 let (k, e) = stated_impact(model, &self.model_keys)?;
-                let stated = || PowerStiffness::n_per_mm_e(k, e);
-                Flank::ALL.map(|_| impact_law(model, &self.model_keys, stated(), 1))
+                Flank::ALL.map(|_| law(PowerStiffness::n_per_mm_e(k, e)))
             }
         };
         let [right, left] = laws;
         let laws = [right?, left?];
-        let law = |side: Flank| laws[side as usize];
-        let [first, others @ ..] = sides else {
-            return Err(self.teeth_keys.error("flanks", "names no flanks"));
-        };
-        let mut mesh =
-            GearMesh::of_flanks(Box::new(kinematics), *first, law(*first)).map_err(fault)?;
-        for side in others {
-            mesh = mesh.with_side(*side, law(*side)).map_err(fault)?;
-        }
-        self.with_friction(mesh)
-    }
-
-    /// Adds what the teeth say of friction.
-    pub(super) fn with_friction(&self, mesh: GearMesh) -> Result<GearMesh, InputError> {
-        let friction = self.teeth.friction.as_ref();
-        let friction = friction
-            .map(|table| table.check(&self.teeth_keys))
-            .transpose()?;
-        Ok(match friction {
-            None => mesh,
-            Some(friction) => mesh.with_friction(friction),
-        })
+        let teeth = sides.iter().map(|side| (*side, laws[*side as usize]));
+        let flanks = Box::new(kinematics);
+        self.of_sides(teeth, |side, law| GearMesh::of_flanks(flanks, side, law))
     }
 
     /// How pairs of teeth have columns: one contact each, or their slices together.
@@ -291,7 +221,7 @@ impl SceneBevel<'_> {
             let contact_modulus_pa = contact_modulus(table);
             return Ok(Some(ToothPairs::Points { contact_modulus_pa }));
         };
-        refuse_material(table, &self.keys)?;
+        self.refuse_pair_material()?;
         let materials = match models {
             Some(models) => [0, 1].map(|gear: usize| (models[gear].young_pa, models[gear].poisson)),
             None => [material(model.half_space.as_ref()); 2],
@@ -325,7 +255,7 @@ impl SceneBevel<'_> {
             backlash_m / UM
         );
         parts.effect(name("backlash"), both.then_some(backlash));
-        let damping = match &self.table.model {
+        match &self.table.model {
             MeshModel::Impact(model) => {
                 if model.hertz.is_some() {
                     let law = "F = K d^1.5, K from the curvatures at each contact";
@@ -334,8 +264,6 @@ impl SceneBevel<'_> {
                 if let Some(surface) = self.table.bevel_surface {
                     parts.effect(name("flanks of the pinion"), Some(words(surface)));
                 }
-                let damping = model.damping_N_s_per_mm;
-                damping.map(|_| "STEP of the depth".to_string())
             }
             MeshModel::NodeToSurface(model) => {
                 let what = format!(
@@ -343,20 +271,16 @@ impl SceneBevel<'_> {
                     *model.along_um, *model.up_um
                 );
                 parts.effect(name("flanks"), Some(what));
-                let damping = model.damping_N_s_per_mm;
-                damping.map(|_| "STEP of the depth".to_string())
             }
-            model => {
-                let what = if reduced {
-                    "reduced gears in slices along the teeth"
-                } else {
-                    "rigid gears, surfaces in slices along the teeth"
+            _ => {
+                let what = match reduced {
+                    true => "reduced gears in slices along the teeth",
+                    false => "rigid gears, surfaces in slices along the teeth",
                 };
                 parts.effect(name("teeth"), Some(what.to_string()));
-                model.damping().map(|damping| damping.words().to_string())
             }
-        };
-        parts.effect(name("damping"), damping);
+        }
+        parts.effect(name("damping"), self.table.model.damping_in_words());
         let friction = self.teeth.friction.as_ref();
         let rubs = "`coulomb`, regularised, along the sliding in the tangent plane";
         parts.effect(name("friction"), friction.map(|_| rubs.to_string()));
@@ -364,7 +288,7 @@ impl SceneBevel<'_> {
         parts.notes.push(format!(
             "mesh `{}`: bevel pair {}, {}/{} teeth, mean cone distance {:.4} mm",
             self.table.name,
-            self.file.display(),
+            self.flanks.display(),
             pinion.teeth,
             gear.teeth,
             file.blank.mean_cone_m / MM

@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use gearmesh_drivetrain::{modal_gear_body, modes_up_to};
 use gearmesh_dynamics::state::BodyMotion;
-use gearmesh_dynamics::{Body, BodyId, GROUND, Marker, Modes};
+use gearmesh_dynamics::{Body, BodyId, GROUND, Marker, MarkerPair, Modes};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_model::{RadialMotions, ReducedGear};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::gears::{BodyGear, Gear};
+use crate::system::built::BuiltPart;
 use crate::system::names;
 use crate::system::tables::MM;
 use crate::system::tables::body::{BodyTable, Flexibility};
@@ -46,10 +47,9 @@ impl PlacedBody {
         gear: Option<BodyGear>,
     ) -> Result<Self, InputError> {
         if table.name.is_empty() || table.name == GROUND_NAME {
-            return Err(keys.error(
-                "name",
-                "is empty or \"ground\", which is the world; give the body a name of its own",
-            ));
+            let problem =
+                "is empty or \"ground\", which is the world; give the body a name of its own";
+            return Err(keys.error("name", problem));
         }
         let mut body = match &gear {
             Some(gear) if table.mass_kg.is_none() && table.inertia_kg_m2.is_none() => {
@@ -68,40 +68,27 @@ impl PlacedBody {
             body.velocity_m_per_s = MM * Vector3::from(velocity);
         }
         let mode_count = modes(table, keys, gear.as_ref(), &mut body)?;
-        let mut turn_is_free = true;
         if let Some(angles) = &table.cardan_deg {
-            let angle = |i: usize| angles.get(i).copied().unwrap_or(0.0);
+            let angle = |i: usize| angles.get(i).map_or(0.0, |degrees| degrees.to_radians());
             if !(2..=3).contains(&angles.len()) {
-                return Err(keys.error(
-                    "cardan_deg",
-                    format!(
-                        "found {} angles, allowed are 3, or 2 where a mesh sets the third",
-                        angles.len()
-                    ),
-                ));
+                let count = angles.len();
+                let problem = format!(
+                    "found {count} angles, allowed are 3, or 2 where a mesh sets the third"
+                );
+                return Err(keys.error("cardan_deg", problem));
             }
-            let about = |axis: Vector3<f64>, degrees: f64| {
-                UnitQuaternion::from_scaled_axis(axis * degrees.to_radians())
-            };
-            body.orientation = about(Vector3::x(), angle(0))
-                * about(Vector3::y(), angle(1))
-                * about(Vector3::z(), angle(2));
-            turn_is_free = angles.len() == 2;
+            body.orientation = cardan([angle(0), angle(1), angle(2)]);
         }
         match (table.speed_rpm, table.angular_velocity_rad_per_s) {
             (None, None) => {}
             (Some(rpm), None) => {
-                body.angular_velocity_rad_per_s =
-                    Vector3::new(0.0, 0.0, rpm * std::f64::consts::TAU / 60.0);
+                body.angular_velocity_rad_per_s.z = rpm * std::f64::consts::TAU / 60.0;
             }
-            (None, Some(omega)) => {
-                body.angular_velocity_rad_per_s = Vector3::from(omega);
-            }
+            (None, Some(omega)) => body.angular_velocity_rad_per_s = omega.into(),
             (Some(_), Some(_)) => {
-                return Err(keys.error(
-                    "speed_rpm",
-                    "is given together with angular_velocity_rad_per_s; remove one of the two",
-                ));
+                let problem =
+                    "is given together with angular_velocity_rad_per_s; remove one of the two";
+                return Err(keys.error("speed_rpm", problem));
             }
         }
         body.validate()
@@ -115,11 +102,25 @@ impl PlacedBody {
             modes: mode_count,
             body,
             place_is_free: table.position_mm.is_none(),
-            turn_is_free,
+            turn_is_free: table.cardan_deg.as_ref().is_none_or(|two| two.len() == 2),
             speed_is_free: table.speed_rpm.is_none() && table.angular_velocity_rad_per_s.is_none(),
             velocity_is_free: table.velocity_mm_per_s.is_none(),
             gear,
         })
+    }
+
+    /// A body that something else places and moves.
+    pub(super) fn placed(body: Body, source: String) -> Self {
+        Self {
+            body,
+            source,
+            gear: None,
+            modes: 0,
+            place_is_free: false,
+            turn_is_free: false,
+            speed_is_free: false,
+            velocity_is_free: false,
+        }
     }
 
     /// Its gear, on parallel axes.
@@ -152,6 +153,16 @@ impl PlacedBody {
             velocity_m_per_s: body.velocity_m_per_s,
             angular_velocity_rad_per_s: body.angular_velocity_rad_per_s,
         }
+    }
+
+    /// Speed about its z at the start \[rad/s\].
+    pub(super) fn spin(&self) -> f64 {
+        self.body.angular_velocity_rad_per_s.z
+    }
+
+    /// Its angular velocity at the start, world axes \[rad/s\].
+    pub(super) fn turning(&self) -> Vector3<f64> {
+        self.body.orientation * self.body.angular_velocity_rad_per_s
     }
 
     /// Its z axis in the world.
@@ -202,33 +213,39 @@ fn modes(
         return Ok(give(body, modes));
     }
     let model = gear.and_then(BodyGear::model).ok_or_else(|| {
-        keys.error(
-            "flexibility",
-            "is \"modal\", which needs a reduced gear (.h5) with modes",
-        )
+        let problem = "is \"modal\", which needs a reduced gear (.h5) with modes";
+        keys.error("flexibility", problem)
     })?;
     let ratio = table.modal_damping_ratio.map_or(0.0, f64::from);
     if let Some(faces) = on_faces {
         return Ok(give(body, faces.gear.modes(|_| ratio)));
     }
-    let count = match table.modes_up_to_hz {
-        Some(up_to_hz) => {
-            modes_up_to(model, up_to_hz).map_err(|e| keys.error("modes_up_to_Hz", e))?
-        }
-        None => model
-            .modal_basis()
-            .map_err(|e| keys.error("flexibility", e))?
-            .count(),
-    };
+    let count = mode_count(table, model, keys)?;
     if count == 0 {
-        return Err(keys.error(
-            "modes_up_to_Hz",
-            "no mode of the model lies below; raise it, or write flexibility = \"reduced\"",
-        ));
+        let problem =
+            "no mode of the model lies below; raise it, or write flexibility = \"reduced\"";
+        return Err(keys.error("modes_up_to_Hz", problem));
     }
     let modal = modal_gear_body(model, count, ratio).map_err(|e| keys.error("flexibility", e))?;
     body.modes = modal.modes;
     Ok(count)
+}
+
+/// Natural modes of a model that a modal body takes.
+pub(super) fn mode_count(
+    table: &BodyTable,
+    model: &ReducedGear,
+    keys: &TableKeys<'_>,
+) -> Result<usize, InputError> {
+    Ok(match table.modes_up_to_hz {
+        Some(up_to_hz) => {
+            modes_up_to(model, up_to_hz).map_err(|e| keys.error("modes_up_to_Hz", e))?
+        }
+        None => {
+            let basis = model.modal_basis();
+            basis.map_err(|e| keys.error("flexibility", e))?.count()
+        }
+    })
 }
 
 /// Gives a body modes; how many they are.
@@ -248,10 +265,8 @@ fn stated_mass(table: &BodyTable, keys: &TableKeys<'_>) -> Result<Body, InputErr
         [x, y, z] => Matrix3::from_diagonal(&Vector3::new(x, y, z)),
         [x, y, z, xy, xz, yz] => Matrix3::new(x, xy, xz, xy, y, yz, xz, yz, z),
         _ => {
-            return Err(keys.error(
-                "inertia_kg_m2",
-                format!("found {} numbers, allowed are 3 or 6", inertia.len()),
-            ));
+            let problem = format!("found {} numbers, allowed are 3 or 6", inertia.len());
+            return Err(keys.error("inertia_kg_m2", problem));
         }
     };
     Ok(Body {
@@ -268,12 +283,8 @@ pub(super) fn direction(
 ) -> Result<Vector3<f64>, InputError> {
     let direction = Vector3::from(values);
     let length = direction.norm();
-    keys.require(
-        key,
-        length,
-        length > 0.0,
-        "a direction: its length must be more than 0",
-    )?;
+    let allowed = "a direction: its length must be more than 0";
+    keys.require(key, length, length > 0.0, allowed)?;
     Ok(direction / length)
 }
 
@@ -284,11 +295,34 @@ pub(super) fn axes_along(z_axis: &Vector3<f64>) -> UnitQuaternion<f64> {
     })
 }
 
+/// The turn about x, the new y and the new z.
+pub(super) fn cardan([x, y, z]: [f64; 3]) -> UnitQuaternion<f64> {
+    let about = |axis: Vector3<f64>, angle| UnitQuaternion::from_scaled_axis(axis * angle);
+    about(Vector3::x(), x) * about(Vector3::y(), y) * about(Vector3::z(), z)
+}
+
 /// A frame in the world at the start.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame {
     pub origin_m: Vector3<f64>,
     pub axes: UnitQuaternion<f64>,
+}
+
+impl Frame {
+    /// The frame farther along its z.
+    pub(super) fn raised(&self, by_m: f64) -> Self {
+        Self {
+            origin_m: self.origin_m + self.axes * Vector3::new(0.0, 0.0, by_m),
+            axes: self.axes,
+        }
+    }
+}
+
+/// The two bodies of a connection, none for the ground, and its frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seat {
+    pub ends: [Option<usize>; 2],
+    pub frame: Frame,
 }
 
 /// All bodies, and their numbers once the system has them.
@@ -318,17 +352,54 @@ impl Bodies {
         if name == GROUND_NAME {
             return Ok(None);
         }
-        match self.list.iter().position(|placed| placed.body.name == name) {
-            Some(index) => Ok(Some(index)),
-            None => {
-                let mut known = vec![GROUND_NAME];
-                known.extend(self.list.iter().map(|placed| placed.body.name.as_str()));
-                let mut problem = names::unknown("body", name, &known);
-                if name.ends_with("/ring") && !known.iter().any(|known| known.ends_with("/ring")) {
-                    problem += "; outer rings are bodies of bearings with a `housing`, which joints and other bearings cannot name";
-                }
-                Err(keys.error(key, problem))
-            }
+        if let Some(number) = self.number(name) {
+            return Ok(Some(number));
+        }
+        let mut known = vec![GROUND_NAME];
+        known.extend(self.names());
+        let mut problem = names::unknown("body", name, &known);
+        if name.ends_with("/ring") && !known.iter().any(|known| known.ends_with("/ring")) {
+            problem += "; outer rings are bodies of bearings with a `housing`, which joints and other bearings cannot name";
+        }
+        Err(keys.error(key, problem))
+    }
+
+    /// Names of all.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.list.iter().map(|placed| placed.body.name.as_str())
+    }
+
+    /// Number of the body of a name; none where there is no such body.
+    pub(super) fn number(&self, name: &str) -> Option<usize> {
+        self.names().position(|other| other == name)
+    }
+
+    /// Angular velocity of a body at the start, world axes \[rad/s\]; 0 of the ground.
+    pub(super) fn turning(&self, body: Option<usize>) -> Vector3<f64> {
+        body.map_or_else(Vector3::zeros, |body| {
+            let motion = self.list[body].motion();
+            motion.rotation * motion.angular_velocity_rad_per_s
+        })
+    }
+
+    /// Velocity of a place that moves with a body; 0 on the ground.
+    pub(super) fn velocity_with(
+        &self,
+        body: Option<usize>,
+        place_m: &Vector3<f64>,
+    ) -> Vector3<f64> {
+        body.map_or_else(Vector3::zeros, |number| {
+            let own = &self.list[number].body;
+            own.velocity_m_per_s + self.turning(body).cross(&(place_m - own.position_m))
+        })
+    }
+
+    /// A part of the system on these bodies.
+    pub(super) fn part(&self, name: &str, kind: &'static str, on: &[Option<usize>]) -> BuiltPart {
+        BuiltPart {
+            name: name.to_owned(),
+            kind,
+            bodies: on.iter().map(|body| self.name(*body).to_owned()).collect(),
         }
     }
 
@@ -353,10 +424,9 @@ impl Bodies {
         let first = self.find(keys, "body_1", body_1.unwrap_or(GROUND_NAME))?;
         let second = self.find(keys, "body_2", body_2)?;
         if first == second {
-            return Err(keys.error(
-                "body_2",
-                format!("found `{body_2}`, the same as body_1; two different bodies are needed"),
-            ));
+            let problem =
+                format!("found `{body_2}`, the same as body_1; two different bodies are needed");
+            return Err(keys.error("body_2", problem));
         }
         Ok([first, second])
     }
@@ -396,21 +466,28 @@ impl Bodies {
         Marker::at(self.id(body), position.into()).oriented(back * frame.axes)
     }
 
-    /// The frame that a connection states: at a place, z along an axis; those of body 2 where not given.
-    pub(super) fn stated_frame(
+    /// The markers of a seat on its bodies.
+    pub(super) fn markers(&self, seat: &Seat) -> MarkerPair {
+        let [a, b] = seat.ends.map(|end| self.marker(end, &seat.frame));
+        MarkerPair { a, b }
+    }
+
+    /// The seat that a connection states: between its bodies, at a place, z along an axis; those of body 2 where not
+    /// given.
+    pub(super) fn seat(
         &self,
         keys: &TableKeys<'_>,
-        body_2: Option<usize>,
-        at_mm: Option<[f64; 3]>,
-        axis: Option<[f64; 3]>,
-    ) -> Result<Frame, InputError> {
-        let mut frame = self.frame(body_2);
+        (body_1, body_2): (&Option<String>, &str),
+        (at_mm, axis): (Option<[f64; 3]>, Option<[f64; 3]>),
+    ) -> Result<Seat, InputError> {
+        let ends = self.find_pair(keys, body_1.as_deref(), body_2)?;
+        let mut frame = self.frame(ends[1]);
         if let Some(at) = at_mm {
             frame.origin_m = MM * Vector3::from(at);
         }
         if let Some(axis) = axis {
             frame.axes = axes_along(&direction(keys, "axis", axis)?);
         }
-        Ok(frame)
+        Ok(Seat { ends, frame })
     }
 }

@@ -1,40 +1,35 @@
 //! Bodies, shafts and gear meshes of a scene, and the meshes in its system.
 
 use gearmesh_contact::CondensedFlanks;
-use gearmesh_dynamics::SystemBuilder;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
 use super::LoadedSystem;
 use super::bodies::{Bodies, PlacedBody};
+use super::connections::Connections;
 use super::coupled::{Groups, MeshOfGroup};
-use super::gear_mesh::{MeshPlace, PreparedMesh};
+use super::gear_mesh::PreparedMesh;
 use super::parts::Parts;
 use super::shafts::PlacedShaft;
 use crate::system::built::BuiltGauge;
 
 impl LoadedSystem {
-    /// Meshes that are in no group, then those of the groups.
+    /// Adds meshes that are in no group, then those of the groups.
     pub(super) fn add_meshes(
         &self,
-        (meshes, mut groups): (Vec<PreparedMesh>, Groups),
-        (bodies, gauges): (&Bodies, &[BuiltGauge]),
-        builder: &mut SystemBuilder,
-        parts: &mut Parts,
+        meshes: Vec<PreparedMesh>,
+        gauges: &[BuiltGauge],
+        connections: &mut Connections<'_>,
     ) -> Result<(), InputError> {
-        let document = &self.scene.document;
+        let (bodies, seated) = (connections.bodies, std::mem::take(&mut connections.seated));
+        let (tables, document) = (&self.scene.tables.body, &self.scene.document);
+        let mut groups = Groups::new(tables, document, bodies, (&meshes, seated))?;
         let mut left: Vec<Vec<MeshOfGroup>> = groups.meshes.iter().map(|_| Vec::new()).collect();
         for (mesh, group) in meshes.into_iter().zip(&groups.of_mesh) {
-            let key = mesh.key.clone();
-            let keys = TableKeys::new(document, &key);
-            let own = match group {
-                Some(group) => MeshPlace::Group(&mut left[*group]),
-                None => MeshPlace::Own(builder),
-            };
-            mesh.add(bodies, (gauges, &keys), own, parts)?;
+            mesh.add(gauges, group.map(|group| &mut left[group]), connections)?;
         }
         for meshes in left {
-            groups.add(meshes, (document, bodies), (builder, parts))?;
+            groups.add(meshes, connections)?;
         }
         Ok(())
     }
@@ -44,8 +39,7 @@ impl LoadedSystem {
         let (document, tables) = (&self.scene.document, &self.scene.tables);
         let (mut bodies, mut shafts) = (Bodies::default(), Vec::new());
         for (i, (table, gear)) in tables.body.iter().zip(&self.gears).enumerate() {
-            let key = format!("body.{i}");
-            let keys = TableKeys::new(document, &key);
+            let keys = TableKeys::new(document, format!("body.{i}"));
             let placed = PlacedBody::new(table, &keys, gear.clone())?;
             bodies.list.push(placed);
         }
@@ -72,12 +66,11 @@ impl LoadedSystem {
             let is_same =
                 |other: &&PreparedMesh| other.bodies.iter().all(|body| mesh.bodies.contains(body));
             if let Some(earlier) = meshes.iter().find(is_same) {
-                let keys = TableKeys::new(document, &mesh.key);
                 let problem = format!(
                     "`{}` and `{}` are in mesh already in `{}`; remove one of the two",
-                    table.gear_1, table.gear_2, earlier.name
+                    table.gear_1, table.gear_2, earlier.built.name
                 );
-                return Err(keys.error("gear_2", problem));
+                return Err(document.error(&format!("{}.gear_2", mesh.key), problem));
             }
             meshes.push(mesh);
         }

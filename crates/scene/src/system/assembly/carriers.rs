@@ -19,6 +19,14 @@ use super::shafts::PlacedShaft;
 use crate::system::tables::MM;
 use crate::system::tables::bearing::BearingTable;
 
+/// What holds bodies.
+#[derive(Clone, Copy)]
+pub(super) struct Holds<'a> {
+    pub joints: &'a [PlacedJoint<'a>],
+    pub bearings: &'a [BearingTable],
+    pub shafts: &'a [PlacedShaft],
+}
+
 /// Two bodies that are held to each other, none for the ground, and a point of the axis they may turn about.
 struct Hold {
     ends: [Option<usize>; 2],
@@ -36,29 +44,22 @@ pub(super) struct Carried {
 /// All bodies, each after its carrier.
 pub(super) fn find(
     bodies: &Bodies,
-    joints: &[PlacedJoint<'_>],
-    bearings: &[BearingTable],
-    shafts: &[PlacedShaft],
+    Holds {
+        joints,
+        bearings,
+        shafts,
+    }: Holds<'_>,
 ) -> Vec<Carried> {
     let mut holds: Vec<Hold> = Vec::new();
-    for joint in joints {
-        holds.push(Hold {
-            ends: joint.ends,
-            at_m: joint.frame.origin_m,
-        });
+    for PlacedJoint { seat, .. } in joints {
+        let (ends, at_m) = (seat.ends, seat.frame.origin_m);
+        holds.push(Hold { ends, at_m });
     }
     // What a bearing names wrongly is refused where it is made.
-    let number = |name: &str| {
-        bodies
-            .list
-            .iter()
-            .position(|placed| placed.body.name == name)
-    };
+    let number = |name: &str| bodies.number(name);
     for bearing in bearings {
-        let ends = [
-            bearing.body_1.as_deref().and_then(number),
-            number(&bearing.body_2),
-        ];
+        let first = bearing.body_1.as_deref().and_then(number);
+        let ends = [first, number(&bearing.body_2)];
         let seat = ends[1].map_or(Vector3::zeros(), |body| bodies.list[body].body.position_m);
         let at_m = bearing.at_mm.map_or(seat, |at| MM * Vector3::from(at));
         holds.push(Hold { ends, at_m });
@@ -81,11 +82,10 @@ pub(super) fn find(
                     continue;
                 };
                 if !std::mem::replace(&mut reached[body], true) {
-                    let at_m = hold.at_m;
                     found.push(Carried {
                         body,
                         carrier,
-                        at_m,
+                        at_m: hold.at_m,
                     });
                     next.push_back(Some(body));
                 }
@@ -95,11 +95,10 @@ pub(super) fn find(
     // What hangs on nothing is nobody's.
     for (body, reached) in reached.into_iter().enumerate() {
         if !reached {
-            let at_m = bodies.list[body].body.position_m;
             found.push(Carried {
                 body,
                 carrier: None,
-                at_m,
+                at_m: bodies.list[body].body.position_m,
             });
         }
     }
@@ -117,10 +116,7 @@ impl Carried {
         if !led.velocity_is_free || crossed {
             return;
         }
-        let turn = |placed: &super::bodies::PlacedBody| {
-            placed.body.orientation * placed.body.angular_velocity_rad_per_s
-        };
-        let (omega, own) = (turn(leading), turn(led));
+        let (omega, own) = (leading.turning(), led.turning());
         let from_carrier = led.body.position_m - leading.body.position_m;
         let mut velocity = leading.body.velocity_m_per_s + omega.cross(&from_carrier);
         if !led.speed_is_free {

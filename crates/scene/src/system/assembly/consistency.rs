@@ -7,6 +7,7 @@ use super::LoadedSystem;
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;
 use super::parts::Parts;
+use crate::system::built::BuiltPart;
 use crate::system::names;
 use crate::system::tables::body::Flexibility;
 use crate::system::tables::mesh_model::MeshKind;
@@ -26,10 +27,9 @@ impl LoadedSystem {
                     return Err(keys.error("name", "is empty"));
                 }
                 if names[..i].iter().any(|(_, earlier)| earlier == name) {
-                    return Err(keys.error(
-                        "name",
-                        format!("`{name}` is the name of another {what}; give each its own"),
-                    ));
+                    let problem =
+                        format!("`{name}` is the name of another {what}; give each its own");
+                    return Err(keys.error("name", problem));
                 }
             }
         }
@@ -46,24 +46,21 @@ impl LoadedSystem {
             let Some(flexibility) = table.flexibility else {
                 continue;
             };
-            let key = format!("body.{i}");
-            let keys = TableKeys::new(&self.scene.document, &key);
-            let hybrid = meshes
-                .iter()
-                .find(|mesh| mesh.model == MeshKind::Hybrid && mesh.bodies.contains(&i));
+            let keys = TableKeys::new(&self.scene.document, format!("body.{i}"));
+            let mut own = meshes.iter().filter(|mesh| mesh.bodies.contains(&i));
+            let hybrid = own.clone().find(|mesh| mesh.model == MeshKind::Hybrid);
             // Their K is that of the surfaces, and modes move the flanks.
-            let bends = |mesh: &&PreparedMesh| match mesh.model {
+            let on_modes = own.any(|mesh| match mesh.model {
                 MeshKind::NodeToSurface => true,
                 MeshKind::Impact => bodies.list[i].cylindrical().is_some(),
                 _ => false,
-            };
-            let on_modes = (meshes.iter().filter(bends)).any(|mesh| mesh.bodies.contains(&i));
+            });
             let problem = match (flexibility, hybrid, &bodies.list[i].gear) {
                 (Flexibility::Modal, None, Some(_)) if on_modes => continue,
                 (_, _, None) => "is stated for a body that is no gear; remove it".to_string(),
                 (Flexibility::Rigid, Some(mesh), _) => format!(
                     "is \"rigid\", but `{}` is a hybrid mesh, which takes the static patterns of both gears; write \"reduced\"",
-                    mesh.name
+                    mesh.built.name
                 ),
                 (Flexibility::Reduced | Flexibility::Modal, None, _) => format!(
                     "is \"{}\", which its meshes cannot feel: \"reduced\" and \"modal\" need a hybrid mesh, \"modal\" a node-to-surface one or one of cylindrical gears by impact, too; write \"rigid\"",
@@ -80,31 +77,22 @@ impl LoadedSystem {
     pub(super) fn check_output(&self, bodies: &Bodies, parts: &Parts) -> Result<(), InputError> {
         let keys = TableKeys::new(&self.scene.document, "output");
         let output = &self.scene.output;
-        let body_names: Vec<&str> = bodies
-            .list
-            .iter()
-            .map(|placed| placed.body.name.as_str())
-            .collect();
-        let joint_names: Vec<&str> = parts
-            .joints
-            .iter()
-            .map(|joint| joint.name.as_str())
-            .collect();
-        let element_names: Vec<&str> = parts
-            .elements
-            .iter()
-            .map(|element| element.name.as_str())
-            .collect();
-        for (key, what, stated, known) in [
-            ("bodies", "body", &output.bodies, body_names),
-            ("joints", "joint or motion", &output.joints, joint_names),
-            ("elements", "force element", &output.elements, element_names),
-        ] {
+        let named = |parts: &'_ [BuiltPart]| parts.iter().map(|part| part.name.clone()).collect();
+        let known: [Vec<String>; 3] = [
+            bodies.names().map(str::to_owned).collect(),
+            named(&parts.joints),
+            named(&parts.elements),
+        ];
+        let stated = [
+            ("bodies", "body", &output.bodies),
+            ("joints", "joint or motion", &output.joints),
+            ("elements", "force element", &output.elements),
+        ];
+        for ((key, what, stated), known) in stated.into_iter().zip(known) {
             for (i, name) in stated.iter().flatten().enumerate() {
-                if !known.contains(&name.as_str()) {
-                    return Err(
-                        keys.error(&format!("{key}.{i}"), names::unknown(what, name, &known))
-                    );
+                if !known.contains(name) {
+                    let problem = names::unknown(what, name, &known);
+                    return Err(keys.error(&format!("{key}.{i}"), problem));
                 }
             }
         }

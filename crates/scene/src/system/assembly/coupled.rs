@@ -2,15 +2,14 @@
 //! gears on rollers that press on the bore, with their bearings.
 
 use gearmesh_drivetrain::{CoupledMeshes, GearOnRollers, MeshElement, MeshToCouple};
-use gearmesh_dynamics::SystemBuilder;
 use gearmesh_dynamics::elements::ForceElement;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
 use super::bodies::Bodies;
-use super::elements::SeatedBearing;
+use super::connections::{Connections, SeatedBearing};
 use super::gear_mesh::PreparedMesh;
-use super::parts::Parts;
+use super::linked::firsts;
 use crate::system::built::BuiltTogether;
 use crate::system::tables::body::{BodyTable, Coupling};
 use crate::system::tables::mesh_model::MeshKind;
@@ -66,18 +65,17 @@ impl Groups {
             let stated = tables.get(body).and_then(|table| table.coupling);
             let own = meshes_of(body);
             if stated.is_some() && own < 2 {
-                let key = format!("body.{body}");
                 let problem = format!(
                     "is not used: it is of gears in two or more hybrid meshes whose gears have no vibration modes, `{}` is in {own}; remove it",
                     tables[body].name
                 );
-                return Err(TableKeys::new(document, &key).error("coupling", problem));
+                return Err(document.error(&format!("body.{body}.coupling"), problem));
             }
             *place = own > 1 && stated.unwrap_or_default() == Coupling::AllMeshes;
             if bodies.list[body].bore_motions().is_some() {
                 let on_it = seated.iter().filter(|bearing| bearing.body == body).count();
-                let key = format!("body.{body}");
-                refuse_bore(&TableKeys::new(document, &key), stated, [on_it, own])?;
+                let keys = TableKeys::new(document, format!("body.{body}"));
+                refuse_bore(&keys, stated, [on_it, own])?;
                 *place = true;
             }
         }
@@ -87,42 +85,31 @@ impl Groups {
             meshes: Vec::new(),
             seated,
         };
-        for first in 0..meshes.len() {
-            if groups.of_mesh[first].is_none() && eligible[first] {
-                groups.gather(first, meshes, &eligible);
-            }
-        }
+        groups.gather(meshes, &eligible);
         Ok(groups)
     }
 
-    /// The group of a mesh: all that are linked to it by coupled bodies.
-    fn gather(&mut self, first: usize, meshes: &[PreparedMesh], eligible: &[bool]) {
-        let (group, mut found) = (self.meshes.len(), vec![first]);
-        let mut next = 0;
-        while let Some(&mesh) = found.get(next) {
-            next += 1;
-            for body in meshes[mesh].bodies.into_iter().filter(|b| self.coupled[*b]) {
-                let beside = (0..meshes.len())
-                    .filter(|other| eligible[*other] && meshes[*other].bodies.contains(&body));
-                for other in beside {
-                    if !found.contains(&other) {
-                        found.push(other);
-                    }
-                }
-            }
-        }
-        let on_rollers = |mesh: &usize| {
+    /// Finds the groups: meshes that are linked by coupled bodies.
+    fn gather(&mut self, meshes: &[PreparedMesh], eligible: &[bool]) {
+        let all = || (0..meshes.len()).filter(|mesh| eligible[*mesh]);
+        let on = |body: usize| all().filter(move |mesh| meshes[*mesh].bodies.contains(&body));
+        let coupled = (0..self.coupled.len()).filter(|body| self.coupled[*body]);
+        let links = coupled.flat_map(|body| on(body).zip(on(body).skip(1)));
+        let first = firsts(meshes.len(), links.map(|(one, next)| [one, next]));
+        let is_on_rollers = |mesh: &usize| {
             let mut both = meshes[*mesh].bodies.iter();
             both.any(|body| self.seated.iter().any(|bearing| bearing.body == *body))
         };
-        if found.len() < 2 && !found.iter().any(on_rollers) {
-            return;
+        for lead in all() {
+            let found: Vec<usize> = all().filter(|mesh| first[*mesh] == lead).collect();
+            if found.len() < 2 && !found.iter().any(is_on_rollers) {
+                continue;
+            }
+            for mesh in &found {
+                self.of_mesh[*mesh] = Some(self.meshes.len());
+            }
+            self.meshes.push(found);
         }
-        found.sort_unstable();
-        for mesh in &found {
-            self.of_mesh[*mesh] = Some(group);
-        }
-        self.meshes.push(found);
     }
 
     /// Adds the meshes of a group to the system, and the bearings in their gears' bores.
@@ -132,13 +119,15 @@ impl Groups {
     pub(super) fn add(
         &mut self,
         meshes: Vec<MeshOfGroup>,
-        (document, bodies): (&InputDocument, &Bodies),
-        (builder, parts): (&mut SystemBuilder, &mut Parts),
+        connections: &mut Connections<'_>,
     ) -> Result<(), InputError> {
+        let bodies = connections.bodies;
         let Some(key) = meshes.first().map(|mesh| mesh.key.clone()) else {
             return Ok(());
         };
-        let of_group = meshes.iter().map(|mesh| mesh.name.clone()).collect();
+        let of_group: Vec<String> = meshes.iter().map(|mesh| mesh.name.clone()).collect();
+        let quoted = |name: &String| format!("`{name}`");
+        let names: Vec<String> = of_group.iter().map(quoted).collect();
         let is_on = |bearing: &SeatedBearing| {
             let mut all = meshes.iter().flat_map(|mesh| mesh.bodies);
             all.any(|body| body == bearing.body)
@@ -148,13 +137,9 @@ impl Groups {
             .partition(is_on);
         self.seated = others;
         let model = |body: usize| bodies.list[body].model().filter(|_| self.coupled[body]);
-        let mut names = Vec::new();
-        let each = meshes.into_iter().map(|mesh| {
-            names.push(format!("`{}`", mesh.name));
-            MeshToCouple {
-                models: mesh.bodies.map(|body| model(body).map(|model| &**model)),
-                element: mesh.element,
-            }
+        let each = meshes.into_iter().map(|mesh| MeshToCouple {
+            models: mesh.bodies.map(|body| model(body).map(|model| &**model)),
+            element: mesh.element,
         });
         let each: Vec<MeshToCouple<'_>> = each.collect();
         let (mut gears, mut rollers, mut key) = (Vec::new(), Vec::new(), key);
@@ -170,17 +155,17 @@ impl Groups {
                 });
             }
         }
-        let name = format!("{} and meshes on its gears", names[0].trim_matches('`'));
+        let name = format!("{} and meshes on its gears", of_group[0]);
         let (together, meshes, bearings) = CoupledMeshes::new(&name, each, gears)
-            .map_err(|error| TableKeys::new(document, &key).error("", error))?;
-        parts.together.push(BuiltTogether {
+            .map_err(|error| connections.scene.document.error(&key, error))?;
+        connections.parts.together.push(BuiltTogether {
             element: name,
             meshes: of_group,
             found: together.found(),
         });
-        builder.element(together);
+        connections.builder.element(together);
         for part in meshes.into_iter().chain(bearings) {
-            builder.element(part);
+            connections.builder.element(part);
         }
         let names = names.join(", ");
         let shared = match rollers.is_empty() {
@@ -191,7 +176,7 @@ impl Groups {
             ),
         };
         let note = format!("meshes {names} are solved together: {shared}");
-        parts.notes.push(note);
+        connections.parts.notes.push(note);
         Ok(())
     }
 }

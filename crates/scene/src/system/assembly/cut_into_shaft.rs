@@ -4,13 +4,13 @@
 //! front face moves against it by modes of the gear's body ([`GearOnFaces`]). On a rigid shaft, or on none, both faces
 //! move as one body.
 
-use gearmesh_drivetrain::{GearOnFaces, modes_up_to};
+use gearmesh_drivetrain::GearOnFaces;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 use nalgebra::DMatrix;
 use std::sync::Arc;
 
-use super::bodies::PlacedBody;
+use super::bodies::{PlacedBody, mode_count};
 use super::gears::{BodyGear, Gear};
 use crate::system::scene::SystemScene;
 use crate::system::tables::body::Flexibility;
@@ -58,8 +58,7 @@ pub(super) fn on_its_shaft(
     else {
         return Ok(gear);
     };
-    let key = format!("body.{body}");
-    let keys = TableKeys::new(&scene.document, &key);
+    let keys = TableKeys::new(&scene.document, format!("body.{body}"));
     if let Some(other) = meshes().find(|mesh| mesh.model.kind() != MeshKind::Hybrid) {
         let problem = format!(
             "is cut into its shaft, whose faces move against each other: that is felt by kind = \"hybrid\" alone, which `{}` has and `{}` has not; give both \
@@ -68,29 +67,18 @@ pub(super) fn on_its_shaft(
         );
         return Err(keys.error("gear", problem));
     }
-    let fault = |error| keys.error("gear", error);
-    let natural = match (table.flexibility, table.modes_up_to_hz) {
-        (Some(Flexibility::Modal), None) => model
-            .modal_basis()
-            .map_err(|e| keys.error("flexibility", e))?
-            .count(),
-        (Some(Flexibility::Modal), Some(up_to_hz)) => {
-            modes_up_to(model, up_to_hz).map_err(|e| keys.error("modes_up_to_Hz", e))?
-        }
+    let natural = match table.flexibility {
+        Some(Flexibility::Modal) => mode_count(table, model, &keys)?,
         _ => 0,
     };
-    let gear = GearOnFaces::new(model, natural).map_err(fault)?;
+    let gear = GearOnFaces::new(model, natural).map_err(|error| keys.error("gear", error))?;
+    let model = Arc::clone(&gear.model);
     Ok(Some(BodyGear::Cylindrical(Arc::new(Gear {
-        file: own.file.clone(),
-        definition: own.definition.clone(),
-        model: Some(Arc::clone(&gear.model)),
-        microgeometry_of_scene: own.microgeometry_of_scene,
-        bore_motions: None,
-        bore: None,
         on_faces: Some(OnFaces {
-            gear,
             damping_s: damping_s.map_or(0.0, f64::from),
+            gear,
         }),
+        ..own.with_model(model)
     }))))
 }
 
@@ -109,10 +97,9 @@ pub(super) fn moving_end(
     let Some(shaft) = gear.definition.blank.cut_into_shaft() else {
         return Ok(None);
     };
-    let (face, name) = if towards > 0.0 {
-        (1, "front")
-    } else {
-        (0, "back")
+    let (face, name) = match towards > 0.0 {
+        true => (1, "front"),
+        false => (0, "back"),
     };
     if shaft.end_radii_m[face] == 0.0 {
         return Err(format!(
@@ -122,8 +109,6 @@ pub(super) fn moving_end(
             gear.file.display()
         ));
     }
-    let faces = gear.on_faces.as_ref();
-    Ok(faces
-        .filter(|_| face == 1)
-        .map(|faces| faces.gear.front.clone()))
+    let faces = gear.on_faces.as_ref().filter(|_| face == 1);
+    Ok(faces.map(|faces| faces.gear.front.clone()))
 }

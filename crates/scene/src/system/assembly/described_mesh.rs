@@ -18,25 +18,17 @@ impl PreparedMesh {
         let at_start_hz = frequency_hz(self, bodies);
         let later_hz = fastest.map_or(0.0, |fastest| frequency_hz(self, fastest));
         let steady_hz = steady.map(|steady| frequency_hz(self, steady));
-        let of = |body: usize| &bodies.list[body].body;
+        let stage = self.built.stage.map(|stage| StageSummary {
+            pitch_line_speed_m_per_s: stage.pitch_radius_1_m * spin_rad_per_s(self, bodies).abs(),
+            ..stage
+        });
         BuiltMesh {
-            name: self.name.clone(),
-            gears: self.bodies.map(|body| of(body).name.clone()),
-            teeth: self.teeth,
-            base_radii_m: self.base_radii_m,
-            model: self.model.name(),
             frequency_hz: at_start_hz,
             highest_hz: later_hz.max(at_start_hz),
             steady_hz: steady_hz.filter(|hz| *hz > 0.0),
-            speeds_rad_per_s: self
-                .bodies
-                .map(|body| of(body).angular_velocity_rad_per_s.z),
-            stage: self.stage.map(|stage| StageSummary {
-                pitch_line_speed_m_per_s: stage.pitch_radius_1_m
-                    * spin_rad_per_s(self, bodies).abs(),
-                ..stage
-            }),
-            flank_corners_m: self.flank_corners_m.clone(),
+            speeds_rad_per_s: self.bodies.map(|body| bodies.list[body].spin()),
+            stage,
+            ..self.built.clone()
         }
     }
 }

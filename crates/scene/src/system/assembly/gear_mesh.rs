@@ -1,47 +1,38 @@
 //! `[[gear_mesh]]` to gear meshes: which gears, whether they fit, where they sit; `mesh_model.rs` makes their teeth.
 
-use gearmesh_geometry::given;
 use std::path::Path;
 use std::sync::Arc;
 
 use gearmesh_contact::CondensedFlanks;
-use gearmesh_drivetrain::errors::eccentricity::Eccentricity;
 use gearmesh_drivetrain::{GearMesh, MeshElement, ModalPart, Pose, ToothPairs, kinematic_mesh};
-use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
+use gearmesh_dynamics::{Marker, MarkerPair};
+use gearmesh_geometry::given;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{BaseCircles, Flank, GearPair, InputError, Misalignment};
 use gearmesh_model::ReducedGear;
 
 use super::bevel_hybrid::BevelModels;
-use super::bevel_mesh::SceneBevel;
 use super::bodies::Bodies;
+use super::connections::Connections;
 use super::coupled::MeshOfGroup;
 use super::gears::Gear;
-use super::mesh_model::SceneMesh;
+use super::mesh_model::Involutes;
 use super::parts::Parts;
-use crate::system::built::BuiltGauge;
-use crate::system::stage_summary::StageSummary;
-use crate::system::tables::gear_mesh::{EccentricityTable, GearMeshTable, TeethTable};
+use super::scene_mesh::SceneMesh;
+use crate::system::built::{BuiltGauge, BuiltMesh};
+use crate::system::tables::MM;
+use crate::system::tables::flank_errors::FlankErrorTable;
+use crate::system::tables::gear_mesh::{GearMeshTable, TeethTable};
 use crate::system::tables::mesh_model::{MeshKind, MeshModel};
-use crate::system::tables::{MM, UM};
-
-/// Where a mesh goes.
-pub(super) enum MeshPlace<'a> {
-    /// Into the system.
-    Own(&'a mut SystemBuilder),
-    /// To those that it is solved with.
-    Group(&'a mut Vec<MeshOfGroup>),
-}
 
 /// A mesh of two bodies, ready but for its place in the system.
 pub(super) struct PreparedMesh {
-    pub name: String,
     pub key: String,
+    /// What plans and results tell, without speeds.
+    pub built: BuiltMesh,
     pub model: MeshKind,
     /// Numbers of the bodies of gear 1 and gear 2.
     pub bodies: [usize; 2],
-    pub teeth: [usize; 2],
-    pub base_radii_m: [f64; 2],
     /// Places of the gears on their bodies, the bodies left open.
     pub seats: [Marker; 2],
     /// None for `kinematic`.
@@ -56,10 +47,6 @@ pub(super) struct PreparedMesh {
     pub models: Option<BevelModels>,
     /// How pairs of teeth have columns, where they do.
     pub tooth_pairs: Option<ToothPairs>,
-    /// As in [`crate::system::BuiltMesh`].
-    pub flank_corners_m: Vec<f64>,
-    /// The stage, its speed left open; none of bevel pairs.
-    pub stage: Option<StageSummary>,
 }
 
 impl PreparedMesh {
@@ -71,131 +58,33 @@ impl PreparedMesh {
         (bodies, condensed): (&'a Bodies, &CondensedFlanks<'a>),
         parts: &mut Parts,
     ) -> Result<Self, InputError> {
-        let keys = TableKeys::new(document, &key);
-        let [model_key, teeth_key] = ["model", "teeth"].map(|part| format!("{key}.{part}"));
-        let model_keys = TableKeys::new(document, &model_key);
-        let teeth_keys = TableKeys::new(document, &teeth_key);
-        let kind = table.model.kind();
+        let keys = TableKeys::new(document, key.clone());
         let teeth = teeth(table, &keys)?;
         let numbers = [
             bodies.find_body(&keys, "gear_1", &table.gear_1)?,
             bodies.find_body(&keys, "gear_2", &table.gear_2)?,
         ];
         if numbers[0] == numbers[1] {
-            return Err(keys.error(
-                "gear_2",
-                format!(
-                    "found `{}`, the same as gear_1; a mesh needs two bodies",
-                    table.gear_2
-                ),
-            ));
+            let name = &table.gear_2;
+            let problem = format!("found `{name}`, the same as gear_1; a mesh needs two bodies");
+            return Err(keys.error("gear_2", problem));
         }
-        if let Some(file) = &table.bevel_pair {
-            let scene = SceneBevel {
-                table,
-                teeth,
-                keys,
-                model_keys,
-                teeth_keys,
-                file: &folder.join(file),
-                folder,
-            };
-            return scene.prepare((&key, numbers), bodies, parts);
-        }
-        keys.refuse(
-            &given!(table; bevel_models, bevel_surface),
-            "belongs to a `bevel_pair`, which this mesh is not; remove it",
-        )?;
-        let gear = |i: usize| {
-            let placed = &bodies.list[numbers[i]];
-            placed.cylindrical().ok_or_else(|| {
-                let key = ["gear_1", "gear_2"][i];
-                let name = &placed.body.name;
-                let problem = match placed.bevel() {
-                    Some(_) => format!(
-                        "body `{name}` is a bevel gear; name the file of its pair, `bevel_pair = \"...\"`"
-                    ),
-                    None => format!(
-                        "body `{name}` is no gear; give it `gear = \"...\"` in its [[body]]"
-                    ),
-                };
-                keys.error(key, problem)
-            })
-        };
-        let gears = [gear(0)?, gear(1)?];
-        let seats = [
-            seat(&teeth.eccentricity_1, &teeth_keys, "eccentricity_1")?,
-            seat(&teeth.eccentricity_2, &teeth_keys, "eccentricity_2")?,
-        ];
-        let at_start = pose(bodies, numbers, &seats);
-        let pair = fitting_pair(gears, &at_start, &keys)?;
-        let mut prepared = Self {
-            name: table.name.clone(),
-            model: kind,
-            bodies: numbers,
-            teeth: [pair.gear_1.teeth, pair.gear_2.teeth],
-            base_radii_m: pair.circles().radii_m,
-            seats,
-            mesh: None,
-            sides: teeth.flanks.flanks().to_vec(),
-            touching_at_start: teeth.touching_at_start,
-            slice_width_m: 0.0,
-            models: None,
-            tooth_pairs: None,
-            flank_corners_m: Vec::new(),
-            stage: None,
-            key: key.clone(),
-        };
-        let mut scene = SceneMesh {
+        let scene = SceneMesh {
             table,
             teeth,
             keys,
-            model_keys,
-            teeth_keys,
+            model_keys: TableKeys::new(document, format!("{key}.model")),
+            teeth_keys: TableKeys::new(document, format!("{key}.teeth")),
             folder,
-            gears,
-            pair: &pair,
-            condensed,
-            displacement_m: at_start
-                .face_displacement_m(BaseCircles::new(gears.map(|gear| &gear.definition.profile))),
-            curve: None,
+            flanks: (),
         };
-        scene.curve = scene.static_curve(prepared.sides[0])?;
-        scene.refuse_unfelt_cracks()?;
-        if kind == MeshKind::Kinematic {
-            scene.microgeometry()?;
-            scene.tooth_pairs()?;
-        } else {
-            let mesh = match &table.model {
-                MeshModel::NodeToSurface(model) => {
-                    let made = scene.node_surfaces(model, &prepared.sides)?;
-                    prepared.tooth_pairs = made.tooth_pairs;
-                    made.mesh
-                }
-                _ => {
-                    prepared.tooth_pairs = scene.tooth_pairs()?;
-                    scene.mesh(&prepared.sides)?
-                }
-            };
-            prepared.slice_width_m = mesh.kinematics().layout().width_m();
-            let modes = numbers.map(|number| bodies.list[number].modes);
-            prepared.mesh = Some(scene.modal(mesh, modes)?);
+        let prepared = scene.prepared(key, numbers)?;
+        match &table.bevel_pair {
+            Some(file) => scene
+                .with(&*folder.join(file))
+                .prepare(prepared, bodies, parts),
+            None => of_involutes(scene, prepared, (bodies, condensed), parts),
         }
-        scene.effects(parts);
-        prepared.stage = Some(scene.stage());
-        let jams = pair.radial_room_m().is_some_and(|room_m| room_m < 0.0);
-        let assembly = pair.assembly_words().filter(|_| jams);
-        (parts.notes).extend(assembly.map(|words| format!("mesh `{}`: {words}", table.name)));
-        parts.notes.extend(scene.stiffness_note()?);
-        parts.notes.extend(scene.microgeometry_note());
-        Ok(prepared)
-    }
-
-    /// u: teeth of gear 2 over those of gear 1, negative with a ring.
-    pub(super) fn ratio(&self) -> f64 {
-        let [z1, z2] = self.teeth.map(|teeth| teeth as f64);
-        let [r1, r2] = self.base_radii_m;
-        (z2 / z1).copysign(r1 * r2)
     }
 
     /// The reduced bevel gear of a body, where this mesh names one.
@@ -206,145 +95,178 @@ impl PreparedMesh {
 
     /// Gear 2 as seen in gear 1 at the start.
     pub(super) fn pose(&self, bodies: &Bodies) -> Pose {
-        pose(bodies, self.bodies, &self.seats)
+        let [a, b] = self.bodies.map(|number| bodies.list[number].motion());
+        let [seat_a, seat_b] = self.seats;
+        let pair = MarkerPair {
+            a: seat_a,
+            b: seat_b,
+        };
+        Pose::from(&pair.motion(&a, &b))
     }
 
-    /// Adds the mesh to the system or to its group, with the gauges that read its slice forces.
+    /// Adds the mesh to the system, or to the group that it is solved with, and the gauges that read its slice forces.
     pub(super) fn add(
         self,
-        bodies: &Bodies,
-        (gauges, keys): (&[BuiltGauge], &TableKeys<'_>),
-        place: MeshPlace<'_>,
-        parts: &mut Parts,
+        gauges: &[BuiltGauge],
+        group: Option<&mut Vec<MeshOfGroup>>,
+        connections: &mut Connections<'_>,
     ) -> Result<(), InputError> {
-        let ends = self.bodies.map(Some);
-        match self.mesh {
-            Some(mesh) => {
-                let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
-                let mut element =
-                    MeshElement::new(&self.name, markers, mesh).with_line_loads(self.slice_width_m);
-                let axes = [0, 1].map(|i| Marker::at(bodies.id(ends[i]), [0.0; 3]));
-                if markers != axes {
-                    element = element.with_axes(axes);
-                }
-                if let Some(pairs) = self.tooth_pairs {
-                    element = element.with_tooth_pairs(pairs);
-                }
-                for gear in [1, 2] {
-                    let on_gear = |gauge: &&BuiltGauge| {
-                        gauge
-                            .meshes
-                            .iter()
-                            .any(|(mesh, number)| *mesh == self.name && *number == gear)
-                    };
-                    let own: Vec<&BuiltGauge> = gauges.iter().filter(on_gear).collect();
-                    let Some(first) = own.first() else {
-                        continue;
-                    };
-                    // Strain by the modes is counted once, with the gear's first mesh.
-                    let modal = if first.meshes[0].0 == self.name {
-                        ModalPart::Included
-                    } else {
-                        ModalPart::ElsewhereIncluded
-                    };
-                    let names: Vec<&str> = own.iter().map(|gauge| gauge.name.as_str()).collect();
-                    element = element
-                        .with_gauges(gear, &first.model, &names, modal)
-                        .map_err(|e| keys.error("", e))?;
-                }
-                match place {
-                    MeshPlace::Own(builder) => {
-                        builder.element(element);
-                    }
-                    MeshPlace::Group(group) => group.push(MeshOfGroup {
-                        name: self.name.clone(),
-                        element,
-                        bodies: self.bodies,
-                        key: self.key,
-                    }),
-                }
-                let kind = match self.model {
-                    MeshKind::Kinematic => "kinematic mesh",
-                    MeshKind::Impact => "impact mesh",
-                    MeshKind::Iso6336 => "iso6336 mesh",
-                    MeshKind::Analytic => "analytic mesh",
-                    MeshKind::NodeToSurface => "node-to-surface mesh",
-                    MeshKind::Hybrid => "hybrid mesh",
-                };
-                parts.element(&self.name, kind, bodies, ends);
-            }
+        let (bodies, ends) = (connections.bodies, self.bodies.map(Some));
+        let name = self.built.name;
+        let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
+        let part = bodies.part(&name, self.model.of_parts(), &ends);
+        let Some(mesh) = self.mesh else {
+            let (teeth, radii_m) = (self.built.teeth, self.built.base_radii_m);
+            let teeth = [0, 1].map(|i: usize| (teeth[i] as i64) * radii_m[i].signum() as i64);
+            let joint = kinematic_mesh(&name, markers, teeth);
+            connections.builder.joint(joint);
+            connections.parts.joints.push(part);
+            return Ok(());
+        };
+        let mut element =
+            MeshElement::new(&name, markers, mesh).with_line_loads(self.slice_width_m);
+        let axes = ends.map(|end| Marker::at(bodies.id(end), [0.0; 3]));
+        if markers != axes {
+            element = element.with_axes(axes);
+        }
+        if let Some(pairs) = self.tooth_pairs {
+            element = element.with_tooth_pairs(pairs);
+        }
+        for gear in [1, 2] {
+            let is_read = |(mesh, number): &(String, usize)| *mesh == name && *number == gear;
+            let on_gear = |gauge: &&BuiltGauge| gauge.meshes.iter().any(is_read);
+            let own: Vec<&BuiltGauge> = gauges.iter().filter(on_gear).collect();
+            let Some(first) = own.first() else {
+                continue;
+            };
+            // Strain by the modes is counted once, with the gear's first mesh.
+            let modal = if first.meshes[0].0 == name {
+                ModalPart::Included
+            } else {
+                ModalPart::ElsewhereIncluded
+            };
+            let names: Vec<&str> = own.iter().map(|gauge| gauge.name.as_str()).collect();
+            element = element
+                .with_gauges(gear, &first.model, &names, modal)
+                .map_err(|e| connections.scene.document.error(&self.key, e))?;
+        }
+        match group {
+            Some(group) => group.push(MeshOfGroup {
+                name,
+                element,
+                bodies: self.bodies,
+                key: self.key,
+            }),
             None => {
-                let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
-                let teeth = [0, 1]
-                    .map(|i: usize| (self.teeth[i] as i64) * self.base_radii_m[i].signum() as i64);
-                if let MeshPlace::Own(builder) = place {
-                    builder.joint(kinematic_mesh(&self.name, markers, teeth));
-                }
-                parts.joint(&self.name, "kinematic mesh", bodies, ends);
+                connections.builder.element(element);
             }
         }
+        connections.parts.elements.push(part);
         Ok(())
     }
 }
 
-pub(super) fn pose(bodies: &Bodies, numbers: [usize; 2], seats: &[Marker; 2]) -> Pose {
-    let [a, b] = numbers.map(|number| bodies.list[number].motion());
-    let pair = MarkerPair {
-        a: seats[0],
-        b: seats[1],
+/// The mesh of two cylindrical gears.
+fn of_involutes<'m>(
+    scene: SceneMesh<'_, ()>,
+    mut prepared: PreparedMesh,
+    (bodies, condensed): (&'m Bodies, &CondensedFlanks<'m>),
+    parts: &mut Parts,
+) -> Result<PreparedMesh, InputError> {
+    let table = scene.table;
+    scene.keys.refuse(
+        &given!(table; bevel_models, bevel_surface),
+        "belongs to a `bevel_pair`, which this mesh is not; remove it",
+    )?;
+    let gear = |i: usize| {
+        let placed = &bodies.list[prepared.bodies[i]];
+        placed.cylindrical().ok_or_else(|| {
+            let name = &placed.body.name;
+            let problem = match placed.bevel() {
+                Some(_) => format!(
+                    "body `{name}` is a bevel gear; name the file of its pair, `bevel_pair = \"...\"`"
+                ),
+                None => {
+                    format!("body `{name}` is no gear; give it `gear = \"...\"` in its [[body]]")
+                }
+            };
+            scene.keys.error(["gear_1", "gear_2"][i], problem)
+        })
     };
-    Pose::from(&pair.motion(&a, &b))
+    let gears = [gear(0)?, gear(1)?];
+    let at_start = prepared.pose(bodies);
+    let pair = fitting_pair(gears, &at_start, &scene.keys)?;
+    prepared.built.teeth = [pair.gear_1.teeth, pair.gear_2.teeth];
+    prepared.built.base_radii_m = pair.circles().radii_m;
+    let circles = BaseCircles::new(gears.map(|gear| &gear.definition.profile));
+    let mut scene = scene.with(Involutes {
+        gears,
+        pair: &pair,
+        condensed,
+        displacement_m: at_start.face_displacement_m(circles),
+        curve: None,
+    });
+    scene.flanks.curve = scene.static_curve(prepared.sides[0])?;
+    scene.refuse_unfelt_cracks()?;
+    let mesh = match &table.model {
+        MeshModel::Kinematic {} => {
+            scene.microgeometry()?;
+            scene.tooth_pairs()?;
+            None
+        }
+        MeshModel::NodeToSurface(model) => {
+            let made = scene.node_surfaces(model, &prepared.sides)?;
+            prepared.tooth_pairs = made.tooth_pairs;
+            Some(made.mesh)
+        }
+        _ => {
+            prepared.tooth_pairs = scene.tooth_pairs()?;
+            Some(scene.mesh(&prepared.sides)?)
+        }
+    };
+    if let Some(mesh) = mesh {
+        prepared.slice_width_m = mesh.kinematics().layout().width_m();
+        let modes = prepared.bodies.map(|number| bodies.list[number].modes);
+        prepared.mesh = Some(scene.modal(mesh, modes)?);
+    }
+    scene.effects(parts);
+    prepared.built.stage = Some(scene.stage());
+    let jams = pair.radial_room_m().is_some_and(|room_m| room_m < 0.0);
+    let assembly = pair.assembly_words().filter(|_| jams);
+    (parts.notes).extend(assembly.map(|words| format!("mesh `{}`: {words}", table.name)));
+    parts.notes.extend(scene.stiffness_note()?);
+    parts.notes.extend(scene.microgeometry_note());
+    Ok(prepared)
 }
 
 /// What touches and how, as far as the model knows it.
 fn teeth(table: &GearMeshTable, keys: &TableKeys<'_>) -> Result<TeethTable, InputError> {
     let (kind, teeth) = (table.model.kind(), table.teeth.clone());
-    let knows = match kind {
-        MeshKind::Kinematic if teeth.is_some() => ("teeth", "no flanks"),
-        MeshKind::Iso6336 if teeth.as_ref().is_some_and(|t| !t.errors_1.is_empty()) => {
-            ("teeth.errors_1", "no single teeth")
-        }
-        MeshKind::Iso6336 if teeth.as_ref().is_some_and(|t| !t.errors_2.is_empty()) => {
-            ("teeth.errors_2", "no single teeth")
-        }
-        _ => {
-            let teeth = teeth.unwrap_or_default();
-            if let Some(side) = teeth.touching_at_start
-                && !teeth.flanks.flanks().contains(&side)
-            {
-                let problem = format!(
-                    "is not used: teeth.flanks leaves the {} flanks out; remove one of the two",
-                    side.name()
-                );
-                return Err(keys.error("teeth.touching_at_start", problem));
-            }
-            return Ok(teeth);
-        }
+    let states = |list: fn(&TeethTable) -> &Vec<FlankErrorTable>| {
+        let list = teeth.as_ref().map(list);
+        kind == MeshKind::Iso6336 && list.is_some_and(|list| !list.is_empty())
     };
-    let problem = format!(
-        "is not used by kind = \"{}\", which knows {}; remove it",
-        kind.name(),
-        knows.1
-    );
-    Err(keys.error(knows.0, problem))
-}
-
-/// Place of a gear on its body.
-pub(super) fn seat(
-    table: &Option<EccentricityTable>,
-    keys: &TableKeys<'_>,
-    key: &str,
-) -> Result<Marker, InputError> {
-    let table = table.unwrap_or_default();
-    let eccentricity = Eccentricity {
-        offset_m: UM * table.offset_um,
-        direction_rad: table.direction_deg.to_radians(),
-        tilt_rad: 1e-3 * table.tilt_mrad,
-        tilt_direction_rad: table.tilt_direction_deg.to_radians(),
-    };
-    eccentricity
-        .marker(GROUND, 0.0, 0.0)
-        .map_err(|e| keys.error(key, e))
+    let no_flanks = kind == MeshKind::Kinematic && teeth.is_some();
+    for (key, is_unused, knows) in [
+        ("teeth", no_flanks, "no flanks"),
+        ("teeth.errors_1", states(|t| &t.errors_1), "no single teeth"),
+        ("teeth.errors_2", states(|t| &t.errors_2), "no single teeth"),
+    ] {
+        let kind = kind.name();
+        let problem = format!("is not used by kind = \"{kind}\", which knows {knows}; remove it");
+        keys.refuse(&[(key, is_unused)], problem)?;
+    }
+    let teeth = teeth.unwrap_or_default();
+    if let Some(side) = teeth.touching_at_start
+        && !teeth.flanks.flanks().contains(&side)
+    {
+        let problem = format!(
+            "is not used: teeth.flanks leaves the {} flanks out; remove one of the two",
+            side.name()
+        );
+        return Err(keys.error("teeth.touching_at_start", problem));
+    }
+    Ok(teeth)
 }
 
 /// The pair at the centre distance of the start.
@@ -354,29 +276,13 @@ pub(super) fn fitting_pair(
     keys: &TableKeys<'_>,
 ) -> Result<GearPair, InputError> {
     let [first, second] = gears.map(|gear| &gear.definition);
-    for (what, values) in [
-        (
-            "module",
-            [first.tooth.module_m, second.tooth.module_m].map(|m| m / MM),
-        ),
-        (
-            "pressure angle",
-            [
-                first.tooth.pressure_angle_rad,
-                second.tooth.pressure_angle_rad,
-            ]
-            .map(f64::to_degrees),
-        ),
-    ] {
-        if (values[0] - values[1]).abs() > 1e-6 * values[0] {
-            let unit = if what == "module" { "mm" } else { "deg" };
-            return Err(keys.error(
-                "gear_2",
-                format!(
-                    "the gears do not fit: {what} {} and {} {unit}",
-                    values[0], values[1]
-                ),
-            ));
+    let (one, two) = (&first.tooth, &second.tooth);
+    let modules = [one.module_m, two.module_m].map(|m| m / MM);
+    let angles = [one.pressure_angle_rad, two.pressure_angle_rad].map(f64::to_degrees);
+    for (what, [one, two], unit) in [("module", modules, "mm"), ("pressure angle", angles, "deg")] {
+        if (one - two).abs() > 1e-6 * one {
+            let problem = format!("the gears do not fit: {what} {one} and {two} {unit}");
+            return Err(keys.error("gear_2", problem));
         }
     }
     let tilt = 1e3 * pose.misalignment_rad();
@@ -398,19 +304,10 @@ pub(super) fn fitting_pair(
         return Err(keys.error("gear_2", problem));
     }
     let distance = pose.displacement_m[0].hypot(pose.displacement_m[1]);
-    GearPair::new(
-        first.profile.clone(),
-        second.profile.clone(),
-        distance,
-        Misalignment::default(),
-    )
-    .map_err(|e| {
-        keys.error(
-            "gear_2",
-            format!(
-                "at the centre distance of {:.4} mm at the start: {e}",
-                distance / MM
-            ),
-        )
+    let [one, two] = [first, second].map(|gear| gear.profile.clone());
+    GearPair::new(one, two, distance, Misalignment::default()).map_err(|e| {
+        let distance = distance / MM;
+        let problem = format!("at the centre distance of {distance:.4} mm at the start: {e}");
+        keys.error("gear_2", problem)
     })
 }

@@ -159,8 +159,7 @@ impl GearFiles {
         let Some(bore) = table.bore else {
             return Ok(gear);
         };
-        let path = format!("body.{body}");
-        let keys = TableKeys::new(&scene.document, &path);
+        let keys = TableKeys::new(&scene.document, format!("body.{body}"));
         let is_hybrid = |mesh: &&GearMeshTable| {
             let own = mesh.gear_1 == table.name || mesh.gear_2 == table.name;
             own && mesh.model.kind() == MeshKind::Hybrid
@@ -188,13 +187,9 @@ impl GearFiles {
                     }
                 };
                 return Ok(Some(BodyGear::Cylindrical(Arc::new(Gear {
-                    file: gear.file.clone(),
-                    definition: gear.definition.clone(),
-                    model: Some(released),
-                    microgeometry_of_scene: gear.microgeometry_of_scene,
-                    on_faces: None,
                     bore_motions: (bore == BoreHold::Rollers).then_some(motions),
                     bore: Some(Arc::clone(model)),
+                    ..gear.with_model(released)
                 }))));
             }
         };
@@ -217,15 +212,7 @@ impl BodyGear {
                     );
                     return Err(keys.error("gear", problem));
                 }
-                Gear {
-                    file: path.to_path_buf(),
-                    definition: GearDefinition::read(path)?,
-                    model: None,
-                    microgeometry_of_scene: false,
-                    on_faces: None,
-                    bore_motions: None,
-                    bore: None,
-                }
+                Gear::new(path, GearDefinition::read(path)?, None)
             }
             ending if ending == Some("h5") || models.knows(path) && !path.exists() => {
                 if !models.knows(path) {
@@ -240,23 +227,14 @@ impl BodyGear {
                     let file = path.to_path_buf();
                     return Ok(Self::Bevel(Arc::new(ReducedBevel { file, model })));
                 }
-                Gear {
-                    file: path.to_path_buf(),
-                    definition: model.input.definition_in(shown)?.clone(),
-                    model: Some(model),
-                    microgeometry_of_scene: false,
-                    on_faces: None,
-                    bore_motions: None,
-                    bore: None,
-                }
+                let definition = model.input.definition_in(shown)?.clone();
+                Gear::new(path, definition, Some(model))
             }
             _ => {
-                return Err(keys.error(
-                    "gear",
-                    format!(
-                        "found {shown}, allowed is a gear file (.toml) or a reduced gear (.h5)"
-                    ),
-                ));
+                let problem = format!(
+                    "found {shown}, allowed is a gear file (.toml) or a reduced gear (.h5)"
+                );
+                return Err(keys.error("gear", problem));
             }
         };
         Ok(Self::Cylindrical(Arc::new(gear)))
@@ -264,6 +242,27 @@ impl BodyGear {
 }
 
 impl Gear {
+    /// The gear of a file, as the file has it.
+    fn new(file: &Path, definition: GearDefinition, model: Option<Arc<ReducedGear>>) -> Self {
+        Self {
+            file: file.to_path_buf(),
+            definition,
+            model,
+            microgeometry_of_scene: false,
+            on_faces: None,
+            bore_motions: None,
+            bore: None,
+        }
+    }
+
+    /// The same gear with another model.
+    pub(super) fn with_model(&self, model: Arc<ReducedGear>) -> Self {
+        Self {
+            microgeometry_of_scene: self.microgeometry_of_scene,
+            ..Self::new(&self.file, self.definition.clone(), Some(model))
+        }
+    }
+
     /// Mass and inertia: of the model's mesh, or in closed form.
     pub(super) fn body(&self, keys: &TableKeys<'_>) -> Result<Body, InputError> {
         let hint = |error: DrivetrainError| instead(keys, &error);
@@ -302,13 +301,8 @@ impl Gear {
         let teeth = (&definition.profile, definition.tooth.face_width_m);
         definition.microgeometry = table.check((document, path), teeth, Some(folder))?;
         Ok(Self {
-            file: self.file.clone(),
-            definition,
-            model: self.model.clone(),
             microgeometry_of_scene: true,
-            on_faces: None,
-            bore_motions: None,
-            bore: None,
+            ..Self::new(&self.file, definition, self.model.clone())
         })
     }
 
@@ -334,10 +328,9 @@ impl Gear {
 
     /// Where it comes from, in words.
     pub(super) fn source(&self) -> String {
-        let kind = if self.model.is_some() {
-            "model"
-        } else {
-            "gear file"
+        let kind = match self.model {
+            Some(_) => "model",
+            None => "gear file",
         };
         let faces = match &self.on_faces {
             Some(_) => ", cut into its shaft at both faces",

@@ -9,10 +9,11 @@ use gearmesh_model::ReducedGear;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::LoadedSystem;
+use super::bodies::cardan;
 use super::gears::BodyGear;
 use super::meshes_together::{MeshesTogether, MovingError};
 use super::parts::Parts;
-use super::parts_in_motion::{MovingParts, moving_parts};
+use super::parts_in_motion::{MovingParts, moving_parts, rows};
 use super::start::settle_phases;
 use crate::system_run::body_column;
 
@@ -88,16 +89,13 @@ impl GearState {
     }
 
     fn orientation(&self) -> UnitQuaternion<f64> {
-        let [x, y, z] = self.cardan_rad;
-        let about = |axis: Vector3<f64>, angle| UnitQuaternion::from_scaled_axis(axis * angle);
-        about(Vector3::x(), x) * about(Vector3::y(), y) * about(Vector3::z(), z)
+        cardan(self.cardan_rad)
     }
 
     /// World from body axes, by rows.
     #[must_use]
     pub fn rotation(&self) -> [[f64; 3]; 3] {
-        let matrix = self.orientation().to_rotation_matrix();
-        std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
+        rows(self.orientation())
     }
 
     pub(super) fn motion(&self) -> BodyMotion {
@@ -169,8 +167,6 @@ impl LoadedSystem {
     /// # Errors
     /// [`InputError`] as [`LoadedSystem::build`].
     pub fn gears_in_motion(&self) -> Result<GearsInMotion, InputError> {
-        let tables = &self.scene.tables;
-        let files = (&self.scene.document, self.scene.folder.as_path());
         let (bodies, shafts) = self.bodies_and_shafts()?;
         let mut places = vec![None; bodies.list.len()];
         let mut gears = Vec::new();
@@ -192,9 +188,9 @@ impl LoadedSystem {
         }
         let prepared = self.prepared_meshes(&bodies, &mut Parts::default())?;
         let mut turned = bodies.clone();
-        let at = (files.0, self.seeks_rest());
+        let at = (&self.scene.document, self.seeks_rest());
         settle_phases(&mut turned, &prepared, at, &mut Vec::new())?;
-        let parts = moving_parts(tables, files, &shafts, &mut turned)?;
+        let parts = moving_parts(&self.scene, &shafts, &mut turned)?;
         let (mut meshes, mut without_forces) = (Vec::new(), Vec::new());
         for prepared in prepared {
             let drawn = match &prepared.models {
@@ -204,26 +200,24 @@ impl LoadedSystem {
                 }),
                 None => prepared.bodies.map(|body| places[body]),
             };
-            let [Some(a), Some(b)] = drawn else {
-                let why = "neither cylindrical nor reduced bevel gears";
-                without_forces.push(format!("`{}`: {why}", prepared.name));
-                continue;
+            let vibrates = prepared.bodies.iter().any(|b| bodies.list[*b].modes > 0);
+            let (gears_of, mesh) = match (drawn, prepared.mesh) {
+                ([Some(a), Some(b)], Some(mesh)) if !vibrates => ([a, b], mesh),
+                (drawn, mesh) => {
+                    let why = match (drawn, mesh) {
+                        ([Some(_), Some(_)], None) => "kinematic",
+                        ([Some(_), Some(_)], Some(_)) => "its gears vibrate in their own modes",
+                        _ => "neither cylindrical nor reduced bevel gears",
+                    };
+                    without_forces.push(format!("`{}`: {why}", prepared.built.name));
+                    continue;
+                }
             };
-            let Some(mesh) = prepared.mesh else {
-                without_forces.push(format!("`{}`: kinematic", prepared.name));
-                continue;
-            };
-            let vibrates = |body: usize| bodies.list[body].modes > 0;
-            if prepared.bodies.into_iter().any(vibrates) {
-                let why = "its gears vibrate in their own modes";
-                without_forces.push(format!("`{}`: {why}", prepared.name));
-                continue;
-            }
-            let compliance = [a, b].map(|gear| gears[gear].contact_compliance());
+            let compliance = gears_of.map(|gear| gears[gear].contact_compliance());
             meshes.push(MovingMesh {
-                name: prepared.name,
+                name: prepared.built.name,
                 together: None,
-                gears: [a, b],
+                gears: gears_of,
                 seats: prepared.seats,
                 mesh,
                 slice_width_m: prepared.slice_width_m,

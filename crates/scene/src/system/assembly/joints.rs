@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use gearmesh_dynamics::{Joint, JointKind, Motion, SystemBuilder, TimeFunction};
+use gearmesh_dynamics::{JointKind, Motion, TimeFunction};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
-use super::bodies::{Bodies, Frame};
-use super::parts::Parts;
+use super::bodies::{Bodies, Seat};
+use super::connections::Connections;
 use crate::system::names;
 use crate::system::tables::MM;
 use crate::system::tables::function::Sources;
@@ -21,11 +21,10 @@ enum Driven {
     Place,
 }
 
-/// A joint's bodies and its frame at the start.
+/// A joint where it is at the start.
 pub(super) struct PlacedJoint<'a> {
     pub table: &'a JointTable,
-    pub ends: [Option<usize>; 2],
-    pub frame: Frame,
+    pub seat: Seat,
 }
 
 /// Finds the bodies and frames of all joints.
@@ -35,17 +34,14 @@ pub(super) fn place<'a>(
     bodies: &Bodies,
 ) -> Result<Vec<PlacedJoint<'a>>, InputError> {
     let each = tables.iter().enumerate().map(|(i, table)| {
-        let key = format!("joint.{i}");
-        let keys = TableKeys::new(document, &key);
+        let keys = TableKeys::new(document, format!("joint.{i}"));
         if matches!(table.kind, JointWord::Fixed | JointWord::Spherical) && table.axis.is_some() {
-            return Err(keys.error(
-                "axis",
-                format!("is not used by kind = \"{}\"; remove it", table.kind.name()),
-            ));
+            let problem = format!("is not used by kind = \"{}\"; remove it", table.kind.name());
+            return Err(keys.error("axis", problem));
         }
-        let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
-        let frame = bodies.stated_frame(&keys, ends[1], table.at_mm, table.axis)?;
-        Ok(PlacedJoint { table, ends, frame })
+        let (on, at) = ((&table.body_1, &*table.body_2), (table.at_mm, table.axis));
+        let seat = bodies.seat(&keys, on, at)?;
+        Ok(PlacedJoint { table, seat })
     });
     each.collect()
 }
@@ -53,14 +49,10 @@ pub(super) fn place<'a>(
 /// Adds the joints.
 pub(super) fn add_joints(
     placed: &[PlacedJoint<'_>],
-    document: &InputDocument,
-    bodies: &Bodies,
-    builder: &mut SystemBuilder,
-    parts: &mut Parts,
+    connections: &mut Connections<'_>,
 ) -> Result<(), InputError> {
-    for (i, joint) in placed.iter().enumerate() {
-        let key = format!("joint.{i}");
-        let kind = match joint.table.kind {
+    for (i, PlacedJoint { table, seat }) in placed.iter().enumerate() {
+        let kind = match table.kind {
             JointWord::Fixed => JointKind::Fixed,
             JointWord::Revolute => JointKind::Revolute,
             JointWord::Prismatic => JointKind::Prismatic,
@@ -68,15 +60,8 @@ pub(super) fn add_joints(
             JointWord::Spherical => JointKind::Spherical,
             JointWord::Planar => JointKind::Planar,
         };
-        let [a, b] = joint.ends.map(|end| bodies.marker(end, &joint.frame));
-        let made = Joint::new(&joint.table.name, kind, a, b);
-        builder.joint(made.map_err(|e| TableKeys::new(document, &key).error("", e))?);
-        parts.joint(
-            &joint.table.name,
-            joint.table.kind.name(),
-            bodies,
-            joint.ends,
-        );
+        let keys = connections.keys("joint", i);
+        connections.joint(&keys, (&table.name, table.kind.name()), seat, kind)?;
     }
     Ok(())
 }
@@ -90,7 +75,6 @@ const STEADY: f64 = 1e-6;
 /// A motion with its joint.
 pub(super) struct PlacedMotion {
     name: String,
-    key: String,
     /// Number of its joint.
     pub joint: usize,
     driven: Driven,
@@ -179,16 +163,11 @@ pub(super) fn motions(
 ) -> Result<Vec<PlacedMotion>, InputError> {
     let mut placed: Vec<PlacedMotion> = Vec::new();
     for (i, table) in tables.iter().enumerate() {
-        let key = format!("motion.{i}");
-        let keys = TableKeys::new(document, &key);
-        let position = joints
-            .iter()
-            .position(|joint| joint.table.name == table.joint);
+        let keys = TableKeys::new(document, format!("motion.{i}"));
+        let mut known = joints.iter().map(|joint| &joint.table.name);
+        let position = known.clone().position(|name| *name == table.joint);
         let joint = position.ok_or_else(|| {
-            let known: Vec<&str> = joints
-                .iter()
-                .map(|joint| joint.table.name.as_str())
-                .collect();
+            let known: Vec<&String> = known.by_ref().collect();
             keys.error("joint", names::unknown("joint", &table.joint, &known))
         })?;
         let (driven, motion) = function(table, &keys, sources)?;
@@ -201,35 +180,24 @@ pub(super) fn motions(
             Driven::Place => matches!(word, JointWord::Prismatic | JointWord::Cylindrical),
         };
         if !fits {
-            let what = if driven == Driven::Angle {
-                "turn about"
-            } else {
-                "slide along"
+            let what = match driven {
+                Driven::Angle => "turn about",
+                Driven::Place => "slide along",
             };
-            return Err(keys.error(
-                "joint",
-                format!(
-                    "`{}` is {}, which does not {what} its axis",
-                    table.joint,
-                    word.name()
-                ),
-            ));
+            let (name, kind) = (&table.joint, word.name());
+            let problem = format!("`{name}` is {kind}, which does not {what} its axis");
+            return Err(keys.error("joint", problem));
         }
-        if let Some(earlier) = placed
-            .iter()
-            .find(|other| other.joint == joint && other.driven == driven)
-        {
-            return Err(keys.error(
-                "joint",
-                format!(
-                    "`{}` is driven by `{}` already; remove one of the two",
-                    table.joint, earlier.name
-                ),
-            ));
+        let is_same = |other: &&PlacedMotion| other.joint == joint && other.driven == driven;
+        if let Some(earlier) = placed.iter().find(is_same) {
+            let problem = format!(
+                "`{}` is driven by `{}` already; remove one of the two",
+                table.joint, earlier.name
+            );
+            return Err(keys.error("joint", problem));
         }
         let mut motion = PlacedMotion {
             name: table.name(),
-            key,
             joint,
             driven,
             motion,
@@ -250,41 +218,20 @@ fn function(
     sources: Sources<'_>,
 ) -> Result<(Driven, Motion), InputError> {
     type Wrap = fn(TimeFunction) -> Motion;
-    let stated: Vec<_> = [
-        (
-            "angle_deg",
-            &table.angle_deg,
-            Driven::Angle,
-            TAU / 360.0,
-            Motion::Position as Wrap,
-        ),
-        (
-            "speed_rpm",
-            &table.speed_rpm,
-            Driven::Angle,
-            TAU / 60.0,
-            Motion::Speed as Wrap,
-        ),
-        (
-            "position_mm",
-            &table.position_mm,
-            Driven::Place,
-            MM,
-            Motion::Position as Wrap,
-        ),
-        (
-            "speed_mm_per_s",
-            &table.speed_mm_per_s,
-            Driven::Place,
-            MM,
-            Motion::Speed as Wrap,
-        ),
-    ]
-    .into_iter()
-    .filter_map(|(key, function, driven, unit, wrap)| {
-        function.as_ref().map(|f| (key, f, driven, unit, wrap))
-    })
-    .collect();
+    let (position, speed): (Wrap, Wrap) = (Motion::Position, Motion::Speed);
+    let (angle, place) = (Driven::Angle, Driven::Place);
+    let all = [
+        ("angle_deg", &table.angle_deg, angle, TAU / 360.0, position),
+        ("speed_rpm", &table.speed_rpm, angle, TAU / 60.0, speed),
+        ("position_mm", &table.position_mm, place, MM, position),
+        ("speed_mm_per_s", &table.speed_mm_per_s, place, MM, speed),
+    ];
+    let stated = all
+        .into_iter()
+        .filter_map(|(key, function, driven, unit, wrap)| {
+            function.as_ref().map(|f| (key, f, driven, unit, wrap))
+        });
+    let stated: Vec<_> = stated.collect();
     match stated[..] {
         [(key, function, driven, unit, wrap)] => {
             let motion = wrap(function.function(keys, key, unit, sources)?);
@@ -323,21 +270,16 @@ fn demand_motion(motion: &Motion) -> Result<(), String> {
 pub(super) fn add_motions(
     placed: &[PlacedMotion],
     joints: &[PlacedJoint<'_>],
-    document: &InputDocument,
-    bodies: &Bodies,
-    builder: &mut SystemBuilder,
-    parts: &mut Parts,
+    connections: &mut Connections<'_>,
 ) -> Result<(), InputError> {
-    for motion in placed {
-        let joint = &joints[motion.joint];
-        let kind = match motion.driven {
-            Driven::Angle => JointKind::Rotation(motion.motion.clone()),
-            Driven::Place => JointKind::Translation(motion.motion.clone()),
+    for (i, placed) in placed.iter().enumerate() {
+        let kind = match placed.driven {
+            Driven::Angle => JointKind::Rotation(placed.motion.clone()),
+            Driven::Place => JointKind::Translation(placed.motion.clone()),
         };
-        let [a, b] = joint.ends.map(|end| bodies.marker(end, &joint.frame));
-        let made = Joint::new(&motion.name, kind, a, b);
-        builder.joint(made.map_err(|e| TableKeys::new(document, &motion.key).error("", e))?);
-        parts.joint(&motion.name, "motion", bodies, joint.ends);
+        let keys = connections.keys("motion", i);
+        let seat = &joints[placed.joint].seat;
+        connections.joint(&keys, (&placed.name, "motion"), seat, kind)?;
     }
     Ok(())
 }

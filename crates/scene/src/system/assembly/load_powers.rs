@@ -5,6 +5,7 @@
 
 use std::f64::consts::TAU;
 
+use gearmesh_geometry::input::Beside;
 use nalgebra::Vector3;
 
 use super::bodies::{Bodies, GROUND_NAME};
@@ -76,40 +77,30 @@ pub(super) fn note(
 /// Whether a spring between the ground and a body resists a turning of the body that the scene begins with. A spring
 /// that holds a body at rest takes no power, and one that does not resist turning takes none either.
 fn springs_take_power(tables: &SystemTables, bodies: &Bodies) -> bool {
-    let turns = |ends: [Option<&str>; 2], axis: Option<[f64; 3]>| {
-        let is_ground = |name: &Option<&str>| name.is_none_or(|name| name == GROUND_NAME);
-        let body = match ends {
-            [first, Some(second)] if is_ground(&first) => second,
-            [Some(first), second] if is_ground(&second) => first,
-            _ => return false,
+    let turns = |(first, second): (&Option<String>, &str), axis: Option<[f64; 3]>| {
+        let body = match (first.as_deref().unwrap_or(GROUND_NAME), second) {
+            (GROUND_NAME, body) | (body, GROUND_NAME) => bodies.number(body),
+            _ => None,
         };
-        let Some(placed) = bodies.list.iter().find(|p| p.body.name == body) else {
+        let Some(placed) = body.map(|body| &bodies.list[body]) else {
             return false;
         };
         let along = axis.map_or_else(|| placed.axis(), Vector3::from);
         let along = along.try_normalize(0.0).unwrap_or_else(|| placed.axis());
-        let spin = placed.body.orientation * placed.body.angular_velocity_rad_per_s;
+        let spin = placed.turning();
         along.dot(&spin).abs() > ROUNDING * spin.norm()
     };
     let torsion = tables.torsion_spring.iter().any(|spring| {
         let resists = spring.stiffness_Nm_per_rad != 0.0 || spring.damping_Nm_s_per_rad != 0.0;
-        resists
-            && turns(
-                [spring.body_1.as_deref(), Some(&spring.body_2)],
-                spring.axis,
-            )
+        resists && turns((&spring.body_1, &spring.body_2), spring.axis)
     });
-    let bushing = tables.bushing.iter().any(|bushing| {
+    let bushing = tables.bushing.iter().any(|Beside(bushing, own)| {
         let about_z = |diagonal: Option<[f64; 3]>, matrix: Option<[[f64; 6]; 6]>| {
             diagonal.is_some_and(|d| d[2] != 0.0) || matrix.is_some_and(|m| m[5][5] != 0.0)
         };
         let resists = about_z(bushing.stiffness_Nm_per_rad, bushing.stiffness_matrix_SI)
             || about_z(bushing.damping_Nm_s_per_rad, bushing.damping_matrix_SI);
-        resists
-            && turns(
-                [bushing.body_1.as_deref(), Some(&bushing.body_2)],
-                bushing.axis,
-            )
+        resists && turns((&own.body_1, &own.body_2), own.axis)
     });
     torsion || bushing
 }
@@ -118,7 +109,7 @@ fn power<'a>(load: &'a LoadTable, bodies: &Bodies) -> Option<Power<'a>> {
     let Some(FunctionTable::Constant(torque_nm)) = load.torque_Nm else {
         return None;
     };
-    let placed = bodies.list.iter().find(|p| p.body.name == load.body)?;
+    let placed = &bodies.list[bodies.number(&load.body)?];
     let spin = placed.body.angular_velocity_rad_per_s;
     let along = Vector3::from(load.along.unwrap_or([0.0, 0.0, 1.0]));
     let along = along.try_normalize(0.0)?;

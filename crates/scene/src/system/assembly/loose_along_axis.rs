@@ -12,9 +12,10 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
 use super::LoadedSystem;
-use super::bearings::rolling_bearing;
+use super::bearings::placed_bearing;
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;
+use super::linked::firsts;
 use super::parts::Parts;
 use crate::system::built::BuiltPart;
 use crate::system::tables::mesh_model::MeshKind;
@@ -83,8 +84,8 @@ impl LoadedSystem {
             let problem = format!(
                 "cylindrical rollers hold nothing along their axis, and nothing else holds `{name}` there; {advice}"
             );
-            let key = format!("bearing.{number}");
-            return Err(TableKeys::new(&self.scene.document, &key).error("model", problem));
+            let key = format!("bearing.{number}.model");
+            return Err(self.scene.document.error(&key, problem));
         }
         Ok(())
     }
@@ -94,20 +95,21 @@ impl LoadedSystem {
         let Some(file) = self.scene.tables.bearing[number].model.file() else {
             return Ok(false);
         };
-        let key = format!("bearing.{number}");
-        let keys = TableKeys::new(&self.scene.document, &key);
-        let found = rolling_bearing::definition("model.file", file, &self.scene.folder, &keys)?;
-        let rollers = match &found.geometry {
-            BearingGeometry::Roller(rollers) => rollers,
-            BearingGeometry::Ball(_) => return Ok(false),
-        };
-        Ok(rollers.taper.is_none() && rollers.barrel.is_none())
+        let keys = TableKeys::new(&self.scene.document, format!("bearing.{number}"));
+        let found = placed_bearing::read(("model.file", file), &self.scene.folder, &keys)?;
+        Ok(match &found.definition.geometry {
+            BearingGeometry::Roller(rollers) => rollers.taper.is_none() && rollers.barrel.is_none(),
+            BearingGeometry::Ball(_) => false,
+        })
     }
 }
 
 /// Whether the teeth of a mesh push along the axis.
 fn pushes(mesh: &PreparedMesh) -> bool {
-    let helical = mesh.stage.is_none_or(|stage| stage.overlap_ratio > 0.0);
+    let helical = mesh
+        .built
+        .stage
+        .is_none_or(|stage| stage.overlap_ratio > 0.0);
     mesh.model != MeshKind::Kinematic && helical
 }
 
@@ -121,29 +123,21 @@ fn distinct([first, second]: [usize; 2]) -> impl Iterator<Item = usize> {
 struct Pieces<'b> {
     /// Numbers of the bodies by name.
     numbers: HashMap<&'b str, usize>,
-    /// The piece of each body: the number of one of its bodies.
+    /// The piece of each body: the number of its first body.
     of_body: Vec<usize>,
 }
 
 impl<'b> Pieces<'b> {
     fn new(bodies: &'b Bodies, parts: &Parts) -> Self {
-        let names = bodies.list.iter().enumerate();
-        let numbers: HashMap<&str, usize> = names
-            .map(|(number, placed)| (placed.body.name.as_str(), number))
-            .collect();
-        // A tree for each piece: of each body another one of its piece, of its root itself.
-        let mut above: Vec<usize> = (0..bodies.list.len()).collect();
+        let names = bodies.names().enumerate();
+        let numbers: HashMap<&str, usize> = names.map(|(number, name)| (name, number)).collect();
         let ties = parts.joints.iter().chain(&parts.elements);
-        for part in ties.filter(|part| ["beam", "fixed"].contains(&part.kind)) {
-            let mut ends = part.bodies.iter().map(|name| numbers.get(name.as_str()));
-            if let (Some(Some(&a)), Some(Some(&b))) = (ends.next(), ends.next()) {
-                let (a, b) = (root(&mut above, a), root(&mut above, b));
-                above[a.max(b)] = a.min(b);
-            }
-        }
-        let of_body = (0..above.len())
-            .map(|body| root(&mut above, body))
-            .collect();
+        let ties = ties.filter(|part| ["beam", "fixed"].contains(&part.kind));
+        let links = ties.filter_map(|part| match &part.bodies[..] {
+            [a, b] => Some([*numbers.get(a.as_str())?, *numbers.get(b.as_str())?]),
+            _ => None,
+        });
+        let of_body = firsts(bodies.list.len(), links);
         Self { numbers, of_body }
     }
 
@@ -160,13 +154,4 @@ impl<'b> Pieces<'b> {
         }
         pieces.into_iter().flatten().collect()
     }
-}
-
-/// The root of a body's tree; on the way each body is put below the one after the next.
-fn root(above: &mut [usize], mut body: usize) -> usize {
-    while above[body] != body {
-        above[body] = above[above[body]];
-        body = above[body];
-    }
-    body
 }

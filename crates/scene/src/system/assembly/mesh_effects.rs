@@ -1,12 +1,12 @@
 //! What of a gear mesh is computed, and what is not, in words for the plan.
 
-use super::mesh_model::SceneMesh;
+use super::mesh_model::SceneInvolutes;
 use super::parts::Parts;
 use crate::system::tables::UM;
 use crate::system::tables::gear_mesh::TouchingFlanks;
 use crate::system::tables::mesh_model::{MeshKind, MeshModel};
 
-impl SceneMesh<'_, '_> {
+impl SceneInvolutes<'_, '_> {
     /// Lists the effects of this mesh.
     pub(super) fn effects(&self, parts: &mut Parts) {
         let (table, teeth) = (self.table, &self.teeth);
@@ -15,69 +15,48 @@ impl SceneMesh<'_, '_> {
         if kind == MeshKind::Kinematic {
             return;
         }
-        let flanks = match teeth.flanks {
-            TouchingFlanks::Both => Some(format!(
-                "both sides, {:.1} um of backlash",
-                self.pair.backlash_m() / UM
-            )),
-            TouchingFlanks::Right | TouchingFlanks::Left => None,
-        };
-        parts.effect(name("backlash"), flanks);
-        let damping = match (&table.model, table.model.damping()) {
-            (_, Some(damping)) => Some(damping.words().to_string()),
-            (MeshModel::Impact(impact), None) if impact.damping_N_s_per_mm.is_some() => {
-                Some("STEP of the depth".to_string())
-            }
-            (MeshModel::NodeToSurface(nodes), None) if nodes.damping_N_s_per_mm.is_some() => {
-                Some("STEP of the depth".to_string())
-            }
-            (_, None) => None,
-        };
-        parts.effect(name("damping"), damping);
-        parts.effect(
-            name("friction"),
-            teeth
-                .friction
-                .as_ref()
-                .map(|_| "`coulomb`, regularised".to_string()),
-        );
+        let both = teeth.flanks == TouchingFlanks::Both;
+        let backlash_um = self.flanks.pair.backlash_m() / UM;
+        let backlash = format!("both sides, {backlash_um:.1} um of backlash");
+        parts.effect(name("backlash"), both.then_some(backlash));
+        parts.effect(name("damping"), table.model.damping_in_words());
+        let friction = teeth.friction.as_ref();
+        let rubs = "`coulomb`, regularised".to_string();
+        parts.effect(name("friction"), friction.map(|_| rubs));
         parts.effect(name("microgeometry"), self.acting_microgeometry());
         let errors = teeth.errors_1.iter().chain(&teeth.errors_2);
-        let kinds: Vec<&str> = errors.map(|error| error.kind()).collect();
         let cracks = match &table.model {
             MeshModel::Analytic(model) => model.cracks_1.len() + model.cracks_2.len(),
             _ => 0,
         };
-        let of_models = (self.gears.iter().zip([1, 2])).filter_map(|(gear, number)| {
+        let of_models = (self.flanks.gears.iter().zip([1, 2])).filter_map(|(gear, number)| {
             let crack = gear.model.as_ref()?.crack.as_ref()?;
             Some(format!("gear {number}: {}", crack.description()))
         });
-        let kinds: Vec<String> = (kinds.into_iter().map(str::to_owned))
+        let kinds: Vec<String> = (errors.map(|error| error.kind().to_owned()))
             .chain(std::iter::repeat_n("root-crack".to_owned(), cracks))
             .chain(of_models)
             .collect();
-        parts.effect(
-            name("errors and faults"),
-            (!kinds.is_empty()).then(|| kinds.join(", ")),
-        );
-        let eccentric = teeth.eccentricity_1.is_some() || teeth.eccentricity_2.is_some();
-        parts.effect(
-            name("eccentricity"),
-            eccentric.then(|| "runout and wobble of the gear on its body".to_string()),
-        );
+        let all = (!kinds.is_empty()).then(|| kinds.join(", "));
+        parts.effect(name("errors and faults"), all);
+        let eccentric = teeth.eccentricity_1.or(teeth.eccentricity_2);
+        let moves = "runout and wobble of the gear on its body".to_string();
+        parts.effect(name("eccentricity"), eccentric.map(|_| moves));
     }
 
     /// The microgeometry of both gears in words; none where none acts.
     fn acting_microgeometry(&self) -> Option<String> {
         let on = self.table.microgeometry.unwrap_or(true)
-            && self.gears.iter().any(|gear| gear.has_microgeometry());
-        let from_curve = self.table.model.kind() == MeshKind::Iso6336 && self.curve.is_some();
-        let of_curve = if from_curve {
-            ", in the pair's static curve"
-        } else {
-            ""
+            && self
+                .flanks
+                .gears
+                .iter()
+                .any(|gear| gear.has_microgeometry());
+        let of_curve = match (self.table.model.kind(), &self.flanks.curve) {
+            (MeshKind::Iso6336, Some(_)) => ", in the pair's static curve",
+            _ => "",
         };
-        let [first, second] = self.gears.map(|gear| gear.microgeometry_in_words());
+        let [first, second] = self.flanks.gears.map(|gear| gear.microgeometry_in_words());
         on.then(|| format!("gear 1 {first}; gear 2 {second}{of_curve}"))
     }
 

@@ -56,16 +56,12 @@ pub(super) fn carrier_rad_per_s(mesh: &PreparedMesh, bodies: &Bodies) -> f64 {
 
 /// Speed of gear 1 about its axis against the line of centres \[rad/s\].
 pub(super) fn spin_rad_per_s(mesh: &PreparedMesh, bodies: &Bodies) -> f64 {
-    let spin = bodies.list[mesh.bodies[0]]
-        .body
-        .angular_velocity_rad_per_s
-        .z;
-    spin - carrier_rad_per_s(mesh, bodies)
+    bodies.list[mesh.bodies[0]].spin() - carrier_rad_per_s(mesh, bodies)
 }
 
 /// Mesh frequency \[Hz\].
 pub(super) fn frequency_hz(mesh: &PreparedMesh, bodies: &Bodies) -> f64 {
-    mesh.teeth[0] as f64 * spin_rad_per_s(mesh, bodies).abs() / TAU
+    mesh.built.teeth[0] as f64 * spin_rad_per_s(mesh, bodies).abs() / TAU
 }
 
 /// The highest mesh frequency \[Hz\] of all states, and the mesh's name. A ratio has no teeth to be followed.
@@ -78,7 +74,7 @@ pub(super) fn highest<'a>(
         .filter(|mesh| mesh.model != MeshKind::Kinematic);
     let of_mesh = |mesh: &'a PreparedMesh| {
         let each = states.iter();
-        each.map(move |bodies| (frequency_hz(mesh, bodies), &mesh.name[..]))
+        each.map(move |bodies| (frequency_hz(mesh, bodies), &*mesh.built.name))
     };
     toothed.flat_map(of_mesh).max_by(|a, b| a.0.total_cmp(&b.0))
 }
@@ -102,9 +98,10 @@ pub(super) fn refuse_long_steps(
     let Some(params) = scene.solver.params else {
         return Ok(());
     };
-    let (key, step_s) = match params.step {
-        StepControl::Fixed { step_s } => ("solver.step_s", step_s),
-        StepControl::Adaptive(limits) => ("solver.adaptive.largest_step_s", limits.largest_step_s),
+    let step_s = params.step.longest_s();
+    let key = match params.step {
+        StepControl::Fixed { .. } => "solver.step_s",
+        StepControl::Adaptive(_) => "solver.adaptive.largest_step_s",
     };
     let Some((highest_hz, name)) = highest(meshes, &states) else {
         return Ok(());

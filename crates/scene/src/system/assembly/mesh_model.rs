@@ -1,35 +1,26 @@
 //! The model of a gear mesh's teeth from its `[[gear_mesh]]` table: damping, friction, errors; the stiffness of the
 //! simple models is in `mesh_stiffness.rs`.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use gearmesh_contact::{CondensedFlanks, ContactError, SliceLayout};
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::{
-    BeamTeeth, BeamTooth, Damped, DrivetrainError, FlankError, Friction, GearMesh, MeshKinematics,
-    PairCurve, PathEnds, ReducedTeeth, SlicePressure, TeethModel, ToothPairs,
+    BeamTeeth, BeamTooth, FlankError, GearMesh, MeshKinematics, PairCurve, PathEnds, ReducedTeeth,
+    SlicePressure, TeethModel, ToothPairs,
 };
-use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::point_contact::contact_modulus_pa;
-use gearmesh_geometry::{Flank, GearDefinition, GearPair, InputError};
+use gearmesh_geometry::{Flank, GearPair, InputError, ToothGeometry};
 use gearmesh_model::ReducedGear;
 
 use super::gears::Gear;
+use super::scene_mesh::SceneMesh;
 use crate::system::iso_stiffness::REFERENCE_LINE_LOAD_N_PER_M;
-use crate::system::tables::gear_mesh::{GearMeshTable, PathWord, TeethTable, TouchingFlanks};
-use crate::system::tables::mesh_model::{
-    AnalyticTable, DampingTable, HertzTable, HybridTable, MeshKind, MeshModel,
-};
+use crate::system::tables::gear_mesh::{PathWord, TouchingFlanks};
+use crate::system::tables::mesh_model::{AnalyticTable, HybridTable, MeshKind, MeshModel};
 
-/// A table with all that its models are made from.
-pub(super) struct SceneMesh<'a, 'm> {
-    pub table: &'a GearMeshTable,
-    pub teeth: TeethTable,
-    pub keys: TableKeys<'a>,
-    pub model_keys: TableKeys<'a>,
-    pub teeth_keys: TableKeys<'a>,
-    pub folder: &'a Path,
+/// What the teeth of two cylindrical gears are made from.
+pub(super) struct Involutes<'a, 'm> {
     pub gears: [&'m Arc<Gear>; 2],
     pub pair: &'a GearPair,
     /// Flanks of all meshes of the scene so far.
@@ -40,11 +31,10 @@ pub(super) struct SceneMesh<'a, 'm> {
     pub curve: Option<PairCurve>,
 }
 
-impl<'m> SceneMesh<'_, 'm> {
-    pub(super) fn fault(&self) -> impl Fn(DrivetrainError) -> InputError + '_ {
-        |error| self.keys.error("", error)
-    }
+/// A mesh of cylindrical gears.
+pub(super) type SceneInvolutes<'a, 'm> = SceneMesh<'a, Involutes<'a, 'm>>;
 
+impl<'m> SceneInvolutes<'_, 'm> {
     /// Width of the contact zone at the start \[m\].
     pub(super) fn zone_width_m(&self) -> f64 {
         self.layout(1).reference.width_m
@@ -52,22 +42,20 @@ impl<'m> SceneMesh<'_, 'm> {
 
     /// So many slices over the overlap of the faces at the start.
     pub(super) fn layout(&self, slices: usize) -> SliceLayout {
-        let widths = self.gears.map(|gear| gear.definition.tooth.face_width_m);
-        SliceLayout::new(widths, self.displacement_m, slices)
+        let widths = self
+            .flanks
+            .gears
+            .map(|gear| gear.definition.tooth.face_width_m);
+        SliceLayout::new(widths, self.flanks.displacement_m, slices)
     }
 
     fn models(&self) -> Result<[&'m ReducedGear; 2], InputError> {
-        let gears: [&'m Arc<Gear>; 2] = self.gears;
+        let gears: [&'m Arc<Gear>; 2] = self.flanks.gears;
         let model = |i: usize| {
             gears[i].model.as_deref().ok_or_else(|| {
-                let key = ["gear_1", "gear_2"][i];
-                self.keys.error(
-                    key,
-                    format!(
-                        "kind = \"hybrid\" needs reduced gears (.h5), found {}",
-                        self.gears[i].file.display()
-                    ),
-                )
+                let found = gears[i].file.display();
+                let problem = format!("kind = \"hybrid\" needs reduced gears (.h5), found {found}");
+                self.keys.error(["gear_1", "gear_2"][i], problem)
             })
         };
         Ok([model(0)?, model(1)?])
@@ -79,9 +67,9 @@ impl<'m> SceneMesh<'_, 'm> {
         let kind = self.table.model.kind();
         let blind = matches!(kind, MeshKind::Kinematic | MeshKind::Iso6336);
         let mut errors: [FlankErrors; 2] = [Vec::new(), Vec::new()];
-        for (gear, list) in self.gears.iter().zip(&mut errors) {
+        for (gear, list) in self.flanks.gears.iter().zip(&mut errors) {
             // A curve of the pair holds it already.
-            let in_curve = blind && self.curve.is_some();
+            let in_curve = blind && self.flanks.curve.is_some();
             if !on || !gear.has_microgeometry() || in_curve {
                 continue;
             }
@@ -110,7 +98,7 @@ impl<'m> SceneMesh<'_, 'm> {
         if self.table.model.kind() == MeshKind::Hybrid {
             return Ok(());
         }
-        for (key, gear) in ["gear_1", "gear_2"].into_iter().zip(self.gears) {
+        for (key, gear) in ["gear_1", "gear_2"].into_iter().zip(self.flanks.gears) {
             if gear.definition.crack.is_some() {
                 let problem = format!(
                     "the gear of {} has a [crack], which only kind = \"hybrid\" feels; take that model, or a gear without the crack \
@@ -129,7 +117,7 @@ impl<'m> SceneMesh<'_, 'm> {
             .into_iter()
             .enumerate()
         {
-            let gear = &self.gears[number].definition;
+            let gear = &self.flanks.gears[number].definition;
             for (i, table) in tables.iter().enumerate() {
                 let key = format!("errors_{}.{i}", number + 1);
                 let made = table.on_gear(
@@ -147,7 +135,8 @@ impl<'m> SceneMesh<'_, 'm> {
     fn stated_layout(&self) -> Result<SliceLayout, InputError> {
         let stated = self.table.model.slices();
         if self.table.model.kind() == MeshKind::Hybrid {
-            let resolved = SliceLayout::resolved(self.models()?, self.displacement_m, stated);
+            let resolved =
+                SliceLayout::resolved(self.models()?, self.flanks.displacement_m, stated);
             return resolved.map_err(|error| match error {
                 ContactError::Slices { .. } => self.model_keys.error("slices", error),
                 _ => self.keys.error("", error),
@@ -194,59 +183,34 @@ impl<'m> SceneMesh<'_, 'm> {
             PathWord::LineOfAction => PathEnds::LineOfAction,
             PathWord::Extended => PathEnds::Extended,
         };
-        let gears = [self.pair.gear_1.clone(), self.pair.gear_2.clone()];
+        let gears = [
+            self.flanks.pair.gear_1.clone(),
+            self.flanks.pair.gear_2.clone(),
+        ];
         let kinematics = MeshKinematics::new(
             gears,
             self.errors()?,
-            self.pair.centre_distance_m,
+            self.flanks.pair.centre_distance_m,
             layout,
             ends,
         )
         .map_err(self.fault())?;
-        let mut teeth = teeth.into_iter();
-        let Some((side, model)) = teeth.next() else {
-            return Err(self.keys.error("teeth.flanks", "names no flanks"));
-        };
-        let mut mesh = GearMesh::new(kinematics, side, model).map_err(self.fault())?;
-        for (side, model) in teeth {
-            mesh = mesh.with_side(side, model).map_err(self.fault())?;
-        }
-        self.with_friction(mesh)
-    }
-
-    /// Adds what the teeth say of friction.
-    pub(super) fn with_friction(&self, mesh: GearMesh) -> Result<GearMesh, InputError> {
-        Ok(match self.friction()? {
-            None => mesh,
-            Some(friction) => mesh.with_friction(friction),
-        })
+        self.of_sides(teeth, |side, model| GearMesh::new(kinematics, side, model))
     }
 
     /// Lets the gears vibrate in their modes. `iso6336` and `analytic` do not feel them.
-    pub(super) fn modal(
-        &self,
-        mut mesh: GearMesh,
-        modes: [usize; 2],
-    ) -> Result<GearMesh, InputError> {
-        let kind = self.table.model.kind();
-        if !matches!(
-            kind,
-            MeshKind::Hybrid | MeshKind::NodeToSurface | MeshKind::Impact
-        ) {
-            return Ok(mesh);
-        }
-        for (gear, count) in modes.into_iter().enumerate() {
-            if let (Some(model), true) = (&self.gears[gear].model, count > 0) {
-                mesh = mesh
-                    .with_modes(gear + 1, model, count)
-                    .map_err(self.fault())?;
+    pub(super) fn modal(&self, mesh: GearMesh, modes: [usize; 2]) -> Result<GearMesh, InputError> {
+        let models = self.flanks.gears.map(|gear| gear.model.as_deref());
+        match self.table.model.kind() {
+            MeshKind::Kinematic | MeshKind::Iso6336 | MeshKind::Analytic => Ok(mesh),
+            MeshKind::Hybrid | MeshKind::NodeToSurface | MeshKind::Impact => {
+                self.with_modes(mesh, models, modes)
             }
         }
-        Ok(mesh)
     }
 
     fn beams(&self, model: &AnalyticTable, slices: usize) -> Result<BeamTeeth, InputError> {
-        for (gear, key) in self.gears.iter().zip(["gear_1", "gear_2"]) {
+        for (gear, key) in self.flanks.gears.iter().zip(["gear_1", "gear_2"]) {
             if gear.definition.blank.cut_into_shaft().is_some() {
                 let problem = format!(
                     "`{}` is cut into its shaft; model.kind = \"analytic\" takes gears as discs held at a bore: choose \"hybrid\" or give the gear a bore",
@@ -256,7 +220,7 @@ impl<'m> SceneMesh<'_, 'm> {
             }
         }
         let tooth = |i: usize| {
-            let gear = &self.gears[i].definition;
+            let gear = &self.flanks.gears[i].definition;
             BeamTooth {
                 gear: i + 1,
                 tooth: &gear.profile,
@@ -282,8 +246,14 @@ impl<'m> SceneMesh<'_, 'm> {
         let reference = REFERENCE_LINE_LOAD_N_PER_M * self.zone_width_m();
         let nominal = model.nominal_force_N.map_or(reference, f64::from);
         let contact = (model.local.unwrap_or_default(), layout);
-        let teeth =
-            ReducedTeeth::on_slices(self.pair, side, models, contact, nominal, self.condensed);
+        let teeth = ReducedTeeth::on_slices(
+            self.flanks.pair,
+            side,
+            models,
+            contact,
+            nominal,
+            self.flanks.condensed,
+        );
         teeth.map_err(|error| {
             let hint = match self.teeth.flanks {
                 TouchingFlanks::Both => "; both sides of the teeth can touch unless the mesh's teeth say flanks = \"right\" or \"left\"",
@@ -293,26 +263,11 @@ impl<'m> SceneMesh<'_, 'm> {
         })
     }
 
-    fn damped(
-        &self,
-        damping: &Option<DampingTable>,
-        teeth: impl TeethModel + 'static,
-        slices: usize,
-    ) -> Result<Box<dyn TeethModel>, InputError> {
-        let Some(damping) = damping else {
-            return Ok(Box::new(teeth));
-        };
-        let damping = damping.damping();
-        let damped =
-            Damped::new(teeth, damping, slices).map_err(|e| self.model_keys.error("damping", e))?;
-        Ok(Box::new(damped))
-    }
-
     /// How pairs of teeth have columns: the slices of each together, with Hertz' pressure by the gears' own materials.
     pub(super) fn tooth_pairs(&self) -> Result<Option<ToothPairs>, InputError> {
-        let Some(table) = &self.table.tooth_pairs else {
+        if self.table.tooth_pairs.is_none() {
             return Ok(None);
-        };
+        }
         let kind = self.table.model.kind();
         if matches!(kind, MeshKind::Kinematic | MeshKind::Iso6336) {
             let problem = format!(
@@ -321,33 +276,19 @@ impl<'m> SceneMesh<'_, 'm> {
             );
             return Err(self.keys.error("tooth_pairs", problem));
         }
-        refuse_material(table, &self.keys)?;
-        let [first, second] = self.gears.map(|gear| &gear.definition);
-        let material = |gear: &GearDefinition| (gear.material.young_pa, gear.material.poisson);
-        let ends =
-            |gear: &GearDefinition| [gear.profile.form_roll_rad, gear.profile.flank_end_roll_rad];
+        self.refuse_pair_material()?;
+        let definitions = self.flanks.gears.map(|gear| &gear.definition);
+        let [first, second] =
+            definitions.map(|gear| (gear.material.young_pa, gear.material.poisson));
         Ok(Some(ToothPairs::Slices {
-            pressure: SlicePressure::Line(contact_modulus_pa(material(first), material(second))),
-            face_widths_m: [first.tooth.face_width_m, second.tooth.face_width_m],
-            ends: [ends(first), ends(second)],
+            pressure: SlicePressure::Line(contact_modulus_pa(first, second)),
+            face_widths_m: definitions.map(|gear| gear.tooth.face_width_m),
+            ends: definitions.map(|gear| ends_of_flank(&gear.profile)),
         }))
-    }
-
-    fn friction(&self) -> Result<Option<Friction>, InputError> {
-        let table = self.teeth.friction.as_ref();
-        table.map(|table| table.check(&self.teeth_keys)).transpose()
     }
 }
 
-/// A material in `tooth_pairs` of gears that have their own.
-pub(super) fn refuse_material(table: &HertzTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    let stated = [
-        ("tooth_pairs.young_GPa", table.young_GPa.is_some()),
-        ("tooth_pairs.poisson", table.poisson.is_some()),
-    ];
-    let Some((key, _)) = stated.into_iter().find(|(_, is_stated)| *is_stated) else {
-        return Ok(());
-    };
-    let problem = "is not used: pressures follow from the materials that the model or the gears have; remove it";
-    Err(keys.error(key, problem))
+/// Roll angles between which a flank is \[rad\].
+pub(super) fn ends_of_flank(gear: &ToothGeometry) -> [f64; 2] {
+    [gear.form_roll_rad, gear.flank_end_roll_rad]
 }

@@ -9,7 +9,7 @@ use gearmesh_drivetrain::{DrivetrainError, Impact, MeshSpring, PowerStiffness};
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{Flank, GearDefinition, InputError};
 
-use super::mesh_model::SceneMesh;
+use super::mesh_model::SceneInvolutes;
 use crate::system::iso_stiffness::{N_PER_MM_UM, REFERENCE_LINE_LOAD_N_PER_M, iso_stiffness};
 use crate::system::stage_summary::StageSummary;
 use crate::system::tables::mesh_model::{ImpactTable, Iso6336Table, MeshModel};
@@ -56,7 +56,7 @@ pub(super) fn impact_law(
 const STATED_TWICE: &str =
     "is not used where `stiffness` takes it from the pair's curve; remove one of the two";
 
-impl SceneMesh<'_, '_> {
+impl SceneInvolutes<'_, '_> {
     /// K in N/mm^e and e of `impact`.
     fn impact_stiffness(&self, table: &ImpactTable) -> Result<(f64, f64), InputError> {
         let keys = &self.model_keys;
@@ -64,10 +64,10 @@ impl SceneMesh<'_, '_> {
             let problem = "is for bevel pairs, whose flanks touch in points; state stiffness_N_per_mm_e and exponent, or take `stiffness`";
             return Err(keys.error("hertz", problem));
         }
-        if let Some(curve) = &self.curve {
+        if let Some(curve) = &self.flanks.curve {
             keys.refuse(&given!(table; stiffness_N_per_mm_e), STATED_TWICE)?;
             return Ok(curve.pair_law(
-                self.pair,
+                self.flanks.pair,
                 self.zone_width_m(),
                 table.exponent.map(f64::from),
             ));
@@ -94,7 +94,7 @@ impl SceneMesh<'_, '_> {
             (None, line_load) => {
                 let line_load = line_load.map_or(REFERENCE_LINE_LOAD_N_PER_M, |q| *q / MM);
                 let single = iso_stiffness(self.definitions(), line_load);
-                let mesh = single.mesh_n_per_m2(self.pair.contact_ratio());
+                let mesh = single.mesh_n_per_m2(self.flanks.pair.contact_ratio());
                 let how = format!(
                     "after ISO 6336-1 method B, single stiffness c' {:.3}",
                     single.single()
@@ -112,14 +112,19 @@ impl SceneMesh<'_, '_> {
         layout: &SliceLayout,
     ) -> Result<MeshSpring, InputError> {
         let slices = layout.slices;
-        let middle = self.pair.working_pressure_angle_rad.tan();
-        let helix = self.pair.base_helix_angle_rad();
-        if let Some(curve) = &self.curve {
+        let middle = self.flanks.pair.working_pressure_angle_rad.tan();
+        let helix = self.flanks.pair.base_helix_angle_rad();
+        if let Some(curve) = &self.flanks.curve {
             self.model_keys.refuse(
                 &given!(table; stiffness_N_per_mm_um, line_load_N_per_mm, stiffness_amplitude),
                 STATED_TWICE,
             )?;
-            let slope = self.pair.clone().on_flanks(side).roll_slope_1_rad_per_m();
+            let slope = self
+                .flanks
+                .pair
+                .clone()
+                .on_flanks(side)
+                .roll_slope_1_rad_per_m();
             let ahead = layout.centres_m().iter().map(|z| slope * z).collect();
             return Ok(MeshSpring::on_curve(curve, slices, middle)
                 .with_phase_of_mid_face(ahead)
@@ -132,18 +137,18 @@ impl SceneMesh<'_, '_> {
         match table.stiffness_amplitude {
             None => Ok(spring),
             Some(amplitude) => spring
-                .with_sine(*amplitude, middle, self.pair.gear_1.teeth)
+                .with_sine(*amplitude, middle, self.flanks.pair.gear_1.teeth)
                 .map_err(self.fault()),
         }
     }
 
     /// The stage at a glance, its stiffness that of ISO 6336-1 whatever the model.
     pub(super) fn stage(&self) -> StageSummary {
-        StageSummary::new(self.pair, self.definitions(), self.zone_width_m())
+        StageSummary::new(self.flanks.pair, self.definitions(), self.zone_width_m())
     }
 
     fn definitions(&self) -> [&GearDefinition; 2] {
-        self.gears.map(|gear| &gear.definition)
+        self.flanks.gears.map(|gear| &gear.definition)
     }
 
     /// What stiffness the mesh has, for plan and result; nothing for models that have none of their own.
@@ -151,7 +156,7 @@ impl SceneMesh<'_, '_> {
         let c_gamma =
             |stiffness_n_per_m: f64| stiffness_n_per_m / self.zone_width_m() / N_PER_MM_UM;
         let source = self.table.model.pair_stiffness();
-        let words = match (&self.table.model, &self.curve, source) {
+        let words = match (&self.table.model, &self.flanks.curve, source) {
             (MeshModel::Impact(table), Some(curve), Some(source)) => {
                 let (k, e) = self.impact_stiffness(table)?;
                 format!(

@@ -6,7 +6,7 @@
 //! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
 //! | all bodies, shafts and meshes | `bodies_and_meshes.rs` |
 //! | shafts; gears that are cut into them | `shafts.rs`, `cut_into_shaft.rs` |
-//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs`; of bevel gears `bevel_mesh.rs` |
+//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `scene_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs`; of bevel gears `bevel_mesh.rs` |
 //! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `willis.rs`, `carriers.rs` |
 //! | angles that nobody states | `start.rs` |
 //! | a start in equilibrium where balls move | `start_at_rest.rs` |
@@ -15,8 +15,8 @@
 //! | what a plan says of a mesh | `described_mesh.rs` |
 //! | speeds that stay, whose mesh orders are judged | `steady_speeds.rs` |
 //! | speeds that contradict a joint, stiffnesses that no run resolves | `stated_speeds.rs`, `stiffness.rs` |
-//! | joints and motions, loads and springs, bearings | `joints.rs`, `elements.rs`, `bearings/` |
-//! | which meshes are solved together | `coupled.rs` |
+//! | joints and motions, loads and springs, bearings | `connections.rs`, `joints.rs`, `elements.rs`, `bearings/` |
+//! | which meshes are solved together | `coupled.rs`, `linked.rs` |
 //! | whether the tables fit each other | `consistency.rs` |
 //! | what only cylindrical rollers support | `loose_along_axis.rs` |
 //! | gears that overlap, loads that drive | `overlaps.rs`, `load_powers.rs` |
@@ -28,6 +28,7 @@ mod bevel_mesh;
 mod bodies;
 mod bodies_and_meshes;
 mod carriers;
+mod connections;
 mod consistency;
 mod coupled;
 mod cut_into_shaft;
@@ -37,6 +38,7 @@ mod gear_mesh;
 mod gears;
 mod gears_in_motion;
 mod joints;
+mod linked;
 mod load_powers;
 mod loose_along_axis;
 mod lump;
@@ -52,6 +54,7 @@ mod pair_stiffness;
 mod parts;
 mod parts_in_motion;
 mod ratings;
+mod scene_mesh;
 mod shafts;
 mod start;
 mod start_at_rest;
@@ -80,15 +83,17 @@ use gearmesh_geometry::input::{InputDocument, TableKeys};
 use self::bearings::tangent::Tangent;
 use self::bearings::{cages, housing, rigid};
 use self::bodies::Bodies;
-use self::coupled::{Groups, is_eligible};
-use self::elements::Manner;
+use self::carriers::Holds;
+use self::connections::Connections;
+use self::coupled::is_eligible;
 use self::gear_mesh::PreparedMesh;
 use self::gears::{BodyGear, GearFiles};
 use self::joints::PlacedMotion;
 use self::parts::Parts;
+use self::shafts::PlacedShaft;
 use self::start_at_rest::start_in_equilibrium;
-use self::start_speeds::Holds;
-use super::built::{BuiltBody, BuiltGauge, BuiltSystem};
+use self::start_speeds::settle_speeds;
+use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
 use super::tables::function::Sources;
@@ -123,6 +128,19 @@ impl Default for Variation {
     }
 }
 
+/// A scene before the parts of its system are added.
+struct SetUp {
+    bodies: Bodies,
+    shafts: Vec<PlacedShaft>,
+    meshes: Vec<PreparedMesh>,
+    motions: Vec<PlacedMotion>,
+    parts: Parts,
+    built_meshes: Vec<BuiltMesh>,
+    /// As in [`BuiltSystem`].
+    pitches_per_rad: f64,
+    varied_rad_per_s: f64,
+}
+
 impl SystemScene {
     /// Reads the gears that bodies name.
     ///
@@ -132,8 +150,7 @@ impl SystemScene {
         let mut files = GearFiles::default();
         let mut gears = Vec::new();
         for (i, table) in self.tables.body.iter().enumerate() {
-            let key = format!("body.{i}");
-            let keys = TableKeys::new(&self.document, &key);
+            let keys = TableKeys::new(&self.document, format!("body.{i}"));
             let read = |path| files.get(&self.folder.join(path), &keys, &self.models);
             let gear = table.gear.as_ref().map(read).transpose()?;
             let gear = gears::with_own_microgeometry(gear, &self, i)?;
@@ -215,137 +232,64 @@ impl LoadedSystem {
         at_rest: bool,
         tangents: &[Tangent],
     ) -> Result<BuiltSystem, InputError> {
-        let (tables, document) = (&self.scene.tables, &self.scene.document);
-        let files = (document, self.scene.folder.as_path());
-        let sources = Sources {
-            folder: &self.scene.folder,
-            host: &self.scene.host,
-        };
-        let mut parts = Parts::default();
-        let (mut bodies, shafts) = self.bodies_and_shafts()?;
-        self.refuse_repeated_names()?;
-        let meshes = self.prepared_meshes(&bodies, &mut parts)?;
-        self.check_flexibility(&bodies, &meshes)?;
-        let joints = joints::place(&tables.joint, document, &bodies)?;
-        let motions = joints::motions(
-            &tables.motion,
-            (document, sources),
-            &joints,
-            &variation.motions,
-        )?;
-        let holds = Holds {
-            joints: &joints,
-            bearings: &tables.bearing,
-            shafts: &shafts,
-        };
-        let mut fastest = bodies.clone();
-        let moved = (&motions[..], &PlacedMotion::spin_at_start as &_);
-        start_speeds::settle_speeds(&mut bodies, holds, moved, &meshes, &mut parts.notes);
-        if !at_rest {
-            start_speeds::note_jerks(&bodies, &tables.torsion_spring, &mut parts.notes);
-        }
-        start_speeds::refuse_missed_ratios(&bodies, &meshes, document)?;
-        // What motions drive is not held at the speeds of the start.
-        fastest.free_speeds();
-        let steady = steady_speeds::find(&self.scene, &fastest, holds, (&motions, &meshes));
-        let fastest_of = |motion: &PlacedMotion| motion.fastest_spin(&self.scene.run);
-        let moved = (&motions[..], &fastest_of as &_);
-        start_speeds::settle_speeds(&mut fastest, holds, moved, &meshes, &mut Vec::new());
-        mesh_frequency::refuse_long_steps(&self.scene, &meshes, [&bodies, &fastest])?;
-        let pitches_per_rad = mesh_frequency::pitches_per_rad(&self.scene.run, &meshes, &fastest);
-        let is_varied =
-            |motion: &&PlacedMotion| self.scene.run.varied_motion() == Some(motion.name());
-        let varied_rad_per_s = motions
-            .iter()
-            .find(is_varied)
-            .and_then(PlacedMotion::spin_at_start);
-        stated_speeds::check(&tables.body, &bodies, &joints, document)?;
-        let seeks_rest = self.seeks_rest();
-        let at = (document, seeks_rest);
-        start::settle_phases(&mut bodies, &meshes, at, &mut parts.notes)?;
-        overlaps::note(&bodies, &mut parts.notes);
-        load_powers::note(tables, &motions, &bodies, &mut parts.notes);
+        let scene = &self.scene;
+        let (tables, document) = (&scene.tables, &scene.document);
+        let mut set_up = self.set_up(variation, at_rest)?;
+        let bodies = &mut set_up.bodies;
         // Gears have been turned: frames along their axes are the same, others follow.
-        let joints = joints::place(&tables.joint, document, &bodies)?;
-        housing::place(&tables.bearing, document, &mut bodies)?;
-        let cages = if at_rest {
-            Vec::new()
-        } else {
-            cages::place(&tables.bearing, files, &mut bodies)?
+        let joints = joints::place(&tables.joint, document, bodies)?;
+        housing::place(scene, bodies)?;
+        let cages = match at_rest {
+            true => Vec::new(),
+            false => cages::place(scene, bodies)?,
         };
-
-        let mut builder = System::builder();
-        for (i, placed) in bodies.list.iter().enumerate() {
-            let key = if i < tables.body.len() {
-                format!("body.{i}")
-            } else {
-                "shaft".to_string()
-            };
-            let id = builder
-                .body(placed.body.clone())
-                .map_err(|e| document.error(&key, e))?;
-            bodies.ids.push(id);
+        let builder = self.with_bodies(bodies)?;
+        let (bodies, meshes) = (&set_up.bodies, set_up.meshes);
+        let mut connections = Connections {
+            scene,
+            bodies,
+            at_rest,
+            cages: &cages,
+            tangents,
+            builder,
+            parts: set_up.parts,
+            seated: Vec::new(),
+        };
+        joints::add_joints(&joints, &mut connections)?;
+        rigid::add(&mut connections)?;
+        for shaft in &set_up.shafts {
+            shaft.connect(&mut connections)?;
         }
-        joints::add_joints(&joints, document, &bodies, &mut builder, &mut parts)?;
-        rigid::add(&tables.bearing, document, &bodies, &mut builder, &mut parts)?;
-        for shaft in &shafts {
-            shaft.connect(document, &bodies, &mut builder, &mut parts)?;
+        joints::add_motions(&set_up.motions, &joints, &mut connections)?;
+        elements::add(variation.load_factor, self.sources(), &mut connections)?;
+        if self.seeks_rest() {
+            self.refuse_loose_along_axis(bodies, &meshes, &connections.parts)?;
         }
-        joints::add_motions(
-            &motions,
-            &joints,
-            document,
-            &bodies,
-            &mut builder,
-            &mut parts,
-        )?;
-        let seated = elements::add(
-            tables,
-            (document, sources),
-            Manner {
-                load_factor: variation.load_factor,
-                at_rest,
-                cages: &cages,
-                tangents,
-            },
-            &bodies,
-            &mut builder,
-            &mut parts,
-        )?;
-        if seeks_rest {
-            self.refuse_loose_along_axis(&bodies, &meshes, &parts)?;
-        }
-        let gauges = self.gauges(&bodies, &meshes)?;
-        let ratings = ratings::build(&self.scene, &bodies, &meshes, &gauges)?;
-        let in_time = self.scene.run.simulated_s().is_some();
-        let built_meshes = (meshes.iter())
-            .map(|mesh| mesh.describe(&bodies, in_time.then_some(&fastest), steady.as_ref()))
-            .collect();
-        let groups = Groups::new(&tables.body, document, &bodies, (&meshes, seated))?;
-        let with = (&bodies, &gauges[..]);
-        self.add_meshes((meshes, groups), with, &mut builder, &mut parts)?;
-        self.add_gravity(&bodies, &mut builder, &mut parts);
-        self.check_output(&bodies, &parts)?;
-        let system = builder.build().map_err(|e| self.scene.complaint(&e))?;
+        let gauges = self.gauges(bodies, &meshes)?;
+        let ratings = ratings::build(scene, bodies, &meshes, &gauges)?;
+        self.add_meshes(meshes, &gauges, &mut connections)?;
+        self.add_gravity(&mut connections);
+        let Connections {
+            builder, mut parts, ..
+        } = connections;
+        self.check_output(bodies, &parts)?;
+        let system = builder.build().map_err(|e| scene.complaint(&e))?;
         parts.notes.extend(system.redundant().iter().map(in_words));
-        let built_bodies = bodies
-            .list
-            .into_iter()
-            .zip(bodies.ids)
-            .map(|(placed, id)| BuiltBody {
-                name: placed.body.name,
-                id,
-                source: placed.source,
-                model: placed.gear.and_then(|gear| gear.model().cloned()),
-            });
+        let all = bodies.list.iter().zip(&bodies.ids);
+        let built_bodies = all.map(|(placed, id)| BuiltBody {
+            name: placed.body.name.clone(),
+            id: *id,
+            source: placed.source.clone(),
+            model: placed.model().cloned(),
+        });
         Ok(BuiltSystem {
             system,
             bodies: built_bodies.collect(),
             joints: parts.joints,
             elements: parts.elements,
-            meshes: built_meshes,
-            pitches_per_rad,
-            varied_rad_per_s: varied_rad_per_s.unwrap_or(0.0),
+            meshes: set_up.built_meshes,
+            pitches_per_rad: set_up.pitches_per_rad,
+            varied_rad_per_s: set_up.varied_rad_per_s,
             together: parts.together,
             gauges,
             ratings,
@@ -356,6 +300,82 @@ impl LoadedSystem {
         })
     }
 
+    /// A system of the bodies, which get their numbers in it.
+    fn with_bodies(&self, bodies: &mut Bodies) -> Result<SystemBuilder, InputError> {
+        let mut builder = System::builder();
+        for (i, placed) in bodies.list.iter().enumerate() {
+            let key = match self.scene.tables.body.get(i) {
+                Some(_) => format!("body.{i}"),
+                None => "shaft".to_string(),
+            };
+            let id = builder.body(placed.body.clone());
+            bodies
+                .ids
+                .push(id.map_err(|e| self.scene.document.error(&key, e))?);
+        }
+        Ok(builder)
+    }
+
+    /// Where functions come from that the scene only names.
+    fn sources(&self) -> Sources<'_> {
+        Sources {
+            folder: &self.scene.folder,
+            host: &self.scene.host,
+        }
+    }
+
+    /// Bodies in their places at their speeds, and what is known of meshes and motions there.
+    fn set_up(&self, variation: &Variation, at_rest: bool) -> Result<SetUp, InputError> {
+        let scene = &self.scene;
+        let (tables, document, run) = (&scene.tables, &scene.document, &scene.run);
+        let mut parts = Parts::default();
+        let (mut bodies, shafts) = self.bodies_and_shafts()?;
+        self.refuse_repeated_names()?;
+        let meshes = self.prepared_meshes(&bodies, &mut parts)?;
+        self.check_flexibility(&bodies, &meshes)?;
+        let joints = joints::place(&tables.joint, document, &bodies)?;
+        let (from, varied) = ((document, self.sources()), &variation.motions[..]);
+        let motions = joints::motions(&tables.motion, from, &joints, varied)?;
+        let holds = Holds {
+            joints: &joints,
+            bearings: &tables.bearing,
+            shafts: &shafts,
+        };
+        let mut fastest = bodies.clone();
+        let moved = (&motions[..], &PlacedMotion::spin_at_start as &_);
+        settle_speeds(&mut bodies, holds, moved, &meshes, &mut parts.notes);
+        if !at_rest {
+            start_speeds::note_jerks(&bodies, &tables.torsion_spring, &mut parts.notes);
+        }
+        start_speeds::refuse_missed_ratios(&bodies, &meshes, document)?;
+        // What motions drive is not held at the speeds of the start.
+        fastest.free_speeds();
+        let steady = steady_speeds::find(scene, &fastest, holds, (&motions, &meshes));
+        let fastest_of = |motion: &PlacedMotion| motion.fastest_spin(run);
+        let moved = (&motions[..], &fastest_of as &_);
+        settle_speeds(&mut fastest, holds, moved, &meshes, &mut Vec::new());
+        mesh_frequency::refuse_long_steps(scene, &meshes, [&bodies, &fastest])?;
+        stated_speeds::check(&tables.body, &bodies, &joints, document)?;
+        let at = (document, self.seeks_rest());
+        start::settle_phases(&mut bodies, &meshes, at, &mut parts.notes)?;
+        overlaps::note(&bodies, &mut parts.notes);
+        load_powers::note(tables, &motions, &bodies, &mut parts.notes);
+        let later = run.simulated_s().map(|_| &fastest);
+        let described = |mesh: &PreparedMesh| mesh.describe(&bodies, later, steady.as_ref());
+        let is_varied = |motion: &&PlacedMotion| run.varied_motion() == Some(motion.name());
+        let varied = motions.iter().find(is_varied);
+        Ok(SetUp {
+            built_meshes: meshes.iter().map(described).collect(),
+            pitches_per_rad: mesh_frequency::pitches_per_rad(run, &meshes, &fastest),
+            varied_rad_per_s: varied.and_then(PlacedMotion::spin_at_start).unwrap_or(0.0),
+            bodies,
+            shafts,
+            meshes,
+            motions,
+            parts,
+        })
+    }
+
     fn gauges(
         &self,
         bodies: &Bodies,
@@ -363,19 +383,13 @@ impl LoadedSystem {
     ) -> Result<Vec<BuiltGauge>, InputError> {
         let mut gauges = Vec::new();
         for (i, table) in self.scene.tables.gauge.iter().enumerate() {
-            let key = format!("gauge.{i}");
-            let keys = TableKeys::new(&self.scene.document, &key);
+            let keys = TableKeys::new(&self.scene.document, format!("gauge.{i}"));
             let body = bodies.find_body(&keys, "body", &table.body)?;
             let model = bodies.list[body].model();
             let of_bevel = || meshes.iter().find_map(|mesh| mesh.bevel_model(body));
             let model = model.or_else(of_bevel).ok_or_else(|| {
-                keys.error(
-                    "body",
-                    format!(
-                        "`{}` is no reduced gear (.h5), which alone has gauges",
-                        table.body
-                    ),
-                )
+                let problem = "is no reduced gear (.h5), which alone has gauges";
+                keys.error("body", format!("`{}` {problem}", table.body))
             })?;
             let of_body = |mesh: &&PreparedMesh| {
                 mesh.model == MeshKind::Hybrid && mesh.bodies.contains(&body)
@@ -383,28 +397,15 @@ impl LoadedSystem {
             // The first one reads the bending of a bore, which those without vibration modes know.
             let (solved_together, others): (Vec<_>, Vec<_>) =
                 (meshes.iter().filter(of_body)).partition(|mesh| is_eligible(mesh, bodies));
+            let number = |mesh: &PreparedMesh| if mesh.bodies[0] == body { 1 } else { 2 };
             let loaded: Vec<(String, usize)> = (solved_together.into_iter().chain(others))
-                .map(|mesh| {
-                    (
-                        mesh.name.clone(),
-                        if mesh.bodies[0] == body { 1 } else { 2 },
-                    )
-                })
+                .map(|mesh| (mesh.built.name.clone(), number(mesh)))
                 .collect();
             if loaded.is_empty() {
-                return Err(keys.error(
-                    "body",
-                    format!(
-                        "`{}` is in no hybrid mesh, whose slice forces a gauge reads",
-                        table.body
-                    ),
-                ));
+                let problem = "is in no hybrid mesh, whose slice forces a gauge reads";
+                return Err(keys.error("body", format!("`{}` {problem}", table.body)));
             }
-            let known: Vec<&str> = model
-                .gauges
-                .iter()
-                .map(|gauge| gauge.name.as_str())
-                .collect();
+            let known: Vec<&str> = model.gauges.iter().map(|gauge| &*gauge.name).collect();
             for (k, name) in table.names.iter().enumerate() {
                 let index = known.iter().position(|gauge| gauge == name);
                 let index = index.ok_or_else(|| {
@@ -422,28 +423,21 @@ impl LoadedSystem {
         Ok(gauges)
     }
 
-    fn add_gravity(&self, bodies: &Bodies, builder: &mut SystemBuilder, parts: &mut Parts) {
+    fn add_gravity(&self, connections: &mut Connections<'_>) {
         let Some(gravity) = self.scene.tables.gravity_m_per_s2 else {
-            parts.effect("weight", None);
+            connections.parts.effect("weight", None);
             return;
         };
-        builder.gravity(gravity);
-        for (i, placed) in bodies.list.iter().enumerate() {
+        connections.builder.gravity(gravity);
+        for (i, name) in connections.bodies.names().enumerate() {
             // The name that the element of dynamics has.
-            parts.element_on(
-                &format!("weight of {}", placed.body.name),
-                "weight",
-                bodies,
-                i,
-            );
+            let name = format!("weight of {name}");
+            let part = connections.bodies.part(&name, "weight", &[Some(i)]);
+            connections.parts.elements.push(part);
         }
-        parts.effect(
-            "weight",
-            Some(format!(
-                "[{}, {}, {}] m/s2",
-                gravity[0], gravity[1], gravity[2]
-            )),
-        );
+        let [x, y, z] = gravity;
+        let how = format!("[{x}, {y}, {z}] m/s2");
+        connections.parts.effect("weight", Some(how));
     }
 }
 

@@ -1,8 +1,9 @@
 //! The operating point of bearings that are linear about it (`tangent_of`), see `bearings/tangent.rs`.
 
+use std::fmt::Display;
+
 use gearmesh_dynamics::{State, StaticParams, System, equilibrium};
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::TableKeys;
 
 use super::bearings::tangent::{Tangent, TangentSeat, any};
 use super::{LoadedSystem, Variation};
@@ -37,8 +38,8 @@ pub(super) fn tangents(
     let problem = format!(
         "the tangent at the operating point still changes after {MOST_TURNS} turns; take \"quasi-static\", or another load"
     );
-    let key = format!("bearing.{}", found.first().map_or(0, |one| one.bearing));
-    Err(TableKeys::new(&scene.document, &key).error("model.tangent_of", problem))
+    let number = found.first().map_or(0, |one| one.bearing);
+    Err(fault(loaded, number, problem))
 }
 
 fn of(
@@ -48,10 +49,13 @@ fn of(
     state: &State,
 ) -> Result<Vec<Tangent>, InputError> {
     let each = seats.iter().map(|seat| {
-        seat.tangent(system, state).map_err(|error| {
-            let key = format!("bearing.{}", seat.bearing);
-            TableKeys::new(&loaded.scene.document, &key).error("model.tangent_of", error)
-        })
+        let tangent = seat.tangent(system, state);
+        tangent.map_err(|error| fault(loaded, seat.bearing, error))
     });
     each.collect()
+}
+
+fn fault(loaded: &LoadedSystem, bearing: usize, problem: impl Display) -> InputError {
+    let key = format!("bearing.{bearing}.model.tangent_of");
+    loaded.scene.document.error(&key, problem)
 }

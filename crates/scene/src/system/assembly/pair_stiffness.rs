@@ -12,7 +12,7 @@ use gearmesh_drivetrain::{PairCurve, PairSamples};
 use gearmesh_geometry::input::{Count, InputDocument};
 use gearmesh_geometry::{Flank, GearDefinition, InputError};
 
-use super::mesh_model::SceneMesh;
+use super::mesh_model::SceneInvolutes;
 use crate::pair::{Scene, SceneResult};
 use crate::system::tables::gear_mesh::PathWord;
 use crate::system::tables::mesh_model::{MeshKind, PairStiffnessTable};
@@ -37,7 +37,7 @@ struct Curves {
     tangent_n_per_m: Vec<f64>,
 }
 
-impl SceneMesh<'_, '_> {
+impl SceneInvolutes<'_, '_> {
     /// The curve that `stiffness` names; none where the table has no such key.
     pub(super) fn static_curve(&self, side: Flank) -> Result<Option<PairCurve>, InputError> {
         let Some(table) = self.table.model.pair_stiffness() else {
@@ -59,10 +59,10 @@ impl SceneMesh<'_, '_> {
             return Err(keys.error("stiffness.harmonics", problem));
         }
         let samples = PairSamples {
-            start_roll_rad: self.pair.working_pressure_angle_rad.tan() + curves.start_rad,
+            start_roll_rad: self.flanks.pair.working_pressure_angle_rad.tan() + curves.start_rad,
             pitches: curves.pitches,
-            teeth_1: self.pair.gear_1.teeth,
-            force_n: torque / self.pair.gear_2.base_radius_m,
+            teeth_1: self.flanks.pair.gear_1.teeth,
+            force_n: torque / self.flanks.pair.gear_2.base_radius_m,
             te_m: &curves.te_m,
             unloaded_m: &curves.unloaded_m,
             tangent_n_per_m: &curves.tangent_n_per_m,
@@ -86,7 +86,7 @@ impl SceneMesh<'_, '_> {
         let document =
             InputDocument::new(format!("scene inside {shown}"), result.scene_toml.clone());
         let scene = Scene::from_document(document, self.folder)?;
-        for (i, gear) in self.gears.iter().enumerate() {
+        for (i, gear) in self.flanks.gears.iter().enumerate() {
             let mut of_result = result.gears[i].definition_in(&shown)?.clone();
             scene.modify_flanks(i + 1, &mut of_result)?;
             if let Some(what) = difference(&of_result, &gear.definition) {
@@ -98,7 +98,7 @@ impl SceneMesh<'_, '_> {
                 return Err(fault(problem));
             }
         }
-        let distances = [scene.centre_distance_m, self.pair.centre_distance_m];
+        let distances = [scene.centre_distance_m, self.flanks.pair.centre_distance_m];
         if (distances[0] - distances[1]).abs() > CENTRE_DISTANCE_M {
             let [of_result, here] = distances.map(|d| d / MM);
             let problem = format!(
@@ -129,22 +129,25 @@ impl SceneMesh<'_, '_> {
     fn computed(&self, table: &PairStiffnessTable, side: Flank) -> Result<Curves, InputError> {
         let keys = &self.model_keys;
         let model = |i: usize| {
-            self.gears[i].model.as_deref().ok_or_else(|| {
+            self.flanks.gears[i].model.as_deref().ok_or_else(|| {
                 let problem = format!(
                     "missing; the stiffness can only be computed where both bodies name reduced gears (.h5), found {}: name the result of a [pair] scene",
-                    self.gears[i].file.display()
+                    self.flanks.gears[i].file.display()
                 );
                 keys.error("stiffness.from", problem)
             })
         };
         let models = [model(0)?, model(1)?];
-        let pair = self.pair.clone().on_flanks(side);
+        let pair = self.flanks.pair.clone().on_flanks(side);
         let extended = self.teeth.path == PathWord::Extended;
         let extension =
             (extended && !pair.is_helical()).then(|| PathExtension::new(&pair, EDGE_RADIUS_M));
         let on = self.table.microgeometry.unwrap_or(true);
         let microgeometry = |i: usize| {
-            let own = self.gears[i].definition.microgeometry.of(pair.flank_of(i));
+            let own = self.flanks.gears[i]
+                .definition
+                .microgeometry
+                .of(pair.flank_of(i));
             if on { own.clone() } else { Default::default() }
         };
         let base_2 = pair.gear_2.base_radius_m;
@@ -162,7 +165,7 @@ impl SceneMesh<'_, '_> {
         let fault = |e: gearmesh_contact::ContactError| keys.error("stiffness", e);
         let mut contact =
             StaticContact::new(lines, models[0], models[1], options).map_err(fault)?;
-        let step = TAU / self.pair.gear_1.teeth as f64 / POINTS_PER_PITCH as f64;
+        let step = TAU / self.flanks.pair.gear_1.teeth as f64 / POINTS_PER_PITCH as f64;
         let mut curves = Curves {
             start_rad: 0.0,
             pitches: 1,

@@ -1,17 +1,16 @@
 //! What of a machine is drawn beside its gears: sections of shafts, bearings with their balls or rollers, cages, and
 //! the bodies of which nothing but the inertia is known.
 
-use std::path::Path;
-
-use gearmesh_bearings::{ElementOutline, QuasiStaticBearing};
+use gearmesh_bearings::ElementOutline;
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::bearings::{cages, housing, rolling_bearing};
-use super::bodies::{Bodies, Frame};
+use super::bearings::cages::{self, PlacedCage};
+use super::bearings::housing;
+use super::bearings::placed_bearing::PlacedBearing;
+use super::bodies::{Bodies, Frame, Seat};
 use super::shafts::PlacedShaft;
-use crate::system::scene::SystemTables;
+use crate::system::scene::SystemScene;
 use crate::system::tables::bearing::{BearingModel, BearingTable};
 use crate::system_run::{body_column, element_column};
 
@@ -132,15 +131,14 @@ pub struct MovingParts {
 
 /// The parts of a scene whose bodies stand as at the start, gears turned as their meshes turn them.
 pub(super) fn moving_parts(
-    tables: &SystemTables,
-    files: (&InputDocument, &Path),
+    scene: &SystemScene,
     shafts: &[PlacedShaft],
     bodies: &mut Bodies,
 ) -> Result<MovingParts, InputError> {
     // Bodies that the scene states or its shafts make; what bearings bring comes after them.
     let stated = bodies.list.len();
-    housing::place(&tables.bearing, files.0, bodies)?;
-    let cages = cages::place(&tables.bearing, files, bodies)?;
+    housing::place(scene, bodies)?;
+    let cages = cages::place(scene, bodies)?;
     let starts = bodies.list.iter().map(|placed| BodyAtStart {
         name: placed.body.name.clone(),
         position_m: placed.body.position_m.into(),
@@ -156,77 +154,13 @@ pub(super) fn moving_parts(
         for (station, frame, radii_m, length_m) in shaft.half_sections() {
             is_drawn[station] = true;
             let shape = PartShape::Tube { radii_m, length_m };
-            let part = part(
-                bodies,
-                (shaft.name(), PartKind::Shaft),
-                Some(station),
-                &frame,
-                shape,
-            );
-            found.parts.push(part);
+            let whose = (shaft.name(), PartKind::Shaft);
+            (found.parts).push(part(bodies, whose, Some(station), &frame, shape));
         }
     }
-    for (number, table) in tables.bearing.iter().enumerate() {
-        let key = format!("bearing.{number}");
-        let keys = TableKeys::new(files.0, &key);
-        let seated = housing::seated(table);
-        let at = bearing(&seated, &keys, bodies)?;
-        let rows = match &table.model {
-            BearingModel::Rigid(_) | BearingModel::Linear(_) => Vec::new(),
-            BearingModel::QuasiStatic(_) | BearingModel::Dynamic(_) => {
-                let file = table.model.file().unwrap_or_default();
-                let read = rolling_bearing::definition("model.file", file, files.1, &keys)?;
-                let made = QuasiStaticBearing::new(&read).map_err(|e| keys.error("model", e))?;
-                made.rows
-                    .iter()
-                    .map(|row| (row.elements(), row.outline()))
-                    .collect()
-            }
-        };
-        if rows.is_empty() {
-            found
-                .parts
-                .extend(plain_ring(&table.name, &at, shafts, bodies));
-            continue;
-        }
-        let mut before = 0;
-        for (row, &(count, outline)) in rows.iter().enumerate() {
-            let frame = at.raised(outline.middle_z_m);
-            let width_m = RING_WIDTH * outline.length_m.unwrap_or(outline.diameter_m);
-            for (end, sense) in [(0, 1.0), (1, -1.0)] {
-                let mut radii_m =
-                    RING.map(|share| outline.pitch_radius_m + sense * share * outline.diameter_m);
-                radii_m.sort_by(f64::total_cmp);
-                let shape = PartShape::Tube {
-                    radii_m: radii_m.map(|radius| radius.max(0.0)),
-                    length_m: width_m,
-                };
-                let ring = (&*table.name, PartKind::Ring);
-                found
-                    .parts
-                    .push(part(bodies, ring, at.ends[end], &frame, shape));
-            }
-            if let Some(cage) = cages
-                .iter()
-                .find(|cage| cage.bearing == number && cage.row == row)
-            {
-                let [height, width] = CAGE.map(|share| share * outline.diameter_m);
-                let half = [-0.5, 0.5].map(|share| outline.pitch_radius_m + share * height);
-                let shape = PartShape::Tube {
-                    radii_m: half,
-                    length_m: width,
-                };
-                let kind = (bodies.name(Some(cage.body)), PartKind::Cage);
-                let own = bodies.frame(Some(cage.body));
-                found
-                    .parts
-                    .push(part(bodies, kind, Some(cage.body), &own, shape));
-            }
-            found
-                .elements
-                .push(elements(table, &at, bodies, (before, count), outline));
-            before += count;
-        }
+    for number in 0..scene.tables.bearing.len() {
+        let bearing = PlacedBearing::new(scene, number, bodies)?;
+        add_bearing(&bearing, &cages, (shafts, bodies), &mut found)?;
     }
     for (number, is_drawn) in is_drawn.into_iter().enumerate() {
         let placed = &bodies.list[number];
@@ -238,46 +172,65 @@ pub(super) fn moving_parts(
         // m (b² + c²)/12 = I_x and so on round.
         let edge = |square: f64| (6.0 * square.max(0.0) / body.mass_kg).sqrt();
         let shape = PartShape::Box([edge(y + z - x), edge(z + x - y), edge(x + y - z)]);
-        let frame = bodies.frame(Some(number));
-        let at = Frame {
-            origin_m: frame.origin_m + frame.axes * body.center_of_mass_m,
-            axes: frame.axes,
-        };
-        let part = part(
-            bodies,
-            (&body.name, PartKind::Body),
-            Some(number),
-            &at,
-            shape,
-        );
-        found.parts.push(part);
+        let mut frame = bodies.frame(Some(number));
+        frame.origin_m += frame.axes * body.center_of_mass_m;
+        let whose = (&*body.name, PartKind::Body);
+        (found.parts).push(part(bodies, whose, Some(number), &frame, shape));
     }
     Ok(found)
 }
 
-/// Where a bearing is, and between which bodies.
-struct Seat {
-    ends: [Option<usize>; 2],
-    frame: Frame,
-}
-
-impl Seat {
-    fn raised(&self, by_m: f64) -> Frame {
-        Frame {
-            origin_m: self.frame.origin_m + self.frame.axes * Vector3::new(0.0, 0.0, by_m),
-            axes: self.frame.axes,
+/// Adds the rings of a bearing, its balls or rollers and its cages.
+fn add_bearing(
+    bearing: &PlacedBearing<'_>,
+    cages: &[PlacedCage],
+    (shafts, bodies): (&[PlacedShaft], &Bodies),
+    found: &mut MovingParts,
+) -> Result<(), InputError> {
+    let (table, seat) = (&*bearing.table, &bearing.seat);
+    let file = match &table.model {
+        BearingModel::Rigid(_) | BearingModel::Linear(_) => {
+            let ring = plain_ring(&table.name, seat, shafts, bodies);
+            found.parts.extend(ring);
+            return Ok(());
         }
+        BearingModel::QuasiStatic(model) => &model.file,
+        BearingModel::Dynamic(model) => &model.file,
+    };
+    let made = bearing.rolling(&bearing.definition("model.file", file)?)?;
+    let mut before = 0;
+    for (row, (count, outline)) in (made.rows.iter())
+        .map(|row| (row.elements(), row.outline()))
+        .enumerate()
+    {
+        let frame = seat.frame.raised(outline.middle_z_m);
+        let width_m = RING_WIDTH * outline.length_m.unwrap_or(outline.diameter_m);
+        for (end, sense) in [(0, 1.0), (1, -1.0)] {
+            let mut radii_m =
+                RING.map(|share| outline.pitch_radius_m + sense * share * outline.diameter_m);
+            radii_m.sort_by(f64::total_cmp);
+            let shape = PartShape::Tube {
+                radii_m: radii_m.map(|radius| radius.max(0.0)),
+                length_m: width_m,
+            };
+            let whose = (&*table.name, PartKind::Ring);
+            (found.parts).push(part(bodies, whose, seat.ends[end], &frame, shape));
+        }
+        let is_own = |cage: &&PlacedCage| cage.bearing == bearing.number && cage.row == row;
+        if let Some(cage) = cages.iter().find(is_own) {
+            let [height, width] = CAGE.map(|share| share * outline.diameter_m);
+            let shape = PartShape::Tube {
+                radii_m: [-0.5, 0.5].map(|share| outline.pitch_radius_m + share * height),
+                length_m: width,
+            };
+            let body = Some(cage.body);
+            let whose = (bodies.name(body), PartKind::Cage);
+            (found.parts).push(part(bodies, whose, body, &bodies.frame(body), shape));
+        }
+        (found.elements).push(elements(table, seat, bodies, (before, count), outline));
+        before += count;
     }
-}
-
-fn bearing(
-    table: &BearingTable,
-    keys: &TableKeys<'_>,
-    bodies: &Bodies,
-) -> Result<Seat, InputError> {
-    let ends = bodies.find_pair(keys, table.body_1.as_deref(), &table.body_2)?;
-    let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
-    Ok(Seat { ends, frame })
+    Ok(())
 }
 
 /// Place and axes of a frame, seen from a body.
@@ -288,7 +241,8 @@ fn seen(bodies: &Bodies, body: Option<usize>, frame: &Frame) -> ([f64; 3], [[f64
     (middle.into(), rows(back * frame.axes))
 }
 
-fn rows(axes: UnitQuaternion<f64>) -> [[f64; 3]; 3] {
+/// A rotation by rows.
+pub(super) fn rows(axes: UnitQuaternion<f64>) -> [[f64; 3]; 3] {
     let matrix = axes.to_rotation_matrix();
     std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
 }
@@ -323,28 +277,16 @@ fn plain_ring(
     let sections = shafts.iter().flat_map(PlacedShaft::half_sections);
     let own = sections.filter(|(station, ..)| *station == body);
     let nearest = own.min_by(|(_, a, ..), (_, b, ..)| along(a).total_cmp(&along(b)));
-    let bore = || {
-        Some(
-            bodies.list[body]
-                .cylindrical()?
-                .definition
-                .blank
-                .bore_radius_m(),
-        )
-    };
+    let gear = bodies.list[body].cylindrical();
+    let bore = || Some(gear?.definition.blank.bore_radius_m());
     let radius_m = nearest.map(|(_, _, radii, _)| radii[1]).or_else(bore)?;
     let [outside, width] = PLAIN_RING.map(|share| share * radius_m);
     let shape = PartShape::Tube {
         radii_m: [radius_m, outside],
         length_m: width,
     };
-    Some(part(
-        bodies,
-        (name, PartKind::Ring),
-        at.ends[0],
-        &at.frame,
-        shape,
-    ))
+    let whose = (name, PartKind::Ring);
+    Some(part(bodies, whose, at.ends[0], &at.frame, shape))
 }
 
 fn elements(

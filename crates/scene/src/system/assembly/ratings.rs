@@ -7,7 +7,7 @@ use gearmesh_geometry::{Flank, InputError};
 use gearmesh_rating::{LoadPoint, NominalRating};
 use nalgebra::Vector3;
 
-use super::bearings::rolling_bearing;
+use super::bearings::placed_bearing;
 use super::bodies::Bodies;
 use super::gear_mesh::{PreparedMesh, fitting_pair};
 use super::gears::BodyGear;
@@ -32,8 +32,7 @@ pub(super) fn build(
 ) -> Result<Vec<RatingJob>, InputError> {
     let mut jobs = Vec::new();
     for (i, table) in scene.tables.rating.iter().enumerate() {
-        let key = format!("rating.{i}");
-        let keys = TableKeys::new(&scene.document, &key);
+        let keys = TableKeys::new(&scene.document, format!("rating.{i}"));
         table.refuse_keys_of_pairs(&keys)?;
         let from_s = start(scene, table, &keys)?;
         let job = match table {
@@ -42,14 +41,14 @@ pub(super) fn build(
             RatingTable::Nominal(table) => {
                 let load = table.load_point();
                 let mesh = keys.needed("mesh", table.mesh.clone(), "kind = \"nominal\"")?;
-                let prepared = meshes.iter().find(|other| other.name == mesh);
+                let prepared = meshes.iter().find(|other| other.built.name == mesh);
                 let prepared = prepared.ok_or_else(|| {
-                    let known: Vec<&str> = meshes.iter().map(|mesh| &*mesh.name).collect();
+                    let known: Vec<&str> = meshes.iter().map(|mesh| &*mesh.built.name).collect();
                     keys.error("mesh", names::unknown("gear mesh", &mesh, &known))
                 })?;
                 let load_and_class = (load, table.tolerance_class.map(Count::get));
                 let job = nominal(prepared, load_and_class, bodies, &keys)?;
-                written(scene, &mesh, &keys)?;
+                channels_written(scene, &mesh, &keys)?;
                 RatingJob {
                     name: format!("mesh {mesh}"),
                     method: nominal_method(load),
@@ -72,22 +71,17 @@ fn start(
     keys: &TableKeys<'_>,
 ) -> Result<f64, InputError> {
     let (run, from_s) = (scene.run.kind().name(), rating.from_s());
+    let stated = [("from_s", from_s.is_some())];
     let end_s = match (&scene.run, rating) {
         (Run::Transient { end_s }, _) => *end_s,
         (Run::Static { .. }, RatingTable::BearingLife(_) | RatingTable::Nominal(_)) => {
-            if from_s.is_some() {
-                let problem = "is not used by run.kind = \"static\", which has no time; remove it";
-                return Err(keys.error("from_s", problem));
-            }
-            return Ok(0.0);
+            let problem = "is not used by run.kind = \"static\", which has no time; remove it";
+            return keys.refuse(&stated, problem).map(|()| 0.0);
         }
         (Run::SpeedSweep(_), RatingTable::Nominal(_)) => {
-            if from_s.is_some() {
-                let problem =
-                    "is not used by run.kind = \"speed-sweep\", whose windows all count; remove it";
-                return Err(keys.error("from_s", problem));
-            }
-            return Ok(0.0);
+            let problem =
+                "is not used by run.kind = \"speed-sweep\", whose windows all count; remove it";
+            return keys.refuse(&stated, problem).map(|()| 0.0);
         }
         (Run::SpeedSweep(_), RatingTable::Fatigue(_) | RatingTable::BearingLife(_)) => {
             let problem = "counts the rows of a run.kind = \"transient\"; a speed-sweep keeps none";
@@ -120,16 +114,29 @@ fn allowed_runs(rating: &RatingTable) -> &'static str {
     }
 }
 
-/// The channels of a mesh must be among what is written.
-fn written(scene: &SystemScene, mesh: &str, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    let chosen = scene.output.elements.as_ref();
-    if chosen.is_none_or(|names| names.iter().any(|name| name == mesh)) {
+/// What a rating reads of a part must be among what is written: those of a list of `[output]`.
+fn written(
+    name: &str,
+    (list, chosen): (&str, &Option<Vec<String>>),
+    reads: &str,
+    keys: &TableKeys<'_>,
+) -> Result<(), InputError> {
+    let is_written = |names: &Vec<String>| names.iter().any(|one| one == name);
+    if chosen.as_ref().is_none_or(is_written) {
         return Ok(());
     }
-    let problem = format!(
-        "it reads channels of mesh `{mesh}`, which is not among output.elements; add it there"
-    );
+    let problem = format!("it reads {reads}, which is not among output.{list}; add it there");
     Err(keys.error("", problem))
+}
+
+/// The channels of a mesh or bearing must be written.
+fn channels_written(
+    scene: &SystemScene,
+    name: &str,
+    keys: &TableKeys<'_>,
+) -> Result<(), InputError> {
+    let reads = format!("channels of mesh `{name}`");
+    written(name, ("elements", &scene.output.elements), &reads, keys)
 }
 
 fn fatigue(
@@ -148,10 +155,8 @@ fn fatigue(
     let gauge = found.clone().find(|gauge| gauge.name == rule.gauge);
     let gauge = gauge.ok_or_else(|| {
         let known: Vec<&str> = found.clone().map(|gauge| &*gauge.name).collect();
-        keys.error(
-            "gauge",
-            names::unknown("gauge in a [[gauge]]", &rule.gauge, &known),
-        )
+        let problem = names::unknown("gauge in a [[gauge]]", &rule.gauge, &known);
+        keys.error("gauge", problem)
     })?;
     if found.any(|other| other.name == rule.gauge && other.body != gauge.body) {
         let problem = format!(
@@ -162,14 +167,14 @@ fn fatigue(
     }
     let mut columns = Vec::new();
     for (mesh, gear) in &gauge.meshes {
-        written(scene, mesh, keys)?;
+        channels_written(scene, mesh, keys)?;
         let channel = format!(
             "strain_gear{gear}_{}_method{}_ustrain",
             gauge.name, rule.method
         );
         columns.push(element_column(mesh, &channel));
     }
-    let placed = bodies.list.iter().find(|p| p.body.name == gauge.body);
+    let placed = bodies.number(&gauge.body).map(|body| &bodies.list[body]);
     let material = placed
         .and_then(|placed| placed.gear.as_ref())
         .map(BodyGear::material)
@@ -184,6 +189,22 @@ fn fatigue(
     })
 }
 
+fn lubrication(
+    table: &BearingLifeTable,
+    keys: &TableKeys<'_>,
+) -> Result<Option<Lubrication>, InputError> {
+    let (viscosity, contamination) = (table.viscosity_mm2_per_s, table.contamination);
+    if viscosity.is_none() && contamination.is_none() {
+        return Ok(None);
+    }
+    let viscosity = keys.needed("viscosity_mm2_per_s", viscosity, "contamination")?;
+    let clean = keys.needed("contamination", contamination, "viscosity_mm2_per_s")?;
+    Ok(Some(Lubrication {
+        viscosity_mm2_per_s: *viscosity,
+        contamination: *clean,
+    }))
+}
+
 fn bearing_life(
     scene: &SystemScene,
     table: &BearingLifeTable,
@@ -191,17 +212,7 @@ fn bearing_life(
     bodies: &Bodies,
     keys: &TableKeys<'_>,
 ) -> Result<RatingJob, InputError> {
-    let lubrication = match (table.viscosity_mm2_per_s, table.contamination) {
-        (None, None) => None,
-        (viscosity, contamination) => {
-            let viscosity = keys.needed("viscosity_mm2_per_s", viscosity, "contamination")?;
-            let clean = keys.needed("contamination", contamination, "viscosity_mm2_per_s")?;
-            Some(Lubrication {
-                viscosity_mm2_per_s: *viscosity,
-                contamination: *clean,
-            })
-        }
-    };
+    let lubrication = lubrication(table, keys)?;
     let tables = &scene.tables.bearing;
     let bearing = tables.iter().find(|one| one.name == table.bearing);
     let bearing = bearing.ok_or_else(|| {
@@ -209,49 +220,42 @@ fn bearing_life(
         keys.error("bearing", names::unknown("bearing", &table.bearing, &known))
     })?;
     if matches!(bearing.model, BearingModel::Rigid(_)) {
-        let problem = format!(
-            "`{}` is a joint and has no load in its rows; take another kind of model",
-            table.bearing
-        );
-        return Err(keys.error("bearing", problem));
+        let problem = "is a joint and has no load in its rows; take another kind of model";
+        return Err(keys.error("bearing", format!("`{}` {problem}", table.bearing)));
     }
-    written(scene, &table.bearing, keys)?;
-    let definition = match (bearing.model.file(), &table.file) {
+    channels_written(scene, &table.bearing, keys)?;
+    let file = match (bearing.model.file(), &table.file) {
         (Some(_), Some(_)) => {
             let problem = "is given in the bearing's model, too; remove it here";
             return Err(keys.error("file", problem));
         }
-        (Some(file), None) => rolling_bearing::definition("bearing", file, &scene.folder, keys)?,
+        (Some(file), None) => ("bearing", file),
         (None, file) => {
-            let file = keys.needed("file", file.as_ref(), "a bearing whose model names no file")?;
-            rolling_bearing::definition("file", file, &scene.folder, keys)?
+            let needed_by = "a bearing whose model names no file";
+            ("file", keys.needed("file", file.as_deref(), needed_by)?)
         }
     };
+    let definition = placed_bearing::read(file, &scene.folder, keys)?.definition;
     let rolling = QuasiStaticBearing::new(&definition).map_err(|e| keys.error("bearing", e))?;
-    let ends = bodies.find_pair(keys, bearing.body_1.as_deref(), &bearing.body_2)?;
-    let frame = bodies.stated_frame(keys, ends[1], bearing.at_mm, bearing.axis)?;
-    let axis = frame.axes * Vector3::z();
+    let (on, at) = (
+        (&bearing.body_1, &*bearing.body_2),
+        (bearing.at_mm, bearing.axis),
+    );
+    let seat = bodies.seat(keys, on, at)?;
+    let axis = seat.frame.axes * Vector3::z();
     // Inner ring first.
-    let rings = [ends[1], ends[0]];
-    let spin = |ring: Option<usize>| {
-        ring.map_or(0.0, |body| {
-            let motion = bodies.list[body].motion();
-            axis.dot(&(motion.rotation * motion.angular_velocity_rad_per_s))
-        })
-    };
-    let channels = ["force_shaft_x_N", "force_shaft_y_N", "force_shaft_z_N"]
-        .into_iter()
-        .chain(["moment_shaft_x_Nm", "moment_shaft_y_Nm"]);
-    let mut columns: Vec<String> = channels
-        .map(|channel| element_column(&bearing.name, channel))
-        .collect();
+    let rings = [seat.ends[1], seat.ends[0]];
+    let channels = ["force_shaft_x_N", "force_shaft_y_N", "force_shaft_z_N"].into_iter();
+    let channels = channels.chain(["moment_shaft_x_Nm", "moment_shaft_y_Nm"]);
+    let column = |channel| element_column(&bearing.name, channel);
+    let mut columns: Vec<String> = channels.map(column).collect();
     let in_time = matches!(scene.run, Run::Transient { .. });
     let mut senses = [1.0; 2];
     if in_time {
-        for (sense, body) in senses.iter_mut().zip(rings) {
-            let Some(body) = body else { continue };
+        for (sense, ring) in senses.iter_mut().zip(rings) {
+            let Some(body) = ring else { continue };
             let along = bodies.list[body].axis().dot(&axis);
-            let name = bodies.name(Some(body));
+            let name = bodies.name(ring);
             if along.abs() < 1.0 - 1e-9 {
                 let problem = format!(
                     "the bearing's axis is not that of `{name}`'s own z, whose speed the rows have; turn the body, or its bearing"
@@ -259,13 +263,8 @@ fn bearing_life(
                 return Err(keys.error("bearing", problem));
             }
             *sense = along.signum();
-            let chosen = scene.output.bodies.as_ref();
-            if !chosen.is_none_or(|names| names.iter().any(|one| one == name)) {
-                let problem = format!(
-                    "it reads the speed of `{name}`, which is not among output.bodies; add it there"
-                );
-                return Err(keys.error("", problem));
-            }
+            let reads = format!("the speed of `{name}`");
+            written(name, ("bodies", &scene.output.bodies), &reads, keys)?;
             columns.push(body_column(name, "angular_velocity_z_rad_per_s"));
         }
     }
@@ -273,7 +272,7 @@ fn bearing_life(
         bearing: rolling,
         definition,
         lubrication,
-        speeds_rad_per_s: rings.map(spin),
+        speeds_rad_per_s: rings.map(|ring| axis.dot(&bodies.turning(ring))),
         senses: in_time.then_some(senses),
     };
     Ok(RatingJob {
@@ -292,7 +291,7 @@ fn normal_forces(mesh: &PreparedMesh) -> Vec<String> {
             Flank::Right => "normal_force_right_N",
             Flank::Left => "normal_force_left_N",
         };
-        element_column(&mesh.name, channel)
+        element_column(&mesh.built.name, channel)
     };
     mesh.sides.iter().map(of_side).collect()
 }
@@ -304,7 +303,7 @@ fn nominal(
     keys: &TableKeys<'_>,
 ) -> Result<NominalRating, InputError> {
     if mesh.model == MeshKind::Kinematic {
-        let problem = format!("`{}` is kinematic and has no normal force", mesh.name);
+        let problem = format!("`{}` is kinematic and has no normal force", mesh.built.name);
         return Err(keys.error("mesh", problem));
     }
     let [Some(first), Some(second)] = mesh.bodies.map(|number| bodies.list[number].cylindrical())

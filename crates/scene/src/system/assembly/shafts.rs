@@ -6,15 +6,15 @@
 //! between them.
 
 use gearmesh_dynamics::elements::BeamSection;
-use gearmesh_dynamics::{Body, Joint, JointKind, MarkerPair, SystemBuilder};
+use gearmesh_dynamics::{Body, JointKind, MarkerPair};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-use super::bodies::{Bodies, Frame, PlacedBody, axes_along, direction};
+use super::bodies::{Bodies, Frame, PlacedBody, Seat, axes_along, direction};
+use super::connections::Connections;
 use super::cut_into_shaft::moving_end;
 use super::lump::Lump;
-use super::parts::Parts;
 use crate::system::tables::MM;
 use crate::system::tables::shaft::{ShaftModel, ShaftTable};
 
@@ -56,13 +56,9 @@ impl PlacedShaft {
             let [from, to] = self.spans_m[number];
             let half = 0.5 * (to - from);
             [0.25, 0.75].map(|share| {
-                let along = Vector3::new(0.0, 0.0, from + share * (to - from));
                 let end = usize::from(share > 0.5);
                 let station = self.stations.get(number + end).unwrap_or(&self.stations[0]);
-                let frame = Frame {
-                    origin_m: self.points_m[number] + self.axes * along,
-                    axes: self.axes,
-                };
+                let frame = self.frame(number, from + share * (to - from));
                 (*station, frame, self.radii_m[number], half)
             })
         };
@@ -75,64 +71,83 @@ impl PlacedShaft {
         (document, key): (&InputDocument, String),
         bodies: &mut Bodies,
     ) -> Result<Self, InputError> {
-        let keys = TableKeys::new(document, &key);
-        let rigid = matches!(table.model, ShaftModel::Rigid {});
+        let keys = &TableKeys::new(document, key.clone());
         let origin = MM * Vector3::from(table.origin_mm);
-        let axis = direction(&keys, "axis", table.axis.unwrap_or([0.0, 0.0, 1.0]))?;
-        let axes = axes_along(&axis);
-        let z = stations(table, &keys)?;
-        let radii = radii(table, &keys, z.len() - 1)?;
+        let axis = direction(keys, "axis", table.axis.unwrap_or([0.0, 0.0, 1.0]))?;
+        let z = stations(table, keys)?;
+        let radii_m = radii(table, keys, z.len() - 1)?;
         let omega = table
             .speed_rpm
             .map(|rpm| rpm * std::f64::consts::TAU / 60.0);
-        let spans_m = spans(table, (document, &key), bodies, &z)?;
-        let lumps = lumps(table, &keys, &spans_m, &z, &radii)?;
-        let points_m: Vec<Vector3<f64>> = z.iter().map(|z| origin + *z * axis).collect();
-        let new_body = |name: String, position_m: Vector3<f64>, lump: Lump| {
+        let spans_m = spans(table, keys, bodies, &z)?;
+        let lumps = lumps(table, keys, &spans_m, &z, &radii_m)?;
+        let mut shaft = Self {
+            name: table.name.clone(),
+            model: table.model,
+            axes: axes_along(&axis),
+            points_m: z.iter().map(|z| origin + *z * axis).collect(),
+            spans_m,
+            sections: sections(table.model, &radii_m),
+            radii_m,
+            stations: Vec::new(),
+            seated: Vec::new(),
+            key,
+        };
+        let own = shaft.seat(table, keys, (&lumps, axis, omega), bodies)?;
+        let mut add = |name: String, position_m: Vector3<f64>, lump: Lump| {
             let mut body = Body {
                 position_m,
-                orientation: axes,
+                orientation: shaft.axes,
                 ..Body::rigid(&name, 1.0, [1.0; 3])
             };
             body.angular_velocity_rad_per_s.z = omega.unwrap_or(0.0);
             lump.put_on(&mut body);
-            PlacedBody {
-                body,
-                source: format!("shaft `{}`", table.name),
-                gear: None,
-                modes: 0,
-                place_is_free: false,
-                turn_is_free: false,
+            bodies.list.push(PlacedBody {
                 speed_is_free: omega.is_none(),
                 velocity_is_free: true,
+                ..PlacedBody::placed(body, format!("shaft `{}`", table.name))
+            });
+            bodies.list.len() - 1
+        };
+        shaft.stations = match table.model {
+            ShaftModel::Rigid {} => {
+                let along = lumps
+                    .iter()
+                    .zip(&z)
+                    .map(|(lump, z)| lump.moved(&Matrix3::identity(), &Vector3::new(0.0, 0.0, *z)));
+                let all = Lump::sum(&along.collect::<Vec<_>>());
+                vec![add(table.name.clone(), origin, all)]
+            }
+            ShaftModel::Beam { .. } => {
+                let each = own.into_iter().enumerate().map(|(i, seated)| {
+                    let name = || format!("{}/{i}", table.name);
+                    seated.unwrap_or_else(|| add(name(), shaft.points_m[i], lumps[i]))
+                });
+                each.collect()
             }
         };
-        let mut own: Vec<Option<usize>> = vec![None; z.len()];
-        let mut seated = Vec::new();
+        Ok(shaft)
+    }
+
+    /// Puts bodies on their seats; the body that takes the place of each station's own.
+    fn seat(
+        &mut self,
+        table: &ShaftTable,
+        keys: &TableKeys<'_>,
+        (lumps, axis, omega): (&[Lump], Vector3<f64>, Option<f64>),
+        bodies: &mut Bodies,
+    ) -> Result<Vec<Option<usize>>, InputError> {
+        let mut own: Vec<Option<usize>> = vec![None; lumps.len()];
         for (i, seat) in table.seat.iter().enumerate() {
-            let at = format!("{key}.seat.{i}");
-            let keys = TableKeys::new(document, &at);
-            if seat.station >= z.len() {
-                return Err(keys.error(
-                    "station",
-                    format!(
-                        "found {}, the shaft has stations 0 to {}",
-                        seat.station,
-                        z.len() - 1
-                    ),
-                ));
-            }
-            let index = bodies.find_body(&keys, "body", &seat.body)?;
+            let (key, station) = (format!("seat.{i}.station"), seat.station);
+            refuse_unknown_station(station, lumps.len(), keys, &key)?;
+            let index = bodies.find_body(keys, &format!("seat.{i}.body"), &seat.body)?;
             let placed = &mut bodies.list[index];
-            if placed.place_is_free {
-                placed.body.position_m = points_m[seat.station];
-                placed.place_is_free = false;
-                let turn = placed.body.orientation;
-                placed.body.orientation = if turn == UnitQuaternion::identity() {
-                    axes
-                } else {
-                    turn
-                };
+            if std::mem::take(&mut placed.place_is_free) {
+                placed.body.position_m = self.points_m[station];
+                if placed.body.orientation == UnitQuaternion::identity() {
+                    placed.body.orientation = self.axes;
+                }
             }
             if placed.speed_is_free
                 && let Some(omega) = omega
@@ -141,79 +156,36 @@ impl PlacedShaft {
                 placed.body.angular_velocity_rad_per_s = Vector3::new(0.0, 0.0, sense * omega);
                 placed.speed_is_free = false;
             }
-            if rigid {
-                seated.push((index, seat.station));
-            } else {
-                if own[seat.station].replace(index).is_some() {
-                    return Err(keys.error("station", format!("station {} has a body already; a second one can be fixed to it by a joint", seat.station)));
-                }
-                let back = placed.body.orientation.inverse();
-                let turn = *(back * axes).to_rotation_matrix().matrix();
-                let shift = back * (points_m[seat.station] - placed.body.position_m);
-                let all = Lump::sum(&[
-                    Lump::of(&placed.body),
-                    lumps[seat.station].moved(&turn, &shift),
-                ]);
-                all.put_on(&mut placed.body);
+            if matches!(self.model, ShaftModel::Rigid {}) {
+                self.seated.push((index, station));
+                continue;
             }
+            if own[station].replace(index).is_some() {
+                let problem = format!(
+                    "station {station} has a body already; a second one can be fixed to it by a joint"
+                );
+                return Err(keys.error(&key, problem));
+            }
+            let back = placed.body.orientation.inverse();
+            let turn = *(back * self.axes).to_rotation_matrix().matrix();
+            let shift = back * (self.points_m[station] - placed.body.position_m);
+            let of_station = lumps[station].moved(&turn, &shift);
+            Lump::sum(&[Lump::of(&placed.body), of_station]).put_on(&mut placed.body);
         }
-        let stations = if rigid {
-            let along: Vec<Lump> = lumps
-                .iter()
-                .zip(&z)
-                .map(|(lump, z)| lump.moved(&Matrix3::identity(), &Vector3::new(0.0, 0.0, *z)))
-                .collect();
-            bodies
-                .list
-                .push(new_body(table.name.clone(), origin, Lump::sum(&along)));
-            vec![bodies.list.len() - 1]
-        } else {
-            let each = own.iter().enumerate().map(|(i, seat)| {
-                seat.unwrap_or_else(|| {
-                    bodies.list.push(new_body(
-                        format!("{}/{i}", table.name),
-                        points_m[i],
-                        lumps[i],
-                    ));
-                    bodies.list.len() - 1
-                })
-            });
-            each.collect()
-        };
-        Ok(Self {
-            name: table.name.clone(),
-            model: table.model,
-            axes,
-            points_m,
-            spans_m,
-            sections: sections(table.model, &radii),
-            radii_m: radii,
-            stations,
-            seated,
-            key,
-        })
+        Ok(own)
     }
 
     /// Adds beams, or the joints that hold bodies on a rigid shaft.
-    pub(super) fn connect(
-        &self,
-        document: &InputDocument,
-        bodies: &Bodies,
-        builder: &mut SystemBuilder,
-        parts: &mut Parts,
-    ) -> Result<(), InputError> {
-        let keys = TableKeys::new(document, &self.key);
-        let frame = |station: usize, along_m: f64| Frame {
-            origin_m: self.points_m[station] + self.axes * Vector3::new(0.0, 0.0, along_m),
-            axes: self.axes,
-        };
+    pub(super) fn connect(&self, connections: &mut Connections<'_>) -> Result<(), InputError> {
+        let bodies = connections.bodies;
+        let keys = TableKeys::new(&connections.scene.document, &self.key);
         for (number, (section, [from_m, to_m])) in
             self.sections.iter().zip(&self.spans_m).enumerate()
         {
             let ends = [self.stations[number], self.stations[number + 1]].map(Some);
             let pair = MarkerPair {
-                a: bodies.marker(ends[0], &frame(number, *from_m)),
-                b: bodies.marker(ends[1], &frame(number, *to_m)),
+                a: bodies.marker(ends[0], &self.frame(number, *from_m)),
+                b: bodies.marker(ends[1], &self.frame(number, *to_m)),
             };
             let length_m = to_m - from_m;
             let name = format!("{}/{number}-{}", self.name, number + 1);
@@ -228,18 +200,25 @@ impl PlacedShaft {
                     .map_err(|e| keys.error(&format!("stations_mm.{}", number + end), e))?;
             }
             let beam = beam.on_moving_ends(moving).map_err(|e| keys.error("", e))?;
-            builder.element(beam);
-            parts.element(&name, "beam", bodies, ends);
+            connections.element((&name, "beam"), &ends, beam);
         }
         for &(body, station) in &self.seated {
-            let ends = [Some(self.stations[0]), Some(body)];
             let name = format!("seat of {}", bodies.name(Some(body)));
-            let [a, b] = ends.map(|end| bodies.marker(end, &frame(station, 0.0)));
-            builder
-                .joint(Joint::new(&name, JointKind::Fixed, a, b).map_err(|e| keys.error("", e))?);
-            parts.joint(&name, "fixed", bodies, ends);
+            let seat = Seat {
+                ends: [Some(self.stations[0]), Some(body)],
+                frame: self.frame(station, 0.0),
+            };
+            connections.joint(&keys, (&name, "fixed"), &seat, JointKind::Fixed)?;
         }
         Ok(())
+    }
+
+    /// The frame of the shaft at a place behind a station.
+    fn frame(&self, station: usize, along_m: f64) -> Frame {
+        Frame {
+            origin_m: self.points_m[station] + self.axes * Vector3::new(0.0, 0.0, along_m),
+            axes: self.axes,
+        }
     }
 
     /// Kind in words.
@@ -258,21 +237,27 @@ impl PlacedShaft {
 fn stations(table: &ShaftTable, keys: &TableKeys<'_>) -> Result<Vec<f64>, InputError> {
     let z = &table.stations_mm;
     if z.len() < 2 {
-        return Err(keys.error(
-            "stations_mm",
-            format!("found {} stations, at least 2 are needed", z.len()),
-        ));
+        let problem = format!("found {} stations, at least 2 are needed", z.len());
+        return Err(keys.error("stations_mm", problem));
     }
     for (i, value) in z.iter().enumerate() {
-        let ok = i == 0 || *value > z[i - 1];
-        keys.require(
-            &format!("stations_mm.{i}"),
-            *value,
-            ok,
-            "more than the station before",
-        )?;
+        let (key, ok) = (format!("stations_mm.{i}"), i == 0 || *value > z[i - 1]);
+        keys.require(&key, *value, ok, "more than the station before")?;
     }
     Ok(z.iter().map(|z| MM * z).collect())
+}
+
+fn refuse_unknown_station(
+    station: usize,
+    count: usize,
+    keys: &TableKeys<'_>,
+    key: &str,
+) -> Result<(), InputError> {
+    if station < count {
+        return Ok(());
+    }
+    let problem = format!("found {station}, the shaft has stations 0 to {}", count - 1);
+    Err(keys.error(key, problem))
 }
 
 /// Inner and outer radius of each section \[m\].
@@ -296,12 +281,8 @@ fn radii(
     let mut radii = Vec::new();
     for (i, &outer) in table.outer_diameters_mm.iter().enumerate() {
         let inner = inner.map_or(0.0, |inner| *inner[i]);
-        keys.require(
-            &format!("outer_diameters_mm.{i}"),
-            outer,
-            outer > inner,
-            "more than the inner diameter",
-        )?;
+        let key = format!("outer_diameters_mm.{i}");
+        keys.require(&key, outer, outer > inner, "more than the inner diameter")?;
         radii.push([0.5 * MM * inner, 0.5 * MM * outer]);
     }
     Ok(radii)
@@ -327,15 +308,14 @@ fn sections(model: ShaftModel, radii: &[[f64; 2]]) -> Vec<BeamSection> {
 /// Ends of each section from the station before it \[m\]: the stations, and the faces of gears that are cut into the shaft.
 fn spans(
     table: &ShaftTable,
-    (document, key): (&InputDocument, &str),
+    keys: &TableKeys<'_>,
     bodies: &Bodies,
     z: &[f64],
 ) -> Result<Vec<[f64; 2]>, InputError> {
     // Half the face width of such a gear at each station, and its name.
     let mut faces: Vec<(f64, &str)> = vec![(0.0, ""); z.len()];
     for (i, seat) in table.seat.iter().enumerate() {
-        let at = format!("{key}.seat.{i}");
-        let index = bodies.find_body(&TableKeys::new(document, &at), "body", &seat.body)?;
+        let index = bodies.find_body(keys, &format!("seat.{i}.body"), &seat.body)?;
         let gear = bodies.list[index].cylindrical();
         let gear = gear.map(|gear| &gear.definition);
         let cut = gear.filter(|gear| gear.blank.cut_into_shaft().is_some());
@@ -343,16 +323,11 @@ fn spans(
             *face = (0.5 * gear.tooth.face_width_m, &seat.body);
         }
     }
-    let keys = TableKeys::new(document, key);
     let span = |i: usize| -> Result<[f64; 2], InputError> {
         let whole = z[i + 1] - z[i];
         let (from, to) = (faces[i].0, whole - faces[i + 1].0);
         if to - from < 1e-6 * whole {
-            let (half, name) = if faces[i].0 >= faces[i + 1].0 {
-                faces[i]
-            } else {
-                faces[i + 1]
-            };
+            let (half, name) = faces[i + usize::from(faces[i].0 < faces[i + 1].0)];
             let problem = format!(
                 "stations {i} and {} are {:.4} mm apart, but the gear `{name}` is cut into the shaft and reaches {:.4} mm to either side of its station: put no \
                  station within its face",
@@ -383,17 +358,7 @@ fn lumps(
         parts[i + 1].push(tube([middle - whole, to - whole]));
     }
     for (i, part) in table.part.iter().enumerate() {
-        let key = |name: &str| format!("part.{i}.{name}");
-        if part.station >= z.len() {
-            return Err(keys.error(
-                &key("station"),
-                format!(
-                    "found {}, the shaft has stations 0 to {}",
-                    part.station,
-                    z.len() - 1
-                ),
-            ));
-        }
+        refuse_unknown_station(part.station, z.len(), keys, &format!("part.{i}.station"))?;
         let inertia = Vector3::from(part.inertia_kg_m2.map(f64::from));
         parts[part.station].push(Lump {
             mass_kg: *part.mass_kg,

@@ -69,14 +69,14 @@ fn turn_to_touch(
     let Some(teeth) = &mesh.mesh else {
         return Ok(());
     };
-    let (name, side) = (&mesh.name, driven_side(mesh, bodies));
+    let (name, side) = (&mesh.built.name, driven_side(mesh, bodies));
     let mut least = least_gap_m(mesh, bodies, side, keys)?;
     for _ in 0..100 {
         if !least.is_finite() || least.abs() < TOUCHING_M {
             break;
         }
         // Seen along z, the gap grows with either gear's turn by σ r_b, with the signs of rings.
-        let slope = teeth.kinematics().hand(side) * mesh.base_radii_m[i];
+        let slope = teeth.kinematics().hand(side) * mesh.built.base_radii_m[i];
         bodies.list[mesh.bodies[i]].turn(-least / slope);
         least = least_gap_m(mesh, bodies, side, keys)?;
     }
@@ -122,22 +122,15 @@ fn as_they_stand(
     let mut stand = Vec::new();
     for side in &mesh.sides {
         let least = least_gap_m(mesh, bodies, *side, keys)?;
-        let word = if least < 0.0 {
-            "overlap by"
-        } else {
-            "are open by"
+        let word = match least < 0.0 {
+            true => "overlap by",
+            false => "are open by",
         };
-        stand.push(format!(
-            "the {} flanks {word} {:.3} um",
-            side.name(),
-            least.abs() / UM
-        ));
+        let (side, um) = (side.name(), least.abs() / UM);
+        stand.push(format!("the {side} flanks {word} {um:.3} um"));
     }
-    Ok(format!(
-        "mesh `{}` starts as the bodies stand: {}",
-        mesh.name,
-        stand.join(", ")
-    ))
+    let (name, stand) = (&mesh.built.name, stand.join(", "));
+    Ok(format!("mesh `{name}` starts as the bodies stand: {stand}"))
 }
 
 fn refuse_teeth_in_teeth(
@@ -151,12 +144,11 @@ fn refuse_teeth_in_teeth(
     let pitch_m = teeth.kinematics().pitch_m();
     let [gear_1, gear_2] = mesh.bodies.map(|body| bodies.name(Some(body)));
     let mut open = [0.0; 2];
-    for (side, gap_m) in [Flank::Right, Flank::Left].into_iter().zip(&mut open) {
+    for (side, gap_m) in Flank::ALL.into_iter().zip(&mut open) {
         *gap_m = least_gap_m(mesh, bodies, side, keys)?;
-        let share = if mesh.sides.contains(&side) {
-            THROUGH
-        } else {
-            BEHIND
+        let share = match mesh.sides.contains(&side) {
+            true => THROUGH,
+            false => BEHIND,
         };
         let (depth_m, allowed_m) = (-*gap_m, share * pitch_m);
         if depth_m > allowed_m {
@@ -225,28 +217,10 @@ fn press_sets(
         let hand = mesh.mesh.as_ref().map_or(0.0, |teeth| {
             teeth.kinematics().hand(driven_side(mesh, bodies))
         });
-        hand * mesh.base_radii_m[usize::from(mesh.bodies[1] == body)]
+        hand * mesh.built.base_radii_m[usize::from(mesh.bodies[1] == body)]
     };
-    let mate = |mesh: &PreparedMesh, body: usize| mesh.bodies[usize::from(mesh.bodies[0] == body)];
-    let depth = |body: usize| {
-        let next = |body: &usize| Some(mate(turned_by[*body]?, *body));
-        std::iter::successors(Some(body), next).count()
-    };
-    let mut ends: Vec<(usize, Vec<&PreparedMesh>)> = Vec::new();
-    for mesh in closed
-        .iter()
-        .filter(|mesh| mesh.touching_at_start.is_some())
-    {
-        let [one, other] = mesh.bodies.map(depth);
-        let last = mesh.bodies[usize::from(other >= one)];
-        match ends.iter_mut().find(|(end, _)| *end == last) {
-            Some((_, meshes)) => meshes.push(mesh),
-            None => ends.push((last, turned_by[last].into_iter().chain([*mesh]).collect())),
-        }
-    }
-    ends.sort_by_key(|(end, _)| depth(*end));
     let mut pressed: Vec<usize> = Vec::new();
-    for (end, meshes) in ends {
+    for (end, meshes) in ends_of_circles(turned_by, closed) {
         let senses = meshes.iter().map(|mesh| slope(mesh, bodies, end).signum());
         let senses: Vec<f64> = senses.collect();
         // What is pressed from two sides is no end.
@@ -301,17 +275,41 @@ fn press_sets(
     Ok(())
 }
 
+/// The other gear of a mesh.
+fn mate(mesh: &PreparedMesh, body: usize) -> usize {
+    mesh.bodies[usize::from(mesh.bodies[0] == body)]
+}
+
+/// The gears that were turned last in circles of meshes, with their meshes there; those nearest to the begin first.
+fn ends_of_circles<'m>(
+    turned_by: &[Option<&'m PreparedMesh>],
+    closed: &[&'m PreparedMesh],
+) -> Vec<(usize, Vec<&'m PreparedMesh>)> {
+    let depth = |body: usize| {
+        let next = |body: &usize| Some(mate(turned_by[*body]?, *body));
+        std::iter::successors(Some(body), next).count()
+    };
+    let mut ends: Vec<(usize, Vec<&'m PreparedMesh>)> = Vec::new();
+    let of_sets = |mesh: &&&PreparedMesh| mesh.touching_at_start.is_some();
+    for mesh in closed.iter().filter(of_sets) {
+        let [one, other] = mesh.bodies.map(depth);
+        let last = mesh.bodies[usize::from(other >= one)];
+        match ends.iter_mut().find(|(end, _)| *end == last) {
+            Some((_, meshes)) => meshes.push(mesh),
+            None => ends.push((last, turned_by[last].into_iter().chain([*mesh]).collect())),
+        }
+    }
+    ends.sort_by_key(|(end, _)| depth(*end));
+    ends
+}
+
 /// The side that touches at the start, where the scene does not say: right where gear 1 turns clockwise or stands.
 fn driven_side(mesh: &PreparedMesh, bodies: &Bodies) -> Flank {
-    let spin = bodies.list[mesh.bodies[0]]
-        .body
-        .angular_velocity_rad_per_s
-        .z;
-    let wanted = mesh.touching_at_start.unwrap_or(if spin > 0.0 {
-        Flank::Left
-    } else {
-        Flank::Right
-    });
+    let driven = match bodies.list[mesh.bodies[0]].spin() > 0.0 {
+        true => Flank::Left,
+        false => Flank::Right,
+    };
+    let wanted = mesh.touching_at_start.unwrap_or(driven);
     let known = mesh.sides.iter().find(|side| **side == wanted);
     known.or(mesh.sides.first()).copied().unwrap_or(wanted)
 }

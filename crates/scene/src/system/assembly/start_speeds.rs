@@ -8,17 +8,15 @@
 use std::f64::consts::TAU;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::InputDocument;
 use nalgebra::Vector3;
 
-use super::bodies::Bodies;
-use super::carriers::{self, Carried};
+use super::bodies::{Bodies, Seat};
+use super::carriers::{self, Carried, Holds};
 use super::gear_mesh::PreparedMesh;
 use super::joints::{PlacedJoint, PlacedMotion};
 use super::mesh_frequency::carrier_rad_per_s;
-use super::shafts::PlacedShaft;
 use super::willis::Planets;
-use crate::system::tables::bearing::BearingTable;
 use crate::system::tables::connection::TorsionSpringTable;
 use crate::system::tables::joint::JointWord;
 use crate::system::tables::mesh_model::MeshKind;
@@ -33,14 +31,6 @@ pub(super) const ON_AXIS_M: f64 = 1e-12;
 /// The speed about its joint's axis that a motion gives \[rad/s\], where it drives an angle.
 type SpinOf<'a> = &'a dyn Fn(&PlacedMotion) -> Option<f64>;
 
-/// What holds bodies.
-#[derive(Clone, Copy)]
-pub(super) struct Holds<'a> {
-    pub joints: &'a [PlacedJoint<'a>],
-    pub bearings: &'a [BearingTable],
-    pub shafts: &'a [PlacedShaft],
-}
-
 /// Gives speeds to bodies whose speed nobody states: those of motions, of the shaft or body that they are fixed to, and
 /// of the gears they mesh with. Bodies on a carrier that turns go along with it. A carrier that nobody drives stands.
 pub(super) fn settle_speeds(
@@ -50,7 +40,7 @@ pub(super) fn settle_speeds(
     meshes: &[PreparedMesh],
     notes: &mut Vec<String>,
 ) {
-    let carried = carriers::find(bodies, holds.joints, holds.bearings, holds.shafts);
+    let carried = carriers::find(bodies, holds);
     let groups = fixed_groups(&holds);
     let planets = Planets::find(bodies, &carried, meshes);
     stand_on_the_ground(bodies, &holds);
@@ -68,11 +58,8 @@ pub(super) fn settle_speeds(
             settled |= turn_together(bodies, group, name, notes);
         }
         for mesh in meshes {
-            if mesh
-                .bodies
-                .iter()
-                .all(|&gear| place_is_known(bodies, &carried, gear))
-            {
+            let is_known = |gear: &usize| place_is_known(bodies, &carried, *gear);
+            if mesh.bodies.iter().all(is_known) {
                 settled |= follow_mesh(bodies, mesh, notes);
             }
         }
@@ -86,11 +73,8 @@ pub(super) fn settle_speeds(
             }
         }
         // What carries others and is driven by nobody stands, so that the rest can follow.
-        let carriers = carried.iter().filter_map(|one| one.carrier);
-        let Some(free) = carriers
-            .into_iter()
-            .find(|&body| bodies.list[body].speed_is_free)
-        else {
+        let mut carriers = carried.iter().filter_map(|one| one.carrier);
+        let Some(free) = carriers.find(|&body| bodies.list[body].speed_is_free) else {
             return;
         };
         bodies.list[free].speed_is_free = false;
@@ -121,7 +105,7 @@ fn place_is_known(bodies: &Bodies, carried: &[Carried], body: usize) -> bool {
 fn stand_on_the_ground(bodies: &mut Bodies, holds: &Holds<'_>) {
     for joint in holds.joints {
         if let (JointWord::Fixed, [None, Some(body)] | [Some(body), None]) =
-            (joint.table.kind, joint.ends)
+            (joint.table.kind, joint.seat.ends)
         {
             bodies.list[body].speed_is_free = false;
         }
@@ -135,7 +119,7 @@ fn fixed_groups(holds: &Holds<'_>) -> Vec<(Vec<usize>, String)> {
         .map(|shaft| (shaft.bodies().collect(), shaft.describe()))
         .collect();
     for joint in holds.joints {
-        if let (JointWord::Fixed, [Some(a), Some(b)]) = (joint.table.kind, joint.ends) {
+        if let (JointWord::Fixed, [Some(a), Some(b)]) = (joint.table.kind, joint.seat.ends) {
             groups.push((vec![a, b], format!("joint `{}`", joint.table.name)));
         }
     }
@@ -149,37 +133,35 @@ fn drive(
     spin_rad_per_s: f64,
     notes: &mut Vec<String>,
 ) -> bool {
-    let axis = joint.frame.axes * Vector3::z();
+    let Seat { ends, frame } = joint.seat;
+    let axis = frame.axes * Vector3::z();
     // The speed of an end about the axis, and whether that is known; none where it turns about another axis.
     let about = |end: Option<usize>| match end {
         None => Some((0.0, true)),
         Some(body) => {
             let placed = &bodies.list[body];
             let sense = placed.axis().dot(&axis);
-            let spin = placed.body.angular_velocity_rad_per_s.z * sense.signum();
+            let spin = placed.spin() * sense.signum();
             (sense.abs() > 1.0 - 1e-9).then_some((spin, !placed.speed_is_free))
         }
     };
-    let from = || "its motion".to_string();
-    match (joint.ends, about(joint.ends[0]), about(joint.ends[1])) {
+    // What the motion turns, how fast about the axis, and whether that is its own axis.
+    let (led, spin, is_own) = match (ends, about(ends[0]), about(ends[1])) {
         ([_, Some(led)], Some((base, true)), Some((_, false))) => {
-            let sense = bodies.list[led].axis().dot(&axis).signum();
-            settle(bodies, led, (base + spin_rad_per_s) * sense, from, notes)
+            (led, base + spin_rad_per_s, true)
         }
-        ([Some(led), _], Some((_, false)), Some((end, true))) => {
-            let sense = bodies.list[led].axis().dot(&axis).signum();
-            settle(bodies, led, (end - spin_rad_per_s) * sense, from, notes)
-        }
-        ([_, Some(led)], Some((base, true)), None) => {
-            let along = bodies.list[led].body.orientation.inverse() * axis;
-            settle_about(bodies, led, (along, base + spin_rad_per_s), from, notes)
-        }
-        ([Some(led), _], None, Some((end, true))) => {
-            let along = bodies.list[led].body.orientation.inverse() * axis;
-            settle_about(bodies, led, (along, end - spin_rad_per_s), from, notes)
-        }
-        _ => false,
+        ([Some(led), _], Some((_, false)), Some((end, true))) => (led, end - spin_rad_per_s, true),
+        ([_, Some(led)], Some((base, true)), None) => (led, base + spin_rad_per_s, false),
+        ([Some(led), _], None, Some((end, true))) => (led, end - spin_rad_per_s, false),
+        _ => return false,
+    };
+    let from = || "its motion".to_string();
+    if is_own {
+        let sense = bodies.list[led].axis().dot(&axis).signum();
+        return settle(bodies, led, spin * sense, from, notes);
     }
+    let along = bodies.list[led].body.orientation.inverse() * axis;
+    settle_about(bodies, led, (along, spin), from, notes)
 }
 
 fn turn_together(
@@ -192,19 +174,13 @@ fn turn_together(
     let Some(&known) = known else {
         return false;
     };
-    let spin = bodies.list[known].body.angular_velocity_rad_per_s.z;
-    let axis = bodies.list[known].axis();
+    let (spin, axis) = (bodies.list[known].spin(), bodies.list[known].axis());
     let mut settled = false;
     for &body in group {
         let sense = bodies.list[body].axis().dot(&axis);
         if sense.abs() > 1.0 - 1e-9 {
-            settled |= settle(
-                bodies,
-                body,
-                spin * sense.signum(),
-                || name.to_owned(),
-                notes,
-            );
+            let (spin, from) = (spin * sense.signum(), || name.to_owned());
+            settled |= settle(bodies, body, spin, from, notes);
         }
     }
     settled
@@ -215,7 +191,7 @@ fn follow_mesh(bodies: &mut Bodies, mesh: &PreparedMesh, notes: &mut Vec<String>
     for (from, to) in [(0, 1), (1, 0)] {
         if !bodies.list[mesh.bodies[from]].speed_is_free {
             let spin = fitting_spin(bodies, mesh, (from, to));
-            let name = || format!("mesh `{}`", mesh.name);
+            let name = || format!("mesh `{}`", mesh.built.name);
             settled |= settle(bodies, mesh.bodies[to], spin, name, notes);
         }
     }
@@ -225,14 +201,10 @@ fn follow_mesh(bodies: &mut Bodies, mesh: &PreparedMesh, notes: &mut Vec<String>
 /// The speed of one gear of a mesh at which it rolls on the other \[rad/s\].
 fn fitting_spin(bodies: &Bodies, mesh: &PreparedMesh, (from, to): (usize, usize)) -> f64 {
     let carrier = carrier_rad_per_s(mesh, bodies);
-    let spin = bodies.list[mesh.bodies[from]]
-        .body
-        .angular_velocity_rad_per_s
-        .z;
-    let against_carrier = spin - carrier;
+    let against_carrier = bodies.list[mesh.bodies[from]].spin() - carrier;
     match to {
-        1 => carrier - against_carrier / mesh.ratio(),
-        _ => carrier - against_carrier * mesh.ratio(),
+        1 => carrier - against_carrier / mesh.built.ratio(),
+        _ => carrier - against_carrier * mesh.built.ratio(),
     }
 }
 
@@ -240,26 +212,23 @@ fn fitting_spin(bodies: &Bodies, mesh: &PreparedMesh, (from, to): (usize, usize)
 /// the spring jerks them; and of bodies that turn and are held to the ground, as scenes at rest hold their trains.
 pub(super) fn note_jerks(bodies: &Bodies, springs: &[TorsionSpringTable], notes: &mut Vec<String>) {
     for spring in springs {
-        let find = |name: &str| bodies.list.iter().position(|p| p.body.name == name);
-        let ends = [
-            spring.body_1.as_deref().and_then(find),
-            find(&spring.body_2),
-        ];
+        let find = |name: &str| Some(&bodies.list[bodies.number(name)?]);
+        let first = spring.body_1.as_deref().and_then(find);
+        let ends = [first, find(&spring.body_2)];
         if spring.body_1.is_none()
-            && let Some(body) = ends[1].map(|body| &bodies.list[body].body)
-            && body.angular_velocity_rad_per_s.z != 0.0
+            && let Some(placed) = ends[1]
+            && placed.spin() != 0.0
         {
-            let rpm = body.angular_velocity_rad_per_s.z * 60.0 / TAU;
+            let rpm = placed.spin() * 60.0 / TAU;
             notes.push(format!(
                 "torsion spring `{}` joins `{}`, which starts with {rpm:.6} rpm, to the ground: at rest that holds a train, in time it stops it at once. To drive the train, \
                  give the spring a body_1 of its own with a [[joint]] about the shaft's axis and a [[motion]] (`gearmesh import --transient` writes them)",
-                spring.name, body.name
+                spring.name, placed.body.name
             ));
         }
         let [Some(a), Some(b)] = ends else { continue };
-        for (still, turning) in [(a, b), (b, a)] {
-            let [led, leading] = [still, turning].map(|body| &bodies.list[body]);
-            let rpm = leading.body.angular_velocity_rad_per_s.z * 60.0 / TAU;
+        for (led, leading) in [(a, b), (b, a)] {
+            let rpm = leading.spin() * 60.0 / TAU;
             let along = led.axis().dot(&leading.axis()).abs() > 1.0 - 1e-9;
             if led.speed_is_free && !leading.speed_is_free && rpm != 0.0 && along {
                 notes.push(format!(
@@ -279,16 +248,9 @@ pub(super) fn refuse_missed_ratios(
     meshes: &[PreparedMesh],
     document: &InputDocument,
 ) -> Result<(), InputError> {
-    for mesh in meshes
-        .iter()
-        .filter(|mesh| mesh.model == MeshKind::Kinematic)
-    {
-        let spin = |gear: usize| {
-            bodies.list[mesh.bodies[gear]]
-                .body
-                .angular_velocity_rad_per_s
-                .z
-        };
+    let is_kinematic = |mesh: &&PreparedMesh| mesh.model == MeshKind::Kinematic;
+    for mesh in meshes.iter().filter(is_kinematic) {
+        let spin = |gear: usize| bodies.list[mesh.bodies[gear]].spin();
         let fitting = fitting_spin(bodies, mesh, (0, 1));
         let largest = spin(0).abs().max(spin(1).abs()).max(fitting.abs());
         if (spin(1) - fitting).abs() > RATIO_IS_MET * largest {
@@ -302,7 +264,7 @@ pub(super) fn refuse_missed_ratios(
                 rpm(carrier_rad_per_s(mesh, bodies)),
                 rpm(fitting)
             );
-            return Err(TableKeys::new(document, &mesh.key).error("gear_2", problem));
+            return Err(document.error(&format!("{}.gear_2", mesh.key), problem));
         }
     }
     Ok(())

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::InputDocument;
 use nalgebra::Vector3;
 
 use super::bodies::Bodies;
@@ -27,21 +27,17 @@ pub(super) fn check(
             JointWord::Spherical => continue,
             JointWord::Fixed | JointWord::Prismatic => None,
             JointWord::Revolute | JointWord::Cylindrical | JointWord::Planar => {
-                Some(joint.frame.axes * Vector3::z())
+                Some(joint.seat.frame.axes * Vector3::z())
             }
         };
         // What nobody knows adapts.
         let knows = |end: &Option<usize>| end.is_none_or(|body| !bodies.list[body].speed_is_free);
-        if !joint.ends.iter().all(knows) {
+        let ends = joint.seat.ends;
+        if !ends.iter().all(knows) {
             continue;
         }
-        let spin = |end: Option<usize>| {
-            end.map_or_else(Vector3::zeros, |body| {
-                let body = &bodies.list[body].body;
-                body.orientation * body.angular_velocity_rad_per_s
-            })
-        };
-        let [first, second] = joint.ends.map(spin);
+        let turning = |body: usize| bodies.list[body].turning();
+        let [first, second] = ends.map(|end| end.map_or_else(Vector3::zeros, turning));
         let relative = second - first;
         let across = match free_axis {
             Some(axis) => relative - axis * axis.dot(&relative),
@@ -50,15 +46,8 @@ pub(super) fn check(
         if across.norm() <= ACROSS * first.norm().max(second.norm()) {
             continue;
         }
-        let Some(place) = [joint.ends[1], joint.ends[0]]
-            .into_iter()
-            .flatten()
-            .find(|&body| {
-                tables
-                    .get(body)
-                    .is_some_and(|table| table.speed_rpm.is_some())
-            })
-        else {
+        let states = |body: &usize| tables.get(*body).is_some_and(|b| b.speed_rpm.is_some());
+        let Some(place) = ends.into_iter().rev().flatten().find(states) else {
             continue;
         };
         let name = &joint.table.name;
@@ -71,19 +60,16 @@ pub(super) fn check(
             None => "does not let it turn".to_owned(),
         };
         let axis = bodies.list[place].axis();
-        let body_key = format!("body.{place}");
-        return Err(TableKeys::new(document, &body_key).error(
-            "speed_rpm",
-            format!(
-                "`{}` turns by {:.6} rpm in a way that joint `{name}` ({kind}) does not allow: the body's z axis is [{:.4}, {:.4}, {:.4}], and the \
-                 joint {allowed}; turn the body (cardan_deg) or the joint (axis) so that they fit, or leave the speed out",
-                tables[place].name,
-                across.norm() * 60.0 / TAU,
-                axis[0],
-                axis[1],
-                axis[2]
-            ),
-        ));
+        let problem = format!(
+            "`{}` turns by {:.6} rpm in a way that joint `{name}` ({kind}) does not allow: the body's z axis is [{:.4}, {:.4}, {:.4}], and the \
+             joint {allowed}; turn the body (cardan_deg) or the joint (axis) so that they fit, or leave the speed out",
+            tables[place].name,
+            across.norm() * 60.0 / TAU,
+            axis[0],
+            axis[1],
+            axis[2]
+        );
+        return Err(document.error(&format!("body.{place}.speed_rpm"), problem));
     }
     Ok(())
 }

@@ -1,9 +1,10 @@
 //! Speeds that stay over what of a recorded motion is judged: lines at mesh orders mean something there.
 
 use super::bodies::Bodies;
+use super::carriers::Holds;
 use super::gear_mesh::PreparedMesh;
 use super::joints::PlacedMotion;
-use super::start_speeds::{Holds, settle_speeds};
+use super::start_speeds::settle_speeds;
 use crate::system::SystemScene;
 use crate::system::tables::run::Run;
 

@@ -11,6 +11,7 @@
 use super::bodies::Bodies;
 use super::carriers::Carried;
 use super::gear_mesh::PreparedMesh;
+use super::linked::firsts;
 
 /// Coefficients below this are none: ratios of teeth are about 1.
 const NO_EQUATION: f64 = 1e-9;
@@ -48,7 +49,7 @@ impl Planets {
         {
             if let [Some((one, _)), Some((other, _))] = *ends {
                 let [(first, k), (last, other_k)] = [leads[one], leads[other]];
-                let share = -k / (mesh.ratio() * other_k);
+                let share = -k / (mesh.built.ratio() * other_k);
                 if first != last {
                     let following = leads.iter_mut().filter(|(lead, _)| *lead == last);
                     following.for_each(|(lead, k)| (*lead, *k) = (first, *k * share));
@@ -65,7 +66,7 @@ impl Planets {
                     continue;
                 };
                 let (lead, k) = leads[own];
-                let ratio = mesh.ratio();
+                let ratio = mesh.built.ratio();
                 let teeth_ratio = if central == 1 { ratio } else { 1.0 / ratio } / k;
                 let central = Central {
                     gear: mesh.bodies[central],
@@ -91,7 +92,9 @@ impl Planets {
         if self.0.is_empty() {
             return None;
         }
-        let leading = leading_bodies(bodies.list.len(), groups);
+        // The first body of those that are fixed to each other, for every body.
+        let fixed = groups.iter().flat_map(|(group, _)| group.windows(2));
+        let leading = firsts(bodies.list.len(), fixed.map(|pair| [pair[0], pair[1]]));
         let mut free: Vec<usize> = Vec::new();
         let mut rows = Vec::new();
         for (_, carrier, centrals) in &self.0 {
@@ -128,24 +131,6 @@ impl Planets {
         let (place, spin) = first_solved(rows, free.len())?;
         Some((free[place], spin))
     }
-}
-
-/// The first body of those that are fixed to each other, for every body.
-fn leading_bodies(count: usize, groups: &[(Vec<usize>, String)]) -> Vec<usize> {
-    let mut above: Vec<usize> = (0..count).collect();
-    let first = |above: &[usize], mut body: usize| {
-        while above[body] != body {
-            body = above[body];
-        }
-        body
-    };
-    for (group, _) in groups {
-        for pair in group.windows(2) {
-            let [a, b] = [pair[0], pair[1]].map(|body| first(&above, body));
-            above[a.max(b)] = a.min(b);
-        }
-    }
-    (0..count).map(|body| first(&above, body)).collect()
 }
 
 /// The first unknown that linear equations determine, by elimination; each row has its right side behind the

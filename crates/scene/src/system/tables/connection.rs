@@ -1,6 +1,7 @@
 //! `[[spring]]`, `[[torsion_spring]]` and `[[bushing]]`: forces between two bodies. Places and axes are those of the world
 //! at the start.
 
+use gearmesh_geometry::input::Beside;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -51,12 +52,14 @@ pub struct TorsionSpringTable {
     pub free_angle_deg: f64,
 }
 
+/// `[[bushing]]`.
+pub type BushingTable = Beside<StiffnessTable, BushingKeys>;
+
 /// `[[bushing]]`: six components, for small relative rotations. Either the diagonals or the 6×6 matrices; order x, y,
 /// z, rotations about x, y, z, with z along `axis`.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[allow(non_snake_case)]
-pub struct BushingTable {
+pub struct BushingKeys {
     /// Name.
     pub name: String,
     /// First body; "ground" where not given.
@@ -67,6 +70,13 @@ pub struct BushingTable {
     pub at_mm: Option<[f64; 3]>,
     /// Axis, the bushing's z; the axes of `body_2` where not given.
     pub axis: Option<[f64; 3]>,
+}
+
+/// Stiffness and damping of bushings and housings.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub struct StiffnessTable {
     /// Stiffness along x, y, z.
     pub stiffness_N_per_mm: Option<[f64; 3]>,
     /// Stiffness about x, y, z.

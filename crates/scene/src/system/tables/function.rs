@@ -165,6 +165,7 @@ impl FunctionTable {
             Self::Constant(value) => return Ok(TimeFunction::Constant(unit * value)),
             Self::Form(form) => form,
         };
+        let below = |part: &str| format!("{key}.{part}");
         Ok(match form.as_ref() {
             FunctionForm::Linear {
                 at_zero,
@@ -179,7 +180,7 @@ impl FunctionTable {
                 end_s,
                 to,
             } => TimeFunction::step(*start_s, unit * from, *end_s, unit * to)
-                .map_err(|e| keys.error(&format!("{key}.step"), e))?,
+                .map_err(|e| keys.error(&below("step"), e))?,
             FunctionForm::Sine {
                 offset,
                 amplitude,
@@ -197,46 +198,43 @@ impl FunctionTable {
                 time_column,
                 interpolation,
             } => {
-                let time_head = time_column.as_deref().unwrap_or("time_s");
-                let numbers = NumberTable::read(&sources.folder.join(file), &[time_head, column])?;
+                let heads = [time_column.as_deref().unwrap_or("time_s"), column];
+                let numbers = NumberTable::read(&sources.folder.join(file), &heads)?;
                 numbers.require_increasing(0)?;
+                let times = numbers.column(0).to_vec();
                 let values = numbers.column(1).iter().map(|value| unit * value).collect();
-                let interpolation = match interpolation {
+                let between = match interpolation {
                     InterpolationWord::Linear => Interpolation::Linear,
                     InterpolationWord::MonotoneCubic => Interpolation::MonotoneCubic,
                 };
-                let table = Table::new(
-                    &file.display().to_string(),
-                    numbers.column(0).to_vec(),
-                    values,
-                    interpolation,
-                );
-                TimeFunction::Table(table.map_err(|e| keys.error(&format!("{key}.table"), e))?)
+                let table = Table::new(&file.display().to_string(), times, values, between);
+                TimeFunction::Table(table.map_err(|e| keys.error(&below("table"), e))?)
             }
             FunctionForm::Sum(terms) => {
                 if terms.is_empty() {
-                    return Err(keys.error(
-                        &format!("{key}.sum"),
-                        "is empty; name at least one function",
-                    ));
+                    let problem = "is empty; name at least one function";
+                    return Err(keys.error(&below("sum"), problem));
                 }
                 let terms = terms.iter().enumerate();
-                let terms = terms
-                    .map(|(i, term)| term.function(keys, &format!("{key}.sum.{i}"), unit, sources));
+                let terms = terms.map(|(i, term)| {
+                    term.function(keys, &below(&format!("sum.{i}")), unit, sources)
+                });
                 TimeFunction::Sum(terms.collect::<Result<_, _>>()?)
             }
-            FunctionForm::Product([first, second]) => TimeFunction::Product(
-                Box::new(first.function(keys, &format!("{key}.product.0"), unit, sources)?),
-                Box::new(second.function(keys, &format!("{key}.product.1"), 1.0, sources)?),
+            FunctionForm::Product([first, second]) => product(
+                first.function(keys, &below("product.0"), unit, sources)?,
+                second.function(keys, &below("product.1"), 1.0, sources)?,
             ),
             FunctionForm::Python(name) => {
                 let function = sources.host.of_time(name);
-                let function = function.map_err(|e| keys.error(&format!("{key}.python"), e))?;
-                TimeFunction::Product(
-                    Box::new(TimeFunction::Constant(unit)),
-                    Box::new(TimeFunction::Host(function)),
-                )
+                let function = function.map_err(|e| keys.error(&below("python"), e))?;
+                product(TimeFunction::Constant(unit), TimeFunction::Host(function))
             }
         })
     }
+}
+
+/// The product of two functions.
+pub(crate) fn product(first: TimeFunction, second: TimeFunction) -> TimeFunction {
+    TimeFunction::Product(Box::new(first), Box::new(second))
 }

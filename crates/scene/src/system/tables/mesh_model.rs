@@ -62,13 +62,18 @@ impl MeshKind {
     /// Name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
+        self.of_parts().trim_end_matches(" mesh")
+    }
+
+    /// Name among the kinds of parts of a system.
+    pub(crate) fn of_parts(self) -> &'static str {
         match self {
-            Self::Kinematic => "kinematic",
-            Self::Impact => "impact",
-            Self::Iso6336 => "iso6336",
-            Self::Analytic => "analytic",
-            Self::NodeToSurface => "node-to-surface",
-            Self::Hybrid => "hybrid",
+            Self::Kinematic => "kinematic mesh",
+            Self::Impact => "impact mesh",
+            Self::Iso6336 => "iso6336 mesh",
+            Self::Analytic => "analytic mesh",
+            Self::NodeToSurface => "node-to-surface mesh",
+            Self::Hybrid => "hybrid mesh",
         }
     }
 }
@@ -109,15 +114,18 @@ impl MeshModel {
         }
     }
 
-    /// `damping`, of the models that have such a table.
-    #[must_use]
-    pub fn damping(&self) -> Option<&DampingTable> {
-        match self {
-            Self::Kinematic {} | Self::Impact(_) | Self::NodeToSurface(_) => None,
-            Self::Iso6336(table) => table.damping.as_ref(),
-            Self::Analytic(table) => table.damping.as_ref(),
-            Self::Hybrid(table) => table.damping.as_ref(),
-        }
+    /// Its damping in words for the plan; none where it has none.
+    pub(crate) fn damping_in_words(&self) -> Option<String> {
+        let step = |damping: Option<_>| damping.map(|_| "STEP of the depth");
+        let words = match self {
+            Self::Kinematic {} => None,
+            Self::Impact(table) => step(table.damping_N_s_per_mm),
+            Self::NodeToSurface(table) => step(table.damping_N_s_per_mm),
+            Self::Iso6336(table) => table.damping.as_ref().map(DampingTable::words),
+            Self::Analytic(table) => table.damping.as_ref().map(DampingTable::words),
+            Self::Hybrid(table) => table.damping.as_ref().map(DampingTable::words),
+        };
+        words.map(str::to_owned)
     }
 }
 
@@ -302,8 +310,8 @@ pub enum DampingTable {
 kinds!(DampingTable, "kind");
 
 impl DampingTable {
-    /// In words for the plan.
-    pub(crate) fn words(&self) -> &'static str {
+    /// In words.
+    fn words(&self) -> &'static str {
         match self {
             Self::StiffnessProportional { .. } => "proportional to stiffness",
             Self::Viscous { .. } => "viscous",

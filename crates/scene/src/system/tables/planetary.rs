@@ -163,7 +163,7 @@ pub struct SetBearingTable {
     pub z_mm: f64,
     /// Model, as of `[[bearing]]`.
     pub model: BearingModel,
-    /// What lies between the outer ring and the ground; not of planets.
+    /// What lies between the outer ring and the ground, as of `[[bearing]]`; not of planets.
     pub housing: Option<HousingTable>,
 }
 

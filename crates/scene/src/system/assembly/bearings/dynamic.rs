@@ -1,22 +1,21 @@
 //! Ball bearings whose balls are bodies.
 
 use gearmesh_bearings::dynamic::{
-    FluidTraction, LandContact, LandFilm, LandGuide, LandSide, PocketShape, Pockets, Rebound,
-    StatedContact, Traction, TriangleSize,
+    FluidTraction, LandContact, LandFilm, LandGuide, LandSide, Pockets, Rebound, StatedContact,
+    Traction, TriangleSize,
 };
 use gearmesh_bearings::quasi_static::Row;
-use gearmesh_bearings::{DynamicBearing, DynamicEffects, QuasiStaticBearing};
+use gearmesh_bearings::{BearingDefinition, DynamicBearing, DynamicEffects};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
-use nalgebra::Vector3;
 
 use super::cages::PlacedCage;
-use super::rolling_bearing;
-use crate::system::assembly::bodies::Frame;
-use crate::system::assembly::elements::{Connections, PER_MM, pair};
+use super::placed_bearing::PlacedBearing;
+use crate::system::assembly::bodies::Seat;
+use crate::system::assembly::connections::Connections;
+use crate::system::assembly::elements::PER_MM;
 use crate::system::tables::bearing::{
-    BearingTable, DynamicBearingTable, LandTable, PocketTable, PocketWord, ReboundTable, RingWord,
-    SurfaceTable, TractionTable,
+    DynamicBearingTable, LandTable, PocketTable, ReboundTable, SurfaceTable, TractionTable,
 };
 use crate::system::tables::{MM, UM};
 
@@ -27,101 +26,72 @@ const MILLI: f64 = 1e-3;
 
 /// Adds one, and the lands that guide its cages.
 pub(super) fn add(
-    number: usize,
-    table: &BearingTable,
+    bearing: &PlacedBearing<'_>,
     model: &DynamicBearingTable,
     connections: &mut Connections<'_>,
 ) -> Result<(), InputError> {
-    let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
-    let (bodies, folder, gravity) = (
-        connections.bodies,
-        connections.folder,
-        connections.gravity_m_per_s2,
-    );
-    let of_bearing = |cage: &&PlacedCage| cage.bearing == number;
-    let cages: Vec<PlacedCage> = connections
-        .manner
-        .cages
-        .iter()
-        .filter(of_bearing)
-        .copied()
-        .collect();
+    let (keys, bodies) = (&bearing.keys, connections.bodies);
+    let rolling = bearing.rolling(&without_friction(bearing, &model.file)?)?;
+    let mut effects = DynamicEffects {
+        contact: contact(model, keys)?,
+        rebound: rebound(model.rebound, "model.rebound", keys)?,
+        traction: traction(model.traction.as_ref(), "model.traction", keys)?,
+        surface: model.surface.map(triangles),
+        gravity_m_per_s2: weight(model, connections.scene.tables.gravity_m_per_s2, keys)?,
+        ..DynamicEffects::default()
+    };
+    let own = |cage: &&PlacedCage| cage.bearing == bearing.number;
+    let cages: Vec<&PlacedCage> = connections.cages.iter().filter(own).collect();
     let mut lands = Vec::new();
-    connections.add(
-        ("bearing", number),
-        "dynamic bearing",
-        named,
-        |keys, ends| {
-            let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
-            let definition =
-                rolling_bearing::without_friction("model.file", &model.file, folder, keys)?;
-            let bearing =
-                QuasiStaticBearing::new(&definition).map_err(|e| keys.error("model", e))?;
-            let mut effects = DynamicEffects {
-                contact: contact(model, keys)?,
-                rebound: rebound(model.rebound, "model.rebound", keys)?,
-                traction: traction(model.traction.as_ref(), "model.traction", keys)?,
-                surface: model.surface.map(triangles),
-                gravity_m_per_s2: weight(model, gravity, keys)?,
-                ..DynamicEffects::default()
-            };
-            if let Some(cage) = &model.cage {
-                for placed in &cages {
-                    let pockets = pockets(&cage.pockets, keys)?;
-                    effects.cages.push((bodies.id(Some(placed.body)), pockets));
-                    let (Some(land), Row::Ball(row)) = (&cage.land, &bearing.rows[placed.row])
-                    else {
-                        continue;
-                    };
-                    let middle = Vector3::new(0.0, 0.0, row.middle_z_m);
-                    let at = Frame {
-                        origin_m: frame.origin_m + frame.axes * middle,
-                        axes: frame.axes,
-                    };
-                    lands.push((placed.body, at, guide(land, keys)?, land.ring));
-                }
-            }
-            let element =
-                DynamicBearing::new(&table.name, pair(bodies, ends, &frame), &bearing, effects)
-                    .map_err(|e| {
-                        keys.error(
-                            if model.surface.is_some() {
-                                "model.surface"
-                            } else {
-                                "model"
-                            },
-                            e,
-                        )
-                    })?;
-            let element = if model.ball_loads {
-                element.with_ball_loads()
-            } else {
-                element
-            };
-            Ok(Ok(if model.ball_accelerations {
-                element.with_ball_accelerations()
-            } else {
-                element
-            }))
-        },
-    )?;
-    for (place, (cage, at, guide, ring)) in lands.into_iter().enumerate() {
-        let name = if cages.len() == 1 {
-            format!("{}/land", table.name)
-        } else {
-            format!("{}/land_{}", table.name, place + 1)
+    for (cage, table) in cages.iter().zip(model.cage.iter().cycle()) {
+        let pockets = pockets(&table.pockets, keys)?;
+        effects.cages.push((bodies.id(Some(cage.body)), pockets));
+        if let (Some(land), Row::Ball(row)) = (&table.land, &rolling.rows[cage.row]) {
+            let frame = bearing.seat.frame.raised(row.middle_z_m);
+            let ring = bearing.seat.ends[usize::from(land.ring == LandSide::Inner)];
+            let ends = [ring, Some(cage.body)];
+            lands.push((Seat { ends, frame }, guide(land, keys)?));
+        }
+    }
+    let (name, ends) = (&bearing.table.name, bearing.seat.ends);
+    let key = match model.surface {
+        Some(_) => "model.surface",
+        None => "model",
+    };
+    let mut element = DynamicBearing::new(name, bodies.markers(&bearing.seat), &rolling, effects)
+        .map_err(|e| keys.error(key, e))?;
+    if model.ball_loads {
+        element = element.with_ball_loads();
+    }
+    if model.ball_accelerations {
+        element = element.with_ball_accelerations();
+    }
+    connections.element((name, "dynamic bearing"), &ends, element);
+    for (place, (seat, guide)) in lands.into_iter().enumerate() {
+        let name = match cages.len() {
+            1 => format!("{name}/land"),
+            _ => format!("{name}/land_{}", place + 1),
         };
-        let ring = match ring {
-            RingWord::Outer => table.body_1.as_deref(),
-            RingWord::Inner => Some(&*table.body_2),
-        };
-        let named = (&*name, ring, bodies.name(Some(cage)));
-        connections.add(("bearing", number), "cage land", named, |keys, ends| {
-            let element = guide.between(&name, pair(bodies, ends, &at));
-            Ok(Ok(element.map_err(|e| keys.error("model.cage.land", e))?))
-        })?;
+        let element = guide.between(&name, bodies.markers(&seat));
+        let element = element.map_err(|e| keys.error("model.cage.land", e))?;
+        connections.element((&name, "cage land"), &seat.ends, element);
     }
     Ok(())
+}
+
+/// The bearing of balls that move: what they lose is the slip of their contacts, which a torque would count twice.
+fn without_friction(
+    bearing: &PlacedBearing<'_>,
+    file: &str,
+) -> Result<BearingDefinition, InputError> {
+    let found = bearing.definition("model.file", file)?;
+    if found.friction.is_some() {
+        let problem = format!(
+            "the bearing file {file} has [friction], which `dynamic` bearings do not use: what their balls lose is the slip of `traction`, and a torque would count it twice; remove the table, or take the model `quasi-static`, or `linear` with tangent_of"
+        );
+        return Err(bearing.keys.error("model.file", problem));
+    }
+    Ok(found)
 }
 
 fn weight(
@@ -239,10 +209,7 @@ fn traction(
 fn pockets(table: &PocketTable, keys: &TableKeys<'_>) -> Result<Pockets, InputError> {
     let key = "model.cage.pockets";
     let pockets = Pockets {
-        shape: match table.shape {
-            PocketWord::Cylindrical => PocketShape::Cylindrical,
-            PocketWord::Spherical => PocketShape::Spherical,
-        },
+        shape: table.shape,
         clearance_m: UM * table.clearance_um,
         film_stiffness_n_per_m: PER_MM * table.film_stiffness_N_per_mm,
         contact_stiffness_n_per_m15: PER_MM_15 * table.stiffness_N_per_mm_e,
@@ -254,10 +221,7 @@ fn pockets(table: &PocketTable, keys: &TableKeys<'_>) -> Result<Pockets, InputEr
 
 fn guide(table: &LandTable, keys: &TableKeys<'_>) -> Result<LandGuide, InputError> {
     Ok(LandGuide {
-        side: match table.ring {
-            RingWord::Outer => LandSide::Outer,
-            RingWord::Inner => LandSide::Inner,
-        },
+        side: table.ring,
         radius_m: 0.5 * MM * table.diameter_mm,
         clearance_m: UM * table.clearance_um,
         film: table.film.map(|film| LandFilm {

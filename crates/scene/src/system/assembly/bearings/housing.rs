@@ -4,13 +4,14 @@ use std::borrow::Cow;
 
 use gearmesh_dynamics::Body;
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::{Beside, TableKeys};
 
-use super::cages::velocity_with;
-use crate::system::assembly::bodies::{Bodies, PlacedBody};
-use crate::system::assembly::elements::{Connections, bushing, pair};
-use crate::system::tables::bearing::{BearingTable, HousingTable};
-use crate::system::tables::connection::BushingTable;
+use super::placed_bearing::PlacedBearing;
+use crate::system::assembly::bodies::{Bodies, PlacedBody, Seat};
+use crate::system::assembly::connections::Connections;
+use crate::system::assembly::elements::bushing;
+use crate::system::scene::SystemScene;
+use crate::system::tables::bearing::BearingTable;
 
 /// Name of the outer ring's body.
 fn ring(bearing: &str) -> String {
@@ -18,7 +19,7 @@ fn ring(bearing: &str) -> String {
 }
 
 /// The bearing as it sits: on its outer ring's body where it has one.
-pub(in crate::system::assembly) fn seated(table: &BearingTable) -> Cow<'_, BearingTable> {
+pub(super) fn seated(table: &BearingTable) -> Cow<'_, BearingTable> {
     if table.housing.is_none() {
         return Cow::Borrowed(table);
     }
@@ -30,77 +31,50 @@ pub(in crate::system::assembly) fn seated(table: &BearingTable) -> Cow<'_, Beari
 
 /// Adds the outer rings to the bodies. They move with their housings at the start.
 pub(in crate::system::assembly) fn place(
-    tables: &[BearingTable],
-    document: &InputDocument,
+    scene: &SystemScene,
     bodies: &mut Bodies,
 ) -> Result<(), InputError> {
-    for (number, table) in tables.iter().enumerate() {
-        let Some(housing) = &table.housing else {
+    for (number, table) in scene.tables.bearing.iter().enumerate() {
+        let Some(Beside(_, own)) = &table.housing else {
             continue;
         };
-        let key = format!("bearing.{number}");
-        let keys = TableKeys::new(document, &key);
-        let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
-        let frame = bodies.stated_frame(&keys, ends[1], table.at_mm, table.axis)?;
-        let mut body = Body::rigid(
-            &ring(&table.name),
-            housing.ring_mass_kg,
-            housing.ring_inertia_kg_m2,
-        );
+        let keys = TableKeys::new(&scene.document, format!("bearing.{number}"));
+        let (on, at) = ((&table.body_1, &*table.body_2), (table.at_mm, table.axis));
+        let Seat { ends, frame } = bodies.seat(&keys, on, at)?;
+        let name = ring(&table.name);
+        let mut body = Body::rigid(&name, own.ring_mass_kg, own.ring_inertia_kg_m2);
         body.position_m = frame.origin_m;
         body.orientation = frame.axes;
-        body.velocity_m_per_s = velocity_with(bodies, ends[0], &frame.origin_m);
-        if let Some(seat) = ends[0] {
-            let motion = bodies.list[seat].motion();
-            let turning = motion.rotation * motion.angular_velocity_rad_per_s;
-            body.angular_velocity_rad_per_s = frame.axes.inverse() * turning;
-        }
+        body.velocity_m_per_s = bodies.velocity_with(ends[0], &frame.origin_m);
+        body.angular_velocity_rad_per_s = frame.axes.inverse() * bodies.turning(ends[0]);
         body.validate()
             .map_err(|e| keys.error("housing.ring_mass_kg", e))?;
-        bodies.list.push(PlacedBody {
-            body,
-            source: format!("outer ring of bearing `{}`", table.name),
-            gear: None,
-            modes: 0,
-            place_is_free: false,
-            turn_is_free: false,
-            speed_is_free: false,
-            velocity_is_free: false,
-        });
+        let source = format!("outer ring of bearing `{}`", table.name);
+        bodies.list.push(PlacedBody::placed(body, source));
     }
     Ok(())
 }
 
-/// Adds the stiffness between housing and outer ring.
+/// Adds the stiffness between housing and outer ring, if the bearing has a housing.
 pub(super) fn add(
-    number: usize,
-    table: &BearingTable,
-    housing: &HousingTable,
+    bearing: &PlacedBearing<'_>,
     connections: &mut Connections<'_>,
 ) -> Result<(), InputError> {
-    let name = format!("{}/housing", table.name);
-    let ring = ring(&table.name);
-    let named = (&*name, table.body_1.as_deref(), &*ring);
-    let (bodies, document) = (connections.bodies, connections.document);
-    connections.add(("bearing", number), "housing", named, |_, ends| {
-        let key = format!("bearing.{number}.housing");
-        let keys = TableKeys::new(document, &key);
-        // Place and axis are those of the ring.
-        let stiffness = BushingTable {
-            name: name.clone(),
-            body_1: None,
-            body_2: ring.clone(),
-            at_mm: None,
-            axis: None,
-            stiffness_N_per_mm: housing.stiffness_N_per_mm,
-            stiffness_Nm_per_rad: housing.stiffness_Nm_per_rad,
-            damping_N_s_per_mm: housing.damping_N_s_per_mm,
-            damping_Nm_s_per_rad: housing.damping_Nm_s_per_rad,
-            stiffness_matrix_SI: housing.stiffness_matrix_SI,
-            damping_matrix_SI: housing.damping_matrix_SI,
-        };
-        let frame = bodies.stated_frame(&keys, ends[1], None, None)?;
-        let made = bushing(&stiffness, &keys)?.between(&name, pair(bodies, ends, &frame));
-        Ok(Ok(made.map_err(|e| keys.error("", e))?))
-    })
+    let Some(Beside(stiffness, _)) = &bearing.table.housing else {
+        return Ok(());
+    };
+    let (scene, bodies, number) = (connections.scene, connections.bodies, bearing.number);
+    let keys = TableKeys::new(&scene.document, format!("bearing.{number}.housing"));
+    let on = &scene.tables.bearing[number].body_1;
+    // Place and axis are those of the ring.
+    let seat = bodies.seat(
+        &bearing.keys,
+        (on, &ring(&bearing.table.name)),
+        (None, None),
+    )?;
+    let name = format!("{}/housing", bearing.table.name);
+    let made = bushing(stiffness, &keys)?.between(&name, bodies.markers(&seat));
+    let made = made.map_err(|e| keys.error("", e))?;
+    connections.element((&name, "housing"), &seat.ends, made);
+    Ok(())
 }

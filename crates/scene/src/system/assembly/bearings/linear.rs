@@ -1,90 +1,80 @@
 //! Bearings of constant stiffness and damping.
 
-use gearmesh_bearings::{QuasiStaticBearing, QuasiStaticElement, RingDamping};
-use gearmesh_dynamics::elements::{AxialSupport, ForceElement, LinearBearing, MatrixBearing};
-use gearmesh_dynamics::{DynamicsError, MarkerPair};
+use gearmesh_bearings::{QuasiStaticElement, RingDamping};
+use gearmesh_dynamics::elements::{AxialSupport, LinearBearing, MatrixBearing};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::given;
 use gearmesh_geometry::input::TableKeys;
 use nalgebra::{Matrix5, Vector5};
 
+use super::placed_bearing::PlacedBearing;
+use super::quasi_static;
 use super::tangent::TangentSeat;
-use super::{control, quasi_static, rolling_bearing};
-use crate::system::assembly::elements::{Connections, PER_MM, pair};
+use crate::system::assembly::connections::Connections;
+use crate::system::assembly::elements::PER_MM;
 use crate::system::assembly::stiffness::refuse_rigid;
 use crate::system::tables::bearing::{
-    AxialSupportWord, BearingTable, LinearBearingTable, QuasiStaticBearingTable,
+    AxialSupportWord, LinearBearingTable, QuasiStaticBearingTable,
 };
+
+/// As plans call them.
+const KIND: &str = "linear bearing";
 
 /// Adds one.
 pub(super) fn add(
-    number: usize,
-    table: &BearingTable,
+    bearing: &PlacedBearing<'_>,
     model: &LinearBearingTable,
     connections: &mut Connections<'_>,
 ) -> Result<(), InputError> {
-    let key = format!("bearing.{number}.model");
-    let keys = TableKeys::new(connections.document, &key);
+    let document = &connections.scene.document;
+    let keys = TableKeys::new(document, format!("bearing.{}.model", bearing.number));
     let beside = |said| format!("is not used together with {said}; remove one of the two");
     let diagonals = given!(model; radial_stiffness_N_per_mm, axial_stiffness_N_per_mm, tilt_stiffness_Nm_per_rad, axial_support);
     if let Some(file) = &model.tangent_of {
         keys.refuse(&diagonals, beside("tangent_of"))?;
         let matrices = given!(model; stiffness_matrix_SI, damping_matrix_SI);
         keys.refuse(&matrices, beside("tangent_of"))?;
-        return by_tangent(number, (table, file), model, connections);
+        return by_tangent((bearing, file), model, connections);
     }
+    let (named, ends) = ((&*bearing.table.name, KIND), &bearing.seat.ends);
+    let at = connections.bodies.markers(&bearing.seat);
     if let Some(stiffness) = &model.stiffness_matrix_SI {
         let dampings = given!(model; control, radial_damping_N_s_per_mm, axial_damping_N_s_per_mm, tilt_damping_Nm_s_per_rad);
         keys.refuse(&diagonals, beside("stiffness_matrix_SI"))?;
         keys.refuse(&dampings, beside("stiffness_matrix_SI"))?;
-        return between(number, table, connections, |keys, at| {
-            let stiffness = matrix(stiffness, "model.stiffness_matrix_SI", keys)?;
-            let damping = model.damping_matrix_SI.as_ref();
-            let damping = damping.map(|rows| matrix(rows, "model.damping_matrix_SI", keys));
-            let damping = damping.transpose()?.unwrap_or_else(Matrix5::zeros);
-            Ok(MatrixBearing::unloaded(stiffness, damping).between(&table.name, at))
-        });
+        let stiffness = matrix(stiffness, "stiffness_matrix_SI", &keys)?;
+        let damping = model.damping_matrix_SI.as_ref();
+        let damping = damping.map(|rows| matrix(rows, "damping_matrix_SI", &keys));
+        let damping = damping.transpose()?.unwrap_or_else(Matrix5::zeros);
+        let made = MatrixBearing::unloaded(stiffness, damping).between(named.0, at);
+        connections.element(named, ends, made.map_err(|e| bearing.keys.error("", e))?);
+        return Ok(());
     }
     let others = given!(model; damping_matrix_SI, control);
     keys.refuse(&others, beside("radial_stiffness_N_per_mm"))?;
-    between(number, table, connections, |keys, at| {
-        Ok(diagonal(model, keys)?.between(&table.name, at))
-    })
-}
-
-/// Adds an element in the bearing's frame, between both bodies.
-fn between<E: ForceElement + 'static>(
-    number: usize,
-    table: &BearingTable,
-    connections: &mut Connections<'_>,
-    make: impl FnOnce(&TableKeys<'_>, MarkerPair) -> Result<Result<E, DynamicsError>, InputError>,
-) -> Result<(), InputError> {
-    let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
-    let (bodies, at) = (connections.bodies, ("bearing", number));
-    connections.add(at, "linear bearing", named, |keys, ends| {
-        let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
-        make(keys, pair(bodies, ends, &frame))
-    })
+    let made = diagonal(model, &keys)?.between(named.0, at);
+    connections.element(named, ends, made.map_err(|e| bearing.keys.error("", e))?);
+    Ok(())
 }
 
 /// The bearing whose stiffness is stated by its diagonal.
 fn diagonal(model: &LinearBearingTable, keys: &TableKeys<'_>) -> Result<LinearBearing, InputError> {
     let radial = keys.needed(
-        "model.radial_stiffness_N_per_mm",
+        "radial_stiffness_N_per_mm",
         model.radial_stiffness_N_per_mm,
         "a bearing of kind \"linear\" without stiffness_matrix_SI and tangent_of",
     )?;
     let axial = model.axial_stiffness_N_per_mm.unwrap_or_default();
     let tilt = model.tilt_stiffness_Nm_per_rad.unwrap_or_default();
     let stated = [
-        ("model.radial_stiffness_N_per_mm", radial, PER_MM),
-        ("model.axial_stiffness_N_per_mm", axial, PER_MM),
-        ("model.tilt_stiffness_Nm_per_rad", tilt, 1.0),
+        ("radial_stiffness_N_per_mm", radial, PER_MM),
+        ("axial_stiffness_N_per_mm", axial, PER_MM),
+        ("tilt_stiffness_Nm_per_rad", tilt, 1.0),
     ];
     refuse_rigid(keys, &stated)?;
     if model.axial_support.is_some() && axial == 0.0 {
         let problem = "says which way axial_stiffness_N_per_mm carries, which is missing";
-        return Err(keys.error("model.axial_support", problem));
+        return Err(keys.error("axial_support", problem));
     }
     let [radial_damping, axial_damping, tilt_damping] = dampings(model);
     Ok(LinearBearing {
@@ -153,69 +143,54 @@ fn matrix(rows: &[Vec<f64>], key: &str, keys: &TableKeys<'_>) -> Result<Matrix5<
 }
 
 fn by_tangent(
-    number: usize,
-    (table, file): (&BearingTable, &str),
+    (bearing, file): (&PlacedBearing<'_>, &str),
     model: &LinearBearingTable,
     connections: &mut Connections<'_>,
 ) -> Result<(), InputError> {
-    let found = connections.manner.tangents.iter();
-    let found = found.clone().find(|tangent| tangent.bearing == number);
-    let (folder, bodies) = (connections.folder, connections.bodies);
+    let (name, keys, ends) = (&bearing.table.name, &bearing.keys, &bearing.seat.ends);
     let [radial, axial, tilt] = dampings(model);
-    let key = format!("bearing.{number}");
-    let keys = TableKeys::new(connections.document, &key);
-    let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
-    let frame = bodies.stated_frame(&keys, ends[1], table.at_mm, table.axis)?;
-    let definition = rolling_bearing::definition("model.tangent_of", file, folder, &keys)?;
-    let rolling = QuasiStaticBearing::new(&definition).map_err(|e| keys.error("model", e))?;
-    let at = rolling.ring_markers(pair(bodies, ends, &frame));
-    let seat = TangentSeat::new(number, (at, rolling), model);
+    let definition = bearing.definition("model.tangent_of", file)?;
+    let (rolling, between) = (
+        bearing.rolling(&definition)?,
+        connections.bodies.markers(&bearing.seat),
+    );
+    let at = rolling.ring_markers(between);
+    let control = model.control.unwrap_or_default();
+    let seat = TangentSeat::new(bearing.number, (at, rolling), control);
     connections.parts.tangents.push(seat);
-    let Some(tangent) = found else {
+    let mut found = connections.tangents.iter();
+    let Some(tangent) = found.find(|tangent| tangent.bearing == bearing.number) else {
         // On the way to the operating point.
         let rolling = QuasiStaticBearingTable {
             file: file.to_owned(),
-            control: model.control.unwrap_or_default(),
+            control,
             radial_damping_N_s_per_mm: radial,
             axial_damping_N_s_per_mm: axial,
             tilt_damping_Nm_s_per_rad: tilt,
             element_loads: false,
         };
-        return quasi_static::add(number, table, &rolling, connections);
+        return quasi_static::add(bearing, &rolling, connections);
     };
-    let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
-    connections.add(("bearing", number), "linear bearing", named, |_, _| {
-        let diagonal = Vector5::new(PER_MM * radial, PER_MM * radial, PER_MM * axial, tilt, tilt);
-        let bearing = MatrixBearing {
-            stiffness: tangent.stiffness,
-            damping: Matrix5::from_diagonal(&diagonal),
-            at: tangent.at,
-            load: tangent.load,
-        };
-        Ok(bearing.between(&table.name, at))
-    })?;
-    if definition.friction.is_none() {
-        return Ok(());
+    let diagonal = Vector5::new(PER_MM * radial, PER_MM * radial, PER_MM * axial, tilt, tilt);
+    let made = MatrixBearing {
+        stiffness: tangent.stiffness,
+        damping: Matrix5::from_diagonal(&diagonal),
+        at: tangent.at,
+        load: tangent.load,
+    };
+    let made = made.between(name, at).map_err(|e| keys.error("", e))?;
+    connections.element((name, KIND), ends, made);
+    if definition.friction.is_some() {
+        // The torque of the loads that the bearing itself has where the rings stand.
+        let (name, damping) = (format!("{name}/friction"), RingDamping::default());
+        let element = QuasiStaticElement::new(&name, between, &definition, control, damping);
+        let mut element = element
+            .map_err(|e| keys.error("model", e))?
+            .friction_alone();
+        if connections.at_rest {
+            element = element.without_friction_torque();
+        }
+        connections.element((&name, "bearing friction"), ends, element);
     }
-    // The torque of the loads that the bearing itself has where the rings stand.
-    let name = format!("{}/friction", table.name);
-    let named = (&*name, table.body_1.as_deref(), &*table.body_2);
-    let at_rest = connections.manner.at_rest;
-    let control = control(model.control.unwrap_or_default());
-    connections.add(
-        ("bearing", number),
-        "bearing friction",
-        named,
-        |keys, ends| {
-            let (at, damping) = (pair(bodies, ends, &frame), RingDamping::default());
-            let element = QuasiStaticElement::new(&name, at, &definition, control, damping)
-                .map_err(|e| keys.error("model", e))?
-                .friction_alone();
-            Ok(Ok(if at_rest {
-                element.without_friction_torque()
-            } else {
-                element
-            }))
-        },
-    )
+    Ok(())
 }

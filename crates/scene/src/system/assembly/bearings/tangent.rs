@@ -4,12 +4,11 @@
 //! tangent are taken; the equilibrium of the scene with these linear bearings is sought, and load and tangent are taken anew where the ring stands then,
 //! until they do not change. In exact numbers the first turn is the last: load and slope are those of the bearing itself.
 
-use gearmesh_bearings::{BearingError, Operation, QuasiStaticBearing, RingPose};
+use gearmesh_bearings::{BearingError, Control, Operation, QuasiStaticBearing, RingPose};
 use gearmesh_dynamics::{Marker, MarkerPair, State, System};
 use nalgebra::{Matrix5, Vector3, Vector5};
 
-use super::control;
-use crate::system::tables::bearing::{BearingModel, BearingTable, ControlWord, LinearBearingTable};
+use crate::system::tables::bearing::{BearingModel, BearingTable};
 
 /// A bearing whose tangent is taken.
 #[derive(Debug, Clone)]
@@ -18,7 +17,7 @@ pub(in crate::system) struct TangentSeat {
     pub bearing: usize,
     pair: MarkerPair,
     rolling: QuasiStaticBearing,
-    control: ControlWord,
+    control: Control,
 }
 
 /// Load and slope of a bearing at its operating point.
@@ -44,13 +43,13 @@ impl TangentSeat {
     pub(super) fn new(
         bearing: usize,
         (pair, rolling): (MarkerPair, QuasiStaticBearing),
-        model: &LinearBearingTable,
+        control: Control,
     ) -> Self {
         Self {
             bearing,
             pair,
             rolling,
-            control: model.control.unwrap_or_default(),
+            control,
         }
     }
 
@@ -69,7 +68,7 @@ impl TangentSeat {
         let operation = Operation {
             inner_rad_per_s: speed(&self.pair.b, &b.angular_velocity_rad_per_s),
             outer_rad_per_s: speed(&self.pair.a, &a.angular_velocity_rad_per_s),
-            control: control(self.control),
+            control: self.control,
             ..Operation::default()
         };
         let pose = RingPose {

@@ -1,5 +1,6 @@
 //! `kind = "dynamic"`: every ball a body of its own. What a scene does not name is not computed.
 
+use gearmesh_bearings::dynamic::{LandSide, PocketShape};
 use gearmesh_geometry::input::{Bounded, Positive};
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
@@ -132,7 +133,7 @@ pub struct CageTable {
 pub struct PocketTable {
     /// "cylindrical" (a bore along the radius, the default) or "spherical" (holds the ball every way).
     #[serde(default)]
-    pub shape: PocketWord,
+    pub shape: PocketShape,
     /// Play to each side.
     pub clearance_um: f64,
     /// Stiffness of the film within the play; none where not given.
@@ -146,24 +147,13 @@ pub struct PocketTable {
     pub traction: Option<TractionTable>,
 }
 
-/// `cage.pockets.shape`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum PocketWord {
-    /// A bore along the radius.
-    #[default]
-    Cylindrical,
-    /// A sphere.
-    Spherical,
-}
-
 /// `cage.land`.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct LandTable {
     /// Ring that has the land: "outer" or "inner".
-    pub ring: RingWord,
+    pub ring: LandSide,
     /// Diameter of the land.
     pub diameter_mm: f64,
     /// Gap between land and cage when the cage is in the middle.
@@ -179,16 +169,6 @@ pub struct LandTable {
     pub rebound: Option<ReboundTable>,
     /// Friction of the solids; none where not given.
     pub friction: Option<LandFrictionTable>,
-}
-
-/// `cage.land.ring`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RingWord {
-    /// The outer ring, round the cage.
-    Outer,
-    /// The inner ring, inside the cage.
-    Inner,
 }
 
 /// `cage.land.film`.

@@ -1,9 +1,8 @@
 //! `kind = "linear"`: a bearing of constant stiffness and damping.
 
+use gearmesh_bearings::Control;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use super::ControlWord;
 
 /// Keys of `kind = "linear"`: the stiffness is stated by its diagonal (`radial_stiffness_N_per_mm` …), by a matrix, or taken from a bearing file
 /// (`tangent_of`).
@@ -29,7 +28,7 @@ pub struct LinearBearingTable {
     /// speeds of the start.
     pub tangent_of: Option<String>,
     /// With `tangent_of`: how balls roll at speed, "outer-race" (the default) or "least-spin".
-    pub control: Option<ControlWord>,
+    pub control: Option<Control>,
     /// Damping across the axis; none where not given. Not with a matrix.
     pub radial_damping_N_s_per_mm: Option<f64>,
     /// Damping along the axis; none where not given. Not with a matrix.

@@ -7,12 +7,12 @@ mod quasi_static;
 mod rigid;
 
 pub use dynamic::{
-    CageTable, ContactTable, DynamicBearingTable, LandTable, PocketTable, PocketWord, ReboundTable,
-    RingWord, SurfaceTable, TractionTable,
+    CageTable, ContactTable, DynamicBearingTable, LandTable, PocketTable, ReboundTable,
+    SurfaceTable, TractionTable,
 };
 pub use housing::HousingTable;
 pub use linear::{AxialSupportWord, LinearBearingTable};
-pub use quasi_static::{ControlWord, QuasiStaticBearingTable};
+pub use quasi_static::QuasiStaticBearingTable;
 pub use rigid::{HeldWord, RigidBearingTable};
 
 use gearmesh_geometry::kinds;
@@ -33,7 +33,9 @@ pub struct BearingTable {
     pub at_mm: Option<[f64; 3]>,
     /// Axis; the z axis of `body_2` where not given.
     pub axis: Option<[f64; 3]>,
-    /// What lies between the outer ring and `body_1`; nothing where not given.
+    /// What lies between the outer ring and `body_1`; nothing where not given. The outer ring becomes a body, called
+    /// `BEARING/ring`, on a stiffness, called `BEARING/housing`. Either the diagonals or the 6×6 matrices; order x, y, z,
+    /// rotations about x, y, z, with z along the bearing's axis.
     pub housing: Option<HousingTable>,
     /// Model.
     pub model: BearingModel,

@@ -1,5 +1,6 @@
 //! `kind = "quasi-static"`: every ball or roller in equilibrium at every moment.
 
+use gearmesh_bearings::Control;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +13,7 @@ pub struct QuasiStaticBearingTable {
     pub file: String,
     /// How balls roll at speed: "outer-race" (the default) or "least-spin".
     #[serde(default)]
-    pub control: ControlWord,
+    pub control: Control,
     /// Damping across the axis beside the elastic bearing; none where not given.
     #[serde(default)]
     pub radial_damping_N_s_per_mm: f64,
@@ -25,15 +26,4 @@ pub struct QuasiStaticBearingTable {
     /// Whether the load of every ball or roller is a channel.
     #[serde(default)]
     pub element_loads: bool,
-}
-
-/// `control`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum ControlWord {
-    /// Balls do not spin on the outer race.
-    #[default]
-    OuterRace,
-    /// For each ball the race whose control costs less power.
-    LeastSpin,
 }
