@@ -22,7 +22,7 @@ use crate::system::tables::MM;
 use crate::system::tables::planetary::{MemberTable, PlanetaryTable};
 
 /// Keys of `[[body]]` that members and planets have.
-pub(super) const BODY_KEYS: [&str; 10] = [
+const BODY_KEYS: [&str; 10] = [
     "gear",
     "microgeometry",
     "mass_kg",
@@ -135,19 +135,15 @@ fn axes(axis: Option<[f64; 3]>, keys: &TableKeys<'_>) -> Result<Rotation3<f64>, 
 /// Angles about x and the new y that turn z into a direction: (sin b, −sin a cos b, cos a cos b).
 fn cardan_rad(direction: Vector3<f64>) -> [f64; 2] {
     let [x, y, z] = direction.normalize().into();
-    let about_x = if y.hypot(z) < 1e-12 {
-        0.0
-    } else {
-        (-y).atan2(z)
-    };
+    let is_along_x = y.hypot(z) < 1e-12;
+    let about_x = if is_along_x { 0.0 } else { (-y).atan2(z) };
     [about_x, x.clamp(-1.0, 1.0).asin()]
 }
 
 /// A table of the given keys.
 pub(super) fn made<const N: usize>(keys: [(&str, Value); N]) -> Table {
-    keys.into_iter()
-        .map(|(key, value)| (key.to_owned(), value))
-        .collect()
+    let keys = keys.into_iter();
+    keys.map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
 pub(super) fn numbers(values: &[f64]) -> Value {
@@ -167,6 +163,38 @@ impl Expansion<'_> {
             table,
             from: self.key.to_owned(),
         });
+    }
+
+    /// Adds a body with what its table, `raw`, says of it: at a place, its z in a direction, both in the set's axes.
+    pub(super) fn add_body(
+        &mut self,
+        (name, raw): (&str, &Table),
+        at_mm: Vector3<f64>,
+        direction: Vector3<f64>,
+    ) {
+        let mut body = copied(raw, &BODY_KEYS);
+        let at_mm = self.in_world_mm(at_mm);
+        body.extend(made([
+            ("name", name.into()),
+            ("position_mm", numbers(&at_mm)),
+        ]));
+        // None where it is z of the world.
+        let angles = cardan_rad(self.axes * direction).map(f64::to_degrees);
+        if angles != [0.0; 2] {
+            body.insert("cardan_deg".to_owned(), numbers(&angles));
+        }
+        self.push("body", body);
+    }
+
+    /// Adds a joint between two bodies, or the ground and one.
+    pub(super) fn add_joint(&mut self, (name, kind): (String, &str), on: Option<&str>, body: &str) {
+        let mut joint = made([
+            ("name", name.into()),
+            ("kind", kind.into()),
+            ("body_2", body.into()),
+        ]);
+        joint.extend(on.map(|on| ("body_1".to_owned(), on.into())));
+        self.push("joint", joint);
     }
 
     pub(super) fn called(&self, part: &str) -> String {
@@ -189,51 +217,13 @@ impl Expansion<'_> {
                 .unwrap_or_default(),
         };
         let mut partners = self.partners(known, &members, files)?;
-        let (folder, models) = files;
-        let of_member = |name: &Option<String>, key: &str| {
-            let Some(name) = name else { return Ok(None) };
-            let key = format!("{key}.gear");
-            match gears.get(name).cloned().flatten() {
-                Some(file) => {
-                    SetGear::read(&folder.join(file), (&self.keys, &key), models).map(Some)
-                }
-                None => Err(self
-                    .keys
-                    .error(&key, format!("missing; `{name}` needs teeth"))),
-            }
-        };
-        let of_planet =
-            |file: &Path, key| SetGear::read(&folder.join(file), (&self.keys, key), models);
-        let second = table.planets.1.second.as_ref();
-        let teeth = SetGears {
-            sun: of_member(&members.sun, "sun")?,
-            ring: of_member(&members.ring, "ring")?,
-            planet: of_planet(&table.planets.1.gear, "planets.gear")?,
-            second: second
-                .map(|second| of_planet(&second.gear, "planets.second.gear"))
-                .transpose()?,
-        };
+        let teeth = self.gears(&members, gears, files)?;
         let distance_m = MM * f64::from(table.centre_distance_mm);
         let room = Room::of(&teeth, distance_m, partners.as_ref()).equal_angles();
         let angles_rad = self.angles(&teeth, partners.as_ref(), room)?;
-        let height_m = |member: &Option<MemberTable>, planet_m: f64| {
-            let own_mm = member.as_ref().and_then(|member| member.z_mm);
-            MM * (own_mm.unwrap_or(0.0) + planet_m)
-        };
-        let heights = Heights {
-            sun_m: height_m(&table.sun, 0.0),
-            ring_m: height_m(&table.ring, second.map_or(0.0, |second| second.z_mm)),
-        };
+        let heights = self.heights();
         teeth.check(table, (partners.as_ref(), heights), &angles_rad, &self.keys)?;
-        for (key, member, height_m) in [
-            ("sun", table.sun.as_ref(), heights.sun_m),
-            ("ring", table.ring.as_ref(), heights.ring_m),
-            ("carrier", Some(&table.carrier), 0.0),
-        ] {
-            if let Some(member) = member.filter(|member| member.body.is_none()) {
-                self.add_member(key, member, height_m / MM)?;
-            }
-        }
+        self.add_members(heights)?;
         let called = |part: &str| -> Vec<String> {
             let numbers = 1..=angles_rad.len();
             numbers
@@ -248,32 +238,26 @@ impl Expansion<'_> {
             pinned: table.planets.0.clone(),
             bodies: called("planet"),
         };
-        let own_partners = partners.as_mut().filter(|own| own.other().is_none());
-        if let Some(own) = own_partners {
+        if let Some(own) = partners.as_mut().filter(|own| own.other().is_none()) {
             own.row.bodies = called("partner");
         }
         self.add_planets(&planets, &members.carrier, &angles_rad)?;
-        let mut layout = PartnerLayout::default();
-        if let Some(partners) = &partners {
-            let angles = angles_rad.iter().map(|angle| angle + partners.ahead_rad);
-            if partners.other().is_none() {
-                let angles: Vec<f64> = angles.collect();
-                self.add_planets(&partners.row, &members.carrier, &angles)?;
-            }
-            layout = PartnerLayout {
-                bodies: partners.row.bodies.clone(),
-                ahead_rad: partners.ahead_rad,
-                distance_m: partners.row.distance_m,
-                meshes: Vec::new(),
-            };
+        if let Some(own) = partners.as_ref().filter(|own| own.other().is_none()) {
+            let angles = angles_rad.iter().map(|angle| angle + own.ahead_rad);
+            self.add_planets(&own.row, &members.carrier, &angles.collect::<Vec<f64>>())?;
         }
         let meshes = self.add_meshes(&members, (&planets, partners.as_ref()), &teeth);
         let [sun_meshes, pair_meshes, mut ring_meshes] = meshes;
-        layout.meshes = pair_meshes;
         if let Some(other) = partners.as_ref().and_then(Partners::other) {
             members.ring.clone_from(&other.known.set.members.ring);
             ring_meshes.clone_from(&other.known.set.ring_meshes);
         }
+        let layout = partners.as_ref().map(|partners| PartnerLayout {
+            bodies: partners.row.bodies.clone(),
+            ahead_rad: partners.ahead_rad,
+            distance_m: partners.row.distance_m,
+            meshes: pair_meshes,
+        });
         let set = PlanetarySet {
             name: table.name.clone(),
             teeth: teeth.teeth(partners.as_ref()),
@@ -282,7 +266,7 @@ impl Expansion<'_> {
             members,
             axis: (self.axes * Vector3::z()).into(),
             planets: planets.bodies.clone(),
-            partners: layout,
+            partners: layout.unwrap_or_default(),
             sun_meshes,
             ring_meshes,
         };
@@ -294,6 +278,63 @@ impl Expansion<'_> {
             heights,
             middle_m: self.middle_m(),
             axes: self.axes,
+        })
+    }
+
+    /// Mid-faces of sun and ring.
+    fn heights(&self) -> Heights {
+        let height_m = |member: &Option<MemberTable>, planet_m: f64| {
+            let own_mm = member.as_ref().and_then(|member| member.z_mm);
+            MM * (own_mm.unwrap_or(0.0) + planet_m)
+        };
+        let second = self.table.planets.1.second.as_ref();
+        Heights {
+            sun_m: height_m(&self.table.sun, 0.0),
+            ring_m: height_m(&self.table.ring, second.map_or(0.0, |second| second.z_mm)),
+        }
+    }
+
+    /// Adds the members that are bodies of the set itself.
+    fn add_members(&mut self, heights: Heights) -> Result<(), InputError> {
+        let table = self.table;
+        for (key, member, height_m) in [
+            ("sun", table.sun.as_ref(), heights.sun_m),
+            ("ring", table.ring.as_ref(), heights.ring_m),
+            ("carrier", Some(&table.carrier), 0.0),
+        ] {
+            if let Some(member) = member.filter(|member| member.body.is_none()) {
+                self.add_member(key, member, height_m / MM)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The gears of the set; `gears`: files of those that are members, by their bodies.
+    fn gears(
+        &self,
+        members: &SetMembers,
+        gears: &BTreeMap<String, Option<PathBuf>>,
+        (folder, models): (&Path, &ModelShelf),
+    ) -> Result<SetGears, InputError> {
+        let read =
+            |file: &Path, key: &str| SetGear::read(&folder.join(file), (&self.keys, key), models);
+        let of_member = |name: &Option<String>, key: &str| {
+            let Some(name) = name else { return Ok(None) };
+            let file = gears.get(name).and_then(Option::as_ref);
+            let file = file.ok_or_else(|| {
+                let problem = format!("missing; `{name}` needs teeth");
+                self.keys.error(key, problem)
+            })?;
+            read(file, key).map(Some)
+        };
+        let planets = &self.table.planets.1;
+        let second = planets.second.as_ref();
+        let second = second.map(|second| read(&second.gear, "planets.second.gear"));
+        Ok(SetGears {
+            sun: of_member(&members.sun, "sun.gear")?,
+            ring: of_member(&members.ring, "ring.gear")?,
+            planet: read(&planets.gear, "planets.gear")?,
+            second: second.transpose()?,
         })
     }
 
@@ -343,10 +384,8 @@ impl Expansion<'_> {
                     format!("{misfit}; angles are those of `{name}`, where both sets fit");
                 self.keys.error("planets.partner.planets_of", problem)
             })?;
-            return Ok(angles
-                .iter()
-                .map(|angle| angle - partners.ahead_rad)
-                .collect());
+            let angles = angles.iter().map(|angle| angle - partners.ahead_rad);
+            return Ok(angles.collect());
         }
         let (key, angles): (_, Vec<f64>) = match (planets.count, &planets.angles_deg) {
             (Some(count), None) => {
@@ -378,16 +417,5 @@ impl Expansion<'_> {
     pub(super) fn in_world_mm(&self, point_mm: Vector3<f64>) -> [f64; 3] {
         let middle_mm = Vector3::from(self.table.position_mm.unwrap_or_default());
         (middle_mm + self.axes * point_mm).into()
-    }
-
-    /// The point of the axis at a height above the middle, in the world \[mm\].
-    pub(super) fn axis_mm(&self, z_mm: f64) -> [f64; 3] {
-        self.in_world_mm(Vector3::new(0.0, 0.0, z_mm))
-    }
-
-    /// `cardan_deg` of a body whose z has a direction of the set's axes; none where it is z of the world.
-    pub(super) fn cardan_deg(&self, direction: Vector3<f64>) -> Option<Value> {
-        let angles = cardan_rad(self.axes * direction).map(f64::to_degrees);
-        (angles != [0.0; 2]).then(|| numbers(&angles))
     }
 }

@@ -73,10 +73,8 @@ impl SetGears {
         let count = |gear: &SetGear| gear.teeth.teeth;
         let to_ring = partners.map_or(self.to_ring(), |partners| &partners.row.gear);
         let other = partners.and_then(Partners::other);
-        let ring = self
-            .ring
-            .as_ref()
-            .or(other.and_then(|other| other.known.gears.ring.as_ref()));
+        let others = other.and_then(|other| other.known.gears.ring.as_ref());
+        let ring = self.ring.as_ref().or(others);
         SetTeeth {
             sun: self.sun.as_ref().map(count),
             planet: count(&self.planet),
@@ -102,6 +100,61 @@ impl SetGears {
         angles_rad: &[f64],
         keys: &TableKeys<'_>,
     ) -> Result<(), InputError> {
+        self.check_kinds(partners, keys)?;
+        let distance_m = MM * f64::from(table.centre_distance_mm);
+        let room = Room::of(self, distance_m, partners);
+        room.check(angles_rad, keys)?;
+        let key = "centre_distance_mm";
+        let own = (&self.planet, distance_m, key);
+        let to_ring = match partners {
+            Some(own) => {
+                let key = "planets.partner.centre_distance_mm";
+                (
+                    (&own.row.gear, own.row.distance_m, key),
+                    ["partner", "ring"],
+                )
+            }
+            None => ((self.to_ring(), distance_m, key), ["planet", "ring"]),
+        };
+        let sun = self.sun.as_ref().map(|sun| (sun, own, ["planet", "sun"]));
+        let ring = self.ring.as_ref();
+        let ring = ring.map(|ring| (ring, to_ring.0, to_ring.1));
+        let pair = partners.map(|p| {
+            let key = "planets.partner.pair_distance_mm";
+            let to_pair = (&self.planet, p.pair_distance_m, key);
+            (&p.row.gear, to_pair, ["planet", "partner"])
+        });
+        let mut free_m = 0.0;
+        let all = [sun, ring, pair].into_iter().flatten();
+        for (mate, (planet, distance_m, key), [one, other]) in all {
+            let teeth = (planet.teeth.clone(), mate.teeth.clone());
+            let pair = GearPair::new(teeth.0, teeth.1, distance_m, Misalignment::default());
+            let pair = pair.map_err(|error: PairError| {
+                let problem =
+                    format!("{one} and {other} do not run together at this distance: {error}");
+                keys.error(key, problem)
+            })?;
+            free_m += pair.backlash_m();
+        }
+        if let Some(partners) = partners {
+            return self.check_beside(distance_m, partners, heights, keys);
+        }
+        let is_rigid = |member: &Option<MemberTable>| {
+            let held = member.as_ref().and_then(MemberTable::support);
+            matches!(held, Some(SupportWord::Held | SupportWord::Turning))
+        };
+        if is_rigid(&table.sun) && is_rigid(&table.ring) {
+            check_pins(table, free_m, keys)?;
+        }
+        Ok(())
+    }
+
+    /// That the ring alone has internal teeth.
+    fn check_kinds(
+        &self,
+        partners: Option<&Partners>,
+        keys: &TableKeys<'_>,
+    ) -> Result<(), InputError> {
         let own = partners.filter(|partners| partners.other().is_none());
         let own = own.map(|partners| partners.row.gear.clone());
         for (key, gear, is_ring) in [
@@ -114,81 +167,14 @@ impl SetGears {
             if let Some(gear) = gear
                 && gear.teeth.internal != is_ring
             {
-                let [found, allowed] = match is_ring {
-                    true => [
-                        "external",
-                        "internal ones (a negative number in the gear file)",
-                    ],
-                    false => ["internal", "external ones"],
+                let problem = match is_ring {
+                    true => {
+                        "the gear has external teeth, allowed are internal ones (a negative number in the gear file)"
+                    }
+                    false => "the gear has internal teeth, allowed are external ones",
                 };
-                let problem = format!("the gear has {found} teeth, allowed are {allowed}");
                 return Err(keys.error(key, problem));
             }
-        }
-        let distance_m = MM * f64::from(table.centre_distance_mm);
-        let room = Room::of(self, distance_m, partners);
-        room.check(angles_rad, keys)?;
-        let own_distance = "centre_distance_mm";
-        let to_ring = match partners {
-            Some(own) => (
-                &own.row.gear,
-                own.row.distance_m,
-                "planets.partner.centre_distance_mm",
-            ),
-            None => (self.to_ring(), distance_m, own_distance),
-        };
-        let sun = self.sun.as_ref().map(|sun| {
-            (
-                sun,
-                &self.planet,
-                distance_m,
-                own_distance,
-                ["planet", "sun"],
-            )
-        });
-        let which = match partners {
-            Some(_) => ["partner", "ring"],
-            None => ["planet", "ring"],
-        };
-        let ring = self
-            .ring
-            .as_ref()
-            .map(|ring| (ring, to_ring.0, to_ring.1, to_ring.2, which));
-        let pair = partners.map(|p| {
-            let key = "planets.partner.pair_distance_mm";
-            (
-                &p.row.gear,
-                &self.planet,
-                p.pair_distance_m,
-                key,
-                ["planet", "partner"],
-            )
-        });
-        let mut free_m = 0.0;
-        for (mate, planet, distance_m, key, [one, other]) in [sun, ring, pair].into_iter().flatten()
-        {
-            let pair = GearPair::new(
-                planet.teeth.clone(),
-                mate.teeth.clone(),
-                distance_m,
-                Misalignment::default(),
-            );
-            let pair = pair.map_err(|error: PairError| {
-                let problem =
-                    format!("{one} and {other} do not run together at this distance: {error}");
-                keys.error(key, problem)
-            })?;
-            free_m += pair.backlash_m();
-        }
-        if let Some(partners) = partners {
-            return self.check_beside(distance_m, partners, heights, keys);
-        }
-        let is_rigid = |member: &Option<MemberTable>| {
-            let support = member.as_ref().and_then(MemberTable::support);
-            matches!(support, Some(SupportWord::Held | SupportWord::Turning))
-        };
-        if is_rigid(&table.sun) && is_rigid(&table.ring) {
-            check_pins(table, free_m, keys)?;
         }
         Ok(())
     }
@@ -214,29 +200,18 @@ impl SetGears {
             None => (&self.ring, heights.ring_m),
         };
         let partner = (&partner.gear, partner.distance_m);
+        let sun_m = heights.sun_m - above_m;
         let mut beside = vec![
-            (
-                &self.sun,
-                partner,
-                heights.sun_m - above_m,
-                ["the partners", "the sun"],
-            ),
+            (&self.sun, partner, sun_m, ["the partners", "the sun"]),
             (ring, planets, ring_m, ["the planets", "the ring"]),
         ];
         if let Some(OtherSet { known, .. }) = other {
-            let sun_m = above_m + known.heights.sun_m;
-            beside.push((
-                &known.gears.sun,
-                planets,
-                sun_m,
-                ["the planets", "the other sun"],
-            ));
+            let (sun, sun_m) = (&known.gears.sun, above_m + known.heights.sun_m);
+            beside.push((sun, planets, sun_m, ["the planets", "the other sun"]));
         }
         for (central, (planet, axes_m), height_m, [one, two]) in beside {
-            let Some(central) = central
-                .as_ref()
-                .filter(|gear| gear.is_beside(planet, height_m))
-            else {
+            let is_beside = |gear: &&SetGear| gear.is_beside(planet, height_m);
+            let Some(central) = central.as_ref().filter(is_beside) else {
                 continue;
             };
             let (tip_m, own_m) = (central.teeth.tip_radius_m, planet.teeth.tip_radius_m);

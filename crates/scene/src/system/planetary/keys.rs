@@ -1,14 +1,11 @@
 //! Keys of `[[planetary]]` that need or exclude each other, beyond what their types say.
 
-use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{Beside, TableKeys};
+use gearmesh_geometry::{InputError, given};
 
 use crate::system::tables::planetary::{
     MemberTable, PinnedKeys, PlanetaryTable, SetMeshTable, SupportWord,
 };
-
-const OF_PLANETS: &str = "is that of planets: state it in planets.errors or planets.deviation";
-const OF_RING: &str = "belongs to the ring; remove it";
 
 /// The first contradiction.
 ///
@@ -27,98 +24,56 @@ pub(super) fn check(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), 
         return Err(keys.error("ring_torque", "is not used without a ring; remove it"));
     }
     let has_waves = |member: &MemberTable| !member.out_of_round.is_empty();
-    let faults = [
-        (
-            "sun.out_of_round",
-            sun.as_ref().is_some_and(has_waves),
-            OF_RING,
-        ),
-        ("carrier.out_of_round", has_waves(&table.carrier), OF_RING),
-        (
-            "carrier.gear",
-            table.carrier.gear.is_some(),
-            "a carrier has no teeth of this set; remove it, and fix the gear's own [[body]] to the carrier by a [[joint]]",
-        ),
-        (
-            "carrier.z_mm",
-            table.carrier.z_mm.is_some(),
-            "is that of sun or ring; remove it",
-        ),
-        (
-            "planets.second",
-            planets.second.is_some() && ring.is_none(),
-            "meshes with a ring, which the set has not; remove it",
-        ),
+    let waves = [
+        ("sun.out_of_round", sun.as_ref().is_some_and(has_waves)),
+        ("carrier.out_of_round", has_waves(&table.carrier)),
     ];
-    refuse(&faults, keys)?;
+    keys.refuse(&waves, "belongs to the ring; remove it")?;
+    let problem = "a carrier has no teeth of this set; remove it, and fix the gear's own [[body]] to the carrier by a [[joint]]";
+    keys.refuse(&[("carrier.gear", table.carrier.gear.is_some())], problem)?;
+    let problem = "is that of sun or ring; remove it";
+    keys.refuse(&[("carrier.z_mm", table.carrier.z_mm.is_some())], problem)?;
+    let without_ring = planets.second.is_some() && ring.is_none();
+    let problem = "meshes with a ring, which the set has not; remove it";
+    keys.refuse(&[("planets.second", without_ring)], problem)?;
     check_pinned("planets", pinned, keys)
 }
 
 /// How pins hold planets or partners.
-fn check_pinned(at: &str, pinned: &PinnedKeys, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    let housing = pinned.bearings.iter().position(|b| b.housing.is_some());
-    let faults = [
-        (
-            &*format!("{at}.support"),
-            matches!(pinned.support, Some(SupportWord::Held | SupportWord::Free)),
-            "found \"held\" or \"free\", allowed are \"turning\", \"floating\" and \"bearings\"",
-        ),
-        (
-            &*format!("{at}.bearings.{}.housing", housing.unwrap_or(0)),
-            housing.is_some(),
-            "is not used by planets; remove it",
-        ),
-    ];
-    refuse(&faults, keys)
+fn check_pinned(at: &str, held: &PinnedKeys, keys: &TableKeys<'_>) -> Result<(), InputError> {
+    let housing = held.bearings.iter().position(|b| b.housing.is_some());
+    let is_other = matches!(held.support, Some(SupportWord::Held | SupportWord::Free));
+    let problem =
+        "found \"held\" or \"free\", allowed are \"turning\", \"floating\" and \"bearings\"";
+    keys.refuse(&[(&format!("{at}.support"), is_other)], problem)?;
+    let key = format!("{at}.bearings.{}.housing", housing.unwrap_or(0));
+    let problem = "is not used by planets; remove it";
+    keys.refuse(&[(&key, housing.is_some())], problem)
 }
 
 /// Partners of planets, and their mesh with them.
 fn check_partner(table: &PlanetaryTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
     let Some(Beside(pinned, partner)) = &table.planets.1.partner else {
-        if table.pair_mesh.is_some() {
-            return Err(keys.error(
-                "pair_mesh",
-                "is not used without planets.partner; remove it",
-            ));
-        }
-        return Ok(());
+        let problem = "is not used without planets.partner; remove it";
+        return keys.refuse(&given!(table; pair_mesh), problem);
     };
     check_teeth(("pair_mesh", &table.pair_mesh), &[1, 2], keys)?;
     keys.needed("pair_mesh", table.pair_mesh.as_ref(), "`planets.partner`")?;
-    keys.needed(
-        "sun",
-        table.sun.as_ref(),
-        "a set whose planets have partners",
+    let meshed = "a set whose planets have partners";
+    keys.needed("sun", table.sun.as_ref(), meshed)?;
+    if partner.planets_of.is_none() {
+        keys.needed("ring", table.ring.as_ref(), meshed)?;
+    }
+    let problem = "is not used with partner: planets are stepped or meshed; remove one of the two";
+    keys.refuse(
+        &[("planets.second", table.planets.1.second.is_some())],
+        problem,
     )?;
-    let of_other = partner.planets_of.is_some();
-    if !of_other {
-        keys.needed(
-            "ring",
-            table.ring.as_ref(),
-            "a set whose planets have partners",
-        )?;
+    if partner.planets_of.is_some() {
+        let problem = "is not used with planets_of: the ring is that of the other set; remove it";
+        keys.refuse(&given!(table; ring), problem)?;
     }
-    let faults = [
-        (
-            "planets.second",
-            table.planets.1.second.is_some(),
-            "is not used with partner: planets are stepped or meshed; remove one of the two",
-        ),
-        (
-            "ring",
-            of_other && table.ring.is_some(),
-            "is not used with planets_of: the ring is that of the other set; remove it",
-        ),
-    ];
-    refuse(&faults, keys)?;
     check_pinned("planets.partner", pinned, keys)
-}
-
-fn refuse(faults: &[(&str, bool, &str)], keys: &TableKeys<'_>) -> Result<(), InputError> {
-    match faults.iter().find(|(_, is_so, _)| *is_so) {
-        Some((key, _, problem)) => Err(keys.error(key, problem)),
-        None => Ok(()),
-    }
 }
 
 /// A member with teeth and its meshes; those of the sun have the planet as gear 2, those of the ring as gear 1.
@@ -151,25 +106,19 @@ fn check_teeth(
     let at = |name: &str| format!("{mesh_key}.teeth.{name}");
     let touching = teeth.touching_at_start.is_some();
     let follows = "follows from the torque on the sun; state sun_torque instead";
-    refuse(&[(&at("touching_at_start"), touching, follows)], keys)?;
+    keys.refuse(&[(&at("touching_at_start"), touching)], follows)?;
     for planet in of_planets {
         let (errors, eccentricity) = match planet {
             1 => (&teeth.errors_1, &teeth.eccentricity_1),
             _ => (&teeth.errors_2, &teeth.eccentricity_2),
         };
-        let faults = [
-            (
-                &*at(&format!("errors_{planet}")),
-                !errors.is_empty(),
-                OF_PLANETS,
-            ),
-            (
-                &*at(&format!("eccentricity_{planet}")),
-                eccentricity.is_some(),
-                OF_PLANETS,
-            ),
+        let keys_of = ["errors", "eccentricity"].map(|key| at(&format!("{key}_{planet}")));
+        let of_planet = [
+            (&*keys_of[0], !errors.is_empty()),
+            (&*keys_of[1], eccentricity.is_some()),
         ];
-        refuse(&faults, keys)?;
+        let problem = "is that of planets: state it in planets.errors or planets.deviation";
+        keys.refuse(&of_planet, problem)?;
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use gearmesh_geometry::InputError;
 use nalgebra::Vector3;
 use toml::{Table, Value};
 
-use super::expansion::{BODY_KEYS, Expansion, copied, made, numbers};
+use super::expansion::{Expansion, copied, made, numbers};
 use crate::system::names;
 use crate::system::tables::planetary::{MemberTable, SupportWord};
 
@@ -42,10 +42,8 @@ impl Expansion<'_> {
             return Err(self.keys.error(&format!("{key}.body"), problem));
         }
         let own = self.below(key);
-        let others = own
-            .keys()
-            .find(|other| !["body", "out_of_round"].contains(&other.as_str()));
-        match others {
+        let is_other = |other: &&String| !["body", "out_of_round"].contains(&other.as_str());
+        match own.keys().find(is_other) {
             None => Ok(Some(body.clone())),
             Some(other) => {
                 let problem =
@@ -62,35 +60,23 @@ impl Expansion<'_> {
         member: &MemberTable,
         z_mm: f64,
     ) -> Result<(), InputError> {
-        let name = self.called(key);
-        let raw = self.below(key);
-        let at_mm = self.axis_mm(z_mm);
-        let mut body = copied(&raw, &BODY_KEYS);
-        body.insert("name".to_owned(), name.clone().into());
-        body.insert("position_mm".to_owned(), numbers(&at_mm));
-        let cardan = self.cardan_deg(Vector3::z());
-        body.extend(cardan.map(|cardan| ("cardan_deg".to_owned(), cardan)));
-        self.push("body", body);
+        let (name, raw) = (self.called(key), self.below(key));
+        let above = |z_mm: f64| Vector3::new(0.0, 0.0, z_mm);
+        self.add_body((&name, &raw), above(z_mm), Vector3::z());
         let support = member.support().unwrap_or(SupportWord::Bearings);
         let used = |key: &str, users: &[SupportWord]| {
-            if raw.contains_key(key) && !users.contains(&support) {
-                let problem = format!("is not used by support = \"{}\"; remove it", support.name());
-                return Err(self.keys.error(
-                    &format!("{}.{key}", &name[self.table.name.len() + 1..]),
-                    problem,
-                ));
-            }
-            Ok(())
+            let is_unused = raw.contains_key(key) && !users.contains(&support);
+            let problem = format!("is not used by support = \"{}\"; remove it", support.name());
+            let key = format!("{}.{key}", &name[self.table.name.len() + 1..]);
+            self.keys.refuse(&[(&key, is_unused)], problem)
         };
         use SupportWord::{Bearings, Floating, Free, Held, Turning};
         used("bearings", &[Bearings, Floating])?;
         used("speed_rpm", &[Turning, Floating])?;
         used("torque_Nm", &[Turning, Floating, Bearings, Free])?;
         if support == Bearings && member.bearings.is_empty() {
-            return Err(self.keys.error(
-                key,
-                "support = \"bearings\" needs bearings; give one or more",
-            ));
+            let problem = "support = \"bearings\" needs bearings; give one or more";
+            return Err(self.keys.error(key, problem));
         }
         let joint = self.called(&format!("{key} axis"));
         let kind = match support {
@@ -100,46 +86,28 @@ impl Expansion<'_> {
             Bearings | Free => None,
         };
         if let Some(kind) = kind {
-            self.push(
-                "joint",
-                made([
-                    ("name", joint.clone().into()),
-                    ("kind", kind.into()),
-                    ("body_2", name.clone().into()),
-                ]),
-            );
+            self.add_joint((joint.clone(), kind), None, &name);
         }
-        let seats = member
-            .bearings
-            .iter()
-            .map(|b| BearingSeat {
-                body_1: None,
-                body_2: name.clone(),
-                at_mm: self.axis_mm(b.z_mm),
-            })
-            .collect();
+        let seats = member.bearings.iter().map(|b| BearingSeat {
+            body_1: None,
+            body_2: name.clone(),
+            at_mm: self.in_world_mm(above(b.z_mm)),
+        });
+        let seats = seats.collect();
         self.add_bearings(&name, seats, &raw);
-        if let Some(speed) = raw.get("speed_rpm") {
-            let motion = self.called(&format!("{key} speed"));
-            self.push(
-                "motion",
-                made([
-                    ("name", motion.into()),
-                    ("joint", joint.into()),
-                    ("speed_rpm", speed.clone()),
-                ]),
-            );
-        }
-        if let Some(torque) = raw.get("torque_Nm") {
-            let load = self.called(&format!("{key} torque"));
-            self.push(
-                "load",
-                made([
-                    ("name", load.into()),
-                    ("body", name.into()),
-                    ("torque_Nm", torque.clone()),
-                ]),
-            );
+        for (list, what, on, key_of_value) in [
+            ("motion", "speed", ("joint", joint), "speed_rpm"),
+            ("load", "torque", ("body", name), "torque_Nm"),
+        ] {
+            if let Some(value) = raw.get(key_of_value) {
+                let own = self.called(&format!("{key} {what}"));
+                let keys = [
+                    ("name", own.into()),
+                    (on.0, on.1.into()),
+                    (key_of_value, value.clone()),
+                ];
+                self.push(list, made(keys));
+            }
         }
         Ok(())
     }
@@ -150,15 +118,12 @@ impl Expansion<'_> {
         let written = written.into_iter().flatten().filter_map(Value::as_table);
         for (i, (own, seat)) in written.zip(seats).enumerate() {
             let mut bearing = copied(own, &["model", "housing"]);
-            bearing.insert(
-                "name".to_owned(),
-                format!("{owner} bearing {}", i + 1).into(),
-            );
-            bearing.insert("body_2".to_owned(), seat.body_2.into());
-            bearing.insert("at_mm".to_owned(), numbers(&seat.at_mm));
-            if let Some(on) = seat.body_1 {
-                bearing.insert("body_1".to_owned(), on.into());
-            }
+            bearing.extend(made([
+                ("name", format!("{owner} bearing {}", i + 1).into()),
+                ("body_2", seat.body_2.into()),
+                ("at_mm", numbers(&seat.at_mm)),
+            ]));
+            bearing.extend(seat.body_1.map(|on| ("body_1".to_owned(), on.into())));
             self.push("bearing", bearing);
         }
     }

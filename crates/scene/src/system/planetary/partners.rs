@@ -96,21 +96,17 @@ impl Expansion<'_> {
                 (other.known.planets.clone(), Origin::Other(Box::new(other)))
             }
             None => {
-                let missing = |key: &str| format!("planets.partner.{key}");
                 let needed_by = "`partner` without `planets_of`";
-                let gear = table.gear.as_ref();
-                let gear = self.keys.needed(&missing("gear"), gear, needed_by)?;
-                let key = missing("gear");
+                let key = "planets.partner.gear";
+                let gear = self.keys.needed(key, table.gear.as_ref(), needed_by)?;
+                let gear = SetGear::read(&folder.join(gear), (&self.keys, key), models)?;
+                let key = "planets.partner.centre_distance_mm";
+                let distance_mm = self.keys.needed(key, table.centre_distance_mm, needed_by)?;
                 let row = PlanetRow {
                     key: "planets.partner",
                     raw: self.below("planets.partner"),
-                    gear: SetGear::read(&folder.join(gear), (&self.keys, &key), models)?,
-                    distance_m: MM
-                        * f64::from(self.keys.needed(
-                            &missing("centre_distance_mm"),
-                            table.centre_distance_mm,
-                            needed_by,
-                        )?),
+                    gear,
+                    distance_m: MM * f64::from(distance_mm),
                     pinned: pinned.clone(),
                     bodies: Vec::new(),
                 };

@@ -91,15 +91,8 @@ impl Expansion<'_> {
         ]);
         self.push("shaft", shaft);
         for (number, plate_mm) in plates.iter().enumerate() {
-            self.push(
-                "joint",
-                made([
-                    ("name", format!("{planet} pin plate {}", number + 1).into()),
-                    ("kind", "fixed".into()),
-                    ("body_1", carrier.into()),
-                    ("body_2", beam.body(*plate_mm).into()),
-                ]),
-            );
+            let name = format!("{planet} pin plate {}", number + 1);
+            self.add_joint((name, "fixed"), Some(carrier), &beam.body(*plate_mm));
         }
         Ok(Some(beam))
     }

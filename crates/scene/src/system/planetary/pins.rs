@@ -5,7 +5,7 @@ use gearmesh_geometry::input::TableKeys;
 use nalgebra::Vector3;
 use toml::{Table, Value};
 
-use super::expansion::{BODY_KEYS, Expansion, copied, made, numbers};
+use super::expansion::Expansion;
 use super::gears::SetGear;
 use super::members::BearingSeat;
 use crate::system::tables::MM;
@@ -59,7 +59,7 @@ impl PlanetRow {
             let number = deviation.planet.get();
             let twice = deviations[..i]
                 .iter()
-                .any(|other| other.planet.get() == number);
+                .any(|other| other.planet == deviation.planet);
             if number > count || twice {
                 let problem = match twice {
                     true => format!("planet {number} has a deviation already; join the two"),
@@ -78,14 +78,14 @@ impl PlanetRow {
         match (self.pinned.support, self.pinned.bearings.is_empty()) {
             (Some(SupportWord::Floating), _) => Ok(Some("planar")),
             (Some(SupportWord::Bearings) | None, false) => Ok(None),
-            (Some(SupportWord::Bearings), true) => refusal(
-                "support",
-                "found \"bearings\", which needs bearings; give one or more",
-            ),
-            (_, false) => refusal(
-                "bearings",
-                "is not used by support = \"turning\"; remove it",
-            ),
+            (Some(SupportWord::Bearings), true) => {
+                let problem = "found \"bearings\", which needs bearings; give one or more";
+                refusal("support", problem)
+            }
+            (_, false) => {
+                let problem = "is not used by support = \"turning\"; remove it";
+                refusal("bearings", problem)
+            }
             (_, true) => Ok(Some("revolute")),
         }
     }
@@ -118,52 +118,25 @@ impl Expansion<'_> {
     ) -> Result<(), InputError> {
         let name = &row.bodies[planet];
         let pin = self.pin(row, (planet, angle_rad));
-        let mut bodies = vec![(name.clone(), copied(&row.raw, &BODY_KEYS), 0.0)];
+        let axis = Vector3::new(pin.lean[0], pin.lean[1], 1.0);
+        self.add_body((name, &row.raw), pin.above_mm(0.0), axis);
         let second = row.raw.get("second").and_then(Value::as_table);
-        if let (Some(second), Some(own)) = (&self.table.planets.1.second, second) {
-            bodies.push((
-                format!("{name} second"),
-                copied(own, &BODY_KEYS),
-                second.z_mm,
-            ));
-        }
-        for (name, mut body, z_mm) in bodies.clone() {
-            body.insert("name".to_owned(), name.into());
-            let at_mm = self.in_world_mm(pin.above_mm(z_mm));
-            body.insert("position_mm".to_owned(), numbers(&at_mm));
-            let cardan = self.cardan_deg(Vector3::new(pin.lean[0], pin.lean[1], 1.0));
-            body.extend(cardan.map(|cardan| ("cardan_deg".to_owned(), cardan)));
-            self.push("body", body);
-        }
-        let joint = |name: String, kind: &str, on: &str, body: &str| {
-            made([
-                ("name", name.into()),
-                ("kind", kind.into()),
-                ("body_1", on.into()),
-                ("body_2", body.into()),
-            ])
-        };
-        if let Some((second, ..)) = bodies.get(1) {
-            self.push(
-                "joint",
-                joint(format!("{name} shaft"), "fixed", name, second),
-            );
+        if let (Some(second), Some(raw)) = (&self.table.planets.1.second, second) {
+            let own = format!("{name} second");
+            self.add_body((&own, raw), pin.above_mm(second.z_mm), axis);
+            self.add_joint((format!("{name} shaft"), "fixed"), Some(name), &own);
         }
         let joined = row.joint(&self.keys)?;
         let bearings = &row.pinned.bearings;
-        let at_joint = joined.map(|_| 0.0);
-        let holds_mm: Vec<f64> = { bearings.iter() }
-            .map(|b| b.z_mm)
-            .chain(at_joint)
-            .collect();
+        let holds_mm = bearings.iter().map(|b| b.z_mm).chain(joined.map(|_| 0.0));
+        let holds_mm: Vec<f64> = holds_mm.collect();
         let beam = self.add_pin_beam(row, (carrier, name, &pin), &holds_mm)?;
         let holder = |z_mm: f64| match &beam {
             Some(beam) => beam.body(z_mm),
             None => carrier.to_owned(),
         };
         if let Some(kind) = joined {
-            let made = joint(format!("{name} pin"), kind, &holder(0.0), name);
-            self.push("joint", made);
+            self.add_joint((format!("{name} pin"), kind), Some(&holder(0.0)), name);
         }
         let seat = |b: &SetBearingTable| {
             // Rollers that press on the planet's bore run in it as in their outer ring.
