@@ -36,6 +36,6 @@ pub use plan::SystemPlan;
 pub(crate) use plan::step_in_words;
 pub use scene::{SystemScene, SystemTables};
 pub use stage_summary::StageSummary;
-pub use tables::output::Output;
+pub use tables::output::OutputTable;
 pub use tables::run::{Direction, MotionValues, Run, RunKind, Schedule, SpeedSweep};
 pub use tables::solver::{Solver, Start};

@@ -4,7 +4,7 @@ use gearmesh_dynamics::scheme::StepControl;
 use gearmesh_dynamics::{DynamicsError, natural_modes};
 use gearmesh_geometry::InputError;
 
-use super::built::{BuiltMesh, BuiltSystem};
+use super::built::{BuiltBody, BuiltMesh, BuiltPart, BuiltSystem};
 use super::scene::SystemScene;
 use super::stage_summary::StageSummary;
 use super::tables::run::{Direction, Run, Schedule};
@@ -47,74 +47,67 @@ impl SystemPlan {
     }
 
     fn derive(scene: &SystemScene, mut built: BuiltSystem) -> Result<Self, DynamicsError> {
-        let mut lines = vec![
-            format!("scene      {}", scene.title),
-            format!("run        {}", run_in_words(&scene.run)),
-        ];
-        let sets = scene.sets.iter();
-        lines.extend(sets.map(|set| format!("planetary  {}: {}", set.name, set.words())));
+        let mut lines = Vec::new();
+        let mut line = |head: &str, words: String| lines.push(format!("{head:<10} {words}"));
+        line("scene", scene.title.clone());
+        line("run", run_in_words(&scene.run));
+        for set in &scene.sets {
+            line("planetary", format!("{}: {}", set.name, set.words()));
+        }
         let system = &built.system;
         let (degrees_of_freedom, equations, mobility) = (
             system.degrees_of_freedom(),
             system.equations(),
             system.mobility(),
         );
-        for body in &built.bodies {
-            let mass = system
-                .bodies()
-                .iter()
-                .find(|other| other.name == body.name)
-                .map_or(0.0, |other| other.mass_kg);
-            lines.push(format!(
-                "body       {}: {mass:.6} kg, {}",
-                body.name, body.source
-            ));
+        for BuiltBody { name, source, .. } in &built.bodies {
+            let body = system.bodies().iter().find(|other| other.name == *name);
+            let mass = body.map_or(0.0, |body| body.mass_kg);
+            line("body", format!("{name}: {mass:.6} kg, {source}"));
         }
-        lines.push(format!(
-            "size       {} bodies, {degrees_of_freedom} degrees of freedom, {equations} joint equations, {mobility} degrees of freedom left",
-            built.bodies.len()
-        ));
-        for (word, parts) in [("joint", &built.joints), ("force", &built.elements)] {
-            for part in parts {
-                lines.push(format!(
-                    "{word:<10} {}: {}, on {}",
-                    part.name,
-                    part.kind,
-                    part.bodies.join(" and ")
-                ));
+        let bodies = built.bodies.len();
+        line(
+            "size",
+            format!(
+                "{bodies} bodies, {degrees_of_freedom} degrees of freedom, {equations} joint equations, {mobility} degrees of freedom left"
+            ),
+        );
+        for (head, parts) in [("joint", &built.joints), ("force", &built.elements)] {
+            for BuiltPart { name, kind, bodies } in parts {
+                line(head, format!("{name}: {kind}, on {}", bodies.join(" and ")));
             }
         }
         for mesh in &built.meshes {
-            let [z1, z2] = mesh.teeth;
-            lines.push(format!(
-                "mesh       {}: `{}`, {} z {z1} with {} z {z2}, ratio {:.6}, {}",
-                mesh.name,
-                mesh.model,
-                mesh.gears[0],
-                mesh.gears[1],
-                mesh.ratio(),
-                mesh.frequency_in_words()
-            ));
-            let stage = mesh.stage.as_ref().map(StageSummary::words);
-            lines.extend(stage.map(|words| format!("stage      {}: {words}", mesh.name)));
+            let (name, model, [z1, z2], [gear_1, gear_2]) =
+                (&mesh.name, mesh.model, mesh.teeth, &mesh.gears);
+            let (ratio, often) = (mesh.ratio(), mesh.frequency_in_words());
+            line(
+                "mesh",
+                format!(
+                    "{name}: `{model}`, {gear_1} z {z1} with {gear_2} z {z2}, ratio {ratio:.6}, {often}"
+                ),
+            );
+            if let Some(stage) = &mesh.stage {
+                line("stage", format!("{name}: {}", stage.words()));
+            }
         }
         for gauge in &built.gauges {
-            lines.push(format!("gauge      {} of {}", gauge.name, gauge.body));
+            line("gauge", format!("{} of {}", gauge.name, gauge.body));
         }
         for rating in &built.ratings {
-            lines.push(format!("rating     {}: {}", rating.name, rating.method));
+            line("rating", format!("{}: {}", rating.name, rating.method));
         }
         for effect in &built.effects {
             let how = effect.computed.as_deref().unwrap_or("not computed");
-            lines.push(format!("effect     {}: {how}", effect.name));
+            line("effect", format!("{}: {how}", effect.name));
         }
-        lines.extend(built.notes.iter().map(|note| format!("note       {note}")));
-
+        for note in &built.notes {
+            line("note", note.clone());
+        }
         let highest_frequency_hz = highest_frequency(&mut built)?;
         if let Some(highest) = highest_frequency_hz {
-            lines.push(format!(
-                "frequency  highest natural frequency at the start {highest:.3} Hz"
-            ));
+            let words = format!("highest natural frequency at the start {highest:.3} Hz");
+            line("frequency", words);
         }
         let of_mesh = |mesh: &BuiltMesh| Some((mesh.name.clone(), mesh.stage?));
         let mut plan = Self {
@@ -135,7 +128,7 @@ impl SystemPlan {
         let (Some(params), Some(highest)) = (scene.solver.params, self.highest_frequency_hz) else {
             return;
         };
-        let (step_s, _) = step_in_words(params.step);
+        let step_s = params.step.longest_s();
         if scene.run.simulated_s().is_some() && highest * step_s * RESOLVED > 1.0 {
             self.lines.push(format!(
                 "note       a step of {step_s} s has {:.1} steps in a period of the highest natural frequency: what is above {:.1} Hz is damped by the scheme, not resolved",
@@ -148,10 +141,11 @@ impl SystemPlan {
 
 /// The step, for adaptive ones the longest, and how to call it.
 pub(crate) fn step_in_words(step: StepControl) -> (f64, &'static str) {
-    match step {
-        StepControl::Fixed { step_s } => (step_s, "fixed"),
-        StepControl::Adaptive(limits) => (limits.largest_step_s, "adaptive, at most"),
-    }
+    let how = match step {
+        StepControl::Fixed { .. } => "fixed",
+        StepControl::Adaptive(_) => "adaptive, at most",
+    };
+    (step.longest_s(), how)
 }
 
 fn highest_frequency(built: &mut BuiltSystem) -> Result<Option<f64>, DynamicsError> {
@@ -161,13 +155,7 @@ fn highest_frequency(built: &mut BuiltSystem) -> Result<Option<f64>, DynamicsErr
     let start = built.system.start().clone();
     let modes = natural_modes(&mut built.system, &start)?;
     let frequencies = modes.iter().map(|mode| mode.frequency_hz());
-    Ok(frequencies.fold(None, |most: Option<f64>, f| {
-        if f > 0.0 {
-            Some(most.map_or(f, |m| m.max(f)))
-        } else {
-            most
-        }
-    }))
+    Ok(frequencies.filter(|f| *f > 0.0).reduce(f64::max))
 }
 
 fn run_in_words(run: &Run) -> String {
@@ -211,11 +199,9 @@ fn run_in_words(run: &Run) -> String {
                     speeds,
                     settle_s,
                     measure_s,
-                } => {
-                    format!(
-                        "{speeds} speeds, each {settle_s} s to settle and {measure_s} s measured"
-                    )
-                }
+                } => format!(
+                    "{speeds} speeds, each {settle_s} s to settle and {measure_s} s measured"
+                ),
                 Schedule::Ramped { ramp_s } => format!("ramps of {ramp_s} s"),
             };
             format!(

@@ -16,7 +16,7 @@ use super::tables::connection::{BushingTable, SpringTable, TorsionSpringTable};
 use super::tables::gear_mesh::GearMeshTable;
 use super::tables::joint::{JointTable, MotionTable};
 use super::tables::load::LoadTable;
-use super::tables::output::{Output, OutputTable};
+use super::tables::output::OutputTable;
 use super::tables::planetary::PlanetaryTable;
 use super::tables::python_element::PythonElementTable;
 use super::tables::run::{Run, RunTable};
@@ -106,7 +106,7 @@ pub struct SystemScene {
     /// Integrator and start.
     pub solver: Solver,
     /// What is written.
-    pub output: Output,
+    pub output: OutputTable,
     /// Its planetary sets.
     pub sets: Vec<PlanetarySet>,
     /// The tables of the file, and what follows from its planetary sets.
@@ -194,7 +194,7 @@ impl SystemScene {
             let problem = "found 1, with joints; allowed is less than 1, for nothing damps errors of joint forces then, which grow from step to step; take 0.99, which loses hardly any energy";
             return Err(TableKeys::new(&document, "solver").error("rho_infinity", problem));
         }
-        let output = tables.output.check(&document, &run)?;
+        tables.output.check(&document, &run)?;
         if let Some(name) = run.varied_motion() {
             let keys = TableKeys::new(&document, "run");
             let named = tables.motion.iter().find(|table| table.name() == name);
@@ -215,7 +215,7 @@ impl SystemScene {
             notes: notes.iter().map(ToString::to_string).collect(),
             run,
             solver,
-            output,
+            output: tables.output.clone(),
             sets,
             tables,
             host: HostFunctions::default(),

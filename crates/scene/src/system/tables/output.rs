@@ -1,7 +1,7 @@
 //! `[output]`: what is written, and how often.
 
-use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::{InputError, given};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,77 +26,46 @@ pub struct OutputTable {
     pub elements: Option<Vec<String>>,
 }
 
-/// What is written, checked; names are checked when the system is built.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Output {
-    /// Distance of the output times \[s\]; none for runs that do not step through time.
-    pub interval_s: Option<f64>,
-    /// Begin of the statistics of a `transient` run \[s\].
-    pub statistics_from_s: Option<f64>,
-    /// Bodies; all where not given.
-    pub bodies: Option<Vec<String>>,
-    /// Joints and motions; all where not given.
-    pub joints: Option<Vec<String>>,
-    /// Force elements and gear meshes; all where not given.
-    pub elements: Option<Vec<String>>,
-}
-
-impl Output {
+impl OutputTable {
     /// Begin of the statistics of a run of this length \[s\]: as stated, else its middle.
     pub fn statistics_begin_s(&self, end_s: f64) -> f64 {
         self.statistics_from_s.unwrap_or(0.5 * end_s)
     }
-}
 
-impl OutputTable {
-    /// Checks the table for a run.
+    /// Checks the table for a run; names are checked when the system is built.
     ///
     /// # Errors
     /// [`InputError`] naming the key.
-    pub fn check(&self, document: &InputDocument, run: &Run) -> Result<Output, InputError> {
+    pub fn check(&self, document: &InputDocument, run: &Run) -> Result<(), InputError> {
         let keys = TableKeys::new(document, "output");
         let kind = run.kind().name();
-        let interval_s = match (run.simulated_s(), self.interval_s) {
-            (None, None) => None,
-            (None, Some(_)) => {
-                return Err(keys.error("interval_s", format!("is not used by run.kind = \"{kind}\", which does not step through time; remove it")));
+        if let Some(simulated) = run.simulated_s() {
+            let needed_by = format!("run.kind = \"{kind}\"");
+            let interval = keys.needed("interval_s", self.interval_s, &needed_by)?;
+            let allowed = format!("more than 0, at most the {simulated} s of the run");
+            let ok = interval > 0.0 && interval <= simulated;
+            keys.require("interval_s", interval, ok, &allowed)?;
+            let least = simulated / MOST_ROWS;
+            let many = format!("at least {least:.3e}, which gives {MOST_ROWS} rows");
+            keys.require("interval_s", interval, interval >= least, &many)?;
+            if let Run::SpeedSweep(sweep) = run {
+                sweep.schedule.refuse_empty_windows(document, interval)?;
             }
-            (Some(simulated), given) => {
-                let interval =
-                    keys.needed("interval_s", given, &format!("run.kind = \"{kind}\""))?;
-                let allowed = format!("more than 0, at most the {simulated} s of the run");
-                keys.require(
-                    "interval_s",
-                    interval,
-                    interval > 0.0 && interval <= simulated,
-                    &allowed,
-                )?;
-                let least = simulated / MOST_ROWS;
-                let many = format!("at least {least:.3e}, which gives {MOST_ROWS} rows");
-                keys.require("interval_s", interval, interval >= least, &many)?;
-                if let Run::SpeedSweep(sweep) = run {
-                    sweep.schedule.refuse_empty_windows(document, interval)?;
-                }
-                Some(interval)
-            }
-        };
+        } else {
+            let problem = format!(
+                "is not used by run.kind = \"{kind}\", which does not step through time; remove it"
+            );
+            keys.refuse(&given!(self; interval_s), problem)?;
+        }
         if let Some(from_s) = self.statistics_from_s {
             let Run::Transient { end_s } = run else {
-                return Err(keys.error(
-                    "statistics_from_s",
-                    format!("is not used by run.kind = \"{kind}\"; remove it"),
-                ));
+                let problem = format!("is not used by run.kind = \"{kind}\"; remove it");
+                return Err(keys.error("statistics_from_s", problem));
             };
             let allowed = format!("0 or more, below the end of the run at {end_s}");
             let is_inside = (0.0..*end_s).contains(&from_s);
             keys.require("statistics_from_s", from_s, is_inside, &allowed)?;
         }
-        Ok(Output {
-            interval_s,
-            statistics_from_s: self.statistics_from_s,
-            bodies: self.bodies.clone(),
-            joints: self.joints.clone(),
-            elements: self.elements.clone(),
-        })
+        Ok(())
     }
 }

@@ -94,16 +94,12 @@ impl SolverTable {
                 adaptive.check(&TableKeys::new(document, "solver.adaptive"))?
             }
             (Some(_), Some(_)) => {
-                return Err(keys.error(
-                    "step_s",
-                    "is given together with solver.adaptive; remove one of the two",
-                ));
+                let problem = "is given together with solver.adaptive; remove one of the two";
+                return Err(keys.error("step_s", problem));
             }
             (None, None) => {
-                return Err(keys.error(
-                    "step_s",
-                    "missing; give a fixed step, or a table [solver.adaptive]",
-                ));
+                let problem = "missing; give a fixed step, or a table [solver.adaptive]";
+                return Err(keys.error("step_s", problem));
             }
         };
         if let Some(rho) = self.rho_infinity {
@@ -113,22 +109,16 @@ impl SolverTable {
         if let Some(most) = self.most_iterations {
             params.most_iterations = most.get();
         }
-        let longest = match params.step {
-            StepControl::Fixed { step_s } => step_s,
-            StepControl::Adaptive(limits) => limits.largest_step_s,
-        };
+        let longest = params.step.longest_s();
         if let Some(simulated) = run.simulated_s()
             && longest > simulated
         {
-            let key = if self.step_s.is_some() {
-                "step_s"
-            } else {
-                "adaptive.largest_step_s"
+            let key = match self.step_s {
+                Some(_) => "step_s",
+                None => "adaptive.largest_step_s",
             };
-            return Err(keys.error(
-                key,
-                format!("found {longest}, longer than the run of {simulated} s"),
-            ));
+            let problem = format!("found {longest}, longer than the run of {simulated} s");
+            return Err(keys.error(key, problem));
         }
         Ok(Solver {
             params: Some(params),
