@@ -43,12 +43,7 @@ impl GaugeTable {
         gear: &BevelGear,
     ) -> Result<BevelGauge, InputError> {
         let blank = gear.blank();
-        keys.require(
-            "tooth",
-            self.tooth as f64,
-            self.tooth < blank.teeth,
-            &format!("0 to {}", blank.teeth - 1),
-        )?;
+        keys.require_tooth(self.tooth, blank.teeth)?;
         if gear.gauges.iter().any(|other| other.name == self.name) {
             return Err(keys.error("name", format!("`{}` is used by another gauge", self.name)));
         }

@@ -184,10 +184,9 @@ impl BlankTable {
             return table.check_rim(&keys, tooth, profile);
         }
         if profile.internal {
-            return Err(keys.error(
-                "kind",
-                "internal teeth stand inside a ring; set kind = \"ring\" and outer_diameter_mm",
-            ));
+            let problem =
+                "internal teeth stand inside a ring; set kind = \"ring\" and outer_diameter_mm";
+            return Err(keys.error("kind", problem));
         }
         let root_diameter_mm = 2.0 * profile.root_radius_m / MM;
         let bore_mm = match &self {
@@ -213,32 +212,23 @@ impl BlankTable {
         let bore_radius_m = 0.5 * bore_mm * MM;
         let (web, slots, holes) = match self {
             Self::Solid(table) => (None, table.slots, table.holes),
-            Self::ThinRim(table) => {
-                let web = table.check_web(&keys, &room)?;
-                (Some((web, None)), table.slots, table.holes)
-            }
+            Self::ThinRim(t) => (Some((t.check_web(&keys, &room)?, None)), t.slots, t.holes),
             Self::Contour(table) => {
                 let (contour, web) = table.check_contour(&keys, &room)?;
                 (Some((web, Some(contour))), table.slots, table.holes)
             }
             Self::Ring(_) => (None, None, None),
             Self::Mesh(table) => {
-                let meshed = table.check_meshed(document, &keys)?;
-                if tooth.helix_angle_rad != 0.0 {
-                    return Err(keys.error(
-                        "kind",
-                        "a mesh from elsewhere is read for spur gears only; set tooth.helix_angle_deg = 0 or choose another kind",
-                    ));
-                }
+                let body = table.check_meshed(document, &keys, tooth)?;
                 return Ok(Blank::Meshed {
                     bore_radius_m,
-                    body: meshed,
+                    body,
                 });
             }
         };
         // Openings keep clear of the fillets at hub and rim.
         let whole_disc = (0.5 * bore_mm, 0.5 * room.ring_diameter_mm);
-        let (inner_mm, outer_mm) = web.as_ref().map_or(whole_disc, |(web, contour)| {
+        let between_mm = web.as_ref().map_or(whole_disc, |(web, contour)| {
             let fillets = contour.as_ref().map_or([0.0; 2], |c: &Contour| {
                 [c.web.first(), c.web.last()].map(|p| p.map_or(0.0, |p| p.fillet_radius_m / MM))
             });
@@ -247,8 +237,7 @@ impl BlankTable {
                 web.rim_inner_radius_m / MM - fillets[1],
             )
         });
-        let openings =
-            check_openings(slots, holes, document, (inner_mm, outer_mm), tooth.module_m)?;
+        let openings = check_openings(slots, holes, document, between_mm, tooth.module_m)?;
         let blank = match web {
             None => Blank::Solid {
                 bore_radius_m,
@@ -393,6 +382,7 @@ impl MeshedTable {
         &self,
         document: &InputDocument,
         keys: &TableKeys,
+        tooth: &ToothDefinition,
     ) -> Result<MeshedBody, InputError> {
         let flank_sets = self
             .flank_sets
@@ -405,6 +395,10 @@ impl MeshedTable {
                     format!("found \"{flank_sets}\"; {part} must stand in it, as in \"tooth{{tooth}}_{{side}}_flank\""),
                 ));
             }
+        }
+        if tooth.helix_angle_rad != 0.0 {
+            let problem = "a mesh from elsewhere is read for spur gears only; set tooth.helix_angle_deg = 0 or choose another kind";
+            return Err(keys.error("kind", problem));
         }
         // Beside the gear file, unless it is an absolute path.
         let folder = document.folder();

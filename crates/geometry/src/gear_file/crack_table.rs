@@ -44,12 +44,7 @@ impl CrackTable {
         reduction: &ReductionSettings,
     ) -> Result<CrackDefinition, InputError> {
         let keys = TableKeys::new(document, "crack");
-        keys.require(
-            "tooth",
-            self.tooth as f64,
-            self.tooth < tooth.teeth,
-            &format!("0 to {}", tooth.teeth - 1),
-        )?;
+        keys.require_tooth(self.tooth, tooth.teeth)?;
         if !reduction.flanks.contains(&self.side) {
             return Err(keys.error(
                 "side",

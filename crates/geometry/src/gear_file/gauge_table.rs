@@ -41,12 +41,7 @@ impl GaugeTable {
         tooth: &ToothDefinition,
         curve: &ProfileCurve,
     ) -> Result<GaugeDefinition, InputError> {
-        keys.require(
-            "tooth",
-            self.tooth as f64,
-            self.tooth < tooth.teeth,
-            &format!("0 to {}", tooth.teeth - 1),
-        )?;
+        keys.require_tooth(self.tooth, tooth.teeth)?;
         if others.iter().any(|other| other.name == self.name) {
             return Err(keys.error("name", format!("`{}` is used by another gauge", self.name)));
         }

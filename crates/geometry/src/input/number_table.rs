@@ -45,14 +45,10 @@ impl NumberTable {
         };
         let mut rows = CsvRows::new(&document.text);
         let (head_line, found) = rows.next().ok_or_else(|| {
-            complaint(
-                None,
-                "",
-                format!(
-                    "is empty; the first line must name the columns, among them {}",
-                    heads.join(", ")
-                ),
-            )
+            let among = heads.join(", ");
+            let problem =
+                format!("is empty; the first line must name the columns, among them {among}");
+            complaint(None, "", problem)
         })?;
         let known = |wanted: &str| found.iter().position(|head| head == wanted);
         // Without any of the heads it may be any file: nothing of it is printed.
@@ -69,10 +65,8 @@ impl NumberTable {
             .map(|wanted| {
                 known(wanted).ok_or_else(|| {
                     let listed: Vec<String> = found.iter().map(shown_field).collect();
-                    let problem = format!(
-                        "there is no such column; the file has {}",
-                        listed.join(", ")
-                    );
+                    let listed = listed.join(", ");
+                    let problem = format!("there is no such column; the file has {listed}");
                     complaint(Some(head_line), wanted, problem)
                 })
             })
@@ -85,16 +79,10 @@ impl NumberTable {
         };
         for (line, fields) in rows {
             if fields.len() != found.len() {
-                return Err(complaint(
-                    Some(line),
-                    "",
-                    format!(
-                        "{} fields; the head has {}{}",
-                        fields.len(),
-                        found.len(),
-                        separator_hint(&fields)
-                    ),
-                ));
+                let (count, expected) = (fields.len(), found.len());
+                let hint = separator_hint(&fields);
+                let problem = format!("{count} fields; the head has {expected}{hint}");
+                return Err(complaint(Some(line), "", problem));
             }
             for ((column, &place), head) in table.columns.iter_mut().zip(&places).zip(heads) {
                 let value = fields[place].parse::<f64>().map_err(|_| {
@@ -111,14 +99,9 @@ impl NumberTable {
             table.lines.push(line);
         }
         if table.lines.len() < 2 {
-            return Err(complaint(
-                Some(head_line),
-                "",
-                format!(
-                    "{} rows of numbers; at least 2 are needed",
-                    table.lines.len()
-                ),
-            ));
+            let rows = table.lines.len();
+            let problem = format!("{rows} rows of numbers; at least 2 are needed");
+            return Err(complaint(Some(head_line), "", problem));
         }
         Ok(table)
     }

@@ -128,23 +128,25 @@ impl Reader<'_> {
     }
 }
 
-/// Types that are neither lists nor tables: serde's own visitors say what they take.
-macro_rules! as_plain_value {
-    ($($function:ident)*) => {
-        $(fn $function<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, Refusal> {
-            self.deserialize_str(visitor)
-        })*
-    };
-}
-
 impl<'a> Deserializer<'a> for Reader<'a> {
     type Error = Refusal;
 
     fn deserialize_any<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, Refusal> {
         match self.0 {
-            Value::Array(_) => self.deserialize_seq(visitor),
+            Value::Array(items) => {
+                let mut list = Items { items, next: 0 };
+                let read = visitor.visit_seq(&mut list)?;
+                match list.items.get(list.next) {
+                    None => Ok(read),
+                    Some(_) => Err(Refusal::invalid_length(items.len(), &Length(list.next))),
+                }
+            }
             Value::Table(_) => self.deserialize_map(visitor),
-            _ => self.deserialize_str(visitor),
+            Value::String(text) => visitor.visit_borrowed_str(text),
+            Value::Integer(number) => visitor.visit_i64(*number),
+            Value::Float(number) => visitor.visit_f64(*number),
+            Value::Boolean(truth) => visitor.visit_bool(*truth),
+            Value::Datetime(_) => Err(self.wrong_type(&visitor)),
         }
     }
 
@@ -160,29 +162,6 @@ impl<'a> Deserializer<'a> for Reader<'a> {
         visitor.visit_newtype_struct(self)
     }
 
-    /// All that is neither a list nor a table.
-    fn deserialize_str<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, Refusal> {
-        match self.0 {
-            Value::String(text) => visitor.visit_borrowed_str(text),
-            Value::Integer(number) => visitor.visit_i64(*number),
-            Value::Float(number) => visitor.visit_f64(*number),
-            Value::Boolean(truth) => visitor.visit_bool(*truth),
-            _ => Err(self.wrong_type(&visitor)),
-        }
-    }
-
-    fn deserialize_seq<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, Refusal> {
-        let Value::Array(items) = self.0 else {
-            return Err(self.wrong_type(&visitor));
-        };
-        let mut list = Items { items, next: 0 };
-        let read = visitor.visit_seq(&mut list)?;
-        match list.items.get(list.next) {
-            None => Ok(read),
-            Some(_) => Err(Refusal::invalid_length(items.len(), &Length(list.next))),
-        }
-    }
-
     fn deserialize_map<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, Refusal> {
         let Value::Table(table) = self.0 else {
             return Err(self.wrong_type(&visitor));
@@ -191,19 +170,6 @@ impl<'a> Deserializer<'a> for Reader<'a> {
             entries: table.iter(),
             current: None,
         })
-    }
-
-    fn deserialize_tuple<V: Visitor<'a>>(self, _: usize, visitor: V) -> Result<V::Value, Refusal> {
-        self.deserialize_seq(visitor)
-    }
-
-    fn deserialize_tuple_struct<V: Visitor<'a>>(
-        self,
-        _: &'static str,
-        _: usize,
-        visitor: V,
-    ) -> Result<V::Value, Refusal> {
-        self.deserialize_seq(visitor)
     }
 
     fn deserialize_struct<V: Visitor<'a>>(
@@ -241,18 +207,11 @@ impl<'a> Deserializer<'a> for Reader<'a> {
         visitor.visit_unit()
     }
 
-    as_plain_value! {
-        deserialize_bool deserialize_i8 deserialize_i16 deserialize_i32 deserialize_i64 deserialize_u8 deserialize_u16
-        deserialize_u32 deserialize_u64 deserialize_f32 deserialize_f64 deserialize_char deserialize_string
-        deserialize_bytes deserialize_byte_buf deserialize_unit deserialize_identifier
-    }
-
-    fn deserialize_unit_struct<V: Visitor<'a>>(
-        self,
-        _: &'static str,
-        visitor: V,
-    ) -> Result<V::Value, Refusal> {
-        self.deserialize_str(visitor)
+    // serde's own visitors say what they take.
+    serde::forward_to_deserialize_any! {
+        <V: Visitor<'a>>
+        bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf unit unit_struct seq tuple
+        tuple_struct identifier
     }
 }
 
@@ -366,7 +325,7 @@ impl<'a> VariantAccess<'a> for Variant<'a> {
     }
 
     fn tuple_variant<V: Visitor<'a>>(self, _: usize, visitor: V) -> Result<V::Value, Refusal> {
-        let read = self.inside()?.deserialize_seq(visitor);
+        let read = self.inside()?.deserialize_any(visitor);
         read.map_err(|problem| problem.below(self.name))
     }
 

@@ -60,6 +60,15 @@ impl<'a> TableKeys<'a> {
         }
     }
 
+    /// `tooth` must be one of so many, counted from 0.
+    ///
+    /// # Errors
+    /// [`InputError`] with the value and what is allowed.
+    pub fn require_tooth(&self, tooth: usize, teeth: usize) -> Result<(), InputError> {
+        let allowed = format!("0 to {}", teeth - 1);
+        self.require("tooth", tooth as f64, tooth < teeth, &allowed)
+    }
+
     /// A key that `needed_by` cannot do without.
     ///
     /// # Errors

@@ -2,106 +2,62 @@
 
 use super::{InputDocument, InputError};
 
-/// Usual magnitudes of a key, and what to think of otherwise.
-struct Usual {
-    key: &'static str,
-    low: f64,
-    high: f64,
-    hint: &'static str,
-}
-
-const fn usual(key: &'static str, low: f64, high: f64, hint: &'static str) -> Usual {
-    Usual {
-        key,
-        low,
-        high,
-        hint,
-    }
-}
-
 /// Lengths of microgeometry and damage.
 const MICRO: &str = "the key is in micrometres, 0.012 mm are 12 um";
 const STIFFNESS: &str = "the key is in N/mm, 1e9 N/m are 1e6 N/mm";
 const MILLIMETRES: &str = "the key is in millimetres";
 const MEGAPASCAL: &str = "the key is in MPa, 1e9 Pa are 1000 MPa";
 const NEWTON: &str = "the key is in newtons, 14 kN are 14000 N";
+const YOUNG: &str = "steel has 206 GPa, which is 206000 MPa";
+const DENSITY: &str = "steel has 7850 kg/m3, which is 7.85e-9 t/mm3 or 7.85 g/cm3";
+const HELIX: &str = "the key is in degrees, 0.35 rad are 20 deg";
+const C_GAMMA: &str = "c_gamma of steel gears is about 20 N/(mm um), which is 2e10 N/m2";
+const WEIGHT: &str = "weight on earth is 9.81 m/s2, which is 9810 mm/s2";
+const DAMPING: &str = "damping over stiffness, about 1e-5 s";
+const CONTACT: &str = "the key is in degrees, 0.26 rad are 15 deg";
 
-const USUAL: [Usual; 40] = [
-    usual(
-        "young_GPa",
-        0.1,
-        1500.0,
-        "steel has 206 GPa, which is 206000 MPa",
-    ),
-    usual(
-        "density_kg_per_m3",
-        100.0,
-        25_000.0,
-        "steel has 7850 kg/m3, which is 7.85e-9 t/mm3 or 7.85 g/cm3",
-    ),
-    usual("tip_relief_um", 0.2, 500.0, MICRO),
-    usual("profile_crowning_um", 0.2, 500.0, MICRO),
-    usual("lead_crowning_um", 0.2, 500.0, MICRO),
-    usual("flank_angle_um", 0.2, 500.0, MICRO),
-    usual("root_relief_um", 0.2, 500.0, MICRO),
-    usual("end_relief_um", 0.2, 500.0, MICRO),
-    usual("profile_angle_um", 0.2, 500.0, MICRO),
-    usual("twist_um", 0.2, 500.0, MICRO),
-    usual("offset_um", 0.1, 2000.0, MICRO),
-    usual("depth_um", 0.1, 5000.0, MICRO),
-    usual("removed_um", 0.05, 5000.0, MICRO),
-    usual("full_damping_depth_um", 0.02, 1000.0, MICRO),
-    usual("full_depth_um", 0.02, 1000.0, MICRO),
-    usual("module_mm", 0.1, 60.0, MILLIMETRES),
-    usual("face_width_mm", 0.5, 2000.0, MILLIMETRES),
-    usual("centre_distance_mm", 2.0, 20_000.0, MILLIMETRES),
-    usual(
-        "helix_angle_deg",
-        0.8,
-        45.0,
-        "the key is in degrees, 0.35 rad are 20 deg",
-    ),
-    usual("radial_stiffness_N_per_mm", 10.0, 1e8, STIFFNESS),
-    usual("axial_stiffness_N_per_mm", 10.0, 1e8, STIFFNESS),
-    usual(
-        "stiffness_N_per_mm_um",
-        0.5,
-        100.0,
-        "c_gamma of steel gears is about 20 N/(mm um), which is 2e10 N/m2",
-    ),
-    usual("tensile_strength_MPa", 10.0, 10_000.0, MEGAPASCAL),
-    usual("stress_amplitude_MPa", 1.0, 10_000.0, MEGAPASCAL),
-    usual(
-        "gravity_m_per_s2",
-        0.1,
-        1000.0,
-        "weight on earth is 9.81 m/s2, which is 9810 mm/s2",
-    ),
-    usual("outer_diameters_mm", 0.5, 20_000.0, MILLIMETRES),
-    usual("stations_mm", 0.5, 100_000.0, MILLIMETRES),
-    usual(
-        "damping_s",
-        1e-9,
-        0.1,
-        "damping over stiffness, about 1e-5 s",
-    ),
-    usual("bore_diameter_mm", 0.1, 20_000.0, MILLIMETRES),
-    usual("dynamic_N", 100.0, 1e8, NEWTON),
-    usual("static_N", 20.0, 1e9, NEWTON),
-    usual("fatigue_N", 1.0, 1e8, NEWTON),
-    usual("ball_diameter_mm", 0.25, 500.0, MILLIMETRES),
-    usual("roller_diameter_mm", 0.5, 500.0, MILLIMETRES),
-    usual("roller_length_mm", 0.5, 1000.0, MILLIMETRES),
-    usual("pitch_diameter_mm", 1.0, 20_000.0, MILLIMETRES),
-    usual("radial_clearance_um", 0.1, 2000.0, MICRO),
-    usual("preload_um", 0.05, 2000.0, MICRO),
-    usual("scale_um", 0.05, 1000.0, MICRO),
-    usual(
-        "contact_angle_deg",
-        0.8,
-        90.0,
-        "the key is in degrees, 0.26 rad are 15 deg",
-    ),
+/// Keys, the magnitudes that are usual, from and to, and what to think of others.
+const USUAL: [(&str, f64, f64, &str); 40] = [
+    ("young_GPa", 0.1, 1500.0, YOUNG),
+    ("density_kg_per_m3", 100.0, 25_000.0, DENSITY),
+    ("tip_relief_um", 0.2, 500.0, MICRO),
+    ("profile_crowning_um", 0.2, 500.0, MICRO),
+    ("lead_crowning_um", 0.2, 500.0, MICRO),
+    ("flank_angle_um", 0.2, 500.0, MICRO),
+    ("root_relief_um", 0.2, 500.0, MICRO),
+    ("end_relief_um", 0.2, 500.0, MICRO),
+    ("profile_angle_um", 0.2, 500.0, MICRO),
+    ("twist_um", 0.2, 500.0, MICRO),
+    ("offset_um", 0.1, 2000.0, MICRO),
+    ("depth_um", 0.1, 5000.0, MICRO),
+    ("removed_um", 0.05, 5000.0, MICRO),
+    ("full_damping_depth_um", 0.02, 1000.0, MICRO),
+    ("full_depth_um", 0.02, 1000.0, MICRO),
+    ("module_mm", 0.1, 60.0, MILLIMETRES),
+    ("face_width_mm", 0.5, 2000.0, MILLIMETRES),
+    ("centre_distance_mm", 2.0, 20_000.0, MILLIMETRES),
+    ("helix_angle_deg", 0.8, 45.0, HELIX),
+    ("radial_stiffness_N_per_mm", 10.0, 1e8, STIFFNESS),
+    ("axial_stiffness_N_per_mm", 10.0, 1e8, STIFFNESS),
+    ("stiffness_N_per_mm_um", 0.5, 100.0, C_GAMMA),
+    ("tensile_strength_MPa", 10.0, 10_000.0, MEGAPASCAL),
+    ("stress_amplitude_MPa", 1.0, 10_000.0, MEGAPASCAL),
+    ("gravity_m_per_s2", 0.1, 1000.0, WEIGHT),
+    ("outer_diameters_mm", 0.5, 20_000.0, MILLIMETRES),
+    ("stations_mm", 0.5, 100_000.0, MILLIMETRES),
+    ("damping_s", 1e-9, 0.1, DAMPING),
+    ("bore_diameter_mm", 0.1, 20_000.0, MILLIMETRES),
+    ("dynamic_N", 100.0, 1e8, NEWTON),
+    ("static_N", 20.0, 1e9, NEWTON),
+    ("fatigue_N", 1.0, 1e8, NEWTON),
+    ("ball_diameter_mm", 0.25, 500.0, MILLIMETRES),
+    ("roller_diameter_mm", 0.5, 500.0, MILLIMETRES),
+    ("roller_length_mm", 0.5, 1000.0, MILLIMETRES),
+    ("pitch_diameter_mm", 1.0, 20_000.0, MILLIMETRES),
+    ("radial_clearance_um", 0.1, 2000.0, MICRO),
+    ("preload_um", 0.05, 2000.0, MICRO),
+    ("scale_um", 0.05, 1000.0, MICRO),
+    ("contact_angle_deg", 0.8, 90.0, CONTACT),
 ];
 
 /// Young's modulus of bodies that are meant as rigid, a hundred times that of steel \[GPa\]: no slip.
@@ -128,14 +84,11 @@ impl InputDocument {
         (path, key): (&str, &str),
         found: &mut Vec<InputError>,
     ) {
-        if let Some(usual) = USUAL.iter().find(|usual| usual.key == key)
+        if let Some((_, low, high, hint)) = USUAL.iter().find(|usual| usual.0 == key)
             && let Some(size) = largest(value)
         {
             let is_rigid = key == "young_GPa" && size == RIGID_GPA;
-            if size != 0.0 && !is_rigid && !(usual.low..=usual.high).contains(&size) {
-                let Usual {
-                    low, high, hint, ..
-                } = usual;
+            if size != 0.0 && !is_rigid && !(low..=high).contains(&&size) {
                 found.push(self.error(
                     path,
                     format!("{size} is unusual, {low} to {high} is usual; a slip of units? {hint}"),
