@@ -15,7 +15,7 @@ mod profile;
 mod topography;
 
 pub use lead::{EndRelief, FaceEnds};
-pub use profile::{ProfileCrowning, ReliefShape, RootRelief, TipRelief};
+pub use profile::{ProfileCrowning, ProfileRelief, ReliefShape, RootRelief, TipRelief};
 pub use topography::{Topography, TopographyError};
 
 use crate::definition::Flank;

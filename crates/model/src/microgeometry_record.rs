@@ -1,8 +1,7 @@
 //! The parts of a gear's microgeometry in a file.
 
 use gearmesh_geometry::microgeometry::{
-    EndRelief, FaceEnds, ProfileCrowning, ReliefShape, RootRelief, TipRelief, Topography,
-    TopographyError,
+    EndRelief, FaceEnds, ProfileCrowning, ProfileRelief, ReliefShape, Topography, TopographyError,
 };
 use gearmesh_geometry::{GearMicrogeometry, Microgeometry};
 
@@ -26,8 +25,10 @@ impl Record for Microgeometry {
         f.number("face_width", &mut self.face_width_m, "m", what)?;
         let crowning = &mut self.profile_crowning;
         f.optional("profile_crowning", crowning, ProfileCrowning::fields)?;
-        f.optional("tip_relief", &mut self.tip_relief, TipRelief::fields)?;
-        f.optional("root_relief", &mut self.root_relief, RootRelief::fields)?;
+        f.optional("tip_relief", &mut self.tip_relief, ProfileRelief::fields)?;
+        f.optional("root_relief", &mut self.root_relief, |relief, f| {
+            relief_fields(relief, f, "material removed at the form circle")
+        })?;
         let what = "profile slope over the involute: half removed at the tip circle, half added at the form circle";
         f.number("profile_angle", &mut self.profile_angle_m, "m", what)?;
         let what = "lead crowning: parabola over the face width, zero at mid-face, material removed at both ends";
@@ -93,31 +94,22 @@ impl Record for ProfileCrowning {
     }
 }
 
-impl Record for TipRelief {
+/// Of the tip.
+impl Record for ProfileRelief {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        let what = "material removed at the tip circle";
-        f.number("amount", &mut self.amount_m, "m", what)?;
-        start_fields(&mut self.start_roll_rad, &mut self.shape, f)
+        relief_fields(self, f, "material removed at the tip circle")
     }
 }
 
-impl Record for RootRelief {
-    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        let what = "material removed at the form circle";
-        f.number("amount", &mut self.amount_m, "m", what)?;
-        start_fields(&mut self.start_roll_rad, &mut self.shape, f)
-    }
-}
-
-/// Where a relief of the profile starts, and how it grows.
-fn start_fields(
-    start_roll_rad: &mut f64,
-    shape: &mut ReliefShape,
+fn relief_fields(
+    it: &mut ProfileRelief,
     f: &mut Fields<'_>,
+    amount: &str,
 ) -> Result<(), FileError> {
+    f.number("amount", &mut it.amount_m, "m", amount)?;
     let what = "roll angle tan(alpha) where it starts";
-    f.number("start_roll", start_roll_rad, "rad", what)?;
-    shape_fields(shape, f)
+    f.number("start_roll", &mut it.start_roll_rad, "rad", what)?;
+    shape_fields(&mut it.shape, f)
 }
 
 impl Record for EndRelief {

@@ -5,8 +5,8 @@ use super::{MM, UM};
 use crate::input::{InputDocument, InputError, TableKeys};
 use crate::involute;
 use crate::microgeometry::{
-    EndRelief, FaceEnds, GearMicrogeometry, Microgeometry, ProfileCrowning, ReliefShape,
-    RootRelief, TipRelief,
+    EndRelief, FaceEnds, GearMicrogeometry, Microgeometry, ProfileCrowning, ProfileRelief,
+    ReliefShape,
 };
 use crate::tooth::ToothGeometry;
 use schemars::JsonSchema;
@@ -318,20 +318,8 @@ impl FlankTable<'_> {
             tip_roll_rad: self.profile.tip_roll_rad,
             face_width_m: self.face_width_m,
             profile_crowning: self.profile_crowning()?,
-            tip_relief: self.relief(table.tip_relief())?.map(
-                |(amount_m, start_roll_rad, shape)| TipRelief {
-                    amount_m,
-                    start_roll_rad,
-                    shape,
-                },
-            ),
-            root_relief: self.relief(table.root_relief())?.map(
-                |(amount_m, start_roll_rad, shape)| RootRelief {
-                    amount_m,
-                    start_roll_rad,
-                    shape,
-                },
-            ),
+            tip_relief: self.relief(table.tip_relief())?,
+            root_relief: self.relief(table.root_relief())?,
             profile_angle_m: self
                 .of
                 .amount_m("profile_angle_um", table.profile_angle_um)?,
@@ -365,8 +353,7 @@ impl FlankTable<'_> {
         }))
     }
 
-    /// Amount \[m\] of a relief, the roll angle where it begins, and how it grows.
-    fn relief(&self, stated: StatedRelief) -> Result<Option<(f64, f64, ReliefShape)>, InputError> {
+    fn relief(&self, stated: StatedRelief) -> Result<Option<ProfileRelief>, InputError> {
         let Some((amount_m, diameter_mm)) = self.of.relief(&stated)? else {
             return Ok(None);
         };
@@ -378,7 +365,11 @@ impl FlankTable<'_> {
         };
         let length_m = self.profile.base_radius_m * (end_roll_rad - start_roll_rad).abs();
         let shape = self.shape(stated.shape.1, stated.amount, length_m)?;
-        Ok(Some((amount_m, start_roll_rad, shape)))
+        Ok(Some(ProfileRelief {
+            amount_m,
+            start_roll_rad,
+            shape,
+        }))
     }
 
     fn end_relief(&self) -> Result<Option<EndRelief>, InputError> {

@@ -18,19 +18,12 @@ impl Microgeometry {
     pub fn description(&self, base_radius_m: f64) -> Option<String> {
         let diameter_mm = |roll: f64| short(2e3 * involute::radius_m(roll, base_radius_m));
         let mut laws: Vec<String> = Vec::new();
-        if let Some(r) = self.tip_relief.filter(|r| r.amount_m != 0.0) {
-            let (from, shape) = (diameter_mm(r.start_roll_rad), r.shape.name());
-            laws.push(format!(
-                "tip relief {} um {shape} from {from} mm",
-                um(r.amount_m)
-            ));
-        }
-        if let Some(r) = self.root_relief.filter(|r| r.amount_m != 0.0) {
-            let (from, shape) = (diameter_mm(r.start_roll_rad), r.shape.name());
-            laws.push(format!(
-                "root relief {} um {shape} from {from} mm",
-                um(r.amount_m)
-            ));
+        for (end, relief) in [("tip", self.tip_relief), ("root", self.root_relief)] {
+            if let Some(r) = relief.filter(|r| r.amount_m != 0.0) {
+                let (from, shape) = (diameter_mm(r.start_roll_rad), r.shape.name());
+                let amount = um(r.amount_m);
+                laws.push(format!("{end} relief {amount} um {shape} from {from} mm"));
+            }
         }
         if let Some(c) = self.profile_crowning.filter(|c| c.amount_m != 0.0) {
             let about = diameter_mm(c.centre_roll_rad);

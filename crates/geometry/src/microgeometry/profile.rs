@@ -62,10 +62,10 @@ pub struct ProfileCrowning {
     pub centre_roll_rad: f64,
 }
 
-/// Tip relief: zero up to `start_roll_rad`, `amount_m` at the tip circle.
+/// Relief of the profile at the tip or at the root.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TipRelief {
-    /// Material removed at the tip circle \[m\].
+pub struct ProfileRelief {
+    /// Material removed at the tip circle, or at the form circle \[m\].
     pub amount_m: f64,
     /// Roll angle at which the relief starts \[rad\].
     pub start_roll_rad: f64,
@@ -73,13 +73,8 @@ pub struct TipRelief {
     pub shape: ReliefShape,
 }
 
-/// Root relief: zero down to `start_roll_rad`, `amount_m` at the form circle, where the involute ends, and below it.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct RootRelief {
-    /// Material removed at the form circle \[m\].
-    pub amount_m: f64,
-    /// Roll angle at which the relief starts \[rad\].
-    pub start_roll_rad: f64,
-    /// How it grows with the roll length.
-    pub shape: ReliefShape,
-}
+/// Tip relief: zero up to its start, its amount at the tip circle.
+pub type TipRelief = ProfileRelief;
+
+/// Root relief: zero down to its start, its amount at the form circle, where the involute ends, and below it.
+pub type RootRelief = ProfileRelief;
