@@ -94,9 +94,8 @@ impl Body {
                 name: String::new(),
             });
         }
-        if !(self.mass_kg > 0.0 && self.mass_kg.is_finite()) {
-            return Err(self.value("mass in kg", self.mass_kg, "positive and finite"));
-        }
+        let owner = || format!("body `{}`", self.name);
+        DynamicsError::positive(owner(), "mass in kg", self.mass_kg)?;
         for (what, vector) in [
             ("centre of mass in m", self.center_of_mass_m),
             ("position in m", self.position_m),
@@ -104,8 +103,8 @@ impl Body {
             ("angular velocity in rad/s", self.angular_velocity_rad_per_s),
             ("orientation", self.orientation.imag()),
         ] {
-            if let Some(bad) = vector.iter().find(|x| !x.is_finite()) {
-                return Err(self.value(what, *bad, "finite"));
+            for found in vector.iter() {
+                DynamicsError::require(owner(), (what, *found), found.is_finite(), "finite")?;
             }
         }
         self.validate_inertia()?;
@@ -147,7 +146,6 @@ impl Body {
             return Ok(());
         };
         let count = self.mode_count();
-        let owner = || format!("modes of body `{}`", self.name);
         for (what, found, expected) in [
             ("damping ratio", modes.damping_ratio.len(), count),
             ("coupling (rows)", modes.coupling.nrows(), count),
@@ -155,30 +153,19 @@ impl Body {
         ] {
             if found != expected {
                 return Err(DynamicsError::Shape {
-                    owner: owner(),
+                    owner: format!("modes of body `{}`", self.name),
                     what,
                     found,
                     expected,
                 });
             }
         }
-        for &omega in &modes.angular_frequency_rad_per_s {
-            if !(omega > 0.0 && omega.is_finite()) {
-                return Err(self.value(
-                    "angular frequency of a mode in rad/s",
-                    omega,
-                    "positive and finite",
-                ));
-            }
+        let owner = || format!("body `{}`", self.name);
+        for omega in &modes.angular_frequency_rad_per_s {
+            DynamicsError::positive(owner(), "angular frequency of a mode in rad/s", *omega)?;
         }
-        for &zeta in &modes.damping_ratio {
-            if !(zeta >= 0.0 && zeta.is_finite()) {
-                return Err(self.value(
-                    "damping ratio of a mode",
-                    zeta,
-                    "zero or positive, and finite",
-                ));
-            }
+        for zeta in &modes.damping_ratio {
+            DynamicsError::not_negative(owner(), "damping ratio of a mode", *zeta)?;
         }
         if modes.coupling.iter().any(|x| !x.is_finite())
             || self.mass_matrix_in_body_axes().cholesky().is_none()
@@ -209,15 +196,6 @@ impl Body {
                 .copy_from(&modes.coupling.transpose());
         }
         mass
-    }
-
-    fn value(&self, what: &'static str, found: f64, allowed: &'static str) -> DynamicsError {
-        DynamicsError::Value {
-            owner: format!("body `{}`", self.name),
-            what,
-            found,
-            allowed,
-        }
     }
 }
 

@@ -124,18 +124,9 @@ impl SystemBuilder {
                     UnknownKind::Rate | UnknownKind::Equilibrium => None,
                 };
                 for (what, found) in mass.into_iter().chain([("scale", unknown.scale)]) {
-                    if !(found > 0.0 && found.is_finite()) {
-                        return Err(DynamicsError::Value {
-                            owner: format!(
-                                "force element `{}`, its `{}`",
-                                element.name(),
-                                unknown.name
-                            ),
-                            what,
-                            found,
-                            allowed: "positive and finite",
-                        });
-                    }
+                    let (element, own) = (element.name(), &unknown.name);
+                    let owner = format!("force element `{element}`, its `{own}`");
+                    DynamicsError::positive(owner, what, found)?;
                 }
             }
         }

@@ -43,6 +43,59 @@ pub struct Checkpoint {
     pub matrix: Vec<f64>,
 }
 
+impl Checkpoint {
+    fn clock_rest_s(&self) -> f64 {
+        self.scalars.get(OLD_SCALARS).copied().unwrap_or_default()
+    }
+
+    /// Whether arrays have the lengths that a system needs, whose matrix has so many numbers, and times make sense.
+    fn check(&self, system: &System, start: &State, matrix: usize) -> Result<(), DynamicsError> {
+        let (n, bodies) = (system.degrees_of_freedom(), system.bodies().len());
+        let mut saved = Vec::new();
+        for slot in &system.slots {
+            slot.element.save(&mut saved);
+        }
+        let of_joints: usize = system.joints().iter().map(crate::joint::Joint::saved).sum();
+        // Earlier versions leave the last one out.
+        let (scalars, counts) = (self.scalars.len(), self.counts.len());
+        for (what, found, expected) in [
+            (
+                "scalars",
+                scalars,
+                scalars.clamp(OLD_SCALARS, OLD_SCALARS + 1),
+            ),
+            ("counts", counts, counts.clamp(OLD_COUNTS, OLD_COUNTS + 1)),
+            ("positions_m", self.positions_m.len(), 3 * bodies),
+            ("quaternions", self.quaternions.len(), 4 * bodies),
+            ("modal", self.modal.len(), start.modal.len()),
+            ("unknowns", self.unknowns.len(), start.unknowns.len()),
+            ("velocities", self.velocities.len(), 4 * n),
+            ("reactions", self.reactions.len(), system.equations()),
+            ("internal", self.internal.len(), of_joints + saved.len()),
+            ("matrix", self.matrix.len(), matrix),
+        ] {
+            if found != expected {
+                return Err(DynamicsError::Checkpoint {
+                    what,
+                    found,
+                    expected,
+                });
+            }
+        }
+        let (time_s, step_s, rest_s) = (self.scalars[0], self.scalars[1], self.clock_rest_s());
+        for (what, found, is_fine) in [
+            ("its time", time_s, time_s >= 0.0),
+            ("its step", step_s, step_s > 0.0),
+            ("the rest of its clock", rest_s, rest_s.abs() < step_s),
+        ] {
+            if !(is_fine && found.is_finite()) {
+                return Err(DynamicsError::CheckpointNumber { what, found });
+            }
+        }
+        Ok(())
+    }
+}
+
 impl Simulation {
     /// The run as it stands.
     #[must_use]
@@ -129,56 +182,15 @@ impl Simulation {
         );
         let saved_matrix = integrator.saddle.saved();
         let gradients = integrator.equations.gradient.values().len();
-        let (n, bodies) = (system.degrees_of_freedom(), system.bodies().len());
-        let mut saved = Vec::new();
-        for slot in &system.slots {
-            slot.element.save(&mut saved);
-        }
-        let of_joints: usize = system.joints().iter().map(crate::joint::Joint::saved).sum();
+        let n = system.degrees_of_freedom();
         let c = checkpoint;
-        let fresh_steps = c.counts.get(OLD_COUNTS).copied();
-        let counts = OLD_COUNTS + usize::from(fresh_steps.is_some());
-        let clock_rest_s = c.scalars.get(OLD_SCALARS).copied();
-        let scalars = OLD_SCALARS + usize::from(clock_rest_s.is_some());
-        for (what, found, expected) in [
-            ("scalars", c.scalars.len(), scalars),
-            ("counts", c.counts.len(), counts),
-            ("positions_m", c.positions_m.len(), 3 * bodies),
-            ("quaternions", c.quaternions.len(), 4 * bodies),
-            ("modal", c.modal.len(), start.modal.len()),
-            ("unknowns", c.unknowns.len(), start.unknowns.len()),
-            ("velocities", c.velocities.len(), 4 * n),
-            ("reactions", c.reactions.len(), system.equations()),
-            ("internal", c.internal.len(), of_joints + saved.len()),
-            ("matrix", c.matrix.len(), saved_matrix + gradients),
-        ] {
-            if found != expected {
-                return Err(DynamicsError::Checkpoint {
-                    what,
-                    found,
-                    expected,
-                });
-            }
-        }
-        let clock_rest_s = clock_rest_s.unwrap_or_default();
-        for (what, found, is_fine) in [
-            ("its time", c.scalars[0], c.scalars[0] >= 0.0),
-            ("its step", c.scalars[1], c.scalars[1] > 0.0),
-            (
-                "the rest of its clock",
-                clock_rest_s,
-                clock_rest_s.abs() < c.scalars[1],
-            ),
-        ] {
-            if !(is_fine && found.is_finite()) {
-                return Err(DynamicsError::CheckpointNumber { what, found });
-            }
-        }
+        c.check(&system, &start, saved_matrix + gradients)?;
+        let clock_rest_s = c.clock_rest_s();
         let (matrix, gradient) = c.matrix.split_at(saved_matrix);
         integrator.saddle.restore(matrix);
         integrator.equations.gradient.set(gradient);
         integrator.factored_step_s = c.scalars[2];
-        integrator.fresh_steps = fresh_steps.unwrap_or_default();
+        integrator.fresh_steps = c.counts.get(OLD_COUNTS).copied().unwrap_or_default();
         integrator.effort = Effort::default();
         restore_internal(&mut system, &c.internal);
         let vector = |k: usize| c.velocities[k * n..(k + 1) * n].to_vec();

@@ -39,10 +39,8 @@ fn evaluate(
         iterate: Iterate::Single,
     };
     system.evaluate_without_elements(at, Detail::Tangents, equations);
-    Metric::new(equations, system.layout.massive_ranges()).ok_or(DynamicsError::Singular {
-        what: "the mass matrix",
-        time_s: state.time_s,
-    })
+    Metric::new(equations, system.layout.massive_ranges())
+        .ok_or(DynamicsError::singular("the mass matrix", state.time_s))
 }
 
 /// Moves the start onto the joints and finds the redundant equations.
@@ -86,6 +84,11 @@ pub(crate) fn analyse(system: &mut System) -> Result<Analysis, DynamicsError> {
         kept,
         start: state,
     })
+}
+
+fn factors(metric: &Metric, kept: &[usize], state: &State) -> Result<Factors, DynamicsError> {
+    let found = metric.factors(kept);
+    found.ok_or_else(|| DynamicsError::singular("the matrix of the joints", state.time_s))
 }
 
 /// Index and magnitude of the largest entry among `of`; not a number counts as largest.
@@ -181,13 +184,7 @@ pub(crate) fn project_velocity(
     let metric = evaluate(system, state, &mut equations)?;
     let p: Vec<f64> = equations.violation_rate.iter().map(|x| -x).collect();
     let kept = system.kept.clone();
-    let singular = DynamicsError::Singular {
-        what: "the matrix of the joints",
-        time_s: state.time_s,
-    };
-    let Some(factors) = metric.factors(&kept) else {
-        return Err(singular);
-    };
+    let factors = factors(&metric, &kept, state)?;
     let change = metric.least_motion(system.degrees_of_freedom(), (&kept, &factors), &p);
     for (v, change) in state.velocity.iter_mut().zip(change.iter()) {
         *v += change;
@@ -233,12 +230,7 @@ pub(crate) fn watch_dropped(
     let mut equations = Equations::new(system);
     let metric = evaluate(system, state, &mut equations)?;
     let kept = system.kept.clone();
-    let Some(factors) = metric.factors(&kept) else {
-        return Err(DynamicsError::Singular {
-            what: "the matrix of the joints",
-            time_s: state.time_s,
-        });
-    };
+    let factors = factors(&metric, &kept, state)?;
     Err(contradiction(
         system,
         &metric,

@@ -43,11 +43,7 @@ impl Integrator {
         let (mut share, mut ratio, mut largest) = (1.0_f64, f64::INFINITY, 0);
         for iteration in 1..=MOST {
             self.effort.iterations += 1;
-            let given_up = StepFailure::NoConvergence {
-                iterations: iteration,
-                ratio,
-                largest,
-            };
+            let given_up = StepFailure::no_convergence(iteration, ratio, largest);
             self.evaluate(system, to, (Detail::Tangents, Iterate::Single))
                 .map_err(StepFailure::Element)?;
             if !self.factor(system, h) {
@@ -84,11 +80,7 @@ impl Integrator {
             share = (4.0 * share).min(1.0);
         }
         self.factored_step_s = f64::NAN;
-        Err(StepFailure::NoConvergence {
-            iterations: MOST,
-            ratio,
-            largest,
-        })
+        Err(StepFailure::no_convergence(MOST, ratio, largest))
     }
 
     /// Keeps the iterate and its correction.

@@ -253,10 +253,7 @@ fn null_space(
     equations: &Equations,
     time_s: f64,
 ) -> Result<DMatrix<f64>, DynamicsError> {
-    let singular = || DynamicsError::Singular {
-        what: "the mass matrix",
-        time_s,
-    };
+    let singular = || DynamicsError::singular("the mass matrix", time_s);
     let metric = Metric::new(equations, system.layout.massive_ranges()).ok_or_else(singular)?;
     let n = equations.residual.len();
     let kept = &system.kept;

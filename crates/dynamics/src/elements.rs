@@ -363,14 +363,6 @@ pub(crate) fn not_negative(
     element: &str,
     what: &'static str,
     found: f64,
-) -> Result<f64, DynamicsError> {
-    if found >= 0.0 && found.is_finite() {
-        return Ok(found);
-    }
-    Err(DynamicsError::Value {
-        owner: format!("force element `{element}`"),
-        what,
-        found,
-        allowed: "zero or positive, and finite",
-    })
+) -> Result<(), DynamicsError> {
+    DynamicsError::not_negative(format!("force element `{element}`"), what, found)
 }

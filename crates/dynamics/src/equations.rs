@@ -216,13 +216,8 @@ impl System {
             slot.loads.begin(detail == Detail::Tangents);
             slot.force_calls += 1;
             let own = slot.own(&view, at.state);
-            slot.element
-                .evaluate(&own, &mut slot.loads)
-                .map_err(|source| DynamicsError::Element {
-                    element: slot.element.name().to_owned(),
-                    time_s: at.state.time_s,
-                    source,
-                })?;
+            let evaluated = slot.element.evaluate(&own, &mut slot.loads);
+            evaluated.map_err(|source| slot.failure(at.state.time_s, source))?;
             for place in &slot.places {
                 place.subtract(&slot.loads.force, &mut out.residual);
             }

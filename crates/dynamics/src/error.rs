@@ -276,3 +276,45 @@ pub enum DynamicsError {
         expected: usize,
     },
 }
+
+impl DynamicsError {
+    /// Refuses a number of a body, joint or element that is not as allowed.
+    pub(crate) fn require(
+        owner: String,
+        (what, found): (&'static str, f64),
+        is_allowed: bool,
+        allowed: &'static str,
+    ) -> Result<(), Self> {
+        if is_allowed {
+            return Ok(());
+        }
+        Err(Self::Value {
+            owner,
+            what,
+            found,
+            allowed,
+        })
+    }
+
+    /// Refuses a number of a body, joint or element that is not positive and finite.
+    pub(crate) fn positive(owner: String, what: &'static str, found: f64) -> Result<(), Self> {
+        let is_allowed = found > 0.0 && found.is_finite();
+        Self::require(owner, (what, found), is_allowed, "positive and finite")
+    }
+
+    /// Refuses a number of a body, joint or element that is negative or not finite.
+    pub(crate) fn not_negative(owner: String, what: &'static str, found: f64) -> Result<(), Self> {
+        let is_allowed = found >= 0.0 && found.is_finite();
+        Self::require(
+            owner,
+            (what, found),
+            is_allowed,
+            "zero or positive, and finite",
+        )
+    }
+
+    /// A matrix without inverse.
+    pub(crate) fn singular(what: &'static str, time_s: f64) -> Self {
+        Self::Singular { what, time_s }
+    }
+}

@@ -58,10 +58,10 @@ pub(crate) fn accelerations(
         .map(|(f, rate)| f.acceleration - rate)
         .collect();
     if !saddle.factor(&equations.mass, &equations.gradient, &equations.gradient) {
-        return Err(DynamicsError::Singular {
-            what: "the matrix of accelerations and reactions",
-            time_s: state.time_s,
-        });
+        return Err(DynamicsError::singular(
+            "the matrix of accelerations and reactions",
+            state.time_s,
+        ));
     }
     saddle.solve(&forces, &right, &mut acceleration, &mut lambda);
     Ok(Accelerations {

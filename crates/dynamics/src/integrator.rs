@@ -165,29 +165,22 @@ impl Integrator {
         self.secants.reset();
         for iteration in 1..=params.most_iterations {
             self.effort.iterations += 1;
-            let iterate = if iteration == 1 {
-                Iterate::First
-            } else {
-                Iterate::Correction
+            let iterate = match iteration {
+                1 => Iterate::First,
+                _ => Iterate::Correction,
             };
-            let detail = if stale {
-                Detail::Tangents
-            } else {
-                Detail::Forces
+            let detail = match stale {
+                true => Detail::Tangents,
+                false => Detail::Forces,
             };
             self.evaluate(system, to, (detail, iterate))
                 .map_err(StepFailure::Element)?;
             if stale {
                 if !self.factor(system, h) {
                     // Singular at an iterate that has strayed is the step's fault, not the system's.
-                    return Err(if iteration > 1 {
-                        StepFailure::NoConvergence {
-                            iterations: iteration,
-                            ratio: last,
-                            largest: place,
-                        }
-                    } else {
-                        StepFailure::Singular
+                    return Err(match iteration {
+                        1 => StepFailure::Singular,
+                        _ => StepFailure::no_convergence(iteration, last, place),
                     });
                 }
                 self.secants.reset();
@@ -206,21 +199,15 @@ impl Integrator {
             } = self.measure(system, from, to, h, params.newton_tolerance);
             if !ratio.is_finite() {
                 self.factored_step_s = f64::NAN;
-                return Err(StepFailure::NoConvergence {
-                    iterations: iteration,
-                    ratio,
-                    largest,
-                });
+                return Err(StepFailure::no_convergence(iteration, ratio, largest));
             }
             let shrinks = above_floor < SLOW * last_above_floor;
             // What the corrections to come would add, if they shrink on as they do: ratio · (θ + θ² + …).
             let theta = (above_floor / last_above_floor).min(0.5);
-            let rest = ratio
-                * if iteration > 1 {
-                    theta / (1.0 - theta)
-                } else {
-                    1.0
-                };
+            let rest = match iteration {
+                1 => ratio,
+                _ => ratio * (theta / (1.0 - theta)),
+            };
             if rest <= 1.0 || (!shrinks && above_floor <= STALLED) {
                 self.pace(begins_fresh, iteration);
                 self.finish(from, to, h);
@@ -233,11 +220,7 @@ impl Integrator {
             (last, last_above_floor, place) = (ratio, above_floor, largest);
             if strays || iteration == params.most_iterations {
                 self.factored_step_s = f64::NAN;
-                return Err(StepFailure::NoConvergence {
-                    iterations: iteration,
-                    ratio,
-                    largest,
-                });
+                return Err(StepFailure::no_convergence(iteration, ratio, largest));
             }
         }
         Err(StepFailure::Singular)
@@ -429,10 +412,10 @@ impl Integrator {
             return Ok(());
         }
         if !self.joints_are_regular(system, point) {
-            return Err(DynamicsError::Singular {
-                what: "the matrix of the joints",
-                time_s: point.state.time_s,
-            });
+            return Err(DynamicsError::singular(
+                "the matrix of the joints",
+                point.state.time_s,
+            ));
         }
         let equations = &self.equations;
         if old_step_s > 0.0 {

@@ -456,8 +456,7 @@ impl Joint {
         motion: &RelativeMotion,
         mut visit: impl FnMut(Row<'_>),
     ) {
-        let (v, w) = (motion.velocity_m_per_s, motion.angular_velocity_rad_per_s);
-        let rates = SVector::<f64, 6>::from([v[0], v[1], v[2], w[0], w[1], w[2]]);
+        let rates = motion.rates();
         for equation in 0..self.equations.len() {
             let load = self.unit_load(equation, pair, motion);
             visit(Row {

@@ -104,10 +104,10 @@ impl<'a> Inverse<'a> {
             [&equations.mass, &equations.damping, &equations.stiffness],
         );
         if !saddle.factor(&matrix, &equations.gradient, &equations.gradient) {
-            return Err(DynamicsError::Singular {
-                what: "the matrix of natural modes",
+            return Err(DynamicsError::singular(
+                "the matrix of natural modes",
                 time_s,
-            });
+            ));
         }
         let (n, m) = (diagonal.len(), system.equations());
         Ok(Self {

@@ -163,6 +163,13 @@ impl MarkerPair {
 }
 
 impl RelativeMotion {
+    /// (u̇, ω).
+    #[must_use]
+    pub fn rates(&self) -> SVector<f64, 6> {
+        let (v, w) = (self.velocity_m_per_s, self.angular_velocity_rad_per_s);
+        SVector::from([v[0], v[1], v[2], w[0], w[1], w[2]])
+    }
+
     /// c: the z axis of B, A axes.
     fn axis(&self) -> Vector3<f64> {
         self.rotation.column(2).into()

@@ -167,31 +167,25 @@ impl Params {
     }
 
     pub(crate) fn validate(&self) -> Result<(), DynamicsError> {
-        let positive = |what, found: f64| {
-            if found > 0.0 && found.is_finite() {
+        let require = |what, found: f64, is_allowed, allowed| {
+            if is_allowed {
                 return Ok(());
             }
             Err(DynamicsError::Parameter {
                 what,
                 found,
-                allowed: "positive and finite",
+                allowed,
             })
         };
-        if !(0.0..=1.0).contains(&self.rho_infinity) {
-            return Err(DynamicsError::Parameter {
-                what: "rho_infinity",
-                found: self.rho_infinity,
-                allowed: "0 to 1",
-            });
-        }
-        if let Some(found) = self.newton_tolerance
-            && !(1e-14..=1e-3).contains(&found)
-        {
-            return Err(DynamicsError::Parameter {
-                what: "newton_tolerance",
-                found,
-                allowed: "1e-14 to 1e-3",
-            });
+        let positive = |what, found: f64| {
+            let is_allowed = found > 0.0 && found.is_finite();
+            require(what, found, is_allowed, "positive and finite")
+        };
+        let rho = self.rho_infinity;
+        require("rho_infinity", rho, (0.0..=1.0).contains(&rho), "0 to 1")?;
+        if let Some(found) = self.newton_tolerance {
+            let is_allowed = (1e-14..=1e-3).contains(&found);
+            require("newton_tolerance", found, is_allowed, "1e-14 to 1e-3")?;
         }
         positive("most_iterations", self.most_iterations as f64)?;
         match self.step {

@@ -343,14 +343,9 @@ impl Simulation {
                 self.info.rejected += 1;
                 let shorter = h * factor.clamp(0.2, 0.8);
                 if shorter < limits.least_step_s {
-                    return Err(self.refusal(
-                        StepFailure::NoConvergence {
-                            iterations: 0,
-                            ratio: error,
-                            largest: 0,
-                        },
-                        TOLERANCE_ADVICE,
-                    ));
+                    return Err(
+                        self.refusal(StepFailure::no_convergence(0, error, 0), TOLERANCE_ADVICE)
+                    );
                 }
                 self.change_step(shorter)?;
                 continue;
@@ -455,10 +450,7 @@ impl Simulation {
                     advice,
                 }
             }
-            StepFailure::Singular => DynamicsError::Singular {
-                what: "the iteration matrix",
-                time_s,
-            },
+            StepFailure::Singular => DynamicsError::singular("the iteration matrix", time_s),
             StepFailure::NoConvergence {
                 iterations,
                 ratio,

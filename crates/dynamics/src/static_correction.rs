@@ -240,11 +240,13 @@ fn by_singular_values(
     } = scaled;
     let n = equations.residual.len();
     let total = right.len();
-    let singular = || DynamicsError::Singular {
-        what: "the static stiffness (it has entries that are not finite)",
-        time_s: 0.0,
+    let singular = || {
+        DynamicsError::singular(
+            "the static stiffness (it has entries that are not finite)",
+            0.0,
+        )
     };
-    let svd = matrix.svd().map_err(|_| singular())?;
+    let mut svd = matrix.svd().map_err(|_| singular())?;
     let rank = {
         let s = svd.S().column_vector();
         (0..total).take_while(|&k| s[k] > FREE * s[0]).count()
@@ -253,22 +255,11 @@ fn by_singular_values(
     // Scaled up, that little would weigh as much as all else: the equation along a free motion is left out.
     let along_free = svd.V().subcols(rank, total - rank).to_owned();
     let unequal = along_free.transpose() * matrix;
-    let svd = if unequal.norm_max() > FREE * svd.S().column_vector()[0] {
+    if unequal.norm_max() > FREE * svd.S().column_vector()[0] {
         let equal = matrix - &along_free * unequal;
-        let equal = equal.svd().map_err(|_| singular())?;
-        (
-            equal.U().to_owned(),
-            equal.S().column_vector().to_owned(),
-            equal.V().to_owned(),
-        )
-    } else {
-        (
-            svd.U().to_owned(),
-            svd.S().column_vector().to_owned(),
-            svd.V().to_owned(),
-        )
-    };
-    let (u, s, v) = svd;
+        svd = equal.svd().map_err(|_| singular())?;
+    }
+    let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
     let mut correction = Correction {
         values: vec![0.0; total],
         free: Vec::new(),

@@ -173,13 +173,8 @@ fn follow(
             }
         };
         let start = trial.clone();
-        let mut settled = settle(
-            system,
-            &mut trial,
-            load_factor,
-            params,
-            (&mut equations, &form),
-        );
+        let work = (&mut equations, &form);
+        let mut settled = settle(system, &mut trial, load_factor, params, work);
         if relaxes && matches!(settled, Err(DynamicsError::NoEquilibrium { .. })) {
             // Newton's method goes to and fro where contacts come and go: down the forces first, then once more.
             let iterations = trial.iterations;
@@ -187,21 +182,11 @@ fn follow(
                 iterations,
                 ..start
             };
-            let Equilibrium { state, lambda, .. } = &mut trial;
-            if let Ok(steps) = relax(
-                system,
-                (state, lambda),
-                load_factor,
-                (&mut equations, &form),
-            ) {
+            let moved = (&mut trial.state, &mut trial.lambda);
+            if let Ok(steps) = relax(system, moved, load_factor, (&mut equations, &form)) {
                 trial.iterations += steps;
-                settled = settle(
-                    system,
-                    &mut trial,
-                    load_factor,
-                    params,
-                    (&mut equations, &form),
-                );
+                let work = (&mut equations, &form);
+                settled = settle(system, &mut trial, load_factor, params, work);
             }
             // Where it does not help, shorter steps may: not both, each time.
             relaxes = settled.is_ok();
@@ -284,10 +269,7 @@ fn settle(
     for iteration in 1..=params.most_iterations.max(1) {
         *iterations += 1;
         // From the second iteration on elements were asked nearby.
-        let iterate = match moved {
-            Some(_) => Iterate::Correction,
-            None => Iterate::Single,
-        };
+        let iterate = moved.map_or(Iterate::Single, |_| Iterate::Correction);
         let at = standing(state, &rest, lambda, (load_factor, iterate));
         let evaluated = system.evaluate(at, Detail::Tangents, equations);
         evaluated.map_err(|error| on_the_way(error, system, load_factor, moved))?;
@@ -299,31 +281,12 @@ fn settle(
         let at_rest = balances(system, equations, &pushing, params.tolerance * size);
         moments_in_world(system, equations);
         let mut correction = correct(system, (equations, form), &pushing)?;
-        let unbalanced = (0..correction.free.len())
-            .filter(|&k| correction.share[k] > BALANCED)
-            .max_by(|&a, &b| correction.share[a].total_cmp(&correction.share[b]));
-        if !correction.free.is_empty() && params.free_motions == FreeMotions::Refuse {
-            return Err(unbalanced_error(
-                system,
-                &correction,
-                unbalanced.unwrap_or(0),
-            ));
-        }
         let last = iteration >= params.most_iterations;
-        pushed = unbalanced.is_some();
-        if let Some(k) = unbalanced {
-            if last {
-                return Err(unbalanced_error(system, &correction, k));
-            }
-            let signed = -push * correction.load[k].signum();
-            for (value, free) in correction.values.iter_mut().zip(&correction.free[k]) {
-                *value += signed * free;
-            }
-            push = (PUSH_GROWTH * push).min(0.5 * LONGEST);
-        }
+        let refuses = params.free_motions == FreeMotions::Refuse;
+        pushed = push_on(system, &mut correction, &mut push, (refuses, last))?;
         let (ratio, largest) = measure(system, &correction.values[..n], size);
         moved = Some(largest);
-        let settled = unbalanced.is_none() && (at_rest || ratio <= params.tolerance);
+        let settled = !pushed && (at_rest || ratio <= params.tolerance);
         if last && !settled || !ratio.is_finite() {
             return Err(DynamicsError::NoEquilibrium {
                 iterations: iteration,
@@ -334,43 +297,92 @@ fn settle(
             });
         }
         if settled {
-            *held = correction
-                .free
-                .iter()
-                .map(|motion| in_words(system, motion))
-                .collect();
+            let free = correction.free.iter();
+            *held = free.map(|motion| in_words(system, motion)).collect();
             if at_rest {
                 return Ok(());
             }
         }
-        let walk = Walk {
-            from: state.clone(),
-            lambda_from: lambda.clone(),
-            correction: &correction.values,
-            most_force: RUN_INTO
-                * in_masses(system, &equations.residual)
-                    .max(COMPARED * in_masses(system, &pushing)),
-        };
-        let whole = (LONGEST / ratio).min(1.0);
-        let mut is_clear = |share: f64| {
-            walk.to(share, system, state, lambda);
-            let at = standing(state, &rest, lambda, (load_factor, Iterate::Single));
-            walk.is_clear(at, system, equations)
-        };
-        let first = |length: f64| whole.min(length / ratio);
-        let mut share = first(FIRST_PUSH);
-        if share < whole && is_clear(first(SHORT)) {
-            share = first(SHORT);
-        }
-        while share < whole && is_clear(whole.min(2.0 * share)) {
-            share = whole.min(2.0 * share);
-        }
-        walk.to(share, system, state, lambda);
+        let pushed_by = in_masses(system, &pushing);
+        let moved_by = (&correction.values[..], ratio);
+        walk_on(
+            system,
+            (state, lambda),
+            load_factor,
+            moved_by,
+            (equations, pushed_by),
+        );
         if settled {
             return Ok(());
         }
     }
     Ok(())
+}
+
+/// Lets a correction go further along the free motion that is loaded most, if one is loaded; returns whether one is. A
+/// free motion is an error where they are refused, a loaded one in the last iteration.
+fn push_on(
+    system: &System,
+    correction: &mut Correction,
+    push: &mut f64,
+    (refuses, last): (bool, bool),
+) -> Result<bool, DynamicsError> {
+    let share = &correction.share;
+    let unbalanced = (0..correction.free.len())
+        .filter(|&k| share[k] > BALANCED)
+        .max_by(|&a, &b| share[a].total_cmp(&share[b]));
+    if refuses && !correction.free.is_empty() {
+        return Err(unbalanced_error(
+            system,
+            correction,
+            unbalanced.unwrap_or(0),
+        ));
+    }
+    let Some(k) = unbalanced else {
+        return Ok(false);
+    };
+    if last {
+        return Err(unbalanced_error(system, correction, k));
+    }
+    let signed = -*push * correction.load[k].signum();
+    for (value, free) in correction.values.iter_mut().zip(&correction.free[k]) {
+        *value += signed * free;
+    }
+    *push = (PUSH_GROWTH * *push).min(0.5 * LONGEST);
+    Ok(true)
+}
+
+/// Goes along a correction, whose largest entry is `ratio`, as far as nothing stiff is in the way.
+fn walk_on(
+    system: &mut System,
+    (state, lambda): (&mut State, &mut Vec<f64>),
+    load_factor: f64,
+    (correction, ratio): (&[f64], f64),
+    (equations, pushed_by): (&mut Equations, f64),
+) {
+    let rest = vec![0.0; system.degrees_of_freedom()];
+    let unbalanced = in_masses(system, &equations.residual);
+    let walk = Walk {
+        from: state.clone(),
+        lambda_from: lambda.clone(),
+        correction,
+        most_force: RUN_INTO * unbalanced.max(COMPARED * pushed_by),
+    };
+    let whole = (LONGEST / ratio).min(1.0);
+    let mut is_clear = |share: f64| {
+        walk.to(share, system, state, lambda);
+        let at = standing(state, &rest, lambda, (load_factor, Iterate::Single));
+        walk.is_clear(at, system, equations)
+    };
+    let first = |length: f64| whole.min(length / ratio);
+    let mut share = first(FIRST_PUSH);
+    if share < whole && is_clear(first(SHORT)) {
+        share = first(SHORT);
+    }
+    while share < whole && is_clear(whole.min(2.0 * share)) {
+        share = whole.min(2.0 * share);
+    }
+    walk.to(share, system, state, lambda);
 }
 
 /// Whether forces balance to rounding everywhere and joints hold.

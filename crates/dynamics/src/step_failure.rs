@@ -19,6 +19,15 @@ pub(crate) enum StepFailure {
 }
 
 impl StepFailure {
+    /// After so many iterations, with what is left over what is allowed, most of it at a degree of freedom.
+    pub(crate) fn no_convergence(iterations: usize, ratio: f64, largest: usize) -> Self {
+        Self::NoConvergence {
+            iterations,
+            ratio,
+            largest,
+        }
+    }
+
     /// Whether iterates that went another way, or a shorter step, may do without it: they did not converge, or went where an element cannot follow.
     pub(crate) fn is_of_the_way(&self) -> bool {
         matches!(

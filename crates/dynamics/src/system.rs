@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::body::{Body, BodyId, GROUND};
 use crate::elements::{Channel, ForceElement, Iterate, Loads, View};
 use crate::energy::Energy;
-use crate::error::DynamicsError;
+use crate::error::{DynamicsError, ElementFailure};
 use crate::inertia::Inertia;
 use crate::joint::Joint;
 use crate::matrix::NOWHERE;
@@ -151,6 +151,15 @@ impl Slot {
             matrix_places: Vec::new(),
             force_calls: 0,
             tangent_calls: 0,
+        }
+    }
+
+    /// What its element reported at a time.
+    pub(crate) fn failure(&self, time_s: f64, source: ElementFailure) -> DynamicsError {
+        DynamicsError::Element {
+            element: self.element.name().to_owned(),
+            time_s,
+            source,
         }
     }
 
@@ -343,11 +352,7 @@ impl System {
         for slot in &mut self.slots {
             let own = slot.own(&view, state);
             let committed = slot.element.commit(&own);
-            committed.map_err(|source| DynamicsError::Element {
-                element: slot.element.name().to_owned(),
-                time_s: state.time_s,
-                source,
-            })?;
+            committed.map_err(|source| slot.failure(state.time_s, source))?;
         }
         Ok(())
     }
@@ -360,11 +365,7 @@ impl System {
         let view = view(&self.motions, &self.layout, state, 1.0);
         self.slots.iter().try_for_each(|slot| {
             let admitted = slot.element.admits(&slot.own(&view, state));
-            admitted.map_err(|source| DynamicsError::Element {
-                element: slot.element.name().to_owned(),
-                time_s: state.time_s,
-                source,
-            })
+            admitted.map_err(|source| slot.failure(state.time_s, source))
         })
     }
 

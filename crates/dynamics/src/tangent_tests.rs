@@ -310,6 +310,7 @@ fn force_elements_have_exact_tangents_and_keep_their_energy() {
         damping_n_s_per_m: 0.4,
         free_length_m: 0.2,
     };
+    let torsion = TorsionSpring::new(2.0, 0.3);
     let bearing = LinearBearing {
         radial_stiffness_n_per_m: 4.0,
         axial_stiffness_n_per_m: 2.0,
@@ -319,14 +320,11 @@ fn force_elements_have_exact_tangents_and_keep_their_energy() {
         tilt_damping_nm_s_per_rad: 0.4,
         ..LinearBearing::default()
     };
-    let one_way = LinearBearing {
-        axial_support: AxialSupport::Positive,
+    let one_way = |axial_support| LinearBearing {
+        axial_support,
         ..bearing
     };
-    let other_way = LinearBearing {
-        axial_support: AxialSupport::Negative,
-        ..bearing
-    };
+    let [positive, negative] = [AxialSupport::Positive, AxialSupport::Negative].map(one_way);
     let damped = Matrix5::from_fn(|_, _| random.next());
     let matrix = MatrixBearing {
         stiffness: Matrix5::from_fn(|_, _| random.next()),
@@ -338,6 +336,9 @@ fn force_elements_have_exact_tangents_and_keep_their_energy() {
         damping_s: 0.1,
         ..BeamSection::round(0.2, 0.1, 300.0, 0.3)
     };
+    let force = LoadKind::Force {
+        point_m: [0.1, -0.2, 0.3],
+    };
     let (id, other) = (BodyId(0), BodyId(1));
     // An end that moves with two modes of the first body, its turns small as those of elastic bodies are.
     let sizes = [0.3, 0.3, 0.3, 1e-3, 1e-3, 1e-3];
@@ -347,15 +348,11 @@ fn force_elements_have_exact_tangents_and_keep_their_energy() {
         let mut place = || pair(random, a, b);
         let mut elements: Vec<Box<dyn ForceElement>> = vec![
             Box::new(spring.between("spring", place()).unwrap()),
-            Box::new(
-                TorsionSpring::new(2.0, 0.3)
-                    .between("torsion", place())
-                    .unwrap(),
-            ),
+            Box::new(torsion.between("torsion", place()).unwrap()),
             Box::new(bushing.between("bushing", place()).unwrap()),
             Box::new(bearing.between("bearing", place()).unwrap()),
-            Box::new(one_way.between("one-way bearing", place()).unwrap()),
-            Box::new(other_way.between("bearing the other way", place()).unwrap()),
+            Box::new(positive.between("one-way bearing", place()).unwrap()),
+            Box::new(negative.between("bearing the other way", place()).unwrap()),
             Box::new(matrix.between("matrix bearing", place()).unwrap()),
             Box::new(beam.between("beam", place(), 1.0).unwrap()),
             Box::new(
@@ -366,29 +363,26 @@ fn force_elements_have_exact_tangents_and_keep_their_energy() {
             ),
         ];
         for axes in [Axes::World, Axes::Body] {
-            for kind in [
-                LoadKind::Torque,
-                LoadKind::Force {
-                    point_m: [0.1, -0.2, 0.3],
-                },
-            ] {
+            for kind in [LoadKind::Torque, force] {
                 let direction = (axes, [1.0, 2.0, -0.5]);
                 elements.push(Box::new(
                     AppliedLoad::new("load", id, kind, direction, wave()).unwrap(),
                 ));
             }
         }
-        for element in elements {
-            let random = &mut Random::new(3);
-            let what = element.name().to_owned();
-            let mut builder = System::builder();
-            builder.body(body("a", 2, random)).unwrap();
-            builder.body(body("b", 0, random)).unwrap();
-            builder.gravity([1.0, -2.0, 3.0]);
-            builder.boxed_element(element);
-            let mut case = Case::new(builder.build().unwrap(), random);
-            case.check_tangents(&what);
-            case.check_energy(&what);
-        }
+        elements.into_iter().for_each(check_element);
     }
+}
+
+fn check_element(element: Box<dyn ForceElement>) {
+    let random = &mut Random::new(3);
+    let what = element.name().to_owned();
+    let mut builder = System::builder();
+    builder.body(body("a", 2, random)).unwrap();
+    builder.body(body("b", 0, random)).unwrap();
+    builder.gravity([1.0, -2.0, 3.0]);
+    builder.boxed_element(element);
+    let mut case = Case::new(builder.build().unwrap(), random);
+    case.check_tangents(&what);
+    case.check_energy(&what);
 }

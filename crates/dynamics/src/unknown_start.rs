@@ -110,11 +110,7 @@ fn correction(
 ) -> Result<DVector<f64>, DynamicsError> {
     slot.loads.begin(true);
     let evaluated = slot.element.evaluate(view, &mut slot.loads);
-    evaluated.map_err(|source| DynamicsError::Element {
-        element: slot.element.name().to_owned(),
-        time_s,
-        source,
-    })?;
+    evaluated.map_err(|source| slot.failure(time_s, source))?;
     let first = slot.loads.first_unknown();
     let is_rate = |i: usize| unknowns[i].kind == UnknownKind::Rate;
     let matrix = DMatrix::from_fn(massless.len(), massless.len(), |row, column| {
@@ -138,8 +134,5 @@ fn correction(
             slot.loads.force[first + i] - rate
         }),
     );
-    matrix.lu().solve(&right).ok_or(DynamicsError::Singular {
-        what: "the inner stiffness of an element (a coordinate in equilibrium whose Q does not change with it)",
-        time_s,
-    })
+    matrix.lu().solve(&right).ok_or(DynamicsError::singular("the inner stiffness of an element (a coordinate in equilibrium whose Q does not change with it)", time_s))
 }

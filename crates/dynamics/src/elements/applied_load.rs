@@ -54,14 +54,11 @@ impl AppliedLoad {
     ) -> Result<Self, DynamicsError> {
         let direction = Vector3::from(direction);
         let length = direction.norm();
-        if !(length > 0.0 && length.is_finite()) {
-            return Err(DynamicsError::Value {
-                owner: format!("force element `{name}`"),
-                what: "length of the direction",
-                found: length,
-                allowed: "positive and finite",
-            });
-        }
+        DynamicsError::positive(
+            format!("force element `{name}`"),
+            "length of the direction",
+            length,
+        )?;
         Ok(Self {
             name: name.to_owned(),
             body: [body],

@@ -90,14 +90,7 @@ impl BeamSection {
             ("length in m", length_m),
             ("shear factor", self.shear_factor.min(1.0)),
         ] {
-            if !(found > 0.0 && found.is_finite()) {
-                return Err(DynamicsError::Value {
-                    owner: format!("beam `{name}`"),
-                    what,
-                    found,
-                    allowed: "positive and finite",
-                });
-            }
+            DynamicsError::positive(format!("beam `{name}`"), what, found)?;
         }
         not_negative(name, "damping over stiffness in s", self.damping_s)?;
         let stiffness = self.tip_stiffness(length_m);

@@ -58,34 +58,20 @@ impl Bushing {
                 self.damping,
             ),
         ] {
-            let fault = |what, found, allowed| DynamicsError::Value {
-                owner: format!("force element `{name}`"),
-                what,
-                found,
-                allowed,
-            };
+            let owner = || format!("force element `{name}`");
             let asymmetry = (matrix - matrix.transpose()).norm();
             let scale = matrix.norm();
-            if asymmetry.is_nan() || asymmetry > 1e-9 * scale {
-                return Err(fault(
-                    what,
-                    asymmetry,
-                    "zero: give a symmetric, finite matrix",
-                ));
-            }
+            let allowed = "zero: give a symmetric, finite matrix";
+            let is_symmetric = asymmetry <= 1e-9 * scale;
+            DynamicsError::require(owner(), (what, asymmetry), is_symmetric, allowed)?;
             // Scaled to a unit diagonal, because the units differ.
             let root = matrix
                 .diagonal()
                 .map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 1.0 });
             let scaled = Matrix6::from_diagonal(&root) * matrix * Matrix6::from_diagonal(&root);
             let least = scaled.symmetric_eigenvalues().min();
-            if least < -1e-9 {
-                return Err(fault(
-                    lowest,
-                    least,
-                    "zero or positive (scaled to a unit diagonal)",
-                ));
-            }
+            let allowed = "zero or positive (scaled to a unit diagonal)";
+            DynamicsError::require(owner(), (lowest, least), least >= -1e-9, allowed)?;
         }
         Ok(MarkerElement::new(name, pair, self))
     }
@@ -101,11 +87,6 @@ impl Bushing {
     }
 }
 
-fn rates(motion: &RelativeMotion) -> Vector6<f64> {
-    let (v, w) = (motion.velocity_m_per_s, motion.angular_velocity_rad_per_s);
-    Vector6::new(v[0], v[1], v[2], w[0], w[1], w[2])
-}
-
 impl Law for Bushing {
     fn load(&self, motion: &RelativeMotion) -> (PairLoad, Power) {
         let (stretch, theta) = self.stretch(motion);
@@ -113,7 +94,7 @@ impl Law for Bushing {
         let stored_j = 0.5 * stretch.dot(&elastic);
         let moment = rotation::tangent_inverse(&theta) * elastic.fixed_rows::<3>(3);
         elastic.fixed_rows_mut::<3>(3).copy_from(&moment);
-        let rates = rates(motion);
+        let rates = motion.rates();
         let viscous = self.damping * rates;
         let power = Power {
             stored_j,

@@ -54,13 +54,10 @@ impl MatrixBearing {
     ) -> Result<MarkerElement<Self>, DynamicsError> {
         let matrices = self.stiffness.iter().chain(self.damping.iter());
         let vectors = self.at.iter().chain(self.load.iter());
-        if let Some(&found) = matrices.chain(vectors).find(|value| !value.is_finite()) {
-            return Err(DynamicsError::Value {
-                owner: format!("force element `{name}`"),
-                what: "an entry of its matrices",
-                found,
-                allowed: "finite",
-            });
+        for found in matrices.chain(vectors) {
+            let owner = format!("force element `{name}`");
+            let entry = ("an entry of its matrices", *found);
+            DynamicsError::require(owner, entry, found.is_finite(), "finite")?;
         }
         Ok(MarkerElement::new(name, pair, self))
     }
