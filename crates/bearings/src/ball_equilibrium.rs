@@ -20,7 +20,7 @@ use crate::element_search::NO_FORCE_N;
 use crate::error::BearingError;
 use crate::operation::Operation;
 use crate::ring_load::{RingLoad, by_ring};
-use crate::ring_pose::{RingPose, cross};
+use crate::ring_pose::RingPose;
 
 /// Share of the free contact angle up to which a ball of an angular-contact bearing may touch its groove on the side
 /// away from the load, where a shoulder is missing.
@@ -439,7 +439,7 @@ impl Ball<'_> {
         let mut turned = Matrix3x6::zeros();
         turned
             .fixed_view_mut::<3, 3>(0, 3)
-            .copy_from(&-cross(&c.at.t));
+            .copy_from(&-c.at.t.cross_matrix());
         turned -= c.at.e * (relative.tr_mul(&c.at.t) / c.at.radius).transpose();
         let mut moment = ring.load.fixed_rows_mut::<3>(3);
         moment += c.at.t * (arm * friction);

@@ -15,7 +15,7 @@ use crate::error::BearingError;
 use crate::line_contact::LineContact;
 use crate::operation::Operation;
 use crate::ring_load::RingLoad;
-use crate::ring_pose::{RingPose, cross};
+use crate::ring_pose::RingPose;
 
 /// A lamina of a barrel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,7 +115,7 @@ impl BarrelRow {
         // What the rollers press the sphere with they press the ring with the other way, through the sphere's middle.
         let force: Vector3<f64> = -(turn * force);
         let stiffness = turn * by_sphere * turn.transpose();
-        let (arm, hold) = (cross(&pose.centre_m), cross(&force));
+        let (arm, hold) = (pose.centre_m.cross_matrix(), force.cross_matrix());
         let by_rotation = (stiffness * arm - hold) * by_turn;
         let mut part = ring.load.fixed_rows_mut::<3>(0);
         part += force;

@@ -9,43 +9,46 @@ mod tables;
 
 use crate::catalogue::{CatalogueLine, CatalogueType, KnownInside};
 use tables::{
-    SERIES_02, SERIES_03, SERIES_04, SERIES_10, SERIES_18, SERIES_22, SERIES_23, SERIES_32,
-    SERIES_33, Size, TAPERED_302, TAPERED_303, TAPERED_322, TAPERED_323, THRUST_511, THRUST_512,
-    TaperedSize,
+    Angle, DIAMETERS_2, DIAMETERS_3, SERIES_04, SERIES_10, SERIES_18, Size, THRUST_511, THRUST_512,
 };
 
-/// Designations with letters or digits in front, their type and table.
-const RADIAL: &[(&str, CatalogueType, &[Size])] = &[
-    ("618", CatalogueType::DeepGroove, SERIES_18),
-    ("60", CatalogueType::DeepGroove, SERIES_10),
-    ("62", CatalogueType::DeepGroove, SERIES_02),
-    ("63", CatalogueType::DeepGroove, SERIES_03),
-    ("64", CatalogueType::DeepGroove, SERIES_04),
-    ("70", CatalogueType::AngularContact, SERIES_10),
-    ("72", CatalogueType::AngularContact, SERIES_02),
-    ("73", CatalogueType::AngularContact, SERIES_03),
-    ("32", CatalogueType::AngularContactDoubleRow, SERIES_32),
-    ("33", CatalogueType::AngularContactDoubleRow, SERIES_33),
-    ("QJ2", CatalogueType::FourPoint, SERIES_02),
-    ("QJ3", CatalogueType::FourPoint, SERIES_03),
-    ("511", CatalogueType::ThrustBall, THRUST_511),
-    ("512", CatalogueType::ThrustBall, THRUST_512),
-    ("222", CatalogueType::SphericalRoller, SERIES_22),
-    ("223", CatalogueType::SphericalRoller, SERIES_23),
-    ("NU10", CatalogueType::CylindricalRoller, SERIES_10),
-    ("NU2", CatalogueType::CylindricalRoller, SERIES_02),
-    ("NU22", CatalogueType::CylindricalRoller, SERIES_22),
-    ("NU3", CatalogueType::CylindricalRoller, SERIES_03),
-    ("NU23", CatalogueType::CylindricalRoller, SERIES_23),
+/// What stands before the bore in a designation, the type, and a column of a table.
+const SERIES: &[(&str, CatalogueType, &[Size], usize)] = &[
+    ("618", CatalogueType::DeepGroove, SERIES_18, 0),
+    ("60", CatalogueType::DeepGroove, SERIES_10, 0),
+    ("62", CatalogueType::DeepGroove, DIAMETERS_2, 0),
+    ("63", CatalogueType::DeepGroove, DIAMETERS_3, 0),
+    ("64", CatalogueType::DeepGroove, SERIES_04, 0),
+    ("70", CatalogueType::AngularContact, SERIES_10, 0),
+    ("72", CatalogueType::AngularContact, DIAMETERS_2, 0),
+    ("73", CatalogueType::AngularContact, DIAMETERS_3, 0),
+    ("32", CatalogueType::AngularContactDoubleRow, DIAMETERS_2, 2),
+    ("33", CatalogueType::AngularContactDoubleRow, DIAMETERS_3, 2),
+    ("QJ2", CatalogueType::FourPoint, DIAMETERS_2, 0),
+    ("QJ3", CatalogueType::FourPoint, DIAMETERS_3, 0),
+    ("511", CatalogueType::ThrustBall, THRUST_511, 0),
+    ("512", CatalogueType::ThrustBall, THRUST_512, 0),
+    ("222", CatalogueType::SphericalRoller, DIAMETERS_2, 1),
+    ("223", CatalogueType::SphericalRoller, DIAMETERS_3, 1),
+    ("NU10", CatalogueType::CylindricalRoller, SERIES_10, 0),
+    ("NU2", CatalogueType::CylindricalRoller, DIAMETERS_2, 0),
+    ("NU22", CatalogueType::CylindricalRoller, DIAMETERS_2, 1),
+    ("NU3", CatalogueType::CylindricalRoller, DIAMETERS_3, 0),
+    ("NU23", CatalogueType::CylindricalRoller, DIAMETERS_3, 1),
+    ("302", CatalogueType::TaperedRoller, DIAMETERS_2, 3),
+    ("303", CatalogueType::TaperedRoller, DIAMETERS_3, 3),
+    ("322", CatalogueType::TaperedRoller, DIAMETERS_2, 4),
+    ("323", CatalogueType::TaperedRoller, DIAMETERS_3, 4),
 ];
 
-/// Series of tapered roller bearings.
-const TAPERED: &[(&str, &[TaperedSize])] = &[
-    ("302", TAPERED_302),
-    ("303", TAPERED_303),
-    ("322", TAPERED_322),
-    ("323", TAPERED_323),
-];
+/// Bore, outside diameter and width in mm and the contact angle of the sizes in a column of a table.
+fn sizes(table: &[Size], column: usize) -> impl Iterator<Item = (u16, f64, f64, Angle)> {
+    let listed = move |&(bore, outside, widths, angle): &Size| {
+        let width = widths[column];
+        (width > 0.0).then_some((bore, outside, width, angle))
+    };
+    table.iter().filter_map(listed)
+}
 
 /// Letters behind the number of angular-contact bearings and the contact angles that they usually mean.
 const ANGLES: &[(&str, f64)] = &[("C", 15.0), ("AC", 25.0), ("A", 30.0), ("B", 40.0)];
@@ -106,9 +109,27 @@ pub fn find(designation: &str) -> Option<Listed> {
         .filter(|c| !c.is_whitespace())
         .flat_map(char::to_uppercase)
         .collect();
-    let listed =
-        |kind: CatalogueType, (bore, outside, width): Size, angle_deg: Option<f64>| Listed {
-            designation: wanted.clone(),
+    for &(series, kind, table, column) in SERIES {
+        let Some(rest) = wanted.strip_prefix(series).filter(|rest| rest.is_ascii()) else {
+            continue;
+        };
+        let (code, letters) = rest.split_at(rest.len().min(2));
+        let wanted_bore = bore_mm(code);
+        let found = sizes(table, column).find(|size| Some(size.0) == wanted_bore);
+        let Some((bore, outside, width, (degrees, minutes, seconds))) = found else {
+            continue;
+        };
+        let usual = ANGLES.iter().find(|(name, _)| *name == letters);
+        let angle_deg = match (letters, kind, usual) {
+            ("", CatalogueType::TaperedRoller, _) => {
+                let [degrees, minutes, seconds] = [degrees, minutes, seconds].map(f64::from);
+                Some(degrees + minutes / 60.0 + seconds / 3600.0)
+            }
+            ("", _, _) => None,
+            (_, CatalogueType::AngularContact, Some((_, degrees))) => Some(*degrees),
+            _ => continue,
+        };
+        return Some(Listed {
             line: CatalogueLine {
                 kind,
                 bore_m: 1e-3 * f64::from(bore),
@@ -120,34 +141,8 @@ pub fn find(designation: &str) -> Option<Listed> {
                 known: KnownInside::default(),
             },
             says_angle: angle_deg.is_some() || kind.angles_deg().is_none(),
-        };
-    for (series, sizes) in TAPERED {
-        let bore = wanted.strip_prefix(series).and_then(bore_mm);
-        if let Some(size) = sizes.iter().find(|size| Some(size.0) == bore) {
-            let (degrees, minutes, seconds) = size.3;
-            let angle =
-                f64::from(degrees) + f64::from(minutes) / 60.0 + f64::from(seconds) / 3600.0;
-            let size = (size.0, size.1, size.2);
-            return Some(listed(CatalogueType::TaperedRoller, size, Some(angle)));
-        }
-    }
-    for (series, kind, sizes) in RADIAL {
-        let Some(rest) = wanted.strip_prefix(series).filter(|rest| rest.is_ascii()) else {
-            continue;
-        };
-        let (code, letters) = rest.split_at(rest.len().min(2));
-        let bore = bore_mm(code);
-        let Some(size) = sizes.iter().find(|size| Some(size.0) == bore) else {
-            continue;
-        };
-        let angle = ANGLES.iter().find(|(name, _)| *name == letters);
-        match (letters, kind, angle) {
-            ("", _, _) => return Some(listed(*kind, *size, None)),
-            (_, CatalogueType::AngularContact, Some((_, degrees))) => {
-                return Some(listed(*kind, *size, Some(*degrees)));
-            }
-            _ => {}
-        }
+            designation: wanted,
+        });
     }
     None
 }
@@ -155,25 +150,19 @@ pub fn find(designation: &str) -> Option<Listed> {
 /// What is known, in words.
 #[must_use]
 pub fn known() -> String {
-    let bores = |smallest: u16, largest: u16| format!("bores {smallest} to {largest} mm");
-    let radial = RADIAL.iter().map(|(series, kind, sizes)| {
+    let of_series = |&(series, kind, table, column): &(&str, CatalogueType, &[Size], usize)| {
         let letters = match kind {
             CatalogueType::AngularContact => " (with C, AC, A, B or contact_angle_deg)",
-            CatalogueType::SphericalRoller => "",
+            CatalogueType::SphericalRoller | CatalogueType::TaperedRoller => "",
             _ if kind.angles_deg().is_some() => " (with contact_angle_deg)",
             _ => "",
         };
-        (*series, sizes[0].0, sizes[sizes.len() - 1].0, letters)
-    });
-    let tapered = TAPERED
-        .iter()
-        .map(|(series, sizes)| (*series, sizes[0].0, sizes[sizes.len() - 1].0, ""));
-    let all: Vec<String> = radial
-        .chain(tapered)
-        .map(|(series, small, large, letters)| {
-            format!("{series}..{letters} {}", bores(small, large))
-        })
-        .collect();
+        let bores = || sizes(table, column).map(|size| size.0);
+        let (small, large) = (bores().min(), bores().max());
+        let (small, large) = (small.unwrap_or_default(), large.unwrap_or_default());
+        format!("{series}..{letters} bores {small} to {large} mm")
+    };
+    let all: Vec<String> = SERIES.iter().map(of_series).collect();
     format!("such as 6205, 7010 C, NU 204, 30206, of {}", all.join(", "))
 }
 
@@ -186,15 +175,7 @@ pub fn all() -> impl Iterator<Item = String> {
         17 => 3,
         bore => bore / 5,
     };
-    let radial = RADIAL.iter().flat_map(move |(series, _, sizes)| {
-        sizes
-            .iter()
-            .map(move |size| format!("{series}{:02}", code(size.0)))
-    });
-    let tapered = TAPERED.iter().flat_map(move |(series, sizes)| {
-        sizes
-            .iter()
-            .map(move |size| format!("{series}{:02}", code(size.0)))
-    });
-    radial.chain(tapered)
+    SERIES.iter().flat_map(move |&(series, _, table, column)| {
+        sizes(table, column).map(move |size| format!("{series}{:02}", code(size.0)))
+    })
 }

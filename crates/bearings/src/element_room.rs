@@ -121,6 +121,17 @@ pub struct NoRoom {
     pub allowed: String,
 }
 
+impl NoRoom {
+    fn of(key: &'static str, found: f64, allowed: String) -> Self {
+        Self {
+            key,
+            in_ratings: false,
+            found,
+            allowed,
+        }
+    }
+}
+
 /// A number with four digits, or more before the point.
 fn short(value: f64) -> String {
     let decimals = (3 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
@@ -154,14 +165,6 @@ impl CatalogueLine {
     /// [`NoRoom`]: which key, and what is allowed.
     pub fn check(&self) -> Result<(), NoRoom> {
         let mm = |m: f64| short(1e3 * m);
-        let refuse = |key: &'static str, found_m: f64, allowed: String| {
-            Err(NoRoom {
-                key,
-                in_ratings: false,
-                found: 1e3 * found_m,
-                allowed,
-            })
-        };
         let height = 0.5 * self.section_m();
         let ratio = self.outside_m / self.bore_m;
         if !(1.03..=5.0).contains(&ratio) {
@@ -170,7 +173,11 @@ impl CatalogueLine {
                 mm(1.03 * self.bore_m),
                 mm(5.0 * self.bore_m)
             );
-            return refuse("outside_diameter_mm", self.outside_m, allowed);
+            return Err(NoRoom::of(
+                "outside_diameter_mm",
+                1e3 * self.outside_m,
+                allowed,
+            ));
         }
         let ([narrow, wide], series) = self.widths_over_height();
         if !(narrow * height..=wide * height).contains(&self.width_m) {
@@ -180,7 +187,7 @@ impl CatalogueLine {
                 mm(wide * height),
                 mm(height)
             );
-            return refuse("width_mm", self.width_m, allowed);
+            return Err(NoRoom::of("width_mm", 1e3 * self.width_m, allowed));
         }
         self.check_known()?;
         self.check_ratings()
@@ -191,14 +198,6 @@ impl CatalogueLine {
         let mm = |m: f64| short(1e3 * m);
         let rollers = self.kind.has_rollers();
         let known = &self.known;
-        let refuse = |key: &'static str, found: f64, allowed: String| {
-            Err(NoRoom {
-                key,
-                in_ratings: false,
-                found,
-                allowed,
-            })
-        };
         let pitch = self.pitch_m();
         let middle = 0.5 * (self.bore_m + self.outside_m);
         let aside = 0.15 * self.section_m();
@@ -208,7 +207,7 @@ impl CatalogueLine {
                 mm(middle - aside),
                 mm(middle + aside)
             );
-            return refuse("pitch_diameter_mm", 1e3 * pitch, allowed);
+            return Err(NoRoom::of("pitch_diameter_mm", 1e3 * pitch, allowed));
         }
         let room = ElementRoom::of(self);
         let named = |ball: &'static str, roller: &'static str| if rollers { roller } else { ball };
@@ -223,7 +222,7 @@ impl CatalogueLine {
                     mm(self.width_m)
                 );
                 let key = named("ball_diameter_mm", "roller_diameter_mm");
-                return refuse(key, 1e3 * diameter, allowed);
+                return Err(NoRoom::of(key, 1e3 * diameter, allowed));
             }
         }
         if let Some(length) = known.length_m {
@@ -235,7 +234,7 @@ impl CatalogueLine {
                     mm(most),
                     mm(self.width_m)
                 );
-                return refuse("roller_length_mm", 1e3 * length, allowed);
+                return Err(NoRoom::of("roller_length_mm", 1e3 * length, allowed));
             }
         }
         if let Some(number) = known.elements {
@@ -247,7 +246,8 @@ impl CatalogueLine {
                     mm(diameter),
                     mm(pitch)
                 );
-                return refuse(named("balls", "rollers"), number as f64, allowed);
+                let key = named("balls", "rollers");
+                return Err(NoRoom::of(key, number as f64, allowed));
             }
         }
         Ok(())
@@ -311,10 +311,8 @@ impl CatalogueLine {
                 short(1e3 * self.outside_m)
             );
             return Err(NoRoom {
-                key,
                 in_ratings: true,
-                found: stated,
-                allowed,
+                ..NoRoom::of(key, stated, allowed)
             });
         }
         Ok(())

@@ -82,3 +82,34 @@ pub enum BearingError {
     #[error("{0}")]
     NotCarried(&'static str),
 }
+
+impl BearingError {
+    /// Refuses a number that is not as allowed.
+    pub(crate) fn require(
+        what: &'static str,
+        found: f64,
+        is_allowed: bool,
+        allowed: &'static str,
+    ) -> Result<(), Self> {
+        if is_allowed {
+            return Ok(());
+        }
+        Err(Self::Parameter {
+            what,
+            found,
+            allowed,
+        })
+    }
+
+    /// A number must be positive and finite.
+    pub(crate) fn positive(what: &'static str, found: f64) -> Result<(), Self> {
+        let is_allowed = found > 0.0 && found.is_finite();
+        Self::require(what, found, is_allowed, "positive and finite")
+    }
+
+    /// A number must be zero or positive, and finite.
+    pub(crate) fn not_negative(what: &'static str, found: f64) -> Result<(), Self> {
+        let is_allowed = found >= 0.0 && found.is_finite();
+        Self::require(what, found, is_allowed, "zero or positive, and finite")
+    }
+}

@@ -96,13 +96,7 @@ impl QuasiStaticElement {
             ("the axial damping in N s/m", damping.axial_n_s_per_m),
             ("the tilt damping in N m s/rad", damping.tilt_nm_s_per_rad),
         ] {
-            if !(found >= 0.0 && found.is_finite()) {
-                return Err(BearingError::Parameter {
-                    what,
-                    found,
-                    allowed: "zero or positive, and finite",
-                });
-            }
+            BearingError::not_negative(what, found)?;
         }
         let bearing = QuasiStaticBearing::new(definition)?;
         bearing.refuse_spalled_balls()?;
@@ -214,7 +208,7 @@ impl QuasiStaticElement {
     /// of freedom begin.
     pub fn push(&self, view: &View<'_>, ring: &RingLoad, places: [usize; 2], loads: &mut Loads) {
         let motion = self.motion(view);
-        let (mut damping, rates) = (self.damping_matrix(&motion), rates(&motion));
+        let (mut damping, rates) = (self.damping_matrix(&motion), motion.rates());
         let mut viscous = damping * rates;
         if self.kept.friction_nm > 0.0 {
             let (moment, slope) = self.rubs(rates[5]);
@@ -359,11 +353,6 @@ fn pose(motion: &RelativeMotion) -> RingPose {
     }
 }
 
-fn rates(motion: &RelativeMotion) -> Vector6<f64> {
-    let (v, w) = (motion.velocity_m_per_s, motion.angular_velocity_rad_per_s);
-    Vector6::new(v[0], v[1], v[2], w[0], w[1], w[2])
-}
-
 impl ForceElement for QuasiStaticElement {
     fn name(&self) -> &str {
         &self.name
@@ -498,7 +487,7 @@ impl ForceElement for QuasiStaticElement {
         if self.friction_alone {
             return;
         }
-        let load = ring.load - self.damping_matrix(&motion) * rates(&motion);
+        let load = ring.load - self.damping_matrix(&motion) * motion.rates();
         let force = motion.to_world(&load.fixed_rows::<3>(0).into_owned());
         sample_ring(&load, &force, out);
     }

@@ -2,8 +2,6 @@
 
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3, Vector5, Vector6};
 
-use crate::ring_pose::cross;
-
 /// Load on the inner ring by its rolling elements: force \[N\] and moment about the ring's middle \[N·m\], in the axes
 /// of the outer ring.
 ///
@@ -83,7 +81,7 @@ impl RingLoad {
         let mut rows = self.tangent.fixed_rows_mut::<3>(0);
         rows += force_by_ring;
         let mut rows = self.tangent.fixed_rows_mut::<3>(3);
-        rows += cross(w) * force_by_ring - cross(f) * moves;
+        rows += w.cross_matrix() * force_by_ring - f.cross_matrix() * moves;
     }
 }
 
@@ -97,9 +95,11 @@ pub(crate) fn by_ring(
     let mut relative = Matrix3x6::zeros();
     relative.fixed_columns_mut::<3>(0).fill_with_identity();
     relative.neg_mut();
-    relative.fixed_columns_mut::<3>(3).copy_from(&cross(w));
+    relative
+        .fixed_columns_mut::<3>(3)
+        .copy_from(&w.cross_matrix());
     let mut force = by_point * relative;
     let mut turned = force.fixed_columns_mut::<3>(3);
-    turned -= cross(f);
+    turned -= f.cross_matrix();
     (relative, force)
 }

@@ -1,6 +1,6 @@
 //! Where the inner ring stands against the outer one.
 
-use nalgebra::{Matrix3, Vector3, Vector5};
+use nalgebra::{Vector3, Vector5};
 
 /// Centre and axis of the inner ring, in the frame of the outer ring: z is its axis, the origin its middle.
 ///
@@ -68,9 +68,4 @@ impl RingPose {
             axis: axis.normalize(),
         }
     }
-}
-
-/// \[w\]×: the matrix of the cross product w × v.
-pub(crate) fn cross(w: &Vector3<f64>) -> Matrix3<f64> {
-    Matrix3::new(0.0, -w.z, w.y, w.z, 0.0, -w.x, -w.y, w.x, 0.0)
 }

@@ -16,7 +16,7 @@ use crate::element_search::{Balance, ElementSearch, NO_FORCE_N, Unbalanced};
 use crate::error::BearingError;
 use crate::line_contact::LineContact;
 use crate::ring_load::{RingLoad, by_ring};
-use crate::ring_pose::{RingPose, cross};
+use crate::ring_pose::RingPose;
 use crate::roller_row::{Lamina, RollerRow};
 
 /// Share of its weight, which is left out, that a roller may have left over where the search does not end, as on one
@@ -430,7 +430,8 @@ impl Roller<'_> {
             roller_by_ring -= moves.tr_mul(&force_by_ring);
             let by_place = point.by_point * moves;
             force_by_place += by_place;
-            moment_by_place += cross(&point.w) * by_place - cross(&point.force) * moves;
+            moment_by_place +=
+                point.w.cross_matrix() * by_place - point.force.cross_matrix() * moves;
         });
         if self.row.rib.is_none() {
             roller_by_ring.set_row(1, &nalgebra::RowVector6::zeros());

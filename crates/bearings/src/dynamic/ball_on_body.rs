@@ -15,7 +15,6 @@ use gearmesh_dynamics::elements::Loads;
 use nalgebra::{Matrix3, Vector3};
 
 use super::surface_contact::{Against, ByMotion, SurfaceForce};
-use crate::ring_pose::cross;
 
 /// Motion of a ball, world axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +90,7 @@ impl<'a> Carrier<'a> {
     ) {
         let rotation = &self.motion.rotation;
         let to_body = rotation.transpose();
-        let (lever, turn) = (cross(r), cross(&found.force));
+        let (lever, turn) = (r.cross_matrix(), found.force.cross_matrix());
         let mut force = self.follow(ball, &lever, &found.force_by, &found.force);
         let mut own = self.follow(ball, &lever, &found.moment_by, &found.moment);
         if let (Some([force_by, own_by]), Some(spin)) = (&found.by_turn, places.spin) {
@@ -115,7 +114,7 @@ impl<'a> Carrier<'a> {
             };
             let mut block = direct - lever * of.get(by) - of_own.get(by);
             if matches!(by, Column::Turn) {
-                block += cross(moment);
+                block += moment.cross_matrix();
             }
             to_body * block
         };
@@ -163,9 +162,10 @@ impl<'a> Carrier<'a> {
         value: &Vector3<f64>,
     ) -> Follow {
         let drift = ball.velocity_m_per_s - self.motion.velocity_m_per_s;
-        let by_ball = by.place - by.velocity * cross(&self.spin);
-        let carried =
-            by.velocity * cross(&drift) + by.spin * cross(&ball.spin_rad_per_s) - cross(value);
+        let by_ball = by.place - by.velocity * self.spin.cross_matrix();
+        let carried = by.velocity * drift.cross_matrix()
+            + by.spin * ball.spin_rad_per_s.cross_matrix()
+            - value.cross_matrix();
         Follow {
             by_ball,
             by_turn: by_ball * lever + carried,

@@ -58,42 +58,14 @@ impl StatedContact {
     /// # Errors
     /// [`BearingError::Parameter`].
     pub fn validated(self) -> Result<Self, BearingError> {
-        let least = |what, found: f64, least: f64, allowed| {
-            if found >= least && found.is_finite() {
-                Ok(())
-            } else {
-                Err(BearingError::Parameter {
-                    what,
-                    found,
-                    allowed,
-                })
-            }
-        };
-        let positive = "positive and finite";
-        least(
-            "the stiffness of the contact",
-            self.stiffness_n_per_m_e,
-            f64::MIN_POSITIVE,
-            positive,
-        )?;
-        least(
-            "the exponent of the contact",
-            self.exponent,
-            1.0,
-            "at least 1 and finite",
-        )?;
-        least(
-            "the damping of the contact in N s/m",
-            self.damping_n_s_per_m,
-            0.0,
-            "zero or positive, and finite",
-        )?;
-        least(
-            "the depth of full damping in m",
-            self.full_damping_depth_m,
-            f64::MIN_POSITIVE,
-            positive,
-        )?;
+        let exponent = self.exponent;
+        let is_allowed = exponent >= 1.0 && exponent.is_finite();
+        let allowed = "at least 1 and finite";
+        BearingError::positive("the stiffness of the contact", self.stiffness_n_per_m_e)?;
+        BearingError::require("the exponent of the contact", exponent, is_allowed, allowed)?;
+        let damping = self.damping_n_s_per_m;
+        BearingError::not_negative("the damping of the contact in N s/m", damping)?;
+        BearingError::positive("the depth of full damping in m", self.full_damping_depth_m)?;
         Ok(self)
     }
 

@@ -132,45 +132,26 @@ impl LandGuide {
         name: &str,
         pair: MarkerPair,
     ) -> Result<MarkerElement<Self>, BearingError> {
-        let film = self
-            .film
-            .map_or([1.0; 2], |f| [f.viscosity_pa_s, f.width_m]);
-        for (what, found) in [
-            ("the land's radius in m", self.radius_m),
-            ("the land's clearance in m", self.clearance_m),
-            ("the viscosity at the land in Pa s", film[0]),
-            ("the land's width in m", film[1]),
-            (
-                "the land's stiffness in N/m^1.5",
-                self.contact.stiffness_n_per_m15,
-            ),
-        ] {
-            if !(found > 0.0 && found.is_finite()) {
-                return Err(BearingError::Parameter {
-                    what,
-                    found,
-                    allowed: "positive and finite",
-                });
-            }
+        BearingError::positive("the land's radius in m", self.radius_m)?;
+        BearingError::positive("the land's clearance in m", self.clearance_m)?;
+        if let Some(film) = self.film {
+            BearingError::positive("the viscosity at the land in Pa s", film.viscosity_pa_s)?;
+            BearingError::positive("the land's width in m", film.width_m)?;
         }
-        let roughness = self.contact.roughness_m;
-        if !(0.0..self.clearance_m).contains(&roughness)
-            || (self.film.is_some() && roughness == 0.0)
-        {
-            return Err(BearingError::Parameter {
-                what: "the roughness at the land in m",
-                found: roughness,
-                allowed: "below the clearance, and above 0 with a film",
-            });
-        }
-        if let Some((coefficient, speed)) = self.contact.friction
-            && !(coefficient >= 0.0 && coefficient.is_finite() && speed > 0.0)
-        {
-            return Err(BearingError::Parameter {
-                what: "the coefficient of friction at the land",
-                found: coefficient,
-                allowed: "zero or positive, with a positive transition speed",
-            });
+        let (stiffness, roughness) = (self.contact.stiffness_n_per_m15, self.contact.roughness_m);
+        BearingError::positive("the land's stiffness in N/m^1.5", stiffness)?;
+        BearingError::require(
+            "the roughness at the land in m",
+            roughness,
+            (0.0..self.clearance_m).contains(&roughness)
+                && !(self.film.is_some() && roughness == 0.0),
+            "below the clearance, and above 0 with a film",
+        )?;
+        if let Some((coefficient, speed)) = self.contact.friction {
+            let is_allowed = coefficient >= 0.0 && coefficient.is_finite() && speed > 0.0;
+            let allowed = "zero or positive, with a positive transition speed";
+            let what = "the coefficient of friction at the land";
+            BearingError::require(what, coefficient, is_allowed, allowed)?;
         }
         Ok(MarkerElement::new(name, pair, self))
     }

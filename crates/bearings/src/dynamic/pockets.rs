@@ -51,25 +51,13 @@ impl Pockets {
     /// # Errors
     /// [`BearingError::Parameter`] where a number is negative, or friction goes by a fluid, which needs a Hertz contact.
     pub fn validated(self) -> Result<Self, BearingError> {
-        for (what, found) in [
-            ("the pocket clearance in m", self.clearance_m),
-            (
-                "the stiffness of the pocket's film in N/m",
-                self.film_stiffness_n_per_m,
-            ),
-            (
-                "the stiffness of the pocket in N/m^1.5",
-                self.contact_stiffness_n_per_m15,
-            ),
-        ] {
-            if !(found >= 0.0 && found.is_finite()) {
-                return Err(BearingError::Parameter {
-                    what,
-                    found,
-                    allowed: "zero or positive, and finite",
-                });
-            }
-        }
+        let (film, solid) = (
+            self.film_stiffness_n_per_m,
+            self.contact_stiffness_n_per_m15,
+        );
+        BearingError::not_negative("the pocket clearance in m", self.clearance_m)?;
+        BearingError::not_negative("the stiffness of the pocket's film in N/m", film)?;
+        BearingError::not_negative("the stiffness of the pocket in N/m^1.5", solid)?;
         if matches!(self.traction, Some(Traction::Fluid(_))) {
             return Err(BearingError::NotCarried(
                 "friction in pockets goes by a coefficient or a table: a fluid's law needs the ellipse of a Hertz contact",

@@ -24,20 +24,16 @@ impl Rebound {
     /// # Errors
     /// [`BearingError::Parameter`] unless 0 < e ≤ 1 and the speed is positive.
     pub fn from_restitution(restitution: f64, speed_m_per_s: f64) -> Result<Self, BearingError> {
-        if !(restitution > 0.0 && restitution <= 1.0) {
-            return Err(BearingError::Parameter {
-                what: "the coefficient of restitution",
-                found: restitution,
-                allowed: "above 0 and at most 1",
-            });
-        }
-        if !(speed_m_per_s > 0.0 && speed_m_per_s.is_finite()) {
-            return Err(BearingError::Parameter {
-                what: "the speed that the coefficient of restitution holds at, in m/s",
-                found: speed_m_per_s,
-                allowed: "positive and finite",
-            });
-        }
+        BearingError::require(
+            "the coefficient of restitution",
+            restitution,
+            restitution > 0.0 && restitution <= 1.0,
+            "above 0 and at most 1",
+        )?;
+        BearingError::positive(
+            "the speed that the coefficient of restitution holds at, in m/s",
+            speed_m_per_s,
+        )?;
         if restitution == 1.0 {
             return Ok(Self::default());
         }

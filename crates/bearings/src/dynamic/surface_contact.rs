@@ -13,7 +13,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::contact_damping::DampedLoad;
 use super::traction::Slip;
-use crate::ring_pose::cross;
 
 /// Where a ball stands against a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -160,7 +159,7 @@ pub(crate) fn surface_force(
                 arm,
                 by_normal: n * (n * (2.0 * across / square) - u).transpose() / square
                     - Matrix3::identity() * (across / square)
-                    + cross(&against.spin) * arm,
+                    + against.spin.cross_matrix() * arm,
             };
             here.add(touch, &load_by, found);
             drag = Some(here);
@@ -210,19 +209,19 @@ impl Drag {
         let slip_by = ByMotion {
             place: self.by_normal * touch.turning,
             velocity: Matrix3::identity() - n * n.transpose() / n.norm_squared(),
-            spin: cross(&n) * -self.arm,
+            spin: n.cross_matrix() * -self.arm,
         };
         let drag_by = ByMotion {
             place: self.follow(&slip_by.place, &load_by.place),
             velocity: self.follow(&slip_by.velocity, &load_by.velocity),
             spin: self.follow(&slip_by.spin, &Vector3::zeros()),
         };
-        let lever = cross(&n) * self.arm;
+        let lever = n.cross_matrix() * self.arm;
         found.force_by.place += drag_by.place;
         found.force_by.velocity += drag_by.velocity;
         found.force_by.spin = drag_by.spin;
         found.moment_by = ByMotion {
-            place: lever * drag_by.place - cross(&self.force) * touch.turning * self.arm,
+            place: lever * drag_by.place - self.force.cross_matrix() * touch.turning * self.arm,
             velocity: lever * drag_by.velocity,
             spin: lever * drag_by.spin,
         };
@@ -246,10 +245,10 @@ fn add_turn(
     found.moment_by.velocity -= by.first * load_by.velocity.transpose();
     found.moment_by.spin -= by.first * load_by_spin.transpose();
     if let Some(drag) = drag {
-        let lever = cross(&n) * drag.arm;
+        let lever = n.cross_matrix() * drag.arm;
         let by_turn = drag.follow(&(drag.by_normal * by.place), load_by_turn);
         force += by_turn;
-        moment += lever * by_turn - cross(&drag.force) * by.place * drag.arm;
+        moment += lever * by_turn - drag.force.cross_matrix() * by.place * drag.arm;
         // The load follows the spin, too.
         let by_spin = drag.slip * (load_by_spin * -drag.law.by_load).transpose();
         found.force_by.spin += by_spin;

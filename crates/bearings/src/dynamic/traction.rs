@@ -61,14 +61,8 @@ impl Traction {
     /// # Errors
     /// [`BearingError::Parameter`] where the coefficient is negative or the speed not positive.
     pub fn coulomb(coefficient: f64, transition_speed_m_per_s: f64) -> Result<Self, BearingError> {
-        if !(coefficient >= 0.0 && coefficient.is_finite()) {
-            return Err(BearingError::Parameter {
-                what: "the coefficient of friction",
-                found: coefficient,
-                allowed: "zero or positive, and finite",
-            });
-        }
-        positive("the transition speed in m/s", transition_speed_m_per_s)?;
+        BearingError::not_negative("the coefficient of friction", coefficient)?;
+        BearingError::positive("the transition speed in m/s", transition_speed_m_per_s)?;
         Ok(Self::Coulomb {
             coefficient,
             transition_speed_m_per_s,
@@ -83,20 +77,13 @@ impl Traction {
         let mut speeds = vec![0.0];
         let mut values = vec![0.0];
         for &(speed, value) in points {
-            if speed <= speeds[speeds.len() - 1] || !speed.is_finite() {
-                return Err(BearingError::Parameter {
-                    what: "a slip of the traction table in m/s",
-                    found: speed,
-                    allowed: "above the one before it, the first above 0",
-                });
-            }
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(BearingError::Parameter {
-                    what: "a coefficient of the traction table",
-                    found: value,
-                    allowed: "zero or positive, and finite",
-                });
-            }
+            BearingError::require(
+                "a slip of the traction table in m/s",
+                speed,
+                speed > speeds[speeds.len() - 1] && speed.is_finite(),
+                "above the one before it, the first above 0",
+            )?;
+            BearingError::not_negative("a coefficient of the traction table", value)?;
             speeds.push(speed);
             values.push(value);
         }
@@ -154,17 +141,11 @@ impl FluidTraction {
     /// # Errors
     /// [`BearingError::Parameter`] where a number is not positive (α may be 0).
     pub fn validated(self) -> Result<Self, BearingError> {
-        positive("the viscosity in Pa s", self.viscosity_pa_s)?;
-        positive("the Eyring stress in Pa", self.eyring_stress_pa)?;
-        positive("the film thickness in m", self.film_thickness_m)?;
+        BearingError::positive("the viscosity in Pa s", self.viscosity_pa_s)?;
+        BearingError::positive("the Eyring stress in Pa", self.eyring_stress_pa)?;
+        BearingError::positive("the film thickness in m", self.film_thickness_m)?;
         let alpha = self.pressure_viscosity_per_pa;
-        if !(alpha >= 0.0 && alpha.is_finite()) {
-            return Err(BearingError::Parameter {
-                what: "the pressure-viscosity coefficient in 1/Pa",
-                found: alpha,
-                allowed: "zero or positive, and finite",
-            });
-        }
+        BearingError::not_negative("the pressure-viscosity coefficient in 1/Pa", alpha)?;
         Ok(self)
     }
 
@@ -196,15 +177,4 @@ impl FluidTraction {
             by_half_square: area * shear * share_by * (shear / self.eyring_stress_pa).powi(2),
         }
     }
-}
-
-fn positive(what: &'static str, found: f64) -> Result<(), BearingError> {
-    if found > 0.0 && found.is_finite() {
-        return Ok(());
-    }
-    Err(BearingError::Parameter {
-        what,
-        found,
-        allowed: "positive and finite",
-    })
 }

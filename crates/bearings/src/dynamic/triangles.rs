@@ -69,13 +69,8 @@ impl GrooveTriangles {
                 along,
             ),
         ] {
-            if !(found > 0.0 && parts >= 5.0 && 2.0 * across * along <= MOST_TRIANGLES) {
-                return Err(BearingError::Parameter {
-                    what,
-                    found,
-                    allowed,
-                });
-            }
+            let fits = found > 0.0 && parts >= 5.0 && 2.0 * across * along <= MOST_TRIANGLES;
+            BearingError::require(what, found, fits, allowed)?;
         }
         let (across, along) = (across.ceil() as usize, along.ceil() as usize);
         // Towards the bottom of the groove, outwards or inwards.

@@ -21,13 +21,12 @@ pub(crate) fn missing(
         if let Fault::Missing { row, element } = *fault
             && row == number
         {
-            if element >= elements {
-                return Err(BearingError::Parameter {
-                    what: "the number of a missing ball or roller, from 1,",
-                    found: (element + 1) as f64,
-                    allowed: "at most the number of balls or rollers of the row",
-                });
-            }
+            BearingError::require(
+                "the number of a missing ball or roller, from 1,",
+                (element + 1) as f64,
+                element < elements,
+                "at most the number of balls or rollers of the row",
+            )?;
             found.push(element);
         }
     }

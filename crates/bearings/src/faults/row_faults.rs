@@ -95,14 +95,9 @@ impl RowFaults {
             ..Self::default()
         };
         let exists = |ball: usize| {
-            if ball < row.balls {
-                return Ok(());
-            }
-            Err(BearingError::Parameter {
-                what: "the number of a ball that has a fault, from 1,",
-                found: (ball + 1) as f64,
-                allowed: "at most the number of balls of the row",
-            })
+            let what = "the number of a ball that has a fault, from 1,";
+            let allowed = "at most the number of balls of the row";
+            BearingError::require(what, (ball + 1) as f64, ball < row.balls, allowed)
         };
         for fault in faults {
             match *fault {
