@@ -107,11 +107,9 @@ impl CoupledMeshes {
         meshes: Vec<MeshToCouple<'_>>,
         gears: Vec<GearOnRollers<'_>>,
     ) -> Result<(Self, Vec<CoupledPart>, Vec<CoupledPart>), DrivetrainError> {
-        let (mut elements, mut models) = (Vec::new(), Vec::new());
-        for mesh in meshes {
-            elements.push(mesh.element);
-            models.push(mesh.models);
-        }
+        let meshes = meshes.into_iter();
+        let (mut elements, models): (Vec<_>, Vec<_>) =
+            meshes.map(|mesh| (mesh.element, mesh.models)).unzip();
         let mut sides = Vec::new();
         let mut capacity = 0;
         for (number, element) in elements.iter_mut().enumerate() {

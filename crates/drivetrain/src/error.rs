@@ -315,21 +315,74 @@ pub enum DrivetrainError {
     },
 }
 
+impl DrivetrainError {
+    /// Refuses a number that is not as allowed.
+    pub(crate) fn require(
+        owner: &'static str,
+        (what, found): (&'static str, f64),
+        is_allowed: bool,
+        allowed: &'static str,
+    ) -> Result<f64, Self> {
+        if is_allowed {
+            return Ok(found);
+        }
+        Err(Self::Value {
+            owner,
+            what,
+            found,
+            allowed,
+        })
+    }
+
+    /// Refuses edges \[m\] of a flank's parts, along the face and up the flank, of which one is not positive or leaves fewer
+    /// parts than `least`, or with which there are not few enough of them.
+    pub(crate) fn check_edges(
+        owner: &'static str,
+        [along, up]: [f64; 2],
+        (counts, least, few): ([f64; 2], f64, bool),
+        allowed: &'static str,
+    ) -> Result<(), Self> {
+        let along = ("longest edge along the face in m", along);
+        let up = ("longest edge up the flank in m", up);
+        Self::require(owner, along, along.1 > 0.0 && counts[0] >= least, allowed)?;
+        Self::require(owner, up, up.1 > 0.0 && counts[1] >= least, allowed)?;
+        Self::require(owner, along, few, allowed)?;
+        Ok(())
+    }
+
+    /// Refuses a list of another length.
+    pub(crate) fn check_length(
+        owner: &'static str,
+        what: &'static str,
+        found: usize,
+        expected: usize,
+    ) -> Result<(), Self> {
+        if found == expected {
+            return Ok(());
+        }
+        Err(Self::Length {
+            owner,
+            what,
+            found,
+            expected,
+        })
+    }
+
+    /// Refuses a model file with fewer modes than are asked for.
+    pub(crate) fn check_modes(owner: &'static str, found: usize, asked: usize) -> Result<(), Self> {
+        let what = "the list of modes in the model file";
+        Self::check_length(owner, what, found.min(asked), asked)
+    }
+}
+
 /// A number that must be positive and finite.
 pub(crate) fn positive(
     owner: &'static str,
     what: &'static str,
     found: f64,
 ) -> Result<f64, DrivetrainError> {
-    if found > 0.0 && found.is_finite() {
-        return Ok(found);
-    }
-    Err(DrivetrainError::Value {
-        owner,
-        what,
-        found,
-        allowed: "positive and finite",
-    })
+    let is_allowed = found > 0.0 && found.is_finite();
+    DrivetrainError::require(owner, (what, found), is_allowed, "positive and finite")
 }
 
 /// A number that must be zero or positive, and finite.
@@ -338,13 +391,9 @@ pub(crate) fn not_negative(
     what: &'static str,
     found: f64,
 ) -> Result<f64, DrivetrainError> {
-    if found >= 0.0 && found.is_finite() {
-        return Ok(found);
-    }
-    Err(DrivetrainError::Value {
-        owner,
-        what,
-        found,
-        allowed: "zero or positive, and finite",
-    })
+    let (is_allowed, allowed) = (
+        found >= 0.0 && found.is_finite(),
+        "zero or positive, and finite",
+    );
+    DrivetrainError::require(owner, (what, found), is_allowed, allowed)
 }

@@ -207,6 +207,32 @@ impl FlankContacts {
         self.open_gap_m = None;
     }
 
+    /// Adds the line of two teeth whose contacts, each with a section of its own, are those from `first` on.
+    pub(crate) fn add_line(&mut self, teeth: [usize; 2], first: usize, ideal_gap_m: f64) {
+        self.lines.push(TeethLine {
+            teeth,
+            section: first,
+            ideal_gap_m,
+            contacts: (first, self.contacts.len() - first),
+        });
+    }
+
+    /// Brings the nearest pair of teeth to the front, and returns its number before: the transmission error is its gap.
+    /// Contacts stay where they are.
+    pub(crate) fn nearest_first(&mut self) -> Option<usize> {
+        let gap_m = |line: usize| self.lines[line].ideal_gap_m;
+        let nearest = (0..self.lines.len()).min_by(|a, b| gap_m(*a).total_cmp(&gap_m(*b)));
+        let first = nearest?;
+        self.lines.swap(0, first);
+        for number in [0, first] {
+            let (begin, count) = self.lines[number].contacts;
+            for contact in &mut self.contacts[begin..begin + count] {
+                contact.line = number;
+            }
+        }
+        Some(first)
+    }
+
     /// How fast vibration slides gear 2's flank over gear 1's along one of the tangents at a contact \[m/s\]; zero without friction.
     #[must_use]
     pub fn sliding_by_vibration_m_per_s(

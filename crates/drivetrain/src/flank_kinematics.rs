@@ -39,6 +39,15 @@ pub struct ContactPatch {
     pub axes: [PatchAxes; 2],
 }
 
+/// A unit tangent along which flanks slide on each other at a contact.
+#[derive(Debug, Clone, Copy)]
+pub struct Tangent {
+    /// k: load on gear 2 of a unit friction force on it; sliding of gear 2 over gear 1 is k·(u̇, ω).
+    pub direction: Vector6,
+    /// ∂k by the increments of the pose; none where no derivatives are asked for.
+    pub change: Option<Matrix6>,
+}
+
 /// Kinematics of the flanks of two gears at any pose.
 pub trait FlankKinematics: Send {
     /// Slices along the teeth.
@@ -130,27 +139,20 @@ pub trait FlankKinematics: Send {
         })
     }
 
-    /// The contacts are those that [`Self::contacts`] found last on this side, as in all that follows. k: load on gear
-    /// 2 of a unit friction force on it at a contact, along the profile; sliding of gear 2 over gear 1 is k·(u̇, ω).
-    fn sliding(&self, found: &FlankContacts, contact: usize, side: Flank) -> Vector6;
-
-    /// ∂k by the increments of the pose.
-    fn sliding_gradient(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6;
-
-    /// k along the tangent at right angles to that of [`Self::sliding`], and ∂k, of families whose flanks slide along the
-    /// teeth as well: friction then acts against the sliding in the tangent plane.
-    fn second_sliding(
+    /// The contacts are those that [`Self::contacts`] found last on this side, as in all that follows. The tangent along
+    /// the profile, and that at right angles to it of families whose flanks slide along the teeth as well: friction then
+    /// acts against the sliding in the tangent plane. With derivatives where they are asked for.
+    fn sliding(
         &self,
-        _found: &FlankContacts,
-        _contact: usize,
-        _side: Flank,
-    ) -> Option<(Vector6, Matrix6)> {
-        None
-    }
+        found: &FlankContacts,
+        contact: usize,
+        side: Flank,
+        derivatives: bool,
+    ) -> [Option<Tangent>; 2];
 
-    /// The unit tangents of [`Self::sliding`] and [`Self::second_sliding`] as the flanks of gear 1 and gear 2 see them, `[gear][tangent]`: along the profile
-    /// towards the tip, and along the tooth as the loads of a reduced gear count it. None of families that slide along the profile only, whose tangent
-    /// is that of [`Self::hand`].
+    /// The tangents of [`Self::sliding`] as the flanks of gear 1 and gear 2 see them, `[gear][tangent]`: along the profile
+    /// towards the tip, and along the tooth as the loads of a reduced gear count it. None of families that slide along the
+    /// profile only, whose tangent is that of [`Self::hand`].
     fn tangents_on_flanks(&self, _contact: usize, _side: Flank) -> Option<[[[f64; 2]; 2]; 2]> {
         None
     }

@@ -54,14 +54,7 @@ impl FlankModes {
     ) -> Result<Self, DrivetrainError> {
         gear.flank_index(side)?;
         let basis = gear.modal_basis()?;
-        if modes > basis.count() {
-            return Err(DrivetrainError::Length {
-                owner: "modal gear body",
-                what: "the list of modes in the model file",
-                found: basis.count(),
-                expected: modes,
-            });
-        }
+        DrivetrainError::check_modes("modal gear body", basis.count(), modes)?;
         let FlankSlices { hats, spread, walk } = slices;
         let grid = &gear.grid;
         let (stations, slices) = (grid.roll_angles_rad.len(), spread.slices());

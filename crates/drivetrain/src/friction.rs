@@ -19,6 +19,7 @@
 use nalgebra::Vector3;
 
 use crate::error::{DrivetrainError, not_negative, positive};
+use crate::flank_kinematics::Tangent;
 use crate::mesh_frame::MeshFrame;
 use crate::pose::Vector6;
 use crate::slice_plane::{Matrix6, SlicePlane, stacked};
@@ -56,26 +57,18 @@ impl Friction {
             "the dynamic transition speed in m/s",
             dynamic_speed_m_per_s,
         )?;
-        let out_of_order = |what, found, allowed| DrivetrainError::Value {
+        DrivetrainError::require(
             owner,
-            what,
-            found,
-            allowed,
-        };
-        if static_coefficient < dynamic_coefficient {
-            return Err(out_of_order(
-                "the static coefficient",
-                static_coefficient,
-                "at least the dynamic coefficient",
-            ));
-        }
-        if dynamic_speed_m_per_s <= static_speed_m_per_s {
-            return Err(out_of_order(
-                "the dynamic transition speed in m/s",
-                dynamic_speed_m_per_s,
-                "above the static transition speed",
-            ));
-        }
+            ("the static coefficient", static_coefficient),
+            static_coefficient >= dynamic_coefficient,
+            "at least the dynamic coefficient",
+        )?;
+        DrivetrainError::require(
+            owner,
+            ("the dynamic transition speed in m/s", dynamic_speed_m_per_s),
+            dynamic_speed_m_per_s > static_speed_m_per_s,
+            "above the static transition speed",
+        )?;
         Ok(Self {
             static_coefficient,
             dynamic_coefficient,
@@ -97,17 +90,6 @@ impl Friction {
         };
         (value.copysign(sliding_m_per_s), slope)
     }
-}
-
-/// A tangent along which flanks slide on each other.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Tangent {
-    /// k: load on gear 2 of a unit force along it.
-    pub direction: Vector6,
-    /// ∂k by the increments of the pose; none where no derivatives are asked for.
-    pub change: Option<Matrix6>,
-    /// What vibration of the gears adds to the sliding \[m/s\].
-    pub vibration_m_per_s: f64,
 }
 
 /// Friction on gear 2 for a normal force of one newton, along one or two tangents.
@@ -132,12 +114,19 @@ pub(crate) struct Drag {
 }
 
 impl Friction {
-    /// Against the sliding along one tangent, or in the plane of two at right angles.
-    pub(crate) fn along(&self, tangents: &[Tangent], rates: &Vector6) -> Drag {
+    /// Against the sliding along one tangent, or in the plane of two at right angles, with what vibration of the gears adds
+    /// to the sliding along each \[m/s\].
+    pub(crate) fn along(
+        &self,
+        tangents: &[Option<Tangent>; 2],
+        vibration_m_per_s: impl Fn(usize) -> f64,
+        rates: &Vector6,
+    ) -> Drag {
+        let count = tangents.iter().flatten().count();
         let mut speeds = [0.0; 2];
         let mut found = Drag {
             coefficient: 0.0,
-            tangents: tangents.len(),
+            tangents: count,
             shares: [0.0; 2],
             share_by_speed: [[0.0; 2]; 2],
             directions: [Vector6::zeros(); 2],
@@ -147,14 +136,14 @@ impl Friction {
             by_velocity: Matrix6::zeros(),
             dissipated_w: 0.0,
         };
-        for (i, tangent) in tangents.iter().enumerate() {
-            speeds[i] = tangent.direction.dot(rates) + tangent.vibration_m_per_s;
+        for (i, tangent) in tangents.iter().flatten().enumerate() {
+            speeds[i] = tangent.direction.dot(rates) + vibration_m_per_s(i);
             found.directions[i] = tangent.direction;
             if let Some(change) = &tangent.change {
                 found.speeds_by_pose[i] = change.tr_mul(rates);
             }
         }
-        if tangents.len() == 1 {
+        if count == 1 {
             let (mu, slope) = self.coefficient(speeds[0]);
             found.coefficient = mu;
             found.shares[0] = -mu;
@@ -162,7 +151,7 @@ impl Friction {
         } else {
             self.in_plane(speeds, &mut found);
         }
-        for (i, tangent) in tangents.iter().enumerate() {
+        for (i, tangent) in tangents.iter().flatten().enumerate() {
             let (k, share) = (&tangent.direction, found.shares[i]);
             found.load += share * k;
             found.dissipated_w -= share * speeds[i];
@@ -170,7 +159,7 @@ impl Friction {
                 continue;
             };
             found.by_position += share * change;
-            for j in 0..tangents.len() {
+            for j in 0..count {
                 let by_speed = found.share_by_speed[i][j] * k;
                 found.by_position += by_speed * found.speeds_by_pose[j].transpose();
                 found.by_velocity += by_speed * found.directions[j].transpose();

@@ -44,14 +44,7 @@ pub fn modal_gear_body(
     let owner = "modal gear body";
     not_negative(owner, "the damping ratio", damping_ratio)?;
     let basis = gear.modal_basis()?;
-    if modes > basis.count() {
-        return Err(DrivetrainError::Length {
-            owner,
-            what: "the list of modes in the model file",
-            found: basis.count(),
-            expected: modes,
-        });
-    }
+    DrivetrainError::check_modes(owner, basis.count(), modes)?;
     let omega = basis.omega_squared[..modes].iter().map(|w| w.sqrt());
     Ok(Body {
         modes: Some(Modes {

@@ -56,14 +56,7 @@ impl GearOnFaces {
         }
         let own = model.modes.as_ref();
         let found = own.map_or(0, ModalBasis::count);
-        if natural > found {
-            return Err(DrivetrainError::Length {
-                owner: "gear on the faces of its shaft",
-                what: "the list of modes in the model file",
-                found,
-                expected: natural,
-            });
-        }
+        DrivetrainError::check_modes("gear on the faces of its shaft", found, natural)?;
         let stiffness = Matrix6::from_row_slice(&faces.stiffness);
         let size = MOTIONS + natural;
         let mut k = DMatrix::zeros(size, size);

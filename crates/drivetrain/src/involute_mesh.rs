@@ -5,11 +5,11 @@ use gearmesh_geometry::Flank;
 
 use crate::error::DrivetrainError;
 use crate::flank_contacts::FlankContacts;
-use crate::flank_kinematics::FlankKinematics;
+use crate::flank_kinematics::{FlankKinematics, Tangent};
 use crate::friction::SlidingAt;
 use crate::mesh_frame::PoseGeometry;
 use crate::mesh_kinematics::MeshKinematics;
-use crate::pose::{Pose, Vector6};
+use crate::pose::Pose;
 use crate::slice_plane::{Matrix6, SidePlanes};
 
 /// Involute kinematics, the last pose and the slice planes of both sides there.
@@ -31,22 +31,6 @@ impl InvoluteMesh {
     /// Slice planes of a side.
     fn planes(&self, side: Flank) -> &SidePlanes {
         &self.sides[side as usize]
-    }
-
-    /// Where a contact stands; none where nothing was looked for.
-    fn sliding_at<'a>(
-        &'a self,
-        found: &FlankContacts,
-        contact: usize,
-        side: Flank,
-    ) -> Option<SlidingAt<'a>> {
-        let contact = &found.contacts[contact];
-        Some(SlidingAt {
-            frame: self.at.frame.as_ref()?,
-            plane: &self.planes(side).planes[contact.slice],
-            sigma: self.hand(side),
-            roll_rad: found.section(contact).touching_roll_rad[0],
-        })
     }
 }
 
@@ -135,14 +119,28 @@ impl FlankKinematics for InvoluteMesh {
         sum
     }
 
-    fn sliding(&self, found: &FlankContacts, contact: usize, side: Flank) -> Vector6 {
-        let at = self.sliding_at(found, contact, side);
-        at.map_or_else(Vector6::zeros, |at| at.direction())
-    }
-
-    fn sliding_gradient(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        let at = self.sliding_at(found, contact, side);
-        at.map_or_else(Matrix6::zeros, |at| at.direction_gradient())
+    fn sliding(
+        &self,
+        found: &FlankContacts,
+        contact: usize,
+        side: Flank,
+        derivatives: bool,
+    ) -> [Option<Tangent>; 2] {
+        let Some(frame) = &self.at.frame else {
+            return [None; 2];
+        };
+        let contact = &found.contacts[contact];
+        let at = SlidingAt {
+            frame,
+            plane: &self.planes(side).planes[contact.slice],
+            sigma: self.hand(side),
+            roll_rad: found.section(contact).touching_roll_rad[0],
+        };
+        let profile = Tangent {
+            direction: at.direction(),
+            change: derivatives.then(|| at.direction_gradient()),
+        };
+        [Some(profile), None]
     }
 
     /// Transverse.

@@ -73,7 +73,7 @@ pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
 pub use flank_contacts::FlankContacts;
 pub use flank_error::{FlankError, FlankPoint, Removed};
-pub use flank_kinematics::{ContactPatch, FlankKinematics, PatchAxes};
+pub use flank_kinematics::{ContactPatch, FlankKinematics, PatchAxes, Tangent};
 pub use flank_modes::{FlankModes, ModalMotion};
 pub use friction::Friction;
 pub use gear_body::{gear_body, modal_gear_body, modes_up_to};

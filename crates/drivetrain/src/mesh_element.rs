@@ -189,14 +189,12 @@ impl MeshElement {
             }
             modal.coordinates[gear] = view.modal(body);
             modal.rates[gear] = view.modal_rates(body);
-            if modal.coordinates[gear].len() != counts[gear] {
-                return Err(DrivetrainError::Length {
-                    owner: "gear mesh",
-                    what: "the list of modes of a gear's body",
-                    found: modal.coordinates[gear].len(),
-                    expected: counts[gear],
-                });
-            }
+            DrivetrainError::check_length(
+                "gear mesh",
+                "the list of modes of a gear's body",
+                modal.coordinates[gear].len(),
+                counts[gear],
+            )?;
         }
         self.mesh.expect(view.iterate);
         self.mesh.update(&Pose::from(motion), &modal, tangents)

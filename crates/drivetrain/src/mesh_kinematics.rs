@@ -320,23 +320,8 @@ impl MeshKinematics {
             let (mut gap_m, mut gradient) = (ideal.gap_m, ideal.gradient);
             // What the whole mesh shares is the gap of ideal flanks.
             if self.common_place_m.is_none() {
-                for (gear, sense) in [(0, 0.5), (1, -0.5)] {
-                    let (depth, [by_roll, by_height]) = self.removed(
-                        gear,
-                        FlankPoint {
-                            tooth: placed.teeth[gear],
-                            side: self.circles.side_of(gear, placed.side),
-                            roll_rad: roll_rad[gear],
-                            z_m: plane.heights_m[gear],
-                        },
-                    );
-                    gap_m += depth;
-                    gradient += by_roll * roll_gradient[gear];
-                    if by_height != 0.0 {
-                        let shift = sense * placed.frame.displacement_gradient;
-                        gradient += by_height * (plane.section_gradient + shift);
-                    }
-                }
+                let rolls = (roll_rad, roll_gradient);
+                self.add_removed(placed, plane, rolls, (&mut gap_m, &mut gradient));
             }
             if !gap_m.is_finite() {
                 continue;
@@ -375,6 +360,31 @@ impl MeshKinematics {
             ideal_gap_m: ideal.gap_m / self.helix.map_or(1.0, |helix| helix.cos),
             contacts,
         });
+    }
+
+    /// Adds what is removed of both flanks in a plane to their gap and its gradient.
+    fn add_removed(
+        &self,
+        placed: &PlacedTeeth<'_>,
+        plane: &SlicePlane,
+        (roll_rad, roll_gradient): (&[f64; 2], &[Vector6; 2]),
+        (gap_m, gradient): (&mut f64, &mut Vector6),
+    ) {
+        for (gear, sense) in [(0, 0.5), (1, -0.5)] {
+            let point = FlankPoint {
+                tooth: placed.teeth[gear],
+                side: self.circles.side_of(gear, placed.side),
+                roll_rad: roll_rad[gear],
+                z_m: plane.heights_m[gear],
+            };
+            let (depth, [by_roll, by_height]) = self.removed(gear, point);
+            *gap_m += depth;
+            *gradient += by_roll * roll_gradient[gear];
+            if by_height != 0.0 {
+                let shift = sense * placed.frame.displacement_gradient;
+                *gradient += by_height * (plane.section_gradient + shift);
+            }
+        }
     }
 
     /// Ideal flanks in a plane.

@@ -61,14 +61,7 @@ impl PairCurve {
             ("the transmission error at first touch", samples.unloaded_m),
             ("the tangent stiffness", samples.tangent_n_per_m),
         ] {
-            if values.len() != count {
-                return Err(DrivetrainError::Length {
-                    owner,
-                    what,
-                    found: values.len(),
-                    expected: count,
-                });
-            }
+            DrivetrainError::check_length(owner, what, values.len(), count)?;
         }
         let force_n = positive(owner, "the force of its torque in N", samples.force_n)?;
         let curve = |values: &[f64]| {

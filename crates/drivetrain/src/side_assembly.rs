@@ -4,7 +4,7 @@ use gearmesh_geometry::Flank;
 
 use crate::flank_contacts::FlankContacts;
 use crate::flank_kinematics::FlankKinematics;
-use crate::friction::{Drag, Friction, Tangent};
+use crate::friction::{Drag, Friction};
 use crate::gear_mesh::MeshEffort;
 use crate::mesh_load::MeshLoad;
 use crate::modal_loads::{ContactChange, ModalLoads};
@@ -114,27 +114,12 @@ impl Assembly<'_> {
 
     /// Friction of a contact.
     fn drag(&self, friction: Friction, contact: usize, tangents: bool) -> Drag {
-        let (found, flank) = (self.found, self.flank);
+        let found = self.found;
+        let along = (self.kinematics).sliding(found, contact, self.flank, tangents);
         let vibration = |tangent: usize| {
             found.sliding_by_vibration_m_per_s((contact, tangent), &self.modal_rates)
         };
-        let gradient = || self.kinematics.sliding_gradient(found, contact, flank);
-        let first = Tangent {
-            direction: self.kinematics.sliding(found, contact, flank),
-            change: tangents.then(gradient),
-            vibration_m_per_s: vibration(0),
-        };
-        match self.kinematics.second_sliding(found, contact, flank) {
-            None => friction.along(&[first], &self.rates),
-            Some((direction, change)) => {
-                let second = Tangent {
-                    direction,
-                    change: tangents.then_some(change),
-                    vibration_m_per_s: vibration(1),
-                };
-                friction.along(&[first, second], &self.rates)
-            }
-        }
+        friction.along(&along, vibration, &self.rates)
     }
 
     /// The same as the flanks see it.

@@ -54,33 +54,24 @@ impl RootCrack {
         positive(owner, "the depth in m", self.depth_m)?;
         let end = tooth.fillet.point_m(tooth.fillet_end);
         let fillet = tooth.root_radius_m..=end[0].hypot(end[1]);
-        let out_of_range = |what, found, allowed| DrivetrainError::Value {
+        DrivetrainError::require(
             owner,
-            what,
-            found,
-            allowed,
-        };
-        if !fillet.contains(&self.start_radius_m) {
-            return Err(out_of_range(
-                "the radius where it starts in m",
-                self.start_radius_m,
-                "on the root fillet",
-            ));
-        }
-        if !(0.0..=std::f64::consts::FRAC_PI_2).contains(&self.angle_rad) {
-            return Err(out_of_range(
-                "the angle to the centre line in rad",
-                self.angle_rad,
-                "between 0 and pi/2",
-            ));
-        }
-        if self.tip_half_m(-end[1]) <= 0.0 {
-            return Err(out_of_range(
-                "the depth in m",
-                self.depth_m,
-                "less than to the centre line of the tooth",
-            ));
-        }
+            ("the radius where it starts in m", self.start_radius_m),
+            fillet.contains(&self.start_radius_m),
+            "on the root fillet",
+        )?;
+        DrivetrainError::require(
+            owner,
+            ("the angle to the centre line in rad", self.angle_rad),
+            (0.0..=std::f64::consts::FRAC_PI_2).contains(&self.angle_rad),
+            "between 0 and pi/2",
+        )?;
+        DrivetrainError::require(
+            owner,
+            ("the depth in m", self.depth_m),
+            self.tip_half_m(-end[1]) > 0.0,
+            "less than to the centre line of the tooth",
+        )?;
         Ok(())
     }
 }

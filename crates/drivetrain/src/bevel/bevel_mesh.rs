@@ -21,8 +21,8 @@ use super::tooth_pairing::MOST_PAIRS;
 use super::tooth_side::{FAR, Guesses, Side, about_z, nominal_rotation, placed, side_of};
 use super::touch::Touch;
 use crate::error::DrivetrainError;
-use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
-use crate::flank_kinematics::{ContactPatch, FlankKinematics};
+use crate::flank_contacts::{FlankContacts, Section, ToothContact};
+use crate::flank_kinematics::{ContactPatch, FlankKinematics, Tangent};
 use crate::pose::{Pose, Vector6};
 use crate::slice_plane::{Matrix6, on_turn};
 
@@ -292,20 +292,9 @@ impl BevelMesh {
         }
         self.count_points(points.get());
         // The nearest pair first: the transmission error is its gap.
-        let gap_m = |line: usize| found.lines[line].ideal_gap_m;
-        if let Some(first) = (0..list.len()).min_by(|a, b| gap_m(*a).total_cmp(&gap_m(*b))) {
-            found.lines.swap(0, first);
-            found.contacts.swap(0, first);
-            found.sections.swap(0, first);
+        if let Some(first) = nearest_first(found) {
             list.swap(0, first);
             touches.swap(0, first);
-            for number in [0, first] {
-                found.lines[number].section = number;
-                found.lines[number].contacts = (number, 1);
-                found.sections[number].contacts = (number, 1);
-                found.contacts[number].line = number;
-                found.contacts[number].section = number;
-            }
         }
         if list.is_empty() {
             self.push_apart(pose, flank, found);
@@ -335,12 +324,6 @@ impl BevelMesh {
 
     fn push(&self, pose: &Pose, near: &NearFlanks, found: &mut FlankContacts) {
         let number = found.contacts.len();
-        found.lines.push(TeethLine {
-            teeth: near.teeth,
-            section: number,
-            ideal_gap_m: near.ideal_gap_m,
-            contacts: (number, 1),
-        });
         found.sections.push(Section {
             roll_rad: near.up,
             touching_roll_rad: near.up,
@@ -364,7 +347,22 @@ impl BevelMesh {
             gap_rate_m_per_s: near.gradient.dot(&pose.rates()),
             gradient: near.gradient,
         });
+        found.add_line(near.teeth, number, near.ideal_gap_m);
     }
+}
+
+/// Brings the nearest pair of teeth to the front, with its one contact and its section; returns its number before.
+fn nearest_first(found: &mut FlankContacts) -> Option<usize> {
+    let first = found.nearest_first()?;
+    found.contacts.swap(0, first);
+    found.sections.swap(0, first);
+    for number in [0, first] {
+        found.lines[number].section = number;
+        found.lines[number].contacts = (number, 1);
+        found.sections[number].contacts = (number, 1);
+        found.contacts[number].section = number;
+    }
+    Some(first)
 }
 
 /// Angle of a gear's axis from gear 1's \[rad\].
@@ -417,21 +415,14 @@ impl FlankKinematics for BevelMesh {
         of_facets.unwrap_or_else(|| self.found[side as usize].gap_curvature(contact))
     }
 
-    fn sliding(&self, _: &FlankContacts, contact: usize, side: Flank) -> Vector6 {
-        self.found[side as usize].sliding(contact, 0).0
-    }
-
-    fn sliding_gradient(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        self.found[side as usize].sliding(contact, 0).1
-    }
-
-    fn second_sliding(
+    fn sliding(
         &self,
         _: &FlankContacts,
         contact: usize,
         side: Flank,
-    ) -> Option<(Vector6, Matrix6)> {
-        Some(self.found[side as usize].sliding(contact, 1))
+        derivatives: bool,
+    ) -> [Option<Tangent>; 2] {
+        self.found[side as usize].sliding(contact, derivatives)
     }
 
     fn tangents_on_flanks(&self, contact: usize, side: Flank) -> Option<[[[f64; 2]; 2]; 2]> {

@@ -118,20 +118,10 @@ impl Facets {
             FacetKind::Triangles => 2.0,
             FacetKind::Quadrilaterals => 1.0,
         };
-        let fits = |k: usize| edges[k] > 0.0 && counts[k] >= LEAST_FACETS;
         let few = facets_per_cell * counts[0] * counts[1] <= MOST_FACETS;
-        let wrong = [0, 1].into_iter().find(|k| !fits(*k));
-        if let Some(k) = wrong.or((!few).then_some(0)) {
-            return Err(DrivetrainError::Value {
-                owner: "facets of a bevel flank",
-                what: [
-                    "longest edge along the face in m",
-                    "longest edge up the flank in m",
-                ][k],
-                found: edges[k],
-                allowed: "positive, at most an eighth of the flank, and long enough for two hundred thousand facets on a flank",
-            });
-        }
+        let allowed = "positive, at most an eighth of the flank, and long enough for two hundred thousand facets on a flank";
+        let parts = (counts, LEAST_FACETS, few);
+        DrivetrainError::check_edges("facets of a bevel flank", edges, parts, allowed)?;
         let cells = counts.map(|count| count.ceil() as usize);
         let steps = cells.map(|count| 1.0 / count as f64);
         let [along, up] = cells;

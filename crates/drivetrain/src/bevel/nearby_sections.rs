@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::contact_limits::LongEdge;
 use super::pose_derivatives::PoseDerivatives;
 use super::section_points::{EDGES, edge_of, middle, nearest_on_section};
-use super::sliced_mesh::{BevelSlices, nearest_first};
+use super::sliced_mesh::BevelSlices;
 use super::tooth_side::placed;
 use crate::flank_contacts::{FlankContacts, TeethLine};
 use crate::pose::{Pose, Vector6};
@@ -48,6 +48,13 @@ struct Sought {
 }
 
 impl Searched {
+    /// Brings the nearest pair of teeth to the front.
+    pub(super) fn nearest_first(&mut self, found: &mut FlankContacts) {
+        if let Some(first) = found.nearest_first() {
+            self.turns_rad.swap(0, first);
+        }
+    }
+
     /// Memory for so many lines of so many slices.
     pub(super) fn with_capacity(lines: usize, slices: usize) -> Self {
         Self {
@@ -158,7 +165,7 @@ impl BevelSlices {
         }
         self.pair().count_points(points.get());
         if is_whole {
-            nearest_first(found, &mut searched.turns_rad);
+            searched.nearest_first(found);
         }
         is_whole
     }

@@ -13,6 +13,7 @@
 use nalgebra::{Matrix3x6, Matrix4x6, Matrix6, Vector3};
 
 use super::nearest_points::{Kind, Nearest, equations, kind};
+use crate::flank_kinematics::Tangent;
 use crate::pose::Vector6;
 use crate::slice_plane::stacked;
 
@@ -192,13 +193,15 @@ impl MovingContacts {
         self.0.get(contact).map(PoseDerivatives::tangents_on_flanks)
     }
 
-    /// k along one of the two tangents, and ∂k, as [`crate::FlankKinematics::sliding`].
-    pub(crate) fn sliding(&self, contact: usize, tangent: usize) -> (Vector6, Matrix6<f64>) {
+    /// As [`crate::FlankKinematics::sliding`].
+    pub(crate) fn sliding(&self, contact: usize, derivatives: bool) -> [Option<Tangent>; 2] {
         let motion = self.0.get(contact);
-        motion.map_or_else(
-            || (Vector6::zeros(), Matrix6::zeros()),
-            |motion| motion.sliding()[tangent],
-        )
+        motion.map_or([None; 2], |motion| {
+            motion.sliding().map(|(direction, change)| {
+                let change = derivatives.then_some(change);
+                Some(Tangent { direction, change })
+            })
+        })
     }
 }
 

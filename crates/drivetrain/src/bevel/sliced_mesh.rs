@@ -24,8 +24,8 @@ use super::sliced_side::SlicedSide;
 use super::tooth_pairing::{Candidate, MOST_PAIRS};
 use super::tooth_side::{about_z, placed};
 use crate::error::DrivetrainError;
-use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
-use crate::flank_kinematics::FlankKinematics;
+use crate::flank_contacts::{FlankContacts, Section, ToothContact};
+use crate::flank_kinematics::{FlankKinematics, Tangent};
 use crate::pose::{Pose, Vector6};
 use crate::slice_plane::Matrix6;
 
@@ -83,14 +83,12 @@ impl BevelSlices {
     /// [`DrivetrainError::Value`] for a number of slices out of range, [`DrivetrainError::BevelLine`] where the line of
     /// contact is not smooth over the flank.
     pub fn of_pair(pair: BevelMesh, slices: usize) -> Result<Self, DrivetrainError> {
-        if !SLICES.contains(&slices) {
-            return Err(DrivetrainError::Value {
-                owner: "bevel mesh",
-                what: "the number of slices",
-                found: slices as f64,
-                allowed: "3 to 100",
-            });
-        }
+        DrivetrainError::require(
+            "bevel mesh",
+            ("the number of slices", slices as f64),
+            SLICES.contains(&slices),
+            "3 to 100",
+        )?;
         let side = |flank: Flank| {
             let of_pair = &pair.sides[flank as usize];
             let side = SlicedSide::new(of_pair, pair.teeth, pair.shaft_angle_rad, slices);
@@ -210,7 +208,7 @@ impl BevelSlices {
         if found.lines.is_empty() {
             self.pair.push_apart(pose, flank, found);
         } else {
-            nearest_first(found, &mut searched.turns_rad);
+            searched.nearest_first(found);
         }
         list.is_empty()
     }
@@ -259,14 +257,8 @@ impl BevelSlices {
             }
         }
         self.pair.count_points(points.get());
-        let count = found.contacts.len() - first;
-        if count > 0 {
-            found.lines.push(TeethLine {
-                teeth: candidate.teeth,
-                section: first,
-                ideal_gap_m: least_m,
-                contacts: (first, count),
-            });
+        if found.contacts.len() > first {
+            found.add_line(candidate.teeth, first, least_m);
         }
     }
 
@@ -315,23 +307,6 @@ impl BevelSlices {
             gradient,
         });
         true
-    }
-}
-
-/// Brings the nearest pair of teeth to the front: the transmission error is its gap.
-pub(super) fn nearest_first(found: &mut FlankContacts, turns_rad: &mut [[f64; 2]]) {
-    let gap_m = |line: usize| found.lines[line].ideal_gap_m;
-    let nearest = (0..found.lines.len()).min_by(|a, b| gap_m(*a).total_cmp(&gap_m(*b)));
-    let Some(first) = nearest else {
-        return;
-    };
-    found.lines.swap(0, first);
-    turns_rad.swap(0, first);
-    for number in [0, first] {
-        let (begin, count) = found.lines[number].contacts;
-        for contact in &mut found.contacts[begin..begin + count] {
-            contact.line = number;
-        }
     }
 }
 
@@ -416,21 +391,14 @@ impl FlankKinematics for BevelSlices {
         self.found[side as usize].gap_curvature(contact)
     }
 
-    fn sliding(&self, _: &FlankContacts, contact: usize, side: Flank) -> Vector6 {
-        self.found[side as usize].sliding(contact, 0).0
-    }
-
-    fn sliding_gradient(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        self.found[side as usize].sliding(contact, 0).1
-    }
-
-    fn second_sliding(
+    fn sliding(
         &self,
         _: &FlankContacts,
         contact: usize,
         side: Flank,
-    ) -> Option<(Vector6, Matrix6)> {
-        Some(self.found[side as usize].sliding(contact, 1))
+        derivatives: bool,
+    ) -> [Option<Tangent>; 2] {
+        self.found[side as usize].sliding(contact, derivatives)
     }
 
     fn tangents_on_flanks(&self, contact: usize, side: Flank) -> Option<[[[f64; 2]; 2]; 2]> {

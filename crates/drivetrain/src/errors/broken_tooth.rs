@@ -29,14 +29,12 @@ impl BrokenTooth {
     ) -> Result<Self, DrivetrainError> {
         let owner = "broken tooth";
         check_tooth(owner, tooth, gear.teeth)?;
-        if !(above_radius_m > 0.0 && gear.is_towards_tip(gear.tip_radius_m, above_radius_m)) {
-            return Err(DrivetrainError::Value {
-                owner,
-                what: "the radius where it ends in m",
-                found: above_radius_m,
-                allowed: "positive and below the tip radius, of a ring above it",
-            });
-        }
+        DrivetrainError::require(
+            owner,
+            ("the radius where it ends in m", above_radius_m),
+            above_radius_m > 0.0 && gear.is_towards_tip(gear.tip_radius_m, above_radius_m),
+            "positive and below the tip radius, of a ring above it",
+        )?;
         Ok(Self {
             tooth,
             from_roll_rad: involute::roll_angle_rad(above_radius_m, gear.base_radius_m),

@@ -13,22 +13,13 @@ struct Line {
 impl Line {
     fn new(what: &'static str, rows: &[[f64; 2]]) -> Result<Self, DrivetrainError> {
         let owner = "deviation table";
-        let flat = rows.as_flattened();
-        if let Some(&found) = flat.iter().find(|value| !value.is_finite()) {
-            return Err(DrivetrainError::Value {
-                owner,
-                what,
-                found,
-                allowed: "finite",
-            });
+        for found in rows.as_flattened() {
+            DrivetrainError::require(owner, (what, *found), found.is_finite(), "finite")?;
         }
-        if let Some(pair) = rows.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
-            return Err(DrivetrainError::Value {
-                owner,
-                what,
-                found: pair[1][0],
-                allowed: "increasing from row to row",
-            });
+        for pair in rows.windows(2) {
+            let [before, found] = [pair[0][0], pair[1][0]];
+            let allowed = "increasing from row to row";
+            DrivetrainError::require(owner, (what, found), found > before, allowed)?;
         }
         Ok(Self {
             at: rows.iter().map(|row| row[0]).collect(),

@@ -38,14 +38,7 @@ impl Eccentricity {
             ("the mid-face position in m", z_m),
             ("the phase in rad", phase_rad),
         ] {
-            if !found.is_finite() {
-                return Err(DrivetrainError::Value {
-                    owner: "eccentricity",
-                    what,
-                    found,
-                    allowed: "finite",
-                });
-            }
+            DrivetrainError::require("eccentricity", (what, found), found.is_finite(), "finite")?;
         }
         let (sin, cos) = self.direction_rad.sin_cos();
         let (tilt_sin, tilt_cos) = self.tilt_direction_rad.sin_cos();

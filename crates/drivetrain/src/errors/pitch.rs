@@ -19,21 +19,10 @@ impl PitchErrors {
     /// [`DrivetrainError::Length`] unless there is one for each tooth, [`DrivetrainError::Value`] if one is not finite.
     pub fn new(side: Flank, removed_m: Vec<f64>, teeth: usize) -> Result<Self, DrivetrainError> {
         let owner = "pitch errors";
-        if removed_m.len() != teeth {
-            return Err(DrivetrainError::Length {
-                owner,
-                what: "the list",
-                found: removed_m.len(),
-                expected: teeth,
-            });
-        }
-        if let Some(&found) = removed_m.iter().find(|value| !value.is_finite()) {
-            return Err(DrivetrainError::Value {
-                owner,
-                what: "a deviation in m",
-                found,
-                allowed: "finite",
-            });
+        DrivetrainError::check_length(owner, "the list", removed_m.len(), teeth)?;
+        for found in &removed_m {
+            let number = ("a deviation in m", *found);
+            DrivetrainError::require(owner, number, found.is_finite(), "finite")?;
         }
         Ok(Self { side, removed_m })
     }

@@ -46,14 +46,7 @@ impl Spall {
             ("the upper radius in m", patch.radii_m),
             ("the upper axial position in m", patch.z_m),
         ] {
-            if high.is_nan() || low.is_nan() || high <= low {
-                return Err(DrivetrainError::Value {
-                    owner,
-                    what,
-                    found: high,
-                    allowed: "above the lower one",
-                });
-            }
+            DrivetrainError::require(owner, (what, high), high > low, "above the lower one")?;
         }
         Ok(Self {
             patch,

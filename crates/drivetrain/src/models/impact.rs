@@ -34,14 +34,12 @@ impl PowerStiffness {
     pub fn n_per_m_e(n_per_m_e: f64, exponent: f64) -> Result<Self, DrivetrainError> {
         let owner = "impact mesh";
         positive(owner, "the stiffness in N/m^e", n_per_m_e)?;
-        if !(exponent >= 1.0 && exponent.is_finite()) {
-            return Err(DrivetrainError::Value {
-                owner,
-                what: "the exponent e",
-                found: exponent,
-                allowed: "at least 1 and finite",
-            });
-        }
+        DrivetrainError::require(
+            owner,
+            ("the exponent e", exponent),
+            exponent >= 1.0 && exponent.is_finite(),
+            "at least 1 and finite",
+        )?;
         Ok(Self {
             n_per_m_e,
             exponent,

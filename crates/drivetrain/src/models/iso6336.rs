@@ -178,14 +178,12 @@ impl MeshSpring {
     ) -> Result<Self, DrivetrainError> {
         let what = "the relative amplitude of the stiffness";
         not_negative("iso6336 mesh", what, relative_amplitude)?;
-        if relative_amplitude >= 1.0 {
-            return Err(DrivetrainError::Value {
-                owner: "iso6336 mesh",
-                what,
-                found: relative_amplitude,
-                allowed: "below 1",
-            });
-        }
+        DrivetrainError::require(
+            "iso6336 mesh",
+            (what, relative_amplitude),
+            relative_amplitude < 1.0,
+            "below 1",
+        )?;
         let mean = self.stiffness_n_per_m.mean();
         let sine = [(relative_amplitude * mean, 0.0)];
         self.stiffness_n_per_m = RollHarmonics::new(mean, &sine, teeth_1, roll_of_maximum_rad);

@@ -83,20 +83,10 @@ impl DigitalFlank {
             up_m[0].max(up_m[1]) / size.up_m,
         ];
         let edges = [size.along_m, size.up_m];
-        let fits = |k: usize| edges[k] > 0.0 && counts[k] >= LEAST_PATCHES;
         let few = counts[0] * counts[1] <= MOST_PATCHES;
-        let wrong = [0, 1].into_iter().find(|k| !fits(*k));
-        if let Some(k) = wrong.or((!few).then_some(0)) {
-            return Err(DrivetrainError::Value {
-                owner: "patches of a flank",
-                what: [
-                    "longest edge along the face in m",
-                    "longest edge up the flank in m",
-                ][k],
-                found: edges[k],
-                allowed: "positive, at most a quarter of the flank, and long enough for a hundred thousand patches on a flank",
-            });
-        }
+        let allowed = "positive, at most a quarter of the flank, and long enough for a hundred thousand patches on a flank";
+        let parts = (counts, LEAST_PATCHES, few);
+        DrivetrainError::check_edges("patches of a flank", edges, parts, allowed)?;
         let [along, up] = counts.map(|count| count.ceil() as usize);
         let patches = [along.div_ceil(slices) * slices, up];
         let [columns, rows] = patches.map(|count| count + 1);

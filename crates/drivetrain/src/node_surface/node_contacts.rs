@@ -23,8 +23,8 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use super::digital_flank::{Block, DigitalFlank};
 use super::patch_foot::Foot;
 use crate::error::DrivetrainError;
-use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
-use crate::flank_kinematics::FlankKinematics;
+use crate::flank_contacts::{FlankContacts, Section, ToothContact};
+use crate::flank_kinematics::{FlankKinematics, Tangent};
 use crate::pose::{Pose, Vector6};
 use crate::slice_plane::{Matrix6, stacked};
 
@@ -165,7 +165,7 @@ impl NodeSurfaces {
         for pairing in &pairings {
             self.find_pair(pose, side, pairing, search, found);
         }
-        Self::nearest_first(found);
+        found.nearest_first();
         pairings.is_empty()
     }
 
@@ -199,9 +199,8 @@ impl NodeSurfaces {
             }
             from = centre.patch;
         }
-        // Within a radius R of a node the gap is not less than g − R s − ½ κ R², s how far its normals are from
-        // opposite and κ the sum of the
-        // curvatures: blocks that stand farther open than touching nodes and the nearest ones are passed over.
+        // Within a radius R of a node the gap is not less than g − R s − ½ κ R², s how far its normals are from opposite
+        // and κ the sum of the curvatures: blocks farther open than touching nodes and the nearest are passed over.
         let curvature = own.curvature_per_m + mate.curvature_per_m;
         let mut reach_m = f64::INFINITY;
         let least_m = |block: &Block, foot: &Foot| {
@@ -217,9 +216,8 @@ impl NodeSurfaces {
                     reach_m = reach_m.min(foot.gap_m);
                 }
             }
-            search
-                .blocks
-                .push(foot.map(|foot| (least_m(block, &foot), foot.patch)));
+            let least = foot.map(|foot| (least_m(block, &foot), foot.patch));
+            search.blocks.push(least);
         }
         let reach_m = reach_m.max(found.bent_m);
         for (block, number) in own.blocks.iter().zip(0..) {
@@ -250,12 +248,7 @@ impl NodeSurfaces {
         if found.contacts.len() == first {
             self.push(pose, side, pairing, (line, number, foot), search, found);
         }
-        found.lines.push(TeethLine {
-            teeth: pairing.teeth,
-            section: first,
-            ideal_gap_m: foot.gap_m,
-            contacts: (first, found.contacts.len() - first),
-        });
+        found.add_line(pairing.teeth, first, foot.gap_m);
     }
 
     fn push(
@@ -337,22 +330,6 @@ impl NodeSurfaces {
         });
     }
 
-    /// Brings the nearest pair of teeth to the front: the transmission error is its gap. Contacts stay where they are.
-    fn nearest_first(found: &mut FlankContacts) {
-        let gap_m = |line: usize| found.lines[line].ideal_gap_m;
-        let nearest = (0..found.lines.len()).min_by(|a, b| gap_m(*a).total_cmp(&gap_m(*b)));
-        let Some(first) = nearest else {
-            return;
-        };
-        found.lines.swap(0, first);
-        for number in [0, first] {
-            let (begin, count) = found.lines[number].contacts;
-            for contact in &mut found.contacts[begin..begin + count] {
-                contact.line = number;
-            }
-        }
-    }
-
     fn touch(&self, contact: usize, side: Flank) -> Option<&Touch> {
         self.found[side as usize].touches.get(contact)
     }
@@ -412,28 +389,22 @@ impl FlankKinematics for NodeSurfaces {
         touch.map_or_else(Matrix6::zeros, |touch| load(&touch.normal, &touch.arm).1)
     }
 
-    fn sliding(&self, _: &FlankContacts, contact: usize, side: Flank) -> Vector6 {
-        let touch = self.touch(contact, side);
-        touch.map_or_else(Vector6::zeros, |touch| {
-            load(&touch.tangents[0], &touch.arm).0
-        })
-    }
-
-    fn sliding_gradient(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        let touch = self.touch(contact, side);
-        touch.map_or_else(Matrix6::zeros, |touch| {
-            load(&touch.tangents[0], &touch.arm).1
-        })
-    }
-
-    fn second_sliding(
+    fn sliding(
         &self,
         _: &FlankContacts,
         contact: usize,
         side: Flank,
-    ) -> Option<(Vector6, Matrix6)> {
-        let touch = self.touch(contact, side).filter(|_| self.slides_along)?;
-        Some(load(&touch.tangents[1], &touch.arm))
+        derivatives: bool,
+    ) -> [Option<Tangent>; 2] {
+        let Some(touch) = self.touch(contact, side) else {
+            return [None; 2];
+        };
+        let [profile, tooth] = touch.tangents.map(|tangent| {
+            let (direction, change) = load(&tangent, &touch.arm);
+            let change = derivatives.then_some(change);
+            Tangent { direction, change }
+        });
+        [Some(profile), self.slides_along.then_some(tooth)]
     }
 
     fn tangents_on_flanks(&self, contact: usize, side: Flank) -> Option<[[[f64; 2]; 2]; 2]> {

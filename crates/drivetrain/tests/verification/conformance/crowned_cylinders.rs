@@ -4,7 +4,7 @@ use gearmesh_contact::{RelativeCurvature, SliceLayout, SurfaceCurvature};
 use gearmesh_drivetrain::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
 use gearmesh_drivetrain::pose::{Pose, Vector6};
 use gearmesh_drivetrain::slice_plane::Matrix6;
-use gearmesh_drivetrain::{DrivetrainError, FlankKinematics};
+use gearmesh_drivetrain::{DrivetrainError, FlankKinematics, Tangent};
 use gearmesh_geometry::Flank;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
@@ -201,12 +201,19 @@ impl FlankKinematics for CrownedCylinders {
         Matrix6::from_columns(&self.change(|nearest| nearest.gradient))
     }
 
-    fn sliding(&self, _: &FlankContacts, _contact: usize, _side: Flank) -> Vector6 {
-        self.last().1.sliding
-    }
-
-    fn sliding_gradient(&self, _: &FlankContacts, _contact: usize, _side: Flank) -> Matrix6 {
-        Matrix6::from_columns(&self.change(|nearest| nearest.sliding))
+    fn sliding(
+        &self,
+        _: &FlankContacts,
+        _contact: usize,
+        _side: Flank,
+        derivatives: bool,
+    ) -> [Option<Tangent>; 2] {
+        let change = || Matrix6::from_columns(&self.change(|nearest| nearest.sliding));
+        let tangent = Tangent {
+            direction: self.last().1.sliding,
+            change: derivatives.then(change),
+        };
+        [Some(tangent), None]
     }
 
     fn nearest_gap_m(&self, _side: Flank) -> Option<f64> {

@@ -272,9 +272,9 @@ fn friction_towards_the_tips_of_bevel_gears_follows_their_flanks() {
             .filter(|(i, _)| forces[*i] > 0.0)
         {
             let kinematics = mesh.kinematics();
-            let first: Vector3<f64> = kinematics.sliding(found, i, side).fixed_rows::<3>(0).into();
-            let second = kinematics.second_sliding(found, i, side).unwrap().0;
-            let second: Vector3<f64> = second.fixed_rows::<3>(0).into();
+            let tangents = kinematics.sliding(found, i, side, false);
+            let [first, second]: [Vector3<f64>; 2] =
+                tangents.map(|tangent| tangent.unwrap().direction.fixed_rows::<3>(0).into());
             let rubs = mesh.friction(side)[i];
             let on_2 = rubs.shares[0] * first + rubs.shares[1] * second;
             assert!((on_2.norm() - 0.1).abs() < 1e-12 && rubs.coefficient == 0.1);
