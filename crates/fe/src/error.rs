@@ -243,3 +243,21 @@ pub enum FeError {
         bytes: usize,
     },
 }
+
+impl FeError {
+    /// Refuses an object of another size.
+    pub(crate) fn check_size(
+        what: &'static str,
+        found: usize,
+        expected: usize,
+    ) -> Result<(), Self> {
+        if found == expected {
+            return Ok(());
+        }
+        Err(Self::SizeMismatch {
+            what,
+            found,
+            expected,
+        })
+    }
+}

@@ -52,13 +52,7 @@ impl SymbolicFactor {
     /// [`FeError::SizeMismatch`] when the order has another length; [`FeError::OutOfMemory`].
     pub fn new(k: &StiffnessMatrix, ordering: DofOrdering) -> Result<Self, FeError> {
         let start = Instant::now();
-        if ordering.forward().len() != k.ncols() {
-            return Err(FeError::SizeMismatch {
-                what: "the elimination order",
-                found: ordering.forward().len(),
-                expected: k.ncols(),
-            });
-        }
+        FeError::check_size("the elimination order", ordering.forward().len(), k.ncols())?;
         let permutation = faer::perm::PermRef::new_checked(
             ordering.forward(),
             ordering.inverse(),

@@ -50,13 +50,11 @@ impl NodeGraph {
     /// # Errors
     /// [`FeError::SizeMismatch`] when the constraints were made for another number of nodes.
     pub fn new(model: &FeModel, dofs: &DofMap) -> Result<Self, FeError> {
-        if dofs.node_count() != model.node_count() {
-            return Err(FeError::SizeMismatch {
-                what: "the constraint map (nodes)",
-                found: dofs.node_count(),
-                expected: model.node_count(),
-            });
-        }
+        FeError::check_size(
+            "the constraint map (nodes)",
+            dofs.node_count(),
+            model.node_count(),
+        )?;
         let is_active: Vec<bool> = (0..model.node_count())
             .map(|n| dofs.free_count_of_node(n) > 0)
             .collect();

@@ -93,13 +93,11 @@ fn product_by_elements(
     x: MatRef<'_, f64>,
     matrix_of: impl Fn(usize) -> Result<ElementMatrix, FeError> + Sync,
 ) -> Result<Mat<f64>, FeError> {
-    if x.nrows() != model.dof_count() {
-        return Err(FeError::SizeMismatch {
-            what: "the vectors for the matrix of a model",
-            found: x.nrows(),
-            expected: model.dof_count(),
-        });
-    }
+    FeError::check_size(
+        "the vectors for the matrix of a model",
+        x.nrows(),
+        model.dof_count(),
+    )?;
     let mut product = Mat::zeros(x.nrows(), x.ncols());
     // Elements in parallel, sums always in their order.
     for chunk in (0..model.element_count()).collect::<Vec<_>>().chunks(8192) {

@@ -336,13 +336,11 @@ impl FeModel {
         natural: [f64; 3],
         displacement: &[f64],
     ) -> Result<[f64; 6], FeError> {
-        if displacement.len() != self.dof_count() {
-            return Err(FeError::SizeMismatch {
-                what: "the displacement vector",
-                found: displacement.len(),
-                expected: self.dof_count(),
-            });
-        }
+        FeError::check_size(
+            "the displacement vector",
+            displacement.len(),
+            self.dof_count(),
+        )?;
         let operator = self.strain_operator(element, natural)?;
         let dofs = self.element_dofs(element)?;
         Ok(operator.map(|row| {

@@ -233,13 +233,7 @@ pub fn natural_modes(
         ("the mass matrix", m.ncols()),
         ("the factor", factor.size()),
     ] {
-        if found != n {
-            return Err(FeError::SizeMismatch {
-                what,
-                found,
-                expected: n,
-            });
-        }
+        FeError::check_size(what, found, n)?;
     }
     let [stiffness, mass] = [k, m].map(SymmetricRows::new);
     let problem = AssembledProblem {

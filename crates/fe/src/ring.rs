@@ -104,19 +104,10 @@ impl Ring {
         in_core: impl Fn(usize) -> bool,
     ) -> Result<Self, FeError> {
         let parts = nodes.len();
-        let mismatch = |what, found, expected| FeError::SizeMismatch {
-            what,
-            found,
-            expected,
-        };
-        if parts < 3 {
-            return Err(mismatch("the parts of a ring", parts, 3));
-        }
+        FeError::check_size("the parts of a ring", parts.min(3), 3)?;
         let of_part = stiffness.nrows() / AXES;
         for list in nodes {
-            if list.len() != of_part {
-                return Err(mismatch("the nodes of a part", list.len(), of_part));
-            }
+            FeError::check_size("the nodes of a part", list.len(), of_part)?;
         }
         let next: HashMap<usize, usize> = nodes[1].iter().copied().zip(0..).collect();
         let mut places = vec![None; of_part];
@@ -146,13 +137,7 @@ impl Ring {
             }
         }
         let places: Vec<Place> = places.into_iter().flatten().collect();
-        if places.len() != of_part {
-            return Err(mismatch(
-                "the placed nodes of a part",
-                places.len(),
-                of_part,
-            ));
-        }
+        FeError::check_size("the placed nodes of a part", places.len(), of_part)?;
         let [own_ring, own_core] = [&ring_nodes, &core_nodes].map(|own| AXES * own[0].len());
         let transform = RingTransform { parts };
         let harmonics = (0..transform.harmonics())
