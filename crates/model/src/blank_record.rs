@@ -138,11 +138,8 @@ impl Record for Contour {
 
 impl Record for Lugs {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        f.count(
-            "count",
-            &mut self.count,
-            "parts of the outside that are held",
-        )?;
+        let what = "parts of the outside that are held";
+        f.count("count", &mut self.count, what)?;
         f.number("width", &mut self.width_rad, "rad", "angle covered by each")?;
         let what = "polar angle of the middle of the first one";
         f.number("phase", &mut self.phase_rad, "rad", what)
@@ -152,24 +149,12 @@ impl Record for Lugs {
 impl Record for Slots {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         f.count("count", &mut self.count, "number of slots")?;
-        f.number(
-            "inner_radius",
-            &mut self.inner_radius_m,
-            "m",
-            "inner radius",
-        )?;
-        f.number(
-            "outer_radius",
-            &mut self.outer_radius_m,
-            "m",
-            "outer radius",
-        )?;
-        f.number(
-            "width",
-            &mut self.width_rad,
-            "rad",
-            "angle covered by a slot",
-        )?;
+        let what = "inner radius";
+        f.number("inner_radius", &mut self.inner_radius_m, "m", what)?;
+        let what = "outer radius";
+        f.number("outer_radius", &mut self.outer_radius_m, "m", what)?;
+        let what = "angle covered by a slot";
+        f.number("width", &mut self.width_rad, "rad", what)?;
         let what = "polar angle of the first slot's centre from tooth 0";
         f.number("phase", &mut self.phase_rad, "rad", what)?;
         let what = "radius of the four corners";

@@ -187,11 +187,8 @@ impl Record for MeshSettings {
             "smallest scaled Jacobian allowed",
         );
         f.number("min_scaled_jacobian", quality, "1", what)?;
-        f.flag(
-            "plane_strain",
-            &mut self.plane_strain,
-            "cross-section only, plane strain",
-        )
+        let what = "cross-section only, plane strain";
+        f.flag("plane_strain", &mut self.plane_strain, what)
     }
 }
 
@@ -253,12 +250,8 @@ impl Record for GaugeDefinition {
         f.count("tooth", &mut self.tooth, "its tooth")?;
         f.choice("side", &mut self.side, "side of the tooth")?;
         self.position.fields(f)?;
-        f.number(
-            "length",
-            &mut self.length_m,
-            "m",
-            "length along the profile",
-        )?;
+        let what = "length along the profile";
+        f.number("length", &mut self.length_m, "m", what)?;
         let what = "axial centre from mid-face";
         f.number("z", &mut self.z_m, "m", what)?;
         f.number("width", &mut self.width_m, "m", "width along the axis")

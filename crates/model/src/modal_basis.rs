@@ -10,7 +10,7 @@
 //! and the deflection at the flanks is NᵀR r + NᵀΦ η + (C − NᵀΦ Ω⁻² ΦᵀN) f: what the modes left out deflect
 //! statically is the residual flexibility. Nothing is counted twice.
 
-use crate::reduced_gear::{GaugeRows, ReducedGear};
+use crate::reduced_gear::ReducedGear;
 use crate::reduced_gear_error::ReducedGearError;
 use gearmesh_geometry::Flank;
 
@@ -23,7 +23,8 @@ pub struct ModalBasis {
     pub nodal_diameters: Vec<usize>,
     /// The basis holds every mode up to this frequency (Hz).
     pub complete_to_hz: f64,
-    /// NᵀΦ (kg^-½), `[mode][tooth][flank][load][component]`; components as in [`GaugeRows::adjoint`].
+    /// NᵀΦ (kg^-½), `[mode][tooth][flank][load][component]`; components as in
+    /// [`crate::reduced_gear::GaugeRows::adjoint`].
     pub flank: Vec<f64>,
     /// gᵀΦ (strain per m kg^½), `[mode][gauge]`.
     pub gauges: Vec<f64>,
@@ -75,102 +76,12 @@ impl ReducedGear {
         let place = (mode * self.teeth + tooth) * hands + self.carrying(flank);
         Ok(&self.modal_basis()?.flank[place * size..(place + 1) * size])
     }
-
-    /// The residual flexibility C − NᵀΦ Ω⁻² ΦᵀN between two flanks (m/N), normal loads, `[load L][response L]` as
-    /// [`ReducedGear::c_hub_block`]: what the body deflects statically beyond its modes. Over all loads together it is
-    /// positive semidefinite, and each further mode lessens it.
-    ///
-    /// # Errors
-    /// [`ReducedGearError::NoModes`].
-    ///
-    /// # Panics
-    /// As [`ReducedGear::c_hub_block`].
-    pub fn residual_flexibility_block(
-        &self,
-        load_tooth: usize,
-        load_flank: Flank,
-        response_tooth: usize,
-        response_flank: Flank,
-    ) -> Result<Vec<f64>, ReducedGearError> {
-        let basis = self.modal_basis()?;
-        let hub = self.c_hub_block(load_tooth, load_flank, response_tooth, response_flank);
-        let mut rest = hub.into_owned();
-        for (mode, omega_squared) in basis.omega_squared.iter().enumerate() {
-            let load = self.mode_at_flank(mode, load_tooth, load_flank)?;
-            let response = self.mode_at_flank(mode, response_tooth, response_flank)?;
-            let normal = |of: &[f64]| -> Vec<f64> { of.iter().step_by(3).copied().collect() };
-            let (load, response) = (normal(load), normal(response));
-            for (row, l) in rest.chunks_mut(response.len()).zip(&load) {
-                for (value, m) in row.iter_mut().zip(&response) {
-                    *value -= l * m / omega_squared;
-                }
-            }
-        }
-        Ok(rest)
-    }
-
-    /// The residual rows of a gauge, (K⁻¹g)ᵀN − gᵀΦ Ω⁻² ΦᵀN (1/N), `[tooth][flank][load][component]` as
-    /// [`GaugeRows::adjoint`].
-    ///
-    /// # Errors
-    /// [`ReducedGearError::NoModes`].
-    ///
-    /// # Panics
-    /// If there is no such gauge.
-    pub fn residual_gauge_rows(&self, gauge: usize) -> Result<Vec<f64>, ReducedGearError> {
-        let basis = self.modal_basis()?;
-        let GaugeRows { adjoint, .. } = &self.gauges[gauge];
-        let mut rest = adjoint.clone();
-        for (mode, shape) in basis.flank.chunks_exact(adjoint.len()).enumerate() {
-            let reading = basis.gauges[mode * self.gauges.len() + gauge];
-            let share = reading / basis.omega_squared[mode];
-            rest.iter_mut()
-                .zip(shape)
-                .for_each(|(value, at_load)| *value -= share * at_load);
-        }
-        Ok(rest)
-    }
 }
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use super::*;
     use crate::synthetic::small_reduced_gear;
-
-    #[test]
-    fn each_mode_lessens_the_residual_by_its_own_share() {
-        let gear = small_reduced_gear();
-        let basis = gear.modal_basis().unwrap();
-        assert_eq!(basis.count(), 2);
-        let rest = gear
-            .residual_flexibility_block(1, Flank::Left, 4, Flank::Right)
-            .unwrap();
-        let hub = gear.c_hub_block(1, Flank::Left, 4, Flank::Right);
-        let at = |mode, tooth, flank, load: usize| {
-            gear.mode_at_flank(mode, tooth, flank).unwrap()[3 * load]
-        };
-        let (l, m) = (2, 7);
-        let expected = hub[l * 9 + m]
-            - (0..2)
-                .map(|k| {
-                    at(k, 1, Flank::Left, l) * at(k, 4, Flank::Right, m) / basis.omega_squared[k]
-                })
-                .sum::<f64>();
-        assert!((rest[l * 9 + m] - expected).abs() < 1e-15 * expected.abs());
-        assert_ne!(rest[l * 9 + m], hub[l * 9 + m]);
-        // Gauges likewise: the entry of tooth 3, left flank, load 5, tangential.
-        let rest = gear.residual_gauge_rows(1).unwrap();
-        let place = ((3 * 2 + 1) * 9 + 5) * 3 + 1;
-        let expected = gear.gauges[1].adjoint[place]
-            - (0..2)
-                .map(|k| {
-                    let shape = gear.mode_at_flank(k, 3, Flank::Left).unwrap()[3 * 5 + 1];
-                    basis.gauges[2 * k + 1] * shape / basis.omega_squared[k]
-                })
-                .sum::<f64>();
-        assert!((rest[place] - expected).abs() < 1e-15 * expected.abs());
-    }
 
     #[test]
     fn a_gear_without_modes_says_so() {

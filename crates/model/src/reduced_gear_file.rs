@@ -135,21 +135,13 @@ impl ReducedGear {
     fn grid_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         let grid = &mut self.grid;
         let (rolls, axes) = (&mut grid.roll_angles_rad, [("roll station", OPEN)]);
-        f.numbers(
-            "grid/roll_angles",
-            rolls,
-            &axes,
-            "rad",
-            "roll angles tan(alpha)",
-        )?;
+        let what = "roll angles tan(alpha)";
+        f.numbers("grid/roll_angles", rolls, &axes, "rad", what)?;
         let axes = [("axial station", OPEN)];
         f.in_frame(GEAR_FRAME)
             .numbers("grid/z", &mut grid.z_m, &axes, "m", "axial positions")?;
-        f.count(
-            "grid/slices",
-            &mut grid.slices,
-            "slices across the face width",
-        )?;
+        let what = "slices across the face width";
+        f.count("grid/slices", &mut grid.slices, what)?;
         let mut codes = self.flanks.iter().map(|flank| *flank as u32).collect();
         let what = "hands that carry loads: 0 right (faces clockwise), 1 left";
         f.counts("grid/flanks", &mut codes, &[("flank", OPEN)], what)?;
@@ -271,18 +263,11 @@ fn near_field_fields(
 
 fn gauge_fields(it: &mut GaugeRows, f: &mut Fields<'_>, sizes: Sizes) -> Result<(), FileError> {
     f.text("name", &mut it.name, "name of the gauge")?;
-    f.text(
-        "description",
-        &mut it.description,
-        "position and size in words",
-    )?;
+    let what = "position and size in words";
+    f.text("description", &mut it.description, what)?;
     f.count("tooth", &mut it.tooth, "tooth the gauge sits on")?;
-    flank(
-        f,
-        "side",
-        &mut it.side,
-        "side of the tooth: 0 right, 1 left",
-    )?;
+    let what = "side of the tooth: 0 right, 1 left";
+    flank(f, "side", &mut it.side, what)?;
     let what = "estimated relative discretisation error";
     f.number("error_estimate", &mut it.error_estimate_relative, "1", what)?;
     let (hands, load) = (("flank", sizes.hands), (LOAD, sizes.loads));
@@ -374,18 +359,10 @@ fn mode_fields(it: &mut ModalBasis, f: &mut Fields<'_>, sizes: Sizes) -> Result<
 
 fn crack_fields(it: &mut RootCrack, f: &mut Fields<'_>, sizes: Sizes) -> Result<(), FileError> {
     f.count("tooth", &mut it.tooth, "cracked tooth")?;
-    flank(
-        f,
-        "side",
-        &mut it.side,
-        "side on which it opens: 0 right, 1 left",
-    )?;
-    f.number(
-        "mouth_radius",
-        &mut it.mouth_radius_m,
-        "m",
-        "radius of its mouth",
-    )?;
+    let what = "side on which it opens: 0 right, 1 left";
+    flank(f, "side", &mut it.side, what)?;
+    let what = "radius of its mouth";
+    f.number("mouth_radius", &mut it.mouth_radius_m, "m", what)?;
     f.number("depth", &mut it.depth_m, "m", "depth")?;
     let what = "angle to the tooth's centre line, 0 towards the gear's centre";
     f.number("angle", &mut it.angle_rad, "rad", what)?;
@@ -399,26 +376,17 @@ fn crack_fields(it: &mut RootCrack, f: &mut Fields<'_>, sizes: Sizes) -> Result<
 
 impl Record for Provenance {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        f.text(
-            "program",
-            &mut self.program,
-            "program that reduced the gear",
-        )?;
+        let what = "program that reduced the gear";
+        f.text("program", &mut self.program, what)?;
         f.text("version", &mut self.version, "its version")?;
         f.text("created_utc", &mut self.created_utc, "when, UTC")?;
         f.text("element", &mut self.element, "finite elements")?;
         f.count("threads", &mut self.threads, "threads used")?;
-        f.count(
-            "nodes",
-            &mut self.nodes,
-            "nodes of the finite element model",
-        )?;
+        let what = "nodes of the finite element model";
+        f.count("nodes", &mut self.nodes, what)?;
         f.count("elements", &mut self.elements, "elements of the model")?;
-        f.count(
-            "dofs",
-            &mut self.dofs,
-            "free degrees of freedom of the model",
-        )?;
+        let what = "free degrees of freedom of the model";
+        f.count("dofs", &mut self.dofs, what)?;
         named_numbers(
             f,
             "stage",

@@ -52,26 +52,34 @@ length_mm = 1.0
 width_mm = 2.0
 "#;
 
+/// So many numbers, of each by its place.
+fn numbers(count: usize, of: impl Fn(usize) -> f64) -> Vec<f64> {
+    (0..count).map(of).collect()
+}
+
+/// A matrix of n rows and columns, or several, that decays away from its diagonal.
+fn decaying(count: usize, n: usize, largest: f64) -> Vec<f64> {
+    numbers(count, |k| largest * (-apart(k, n)).exp())
+}
+
+/// How far an entry of such matrices is off the diagonal.
+fn apart(k: usize, n: usize) -> f64 {
+    (k / n % n).abs_diff(k % n) as f64
+}
+
 /// The same teeth on a body that does not repeat, C_hub by two patterns a tooth.
 pub fn small_patterned_gear() -> ReducedGear {
     let gear = small_reduced_gear();
     let loads = gear.flanks.len() * gear.grid.len();
     let (count, all) = (2, 2 * gear.teeth);
-    let apart = |k: usize| (k / loads).abs_diff(k % loads) as f64;
     ReducedGear {
         sectors: 1,
         c_hub: Vec::new(),
         hub_patterns: Some(HubPatterns {
             count,
-            own_tooth: (0..loads * loads)
-                .map(|k| 1e-9 * (-apart(k)).exp())
-                .collect(),
-            shares: (0..loads * count).map(|k| 0.3 * (k as f64).cos()).collect(),
-            body: Arc::new(
-                (0..all * (all + 1) / 2)
-                    .map(|k| 1e-10 * (1.0 + k as f64))
-                    .collect(),
-            ),
+            own_tooth: decaying(loads * loads, loads, 1e-9),
+            shares: numbers(loads * count, |k| 0.3 * (k as f64).cos()),
+            body: Arc::new(numbers(all * (all + 1) / 2, |k| 1e-10 * (1.0 + k as f64))),
         }),
         ..gear
     }
@@ -89,20 +97,15 @@ pub fn small_reduced_gear() -> ReducedGear {
     };
     let loads = grid.len();
     let c_hub = decaying_compliance(teeth, own, loads);
-    let pair = |i: usize| (i / loads % loads, i % loads);
-    let c_tooth = (0..2 * loads * loads)
-        .map(|i| 2e-10 * (-(pair(i).0 as f64 - pair(i).1 as f64).abs()).exp())
-        .collect();
+    let c_tooth = decaying(2 * loads * loads, loads, 2e-10);
     let gauge = |name: &str, tooth: usize, side: Flank| GaugeRows {
         name: name.to_owned(),
         tooth,
         side,
         description: format!("made up, {side} side of tooth {tooth}"),
         error_estimate_relative: 0.01,
-        adjoint: (0..teeth * 2 * loads * 3)
-            .map(|i| 1e-9 * (i as f64).sin())
-            .collect(),
-        own_tooth: (0..2 * loads).map(|i| 1e-10 * (i as f64).cos()).collect(),
+        adjoint: numbers(teeth * 2 * loads * 3, |i| 1e-9 * (i as f64).sin()),
+        own_tooth: numbers(2 * loads, |i| 1e-10 * (i as f64).cos()),
     };
     ReducedGear {
         name: "synthetic".to_owned(),
@@ -131,19 +134,15 @@ pub fn small_reduced_gear() -> ReducedGear {
         }),
         reference_point: Some(ReferencePoint {
             place_m: [0.0; 3],
-            flank: (0..teeth * 2 * loads * 3 * 6)
-                .map(|i| (0.1 * i as f64).cos())
-                .collect(),
+            flank: numbers(teeth * 2 * loads * 3 * 6, |i| (0.1 * i as f64).cos()),
         }),
         modes: Some(ModalBasis {
             omega_squared: vec![4e7, 9e7],
             nodal_diameters: vec![1, 0],
             complete_to_hz: 2000.0,
-            flank: (0..2 * teeth * 2 * loads * 3)
-                .map(|i| 0.02 * (0.3 * i as f64).sin())
-                .collect(),
+            flank: numbers(2 * teeth * 2 * loads * 3, |i| 0.02 * (0.3 * i as f64).sin()),
             gauges: vec![0.1, -0.2, 0.3, 0.05],
-            coupling: (0..12).map(|i| 0.01 * f64::from(i)).collect(),
+            coupling: numbers(12, |i| 0.01 * i as f64),
         }),
         crack: None,
         hub_patterns: None,
@@ -196,12 +195,7 @@ fn near_field() -> NearField {
         half_width_m: 1e-4,
         roll_angles_rad: vec![0.2, 0.3, 0.4, 0.5],
         contact_m2_per_n: vec![1.4e-11, 1.2e-11, 1.3e-11, 2.0e-11],
-        mesh_m2_per_n: (0..18)
-            .map(|i| {
-                let (a, b) = (f64::from(i / 3 % 3), f64::from(i % 3));
-                9e-12 * (-(a - b).abs()).exp()
-            })
-            .collect(),
+        mesh_m2_per_n: decaying(18, 3, 9e-12),
         element_m: 1.25e-5,
         residual: 2e-3,
     }
@@ -225,9 +219,7 @@ fn provenance() -> Provenance {
 /// The same as [`small_reduced_gear`] with motions of its bore.
 pub fn small_bored_gear() -> ReducedGear {
     let gear = small_reduced_gear();
-    let numbers = |count: usize, scale: f64| -> Vec<f64> {
-        (0..count).map(|i| scale * (0.7 * i as f64).sin()).collect()
-    };
+    let waving = |count, scale: f64| numbers(count, |i| scale * (0.7 * i as f64).sin());
     let mut bore = BorePatterns {
         harmonics: 1,
         along: 2,
@@ -238,11 +230,9 @@ pub fn small_bored_gear() -> ReducedGear {
     };
     let motions = bore.count();
     let loads = gear.teeth_per_sector() * gear.flanks.len() * gear.grid.len();
-    bore.stiffness = (0..motions * motions)
-        .map(|i| 1e8 / (1.0 + (i / motions).abs_diff(i % motions) as f64))
-        .collect();
-    bore.flank = numbers(loads * motions, 0.5);
-    bore.gauges = numbers(gear.gauges.len() * motions, 0.1);
+    bore.stiffness = numbers(motions * motions, |i| 1e8 / (1.0 + apart(i, motions)));
+    bore.flank = waving(loads * motions, 0.5);
+    bore.gauges = waving(gear.gauges.len() * motions, 0.1);
     ReducedGear {
         bore: Some(bore),
         ..gear
@@ -252,27 +242,20 @@ pub fn small_bored_gear() -> ReducedGear {
 /// The same as [`small_reduced_gear`], cut into a shaft that goes on at both faces.
 pub fn small_two_faced_gear() -> ReducedGear {
     let gear = small_reduced_gear();
-    let numbers = |count: usize, scale: f64| -> Vec<f64> {
-        (0..count).map(|i| scale * (0.3 * i as f64).cos()).collect()
-    };
+    let waving = |count, scale: f64| numbers(count, |i| scale * (0.3 * i as f64).cos());
+    let loads = gear.teeth * gear.flanks.len() * gear.grid.len();
     let modes = gear.modes.as_ref().map_or(0, ModalBasis::count);
-    let spread = |scale: f64| -> Vec<f64> {
-        let entry = |i: usize| if i / 6 == i % 6 { scale } else { 0.0 };
-        (0..36).map(entry).collect()
-    };
+    let spread = |scale: f64| numbers(36, |i| if i / 6 == i % 6 { scale } else { 0.0 });
     ReducedGear {
         shaft_faces: Some(ShaftFaces {
             front_m: [0.0, 0.0, 0.5 * gear.face_width_m],
             stiffness: spread(1e8),
-            flank: numbers(
-                6 * 3 * gear.teeth * gear.flanks.len() * gear.grid.len(),
-                0.5,
-            ),
-            gauges: numbers(6 * gear.gauges.len(), 0.1),
+            flank: waving(6 * 3 * loads, 0.5),
+            gauges: waving(6 * gear.gauges.len(), 0.1),
             mass: Some(FaceMass {
                 mass: spread(0.05),
-                coupling: numbers(36, 0.01),
-                modes: numbers(6 * modes, 0.02),
+                coupling: waving(36, 0.01),
+                modes: waving(6 * modes, 0.02),
             }),
         }),
         ..gear
@@ -285,9 +268,7 @@ pub fn small_bevel_gear() -> ReducedGear {
     let teeth = 20;
     let grid = FlankGrid {
         roll_angles_rad: vec![0.0, 0.5, 1.0],
-        z_m: (0..5)
-            .map(|j| 0.015 * (0.25 * f64::from(j) - 0.5))
-            .collect(),
+        z_m: numbers(5, |j| 0.015 * (0.25 * j as f64 - 0.5)),
         slices: 2,
     };
     let loads = grid.len();
@@ -318,12 +299,7 @@ pub fn small_bevel_gear() -> ReducedGear {
         face_width_m: 0.015,
         opposite_distance_m: vec![0.004; 2 * stations],
         c_hub,
-        c_tooth: (0..2 * loads * loads)
-            .map(|i| {
-                let apart = (i / loads % loads).abs_diff(i % loads) as f64;
-                4e-10 * (-apart).exp()
-            })
-            .collect(),
+        c_tooth: decaying(2 * loads * loads, loads, 4e-10),
         near_field: None,
         gauges: Vec::new(),
         reference_point: None,
@@ -343,12 +319,7 @@ pub fn small_bevel_gear() -> ReducedGear {
                 profile: vec![0.0, 0.4, 0.8, 1.0],
                 profile_length_m: vec![5e-3, 6e-3, 5e-3, 6e-3],
                 contact_m2_per_n: [1.4e-11, 1.2e-11, 1.3e-11, 2.0e-11].repeat(4),
-                mesh_m2_per_n: (0..4 * stations * stations)
-                    .map(|i| {
-                        let apart = (i / stations % stations).abs_diff(i % stations) as f64;
-                        9e-12 * (-apart).exp()
-                    })
-                    .collect(),
+                mesh_m2_per_n: decaying(4 * stations * stations, stations, 9e-12),
                 opposite_distance_m: vec![0.004; 4 * stations],
                 element_m: 1.25e-5,
                 residual: 2e-3,
@@ -386,9 +357,7 @@ pub fn small_crack() -> RootCrack {
         mouth_radius_m: 0.066,
         depth_m: 1.5e-3,
         angle_rad: 1.0,
-        rows: (0..2 * 6 * 9)
-            .map(|i| 1e-5 * (0.7 * f64::from(i)).sin())
-            .collect(),
+        rows: numbers(2 * 6 * 9, |i| 1e-5 * (0.7 * i as f64).sin()),
         left_out: 3e-11,
     }
 }
@@ -420,10 +389,9 @@ pub fn block_mesh() -> MeshData {
         let ([a, b, c, d], [e, f, g, h]) = (ring(0), ring(1));
         [a, b, c, d, e, f, g, h]
     };
-    let displacement = (0..36).map(|i| 1e-6 * f64::from(i).sqrt()).collect();
     let field = Field {
         components: 3,
-        values: displacement,
+        values: numbers(36, |i| 1e-6 * (i as f64).sqrt()),
         unit: "m".to_owned(),
     };
     MeshData {
