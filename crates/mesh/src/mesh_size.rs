@@ -66,11 +66,8 @@ impl MeshSize {
         }
         let layers = Layers::new(gear);
         let all = layers.face.len() as f64;
-        let web = if gear.blank.web().is_some() {
-            layers.web.len() as f64
-        } else {
-            all
-        };
+        let web = gear.blank.web();
+        let in_web = web.map_or(all, |_| layers.web.len() as f64);
         let blocks = ToothBlocks::new(gear);
         let (teeth, sectors) = (gear.tooth.teeth as f64, gear.sectors() as f64);
         let side = blocks.side_pieces() as f64 + 1.0;
@@ -79,7 +76,6 @@ impl MeshSize {
         let element = gear.mesh.element;
         let ring_size = ring_radius_m(gear) * TAU / teeth / ring;
         let column = |corners: f64, layers: f64| corners * nodes_a_corner(element, layers);
-
         let tooth_nodes = column(cell.corners, all);
         let own_nodes = column(cell.corners - side, all);
         let tooth_elements = teeth * cell.quads * all * elements_a_brick(element);
@@ -95,7 +91,7 @@ impl MeshSize {
             cut_nodes: column(side, all),
         };
         let (circles, deep) = circles_down(gear);
-        let below = if circles[0].1 { web } else { all };
+        let below = if circles[0].1 { in_web } else { all };
         size.circle_nodes = teeth * column(ring, below);
         let length = element_length(gear, ring_size);
         let (mut body_nodes, mut below_teeth) = (0.0, 0.0);
@@ -105,29 +101,23 @@ impl MeshSize {
                 let radius = layers.stub_radius_m(layer);
                 radius.is_some_and(|radius| outer < radius * (1.0 + 1e-6))
             });
-            let layers = if web_only {
-                web
-            } else {
-                all + stubs.count() as f64
+            let layers = match web_only {
+                true => in_web,
+                false => all + stubs.count() as f64,
             };
             if element == Element::Tet10 {
-                let [nodes, tetrahedra, cut] =
-                    free_tetrahedra(gear, (outer, inner, web_only), &length);
+                let region = (outer, inner, web_only);
+                let [nodes, tetrahedra, cut] = free_tetrahedra(gear, region, &length);
                 body_nodes += nodes;
                 size.elements += tetrahedra;
                 size.cut_nodes += cut;
                 continue;
             }
             let radial = graded(outer, inner, &length, Pieces::EVEN).len() as f64 - 1.0;
-            let is_hub = gear
-                .blank
-                .web()
-                .is_some_and(|web| web.hub_radius_m == outer);
-            let quads = if is_hub {
+            let quads = match web {
                 // As many pieces on all circles.
-                radial * TAU * outer / length(outer)
-            } else {
-                free_quads(gear, outer, inner, &length)
+                Some(web) if web.hub_radius_m == outer => radial * TAU * outer / length(outer),
+                _ => free_quads(gear, outer, inner, &length),
             };
             size.elements += quads * layers;
             if deep.is_some_and(|deep| inner >= deep) {

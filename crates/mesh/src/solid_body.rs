@@ -107,7 +107,6 @@ impl Sector {
         problem: &SolidProblem,
         mesh: &SolidMesh,
     ) -> Result<Self, MeshError> {
-        let mismatch = |text: String| MeshError::from(SolidMeshError::Mismatch(text));
         let ring_m = ring_radius_m(gear);
         let step = TAU / (gear.tooth.teeth * foot.pieces()) as f64;
         let (start, bore_m) = (problem.start, gear.blank.bore_radius_m());
@@ -242,10 +241,8 @@ impl Sector {
                 }
             }
             if maps[sector].contains(&NONE) {
-                return Err(SolidMeshError::Mismatch(
-                    "a node on one side of the sector has none on the other".into(),
-                )
-                .into());
+                let problem = "a node on one side of the sector has none on the other";
+                return Err(mismatch(problem.into()));
             }
         }
         let ranges = maps
@@ -299,13 +296,15 @@ impl Sector {
             })
             .count();
         if missing > 0 {
-            return Err(SolidMeshError::Mismatch(format!(
-                "{missing} edges of the teeth's foot are none of the body's"
-            ))
-            .into());
+            let problem = format!("{missing} edges of the teeth's foot are none of the body's");
+            return Err(mismatch(problem));
         }
         Ok(())
     }
+}
+
+fn mismatch(text: String) -> MeshError {
+    SolidMeshError::Mismatch(text).into()
 }
 
 impl GearMesh {
