@@ -10,6 +10,7 @@
 //! The rigid motions X of the body are among them: S X = 0, and nᵀΨX is what n does on a rigid motion. Theory:
 //! docs/theory/bore_patterns.md.
 
+use crate::flank_compliance::checked;
 use crate::flank_loads::{GridLoad, SparseVector, dot};
 use crate::gear_body::GearBody;
 use crate::tooth_submodel::Deformation;
@@ -130,13 +131,7 @@ impl AskedMotions {
             rigid_residual(&found, nodes, (&stiffness, &flank), &normals),
         );
         for (check, found) in [(SYMMETRY, symmetry), (RIGID_MOTION, rigid)] {
-            if found > ALLOWED || found.is_nan() {
-                return Err(ReductionError::Check {
-                    check,
-                    found,
-                    allowed: ALLOWED,
-                });
-            }
+            checked(check, found, ALLOWED)?;
         }
         let flat = |matrix: MatRef<'_, f64>| -> Vec<f64> {
             let row = |i: usize| (0..m).map(move |q| matrix[(i, q)]);

@@ -17,6 +17,7 @@
 
 use crate::flank_loads::SparseVector;
 use gearmesh_mesh::{FaceShape, OutlineFace};
+use nalgebra::Vector3;
 
 /// Steps of Newton's method at most. A flat parallelogram takes one and one more that finds nothing left; the others
 /// double their digits with every step.
@@ -73,8 +74,8 @@ struct PlacedFace {
     nodes: Vec<u32>,
     points_m: Vec<[f64; 3]>,
     /// Box around its nodes, wider by how far from it a point may lie.
-    low_m: [f64; 3],
-    high_m: [f64; 3],
+    low_m: Vector3<f64>,
+    high_m: Vector3<f64>,
     reach_m: f64,
 }
 
@@ -106,13 +107,13 @@ impl FaceSurface {
     /// # Errors
     /// [`OffEveryFace`] where no face lies under it.
     pub fn project(&self, point_m: [f64; 3], along: [f64; 3]) -> Result<Projection, OffEveryFace> {
-        let length = dot(along, along).sqrt();
-        let direction = along.map(|a| a / length);
+        let along = Vector3::from(along);
+        let direction = along / along.norm();
         let near = self.faces.iter().enumerate();
         let found = near
             .filter(|(_, face)| face.has_in_box(point_m))
             .filter_map(|(number, face)| {
-                let mut found = face.project(point_m, direction)?;
+                let mut found = face.project(point_m.into(), direction)?;
                 let beyond = face.excess(found.natural).max(0.0);
                 if beyond > BESIDE || found.distance_m.abs() > face.reach_m {
                     return None;
@@ -121,8 +122,7 @@ impl FaceSurface {
                 if beyond > 0.0 {
                     let wanted = face.place(found.natural)[0];
                     found.natural = face.inside(found.natural);
-                    let apart = less(face.place(found.natural)[0], wanted);
-                    found.beside_m = dot(apart, apart).sqrt();
+                    found.beside_m = (face.place(found.natural)[0] - wanted).norm();
                 }
                 Some((beyond, found))
             })
@@ -164,7 +164,7 @@ impl FaceSurface {
 
     /// The place in space of a point of a face \[m\].
     pub fn point_m(&self, at: &Projection) -> [f64; 3] {
-        self.faces[at.face].place(at.natural)[0]
+        self.faces[at.face].place(at.natural)[0].into()
     }
 }
 
@@ -172,18 +172,17 @@ impl PlacedFace {
     fn new(shape: FaceShape, nodes: Vec<u32>, points_m: Vec<[f64; 3]>) -> Self {
         let of_points = |start: f64, choose: fn(f64, f64) -> f64| {
             let at = |axis: usize| points_m.iter().map(|p| p[axis]).fold(start, choose);
-            [at(0), at(1), at(2)]
+            Vector3::new(at(0), at(1), at(2))
         };
         let low = of_points(f64::INFINITY, f64::min);
         let high = of_points(f64::NEG_INFINITY, f64::max);
-        let diagonal = less(high, low);
-        let reach_m = REACH * dot(diagonal, diagonal).sqrt();
+        let reach_m = REACH * (high - low).norm();
         Self {
             shape,
             nodes,
             points_m,
-            low_m: low.map(|x| x - reach_m),
-            high_m: high.map(|x| x + reach_m),
+            low_m: low.add_scalar(-reach_m),
+            high_m: high.add_scalar(reach_m),
             reach_m,
         }
     }
@@ -193,10 +192,10 @@ impl PlacedFace {
     }
 
     /// Place of a natural point \[m\] and its natural derivatives.
-    fn place(&self, natural: [f64; 2]) -> [[f64; 3]; 3] {
+    fn place(&self, natural: [f64; 2]) -> [Vector3<f64>; 3] {
         let shapes = self.shape.shapes(natural);
         std::array::from_fn(|k| {
-            std::array::from_fn(|axis| {
+            Vector3::from_fn(|axis, _| {
                 let points = self.points_m.iter();
                 shapes.iter().zip(points).map(|(n, p)| n[k] * p[axis]).sum()
             })
@@ -204,19 +203,18 @@ impl PlacedFace {
     }
 
     /// Newton's method from the middle of the face; none where it does not come to rest, or leaves the face by far.
-    fn project(&self, point_m: [f64; 3], direction: [f64; 3]) -> Option<Projection> {
+    fn project(&self, point_m: Vector3<f64>, direction: Vector3<f64>) -> Option<Projection> {
         let (mut natural, mut distance_m) = (self.shape.centre(), 0.0);
         for steps in 1..=MOST_STEPS {
             let [at, d_xi, d_eta] = self.place(natural);
-            let miss: [f64; 3] =
-                std::array::from_fn(|k| point_m[k] + distance_m * direction[k] - at[k]);
+            let miss = point_m + distance_m * direction - at;
             // d_xi a + d_eta b − direction c = miss, by Cramer's rule.
-            let across = cross(d_xi, d_eta);
-            let det = -dot(across, direction);
-            let a = -dot(cross(miss, d_eta), direction) / det;
-            let b = -dot(cross(d_xi, miss), direction) / det;
+            let across = d_xi.cross(&d_eta);
+            let det = -across.dot(&direction);
+            let a = -miss.cross(&d_eta).dot(&direction) / det;
+            let b = -d_xi.cross(&miss).dot(&direction) / det;
             natural = [natural[0] + a, natural[1] + b];
-            distance_m += dot(across, miss) / det;
+            distance_m += across.dot(&miss) / det;
             let last = a.abs().max(b.abs());
             // Far outside, along a face that turns away, or with a direction in the face.
             if !(last < 1e3 && self.excess(natural) < 1e2) {
@@ -266,26 +264,9 @@ impl PlacedFace {
             _ => [2.0 * x - 1.0, 2.0 * y - 1.0],
         });
         natural
-            .map(|at| less(self.place(at)[0], point_m))
-            .map(|apart| dot(apart, apart).sqrt())
+            .map(|at| (self.place(at)[0] - Vector3::from(point_m)).norm())
             .fold(f64::INFINITY, f64::min)
     }
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| a[k] - b[k])
 }
 
 #[cfg(test)]
@@ -332,23 +313,20 @@ mod tests {
     }
 
     /// Force and moment about a point of nodal forces on a surface of one face.
-    fn resultant(surface: &FaceSurface, load: &SparseVector, about: [f64; 3]) -> [[f64; 3]; 2] {
-        let (mut force, mut moment) = ([0.0; 3], [0.0; 3]);
+    fn resultant(
+        surface: &FaceSurface,
+        load: &SparseVector,
+        about: Vector3<f64>,
+    ) -> [Vector3<f64>; 2] {
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         for &(dof, value) in load {
-            let mut at_node = [0.0; 3];
+            let mut at_node = Vector3::zeros();
             at_node[dof % 3] = value;
-            let arm = less(surface.faces[0].points_m[dof / 3], about);
-            let turns = cross(arm, at_node);
-            for k in 0..3 {
-                force[k] += at_node[k];
-                moment[k] += turns[k];
-            }
+            let arm = Vector3::from(surface.faces[0].points_m[dof / 3]) - about;
+            force += at_node;
+            moment += arm.cross(&at_node);
         }
         [force, moment]
-    }
-
-    fn largest(a: [f64; 3]) -> f64 {
-        a.into_iter().map(f64::abs).fold(0.0, f64::max)
     }
 
     /// On distorted faces of every shape: the natural point and the distance are found again, shares add up to one, the
@@ -363,14 +341,11 @@ mod tests {
                 let natural = natural_inside(shape, &mut random);
                 let [on_face, d_xi, d_eta] = surface.faces[0].place(natural);
                 // Up to some twenty degrees beside the normal.
-                let normal = cross(d_xi, d_eta).map(|c| c / (SIZE_M * SIZE_M));
-                let tilt = [0; 3].map(|_| 0.2 * (random.f64() - 0.5));
-                let along: [f64; 3] = std::array::from_fn(|k| normal[k] + tilt[k]);
-                let length = dot(along, along).sqrt();
+                let normal = d_xi.cross(&d_eta) / (SIZE_M * SIZE_M);
+                let along = normal + Vector3::from([0; 3].map(|_| 0.2 * (random.f64() - 0.5)));
                 let distance_m = 0.1 * SIZE_M * (random.f64() - 0.5);
-                let point: [f64; 3] =
-                    std::array::from_fn(|k| on_face[k] - distance_m * along[k] / length);
-                let found = surface.project(point, along).unwrap();
+                let point = on_face - distance_m * along / along.norm();
+                let found = surface.project(point.into(), along.into()).unwrap();
                 let off = (0..2).map(|k| (found.natural[k] - natural[k]).abs());
                 assert!(off.fold(0.0, f64::max) < 1e-9, "{shape:?} {found:?}");
                 assert!((found.distance_m - distance_m).abs() < 1e-9 * SIZE_M);
@@ -378,20 +353,21 @@ mod tests {
 
                 let sum: f64 = surface.shares(&found).map(|(_, share)| share).sum();
                 assert!((sum - 1.0).abs() < 1e-14);
-                let force = [0; 3].map(|_| random.f64() - 0.5);
-                let load = surface.load(&found, force);
+                let force = Vector3::from([0; 3].map(|_| random.f64() - 0.5));
+                let load = surface.load(&found, force.into());
                 let [total, moment] = resultant(&surface, &load, on_face);
-                assert!(largest(less(total, force)) < 1e-13);
-                assert!(largest(moment) < 1e-9 * SIZE_M, "{moment:?}");
-                let [_, moment] = resultant(&surface, &surface.load(&found, along), point);
-                assert!(largest(moment) < 1e-9 * SIZE_M, "{moment:?}");
+                assert!((total - force).amax() < 1e-13);
+                assert!(moment.amax() < 1e-9 * SIZE_M, "{moment:?}");
+                let [_, moment] = resultant(&surface, &surface.load(&found, along.into()), point);
+                assert!(moment.amax() < 1e-9 * SIZE_M, "{moment:?}");
                 // Read by the same shares, a field that is linear in space has its value there.
                 let read: f64 = (surface.shares(&found))
                     .map(|(node, share)| {
-                        share * dot(surface.faces[0].points_m[node as usize], force)
+                        let at = Vector3::from(surface.faces[0].points_m[node as usize]);
+                        share * at.dot(&force)
                     })
                     .sum();
-                assert!((read - dot(on_face, force)).abs() < 1e-9 * SIZE_M);
+                assert!((read - on_face.dot(&force)).abs() < 1e-9 * SIZE_M);
             }
         }
         assert!(most_steps <= 8, "{most_steps}");
