@@ -40,43 +40,23 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
     result.set_item("face_width_m", gear.face_width_m)?;
     result.set_item("young_pa", gear.young_pa)?;
     result.set_item("poisson", gear.poisson)?;
-    result.set_item(
-        "roll_angles_rad",
-        PyArray1::from_vec(py, gear.grid.roll_angles_rad),
-    )?;
+    let roll_angles_rad = PyArray1::from_vec(py, gear.grid.roll_angles_rad);
+    result.set_item("roll_angles_rad", roll_angles_rad)?;
     result.set_item("z_m", PyArray1::from_vec(py, gear.grid.z_m))?;
     result.set_item("slices", gear.grid.slices)?;
-    result.set_item(
-        "flanks",
-        gear.flanks
-            .iter()
-            .map(ToString::to_string)
-            .collect::<Vec<_>>(),
-    )?;
-    result.set_item(
-        "c_hub",
-        shaped(py, c_hub, vec![own, hands, teeth, hands, loads, loads])?,
-    )?;
-    result.set_item(
-        "c_tooth",
-        shaped(py, gear.c_tooth, vec![hands, loads, loads])?,
-    )?;
-    result.set_item(
-        "opposite_distance_m",
-        shaped(py, gear.opposite_distance_m, vec![hands, stations])?,
-    )?;
-    result.set_item(
-        "near_field",
-        gear.near_field
-            .map(|field| near_field_dict(py, field, hands, stations))
-            .transpose()?,
-    )?;
-    result.set_item(
-        "crack",
-        gear.crack
-            .map(|crack| crack_dict(py, crack, teeth, loads))
-            .transpose()?,
-    )?;
+    let flanks: Vec<_> = gear.flanks.iter().map(ToString::to_string).collect();
+    result.set_item("flanks", flanks)?;
+    let c_hub = shaped(py, c_hub, vec![own, hands, teeth, hands, loads, loads])?;
+    result.set_item("c_hub", c_hub)?;
+    let c_tooth = shaped(py, gear.c_tooth, vec![hands, loads, loads])?;
+    result.set_item("c_tooth", c_tooth)?;
+    let opposite = shaped(py, gear.opposite_distance_m, vec![hands, stations])?;
+    result.set_item("opposite_distance_m", opposite)?;
+    let near_field = gear.near_field;
+    let near_field = near_field.map(|field| near_field_dict(py, field, hands, stations));
+    result.set_item("near_field", near_field.transpose()?)?;
+    let crack = gear.crack.map(|crack| crack_dict(py, crack, teeth, loads));
+    result.set_item("crack", crack.transpose()?)?;
     let provenance = PyDict::new(py);
     provenance.set_item("program", gear.provenance.program)?;
     provenance.set_item("version", gear.provenance.version)?;
@@ -126,18 +106,12 @@ fn near_field_dict(
     result.set_item("half_width_m", field.half_width_m)?;
     result.set_item("element_m", field.element_m)?;
     result.set_item("residual", field.residual)?;
-    result.set_item(
-        "roll_angles_rad",
-        PyArray1::from_vec(py, field.roll_angles_rad),
-    )?;
-    result.set_item(
-        "contact_m2_per_n",
-        PyArray1::from_vec(py, field.contact_m2_per_n),
-    )?;
-    result.set_item(
-        "mesh_m2_per_n",
-        shaped(py, field.mesh_m2_per_n, vec![hands, stations, stations])?,
-    )?;
+    let roll_angles_rad = PyArray1::from_vec(py, field.roll_angles_rad);
+    result.set_item("roll_angles_rad", roll_angles_rad)?;
+    let contact = PyArray1::from_vec(py, field.contact_m2_per_n);
+    result.set_item("contact_m2_per_n", contact)?;
+    let mesh = shaped(py, field.mesh_m2_per_n, vec![hands, stations, stations])?;
+    result.set_item("mesh_m2_per_n", mesh)?;
     Ok(result)
 }
 
@@ -153,14 +127,10 @@ fn gauge_dict<'py>(
     result.set_item("side", gauge.side.to_string())?;
     result.set_item("description", &gauge.description)?;
     result.set_item("error_estimate_relative", gauge.error_estimate_relative)?;
-    result.set_item(
-        "adjoint",
-        shaped(py, gauge.adjoint.clone(), vec![teeth, hands, loads, 3])?,
-    )?;
-    result.set_item(
-        "own_tooth",
-        shaped(py, gauge.own_tooth.clone(), vec![hands, loads])?,
-    )?;
+    let adjoint = shaped(py, gauge.adjoint.clone(), vec![teeth, hands, loads, 3])?;
+    result.set_item("adjoint", adjoint)?;
+    let own_tooth = shaped(py, gauge.own_tooth.clone(), vec![hands, loads])?;
+    result.set_item("own_tooth", own_tooth)?;
     Ok(result)
 }
 
