@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::error::{SeriesError, check_lengths};
+use crate::error::SeriesError;
 use crate::fourier::RealFourier;
 
 /// Correlations that differ by less are one: of equal peaks the one nearest to no offset counts.
@@ -30,7 +30,14 @@ pub struct BestOffset {
 /// [`SeriesError::Lengths`], and those of the transform.
 pub fn best_offset(x: &[f64], y: &[f64]) -> Result<Option<BestOffset>, SeriesError> {
     let n = x.len();
-    check_lengths(("the first signal", n), ("the second", y.len()))?;
+    if y.len() != n {
+        return Err(SeriesError::Lengths {
+            first_what: "the first signal",
+            first: n,
+            second_what: "the second",
+            second: y.len(),
+        });
+    }
     if n < 3 {
         return Ok(None);
     }

@@ -7,7 +7,7 @@
 //!
 //! Each block goes in without its mean and trend: of what takes longer than a block nothing can be said.
 
-use crate::error::{SeriesError, check_lengths, check_rate, check_samples, check_setting};
+use crate::error::{SeriesError, check_rate, check_samples, check_setting};
 use crate::resampling::Resampler;
 use crate::spectrum::{BlockTransform, Spectrum};
 use crate::window::Window;
@@ -63,10 +63,14 @@ pub fn frequency_map(
     check_step(blocks.step_samples)?;
     check_samples("a Campbell map", samples, n)?;
     check_samples("the shaft angle of a Campbell map", angle_rad, n)?;
-    check_lengths(
-        ("the shaft angle", angle_rad.len()),
-        ("the signal", samples.len()),
-    )?;
+    if samples.len() != angle_rad.len() {
+        return Err(SeriesError::Lengths {
+            first_what: "the shaft angle",
+            first: angle_rad.len(),
+            second_what: "the signal",
+            second: samples.len(),
+        });
+    }
     (0..=samples.len() - n)
         .step_by(blocks.step_samples)
         .map(|first| {

@@ -120,22 +120,6 @@ pub(crate) fn check_samples(
     }
 }
 
-/// Refuses two lists of different lengths, each with its name.
-pub(crate) fn check_lengths(
-    (first_what, first): (&'static str, usize),
-    (second_what, second): (&'static str, usize),
-) -> Result<(), SeriesError> {
-    if first == second {
-        return Ok(());
-    }
-    Err(SeriesError::Lengths {
-        first_what,
-        first,
-        second_what,
-        second,
-    })
-}
-
 /// Refuses a setting unless `ok`.
 pub(crate) fn check_setting(
     setting: &'static str,

@@ -9,8 +9,8 @@
 //! | an [`AngleSeries`] | what a rig's post-processing would show | [`rig::process`] |
 //! | two signals of one period | the offset at which they agree best | [`best_offset`] |
 //! | uniform samples over whole revolutions | amplitudes and phases by order, exact | [`OrderSpectrum`] |
-//! | uniform samples of any length | amplitudes, with a [`Window`] | [`spectrum`] |
-//! | time samples and the shaft's angle | samples uniform in the angle | [`Resampler`] |
+//! | uniform samples of any length | amplitudes, power density, with a [`Window`] | [`spectrum`] |
+//! | time samples and the shaft's angle | samples uniform in the angle, and back | [`Resampler`] |
 //! | a run-up | speed × frequency, speed × order | [`campbell`] |
 //! | an amplitude spectrum | lines at carrier ± n·modulator | [`sidebands`] |
 //! | an amplitude-modulated band | its envelope | [`mod@envelope`] |
@@ -45,11 +45,13 @@ pub use campbell::{CampbellRow, FrequencyBlocks, OrderBlocks};
 pub use envelope::{Band, Envelope, envelope};
 pub use error::SeriesError;
 pub use orders::{OrderError, OrderSpectrum};
-pub use resampling::{AngleSamples, Resampler};
+pub use resampling::{AngleSamples, GridSamples, Resampler};
 pub use rig::{OrderFilter, RigError, RigSettings, RigSignal};
 pub use shaft_period::ShaftPeriod;
 pub use sidebands::{Sideband, SidebandSettings, sideband_table};
-pub use spectrum::{BlockTransform, Spectrum, amplitude_spectrum};
+pub use spectrum::{
+    BlockTransform, Spectrum, WelchSettings, amplitude_spectrum, power_spectral_density,
+};
 pub use statistics::StatisticsError;
 pub use synchronous_average::{SynchronousAverage, synchronous_average};
 pub use window::Window;

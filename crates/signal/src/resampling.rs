@@ -1,4 +1,4 @@
-//! Band-limited resampling from time to shaft angle.
+//! Band-limited resampling: time to shaft angle, back, and from one rate to another.
 //!
 //! A value between samples is the sum over the neighbours with a sinc under a Kaiser window (A. V. Oppenheim, R. W.
 //! Schafer, *Discrete-Time Signal Processing*, sections 4.6 and 7.5):
@@ -19,7 +19,7 @@
 //! The shaft's angle between its samples is the polynomial of degree five through the six nearest ones: its error falls
 //! with the sixth power of the sampling step, and times the signal's slope it is the error of the signal.
 
-use crate::error::{SeriesError, check_lengths, check_samples, check_setting};
+use crate::error::{SeriesError, check_rate, check_samples, check_setting};
 use std::f64::consts::{PI, TAU};
 
 /// Most samples of a result (400 MB), so that a typing error does not fill the memory.
@@ -33,6 +33,7 @@ const ANGLE_POINTS: usize = 6;
 pub struct Resampler {
     half_width: usize,
     band: f64,
+    beta: f64,
     /// The window as a polynomial in 1 − (d/L)².
     window: Vec<f64>,
 }
@@ -55,6 +56,15 @@ pub struct AngleSamples {
     pub values: Vec<f64>,
     /// Position of each value in the time samples, as a fraction of samples.
     pub positions: Vec<f64>,
+}
+
+/// A run of samples on a uniform grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GridSamples {
+    /// Number of the grid point that the first value belongs to.
+    pub first: usize,
+    /// The values, point by point.
+    pub values: Vec<f64>,
 }
 
 impl Resampler {
@@ -85,8 +95,14 @@ impl Resampler {
         Self {
             half_width,
             band,
+            beta,
             window: kaiser_polynomial(beta),
         }
+    }
+
+    /// Largest error e^{−β} of a tone below [`Resampler::band`], as a fraction of its amplitude.
+    pub fn error_bound(&self) -> f64 {
+        (-self.beta).exp()
     }
 
     /// Neighbours on each side that a value needs.
@@ -190,6 +206,68 @@ impl Resampler {
         Ok(result)
     }
 
+    /// From uniform angles back to the uniform times at which the shaft had `angle_rad` (increasing, rad).
+    ///
+    /// # Errors
+    /// As [`Resampler::to_angle`].
+    pub fn to_time(
+        &self,
+        series: &AngleSamples,
+        angle_rad: &[f64],
+    ) -> Result<GridSamples, SeriesError> {
+        check_samples("resampling to time", &series.values, ANGLE_POINTS)?;
+        check_angles(angle_rad, angle_rad.len())?;
+        let step = TAU / series.samples_per_revolution.max(1) as f64;
+        let at = |i: usize| {
+            // The step of the time grid here, in steps of the angle grid.
+            let next = (i + 1).min(angle_rad.len() - 1);
+            let stretch = (angle_rad[next] - angle_rad[next - 1]) / step;
+            let position = (angle_rad[i] - series.start_rad) / step;
+            self.value(&series.values, position, stretch.max(1.0))
+        };
+        self.run(angle_rad.len(), series.values.len(), at)
+    }
+
+    /// From one uniform rate to another. Grid point i of the result is at the time i/`new_rate_hz` after the first
+    /// sample.
+    ///
+    /// # Errors
+    /// As [`Resampler::to_angle`].
+    pub fn to_rate(
+        &self,
+        samples: &[f64],
+        rate_hz: f64,
+        new_rate_hz: f64,
+    ) -> Result<GridSamples, SeriesError> {
+        check_samples("resampling to another rate", samples, 2)?;
+        check_rate(rate_hz)?;
+        check_rate(new_rate_hz)?;
+        let ratio = rate_hz / new_rate_hz;
+        let points = (samples.len() - 1) as f64 / ratio;
+        check_setting(
+            "new sampling rate",
+            new_rate_hz,
+            points < MOST_SAMPLES,
+            "at most 5e7 samples in all",
+        )?;
+        self.run(points as usize + 1, samples.len(), |i| {
+            self.value(samples, i as f64 * ratio, ratio.max(1.0))
+        })
+    }
+
+    /// The values of a grid between the ends that lack neighbours.
+    fn run(
+        &self,
+        points: usize,
+        found: usize,
+        at: impl Fn(usize) -> Option<f64>,
+    ) -> Result<GridSamples, SeriesError> {
+        let first = (0..points).find(|&i| at(i).is_some()).unwrap_or(points);
+        let values: Vec<f64> = (first..points).map_while(at).collect();
+        self.not_empty(values.len(), found)?;
+        Ok(GridSamples { first, values })
+    }
+
     fn not_empty(&self, values: usize, found: usize) -> Result<(), SeriesError> {
         if values > 0 {
             Ok(())
@@ -253,10 +331,14 @@ fn kaiser_polynomial(beta: f64) -> Vec<f64> {
 }
 
 fn check_angles(angle_rad: &[f64], samples: usize) -> Result<(), SeriesError> {
-    check_lengths(
-        ("the shaft angle", angle_rad.len()),
-        ("the signal", samples),
-    )?;
+    if angle_rad.len() != samples {
+        return Err(SeriesError::Lengths {
+            first_what: "the shaft angle",
+            first: angle_rad.len(),
+            second_what: "the signal",
+            second: samples,
+        });
+    }
     check_samples("a shaft angle", angle_rad, ANGLE_POINTS)?;
     match angle_rad.windows(2).position(|pair| pair[1] <= pair[0]) {
         Some(i) => Err(SeriesError::AngleNotIncreasing {

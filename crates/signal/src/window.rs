@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 /// | window | sees | amplitude of a tone between two lines | width of a tone |
 /// | --- | --- | --- | --- |
 /// | `None` | whole periods in the block | up to 36 % low | 1 line |
-/// | `Hann` | anything; the usual choice for order maps | up to 15 % low | ± 2 lines |
+/// | `Hann` | anything; the usual choice for power density and order maps | up to 15 % low | ± 2 lines |
 /// | `FlatTop` | amplitudes of single tones | at most 0.12 % off | ± 5 lines |
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Window {
@@ -52,11 +52,21 @@ impl Window {
             })
             .collect()
     }
+
+    /// Lines on each side of a tone's own line that its main lobe covers.
+    pub fn lobe_lines(self) -> usize {
+        self.coefficients().len()
+    }
 }
 
 /// Mean of the weights: what a tone's amplitude is multiplied with.
 pub(crate) fn coherent_gain(weights: &[f64]) -> f64 {
     weights.iter().sum::<f64>() / weights.len() as f64
+}
+
+/// Mean square of the weights: what noise power is multiplied with.
+pub(crate) fn power_gain(weights: &[f64]) -> f64 {
+    weights.iter().map(|w| w * w).sum::<f64>() / weights.len() as f64
 }
 
 #[cfg(test)]
@@ -73,8 +83,7 @@ mod tests {
             (Window::FlatTop, 3.7702),
         ] {
             let w = window.weights(64);
-            let power = w.iter().map(|w| w * w).sum::<f64>() / w.len() as f64;
-            let found = power / coherent_gain(&w).powi(2);
+            let found = power_gain(&w) / coherent_gain(&w).powi(2);
             assert!((coherent_gain(&w) - window.coefficients()[0]).abs() < 1e-14);
             assert!(
                 (found - bandwidth).abs() < 1e-4,

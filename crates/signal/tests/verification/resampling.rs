@@ -1,17 +1,10 @@
-//! Verification: resampling is as accurate as stated, at constant and at varying speed.
+//! Verification: resampling is as accurate as stated, at constant and at varying speed, there and back.
 
 use crate::test_signals::{largest_difference, sampled};
 use gearmesh_signal::{
     OrderSpectrum, Resampler, SeriesError, Window, amplitude_spectrum, synchronous_average,
 };
-use std::f64::consts::{PI, TAU};
-
-/// Samples at 1000 Hz brought to `new_rate`, by a shaft that makes so many turns a second; the number of the first.
-fn to_rate(resampler: &Resampler, x: &[f64], new_rate: f64) -> (usize, Vec<f64>) {
-    let angle = sampled(x.len(), 1000.0, |t| TAU * new_rate * t);
-    let y = resampler.to_angle(x, &angle, 1).unwrap();
-    ((y.start_rad / TAU).round() as usize, y.values)
-}
+use std::f64::consts::TAU;
 
 /// Largest error over tones up to the band's edge, resampled from 1000 Hz to `new_rate`.
 fn largest_error(resampler: &Resampler, new_rate: f64) -> f64 {
@@ -21,11 +14,11 @@ fn largest_error(resampler: &Resampler, new_rate: f64) -> f64 {
             let f = resampler.band() * lower_nyquist * f64::from(i) / 8.0;
             let tone = |t: f64| (TAU * f * t + 0.4).cos();
             let x = sampled(400, 1000.0, tone);
-            let (first, y) = to_rate(resampler, &x, new_rate);
-            let expected: Vec<f64> = (0..y.len())
-                .map(|i| tone((first + i) as f64 / new_rate))
+            let y = resampler.to_rate(&x, 1000.0, new_rate).unwrap();
+            let expected: Vec<f64> = (0..y.values.len())
+                .map(|i| tone((y.first + i) as f64 / new_rate))
                 .collect();
-            largest_difference(&y, &expected)
+            largest_difference(&y.values, &expected)
         })
         .fold(0.0, f64::max)
 }
@@ -37,9 +30,8 @@ fn a_tone_in_the_band_is_met_within_the_stated_error() {
         for (half_width, band) in [(12, 0.6), (32, 0.8), (40, 0.5)] {
             let resampler = Resampler::new(half_width, band).unwrap();
             let found = largest_error(&resampler, new_rate);
-            // e^{−β}; phases of up to 1300 rad are known to 3e-13 only.
-            let lobe = PI * half_width as f64 * (1.0 - band);
-            let stated = (-(lobe * lobe - PI * PI).sqrt()).exp().max(5e-13);
+            // Phases of up to 1300 rad are known to 3e-13 only.
+            let stated = resampler.error_bound().max(5e-13);
             assert!(
                 found < stated,
                 "{half_width}, {band}, {new_rate} Hz: {found:e} against {stated:e}"
@@ -67,11 +59,11 @@ fn above_the_band_the_stated_error_does_not_hold() {
     let resampler = Resampler::default();
     let f = 0.98 * 500.0;
     let x = sampled(1500, 1000.0, |t| (TAU * f * t).cos());
-    let (first, y) = to_rate(&resampler, &x, 2317.0);
-    let expected: Vec<f64> = (0..y.len())
-        .map(|i| (TAU * f * (first + i) as f64 / 2317.0).cos())
+    let y = resampler.to_rate(&x, 1000.0, 2317.0).unwrap();
+    let expected: Vec<f64> = (0..y.values.len())
+        .map(|i| (TAU * f * (y.first + i) as f64 / 2317.0).cos())
         .collect();
-    assert!(largest_difference(&y, &expected) > 0.01);
+    assert!(largest_difference(&y.values, &expected) > 0.01);
 }
 
 /// A shaft at 20 revolutions a second that swings 10 % in speed three times a turn.
@@ -127,6 +119,22 @@ fn a_mesh_order_at_varying_speed_becomes_one_line() {
 }
 
 #[test]
+fn there_and_back() {
+    let rate = 25_600.0;
+    let angle = sampled(26_000, rate, swinging_angle);
+    let x = sampled(26_000, rate, |t| {
+        (TAU * 1140.0 * t).cos() + (TAU * 333.3 * t).sin()
+    });
+    let resampler = Resampler::default();
+    // 2048 samples a turn are 41 kHz: finer than the time samples.
+    let series = resampler.to_angle(&x, &angle, 2048).unwrap();
+    let back = resampler.to_time(&series, &angle).unwrap();
+    let error = largest_difference(&back.values, &x[back.first..back.first + back.values.len()]);
+    assert!(back.values.len() > 25_800);
+    assert!(error < 1e-7, "{error:e}");
+}
+
+#[test]
 fn down_sampling_to_few_orders_keeps_high_orders_out() {
     // 100 samples a turn reach order 50; order 90 would fold to order 10.
     let rate = 25_600.0;
@@ -170,6 +178,11 @@ fn what_cannot_be_resampled_is_refused() {
         resampler.to_angle(&x[..60], &angle[..60], 100),
         Err(SeriesError::NothingInside { half_width: 32, .. })
     ));
+    assert!(matches!(
+        resampler.to_rate(&x, 1.0, 1e12),
+        Err(SeriesError::Setting { .. })
+    ));
+    assert!(resampler.to_rate(&x, 1.0, f64::NAN).is_err());
     for (half_width, band) in [
         (32, 0.0),
         (32, 1.0),
