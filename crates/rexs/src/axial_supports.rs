@@ -38,7 +38,7 @@ impl AxialForces {
         // Of all planets together, as of one mesh. A carrier takes none: its planets feel sun and ring alike.
         let sets = train.sets.iter().map(|set| (set.link, [set.sun, set.ring]));
         for (link, gears) in meshes.chain(sets) {
-            let Some(torques) = train.flow.link_nm.get(link).copied().flatten() else {
+            let Some(torques) = train.flow.torques_nm(link) else {
                 forces.is_known = false;
                 continue;
             };
@@ -92,9 +92,9 @@ pub fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLo
         }
     }
     if !forces.is_known
-        && let Some(unit) = source.model.of_kind(&["gear_unit"]).next()
+        && let Some(unit) = source.of_kind(&["gear_unit"]).next()
     {
-        source.assume(unit, About::Support, "the train has loops: torques of their meshes depend on stiffness, their flanks are `both`, one-way supports as without their axial tooth forces");
+        unit.assume(About::Support, "the train has loops: torques of their meshes depend on stiffness, their flanks are `both`, one-way supports as without their axial tooth forces");
     }
     holds
 }

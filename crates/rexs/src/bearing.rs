@@ -1,11 +1,9 @@
 //! Bearings: springs in the scene, files for those with a catalogue.
 
-use crate::error::RexsError;
+use crate::error::Result;
 use crate::in_time::{DAMPING_S, Running};
 use crate::ledger::About;
-use crate::model::Component;
-use crate::source::Source;
-use crate::structure::Structure;
+use crate::source::Part;
 use crate::text::{number, quoted};
 use crate::units::{KN, MM, N_PER_M, NMM_PER_RAD, UM};
 
@@ -110,40 +108,25 @@ pub const RIGID_TILT: f64 = 1e7;
 /// Reads a bearing; none where it has no two sides.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn read(
-    source: &Source<'_>,
-    structure: &Structure,
-    component: &Component,
-    name: String,
-    file_name: String,
-) -> Result<Option<Bearing>, RexsError> {
-    let Some(sides) = structure.sides(component.id) else {
-        source.leave_out(
-            component,
-            About::Lost,
-            "no relation says what it stands between: not in the scene",
-        );
+/// Those of [`Part`].
+pub fn read(component: Part<'_>, name: String, file_name: String) -> Result<Option<Bearing>> {
+    let Some(sides) = component.sides() else {
+        let what = "no relation says what it stands between: not in the scene";
+        component.leave_out(About::Lost, what);
         return Ok(None);
     };
     if component.kind.contains("plain") || component.kind == "slide_bearing" {
-        source.leave_out(
-            component,
-            About::Stiffness,
-            "plain bearing: a linear spring in its place, without film",
-        );
+        let what = "plain bearing: a linear spring in its place, without film";
+        component.leave_out(About::Stiffness, what);
     }
-    let u_mm = [
-        source.number(component, "u_coordinate_on_shaft_inner_side", MM)?,
-        source.number(component, "u_coordinate_on_shaft_outer_side", MM)?,
-    ];
-    let carries_radially = source.flag(component, "radial_force_absorption")? != Some(false);
+    let u_mm = component.places_mm()?;
+    let carries_radially = component.flag("radial_force_absorption")? != Some(false);
     let radial_n_per_mm = match carries_radially {
-        true => stiffness(source, component, "radial_stiffness", RADIAL)?,
+        true => stiffness(component, "radial_stiffness", RADIAL)?,
         false => 0.0,
     };
-    let kind = source.text(component, "bearing_type").unwrap_or_default();
-    let axial = axial_support(source, component, &kind)?;
+    let kind = component.text("bearing_type").unwrap_or_default();
+    let axial = axial_support(component, &kind)?;
     let without = if radial_n_per_mm >= RIGID {
         RIGID
     } else {
@@ -151,24 +134,23 @@ pub fn read(
     };
     let axial_n_per_mm = match axial {
         AxialSupport::None => 0.0,
-        _ => stiffness(source, component, "axial_stiffness", without)?,
+        _ => stiffness(component, "axial_stiffness", without)?,
     };
-    let tilt = source
-        .number(component, "bending_stiffness", NMM_PER_RAD)?
+    let tilt = component
+        .number("bending_stiffness", NMM_PER_RAD)?
         .map_or(0.0, |k| 1e-3 * k);
     if tilt > RIGID_TILT {
-        source.assume(
-            component,
+        component.assume(
             About::Small,
             format!(
                 "bending_stiffness of {tilt:e} N m/rad stands for rigid: {RIGID_TILT:e} N m/rad"
             ),
         );
     }
-    let bore_mm = source.positive(component, "inner_diameter", MM)?;
+    let bore_mm = component.positive("inner_diameter", MM)?;
     Ok(Some(Bearing {
         id: component.id,
-        file: catalogue(source, component, &kind, bore_mm, &name, file_name)?,
+        file: catalogue(component, &kind, bore_mm, &name, file_name)?,
         name,
         sides,
         u_mm,
@@ -181,17 +163,12 @@ pub fn read(
 }
 
 /// A stiffness \[N/mm\], bounded, and `without` where it is not given or none that a bearing has.
-fn stiffness(
-    source: &Source<'_>,
-    component: &Component,
-    id: &str,
-    without: f64,
-) -> Result<f64, RexsError> {
-    let given = source.number(component, id, N_PER_M)?.map(|k| 1e-3 * k);
+fn stiffness(component: Part<'_>, id: &str, without: f64) -> Result<f64> {
+    let given = component.number(id, N_PER_M)?.map(|k| 1e-3 * k);
     Ok(match given {
         Some(k) if k >= RIGID_FROM => {
             let words = format!("{id} of {k:e} N/mm stands for rigid: {RIGID:e} N/mm");
-            source.assume(component, About::Small, words);
+            component.assume(About::Small, words);
             RIGID
         }
         Some(k) if k > 0.0 => k,
@@ -200,41 +177,34 @@ fn stiffness(
                 format!("{id} is {k:e} N/mm, which no bearing has")
             });
             let words = format!("{found}: {without:e} N/mm");
-            source.assume(component, About::Stiffness, words);
+            component.assume(About::Stiffness, words);
             without
         }
     })
 }
 
 /// Which axial forces it takes, of its stiffness and its type where nothing says so.
-fn axial_support(
-    source: &Source<'_>,
-    component: &Component,
-    kind: &str,
-) -> Result<AxialSupport, RexsError> {
-    Ok(
-        match source.text(component, "axial_force_absorption").as_deref() {
-            Some("both_directions") => AxialSupport::Both,
-            Some("positive") => AxialSupport::Positive,
-            Some("negative") => AxialSupport::Negative,
-            Some("no_direction") => AxialSupport::None,
-            other => {
-                let stiffness = source.number(component, "axial_stiffness", N_PER_M)?;
-                let is_free =
-                    ["radial_roller_bearing", "radial_needle_roller_bearing"].contains(&kind);
-                let holds =
-                    stiffness.is_some_and(|k| k > 0.0) || (!is_free && kind.contains("bearing"));
-                let (support, words) = match holds {
-                    true => (AxialSupport::Both, "axial support both ways"),
-                    false => (AxialSupport::None, "no axial support"),
-                };
-                let found = other.map_or("not given".to_owned(), |o| format!("`{o}` is not known"));
-                let text = format!("axial_force_absorption {found}: {words}");
-                source.assume(component, About::Support, text);
-                support
-            }
-        },
-    )
+fn axial_support(component: Part<'_>, kind: &str) -> Result<AxialSupport> {
+    Ok(match component.text("axial_force_absorption").as_deref() {
+        Some("both_directions") => AxialSupport::Both,
+        Some("positive") => AxialSupport::Positive,
+        Some("negative") => AxialSupport::Negative,
+        Some("no_direction") => AxialSupport::None,
+        other => {
+            let stiffness = component.number("axial_stiffness", N_PER_M)?;
+            let is_free = ["radial_roller_bearing", "radial_needle_roller_bearing"].contains(&kind);
+            let holds =
+                stiffness.is_some_and(|k| k > 0.0) || (!is_free && kind.contains("bearing"));
+            let (support, words) = match holds {
+                true => (AxialSupport::Both, "axial support both ways"),
+                false => (AxialSupport::None, "no axial support"),
+            };
+            let found = other.map_or("not given".to_owned(), |o| format!("`{o}` is not known"));
+            let text = format!("axial_force_absorption {found}: {words}");
+            component.assume(About::Support, text);
+            support
+        }
+    })
 }
 
 /// Types of REXS that gearmesh's catalogue bearings have.
@@ -246,37 +216,32 @@ const TYPES: [(&str, &str); 3] = [
 
 /// A bearing file from bore, outside diameter, width and load ratings.
 fn catalogue(
-    source: &Source<'_>,
-    component: &Component,
+    component: Part<'_>,
     kind: &str,
     bore_mm: Option<f64>,
     name: &str,
     file_name: String,
-) -> Result<Option<(String, String)>, RexsError> {
+) -> Result<Option<(String, String)>> {
     if !component.kind.starts_with("rolling_bearing") {
         return Ok(None);
     }
     let none = |why: &str| {
-        source.leave_out(component, About::Nothing, why);
+        component.leave_out(About::Nothing, why);
         Ok(None)
     };
-    let outside = source.number(component, "outer_diameter", MM)?;
-    let width = source.number(component, "width", MM)?;
-    let dynamic = source.number(component, "radial_dynamic_load_rating", KN)?;
-    let rest = source.number(component, "radial_static_load_rating", KN)?;
-    let fatigue = source.positive(component, "fatigue_limit_load", KN)?;
-    let designation = source
-        .text(component, "catalogue_designation")
-        .unwrap_or_default();
-    let clearance = source.number(component, "operating_radial_bearing_clearance", UM)?;
+    let outside = component.number("outer_diameter", MM)?;
+    let width = component.number("width", MM)?;
+    let dynamic = component.number("radial_dynamic_load_rating", KN)?;
+    let rest = component.number("radial_static_load_rating", KN)?;
+    let fatigue = component.positive("fatigue_limit_load", KN)?;
+    let designation = component.text("catalogue_designation").unwrap_or_default();
+    let clearance = component.number("operating_radial_bearing_clearance", UM)?;
     let Some((_, word)) = TYPES.iter().find(|(rexs, _)| *rexs == kind) else {
         return none(&format!(
             "type `{kind}` as balls or rollers: no bearing file, a linear spring in the scene"
         ));
     };
-    let rows = source
-        .integer(component, "number_of_bearing_rows")?
-        .unwrap_or(1);
+    let rows = component.integer("number_of_bearing_rows")?.unwrap_or(1);
     let (Some(bore), Some(outside), Some(width), Some(dynamic), Some(rest)) =
         (bore_mm, outside, width, dynamic, rest)
     else {
@@ -289,7 +254,7 @@ fn catalogue(
     }
     if *word == "angular-contact" {
         let what = "bearing file: contact angle of 40 deg unless its row says otherwise";
-        source.assume(component, About::Nothing, what);
+        component.assume(About::Nothing, what);
     }
     let mut text = format!(
         "# {designation}: for `model = {{ kind = \"quasi-static\", file = ... }}` in the scene\nname = {}\nkind = \"catalogue\"\ntype = \"{word}\"\nbore_mm = {}\noutside_diameter_mm = {}\nwidth_mm = {}\n",

@@ -1,14 +1,12 @@
 //! What stands between two parts: bearings, couplings, brakes, joints of shaft and hub.
 
 use crate::bearing::Bearing;
-use crate::error::RexsError;
+use crate::error::Result;
 use crate::ledger::About;
 use crate::loose_gears;
-use crate::model::Component;
 use crate::placement::{Frame, frame};
 use crate::power_flow::Link;
-use crate::source::Source;
-use crate::structure::Structure;
+use crate::source::{Part, Source};
 use crate::text::{Names, file_stem};
 use crate::train::Train;
 use crate::{bearing, coupling, loads};
@@ -16,46 +14,37 @@ use crate::{bearing, coupling, loads};
 /// Reads bearings and couplings, and the brakes among them.
 ///
 /// # Errors
-/// Those of [`Source`].
+/// Those of [`Part`].
 pub fn bearings_and_couplings(
     source: &Source<'_>,
-    structure: &Structure,
     train: &mut Train,
     names: &mut Names,
     files: &mut Names,
-) -> Result<(), RexsError> {
+) -> Result<()> {
     let shift_index = coupling::shift_index(source)?;
-    bearings(source, structure, train, names, files)?;
-    couplings(source, structure, train, names, shift_index)?;
+    bearings(source, train, names, files)?;
+    couplings(source, train, names, shift_index)?;
     loose_gears::hold_hubs(source, train);
-    for component in source.model.of_kind(&coupling::JOINTS) {
+    for component in source.of_kind(&coupling::JOINTS) {
         let what = "joints of shaft and hub are rigid in the scene";
-        source.leave_out(component, About::Small, what);
+        component.leave_out(About::Small, what);
     }
     Ok(())
 }
 
 fn bearings(
     source: &Source<'_>,
-    structure: &Structure,
     train: &mut Train,
     names: &mut Names,
     files: &mut Names,
-) -> Result<(), RexsError> {
-    for component in source.model.of_kind(&bearing::KINDS) {
+) -> Result<()> {
+    for component in source.of_kind(&bearing::KINDS) {
         let name = names.unique(&component.name, component.id);
         let file = files.unique(&format!("bearing_{}", file_stem(&name)), component.id);
-        let found = bearing::read(
-            source,
-            structure,
-            component,
-            name,
-            format!("{}.toml", file_stem(&file)),
-        )?;
+        let found = bearing::read(component, name, format!("{}.toml", file_stem(&file)))?;
         let Some(mut found) = found else { continue };
-        let own = frame(source, component)?;
-        if !loose_gears::stand_on_hubs(source, train, component, &mut found.sides, &mut found.u_mm)
-        {
+        let own = frame(component)?;
+        if !loose_gears::stand_on_hubs(train, component, &mut found.sides, &mut found.u_mm) {
             continue;
         }
         if place(source, train, component, own, &mut found) {
@@ -68,7 +57,7 @@ fn bearings(
                 own.push(found.clone());
             }
         } else if found.u_mm == [None, None] {
-            source.leave_out(component, About::Lost, "on no shaft of the scene");
+            component.leave_out(About::Lost, "on no shaft of the scene");
         } else {
             train.bearings.push(found);
         }
@@ -80,19 +69,19 @@ fn bearings(
 fn place(
     source: &Source<'_>,
     train: &Train,
-    component: &Component,
+    component: Part<'_>,
     own: Option<Frame>,
     found: &mut Bearing,
 ) -> bool {
     let mut on_shaft = false;
     for (id, u_mm) in found.sides.into_iter().zip(&mut found.u_mm) {
         let Some(shaft) = train.shaft(id) else {
-            let part = source.model.component(id);
-            let kind = part.map_or("", |c| c.kind.as_str());
+            let part = source.part(id);
+            let kind = part.map_or("", |c| &c.component.kind);
             on_shaft |= kind == "shaft";
             if !["shaft", "gear_casing", "gear_unit", ""].contains(&kind) {
                 let what = format!("its part {kind} is not in the scene: taken as the ground");
-                source.assume(component, About::Support, what);
+                component.assume(About::Support, what);
             }
             if kind != "shaft" {
                 *u_mm = None;
@@ -106,7 +95,7 @@ fn place(
                 None => (About::Place, "u = 0".to_owned()),
             };
             let what = format!("no place on {} given: {found}", shaft.name);
-            source.assume(component, about, what);
+            component.assume(about, what);
             *u_mm = Some(by_vector.unwrap_or(0.0));
         }
     }
@@ -115,24 +104,22 @@ fn place(
 
 fn couplings(
     source: &Source<'_>,
-    structure: &Structure,
     train: &mut Train,
     names: &mut Names,
     shift_index: i64,
-) -> Result<(), RexsError> {
+) -> Result<()> {
     let is_casing = |id: i64| {
-        let component = source.model.component(id);
+        let component = source.part(id);
         component.is_some_and(|c| c.kind == "gear_casing")
     };
-    for component in source.model.of_kind(&coupling::KINDS) {
+    for component in source.of_kind(&coupling::KINDS) {
         let name = names.unique(&component.name, component.id);
-        let Some(mut found) = coupling::read(source, structure, component, name, shift_index)?
-        else {
+        let Some(mut found) = coupling::read(component, name, shift_index)? else {
             continue;
         };
         if found.sides.iter().any(|&id| train.gear(id).is_some()) {
             let what = "joins a gear to its shaft: the gear is fixed there, rigidly";
-            source.assume(component, About::Stiffness, what);
+            component.assume(About::Stiffness, what);
             continue;
         }
         let [a, b] = found.sides;
@@ -140,18 +127,15 @@ fn couplings(
         let braked = braked.filter(|&(_, other, _)| is_casing(other));
         if let Some((shaft, _, side)) = { braked }.find(|&(id, ..)| train.shaft(id).is_some()) {
             let what = "engaged between a shaft and the casing: a brake, which carries the torque that the loads leave over; the shaft stands";
-            source.assume(component, About::Nothing, what);
+            component.assume(About::Nothing, what);
             let u_mm = found.u_mm[side].unwrap_or(0.0);
             let load = loads::brake(component.id, found.name, shaft, u_mm);
             train.loads.push(load);
             continue;
         }
         if found.sides.iter().any(|&id| train.shaft(id).is_none()) {
-            source.leave_out(
-                component,
-                About::Lost,
-                "does not join two shafts of the scene: nothing is held by it",
-            );
+            let what = "does not join two shafts of the scene: nothing is held by it";
+            component.leave_out(About::Lost, what);
             continue;
         }
         found.u_mm = found.u_mm.map(|u| Some(u.unwrap_or(0.0)));

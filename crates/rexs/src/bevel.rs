@@ -1,20 +1,18 @@
 //! Bevel stages: a pair file with the blank, cut as the program proposes.
 
-use crate::error::RexsError;
+use crate::error::Result;
 use crate::ledger::About;
-use crate::model::Component;
-use crate::source::Source;
-use crate::structure::Structure;
+use crate::source::Part;
 use crate::text::{number, numbers, quoted};
 use crate::units::{DEG, MM};
 
 /// Teeth of a bevel gear.
 ///
 /// # Errors
-/// Those of [`Source`], and a number that is missing.
-pub fn teeth(source: &Source<'_>, gear: &Component) -> Result<i64, RexsError> {
-    let found = source
-        .integer(gear, "number_of_teeth")?
+/// Those of [`Part`], and a number that is missing.
+pub fn teeth(gear: Part<'_>) -> Result<i64> {
+    let found = gear
+        .integer("number_of_teeth")?
         .filter(|z| (3..=2000).contains(z));
     found.ok_or_else(|| gear.lacks("number_of_teeth is missing or not 3 to 2000"))
 }
@@ -62,48 +60,36 @@ impl BevelStage {
 /// Reads a bevel stage; none where it lacks what a pair needs, which is reported.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn read(
-    source: &Source<'_>,
-    stage: &Component,
-    gears: [&Component; 2],
-) -> Result<Option<BevelStage>, RexsError> {
-    let z = [teeth(source, gears[0])?, teeth(source, gears[1])?];
+/// Those of [`Part`].
+pub fn read(stage: Part<'_>, gears: [Part<'_>; 2]) -> Result<Option<BevelStage>> {
+    let z = [teeth(gears[0])?, teeth(gears[1])?];
     let order = if z[0] <= z[1] { [0, 1] } else { [1, 0] };
     let [pinion, gear] = order.map(|i| gears[i]);
     let teeth = order.map(|i| z[i]);
-    let of_both = |id: &str| -> Result<[Option<f64>; 2], RexsError> {
-        Ok([source.number(pinion, id, MM)?, source.number(gear, id, MM)?])
+    let of_both = |id: &str| -> Result<[Option<f64>; 2]> {
+        Ok([pinion.number(id, MM)?, gear.number(id, MM)?])
     };
     let none = |why: &str| {
-        source.leave_out(stage, About::Nothing, why);
+        stage.leave_out(About::Nothing, why);
         Ok(None)
     };
-    let shaft_angle = source.number(stage, "shaft_angle", DEG)?;
-    let by_turn = source.number(stage, "rotating_angle_around_pos_u_axis", DEG)?;
+    let shaft_angle = stage.number("shaft_angle", DEG)?;
+    let by_turn = stage.number("rotating_angle_around_pos_u_axis", DEG)?;
     let shaft_angle = shaft_angle.or(by_turn).map_or(90.0, f64::abs);
-    if source
-        .number(stage, "hypoid_offset", MM)?
-        .is_some_and(|offset| offset.abs() > 1e-6)
-    {
+    let offset = stage.number("hypoid_offset", MM)?;
+    if offset.is_some_and(|offset| offset.abs() > 1e-6) {
         return none("hypoid offset: gearmesh's bevel pairs have crossing axes; no pair file");
     }
-    let outer = match source.number(stage, "outer_transverse_module", MM)? {
+    let outer = match stage.number("outer_transverse_module", MM)? {
         Some(module) => Some(module),
         None => {
-            let diameters = of_both("outer_pitch_diameter")?;
-            let mut modules = diameters
-                .iter()
-                .zip(teeth)
-                .filter_map(|(d, z)| d.map(|d| d / z as f64));
-            modules.next()
+            let of_gears = of_both("outer_pitch_diameter")?.into_iter().zip(teeth);
+            { of_gears }.find_map(|(d, z)| d.map(|d| d / z as f64))
         }
     };
-    let spiral = match source.number(pinion, "mean_spiral_angle", DEG)? {
+    let spiral = match pinion.number("mean_spiral_angle", DEG)? {
         Some(angle) => angle,
-        None => source
-            .number(gear, "mean_spiral_angle", DEG)?
-            .unwrap_or(0.0),
+        None => gear.number("mean_spiral_angle", DEG)?.unwrap_or(0.0),
     };
     let widths = of_both("face_width")?;
     let [Some(width_1), Some(width_2)] = [widths[0].or(widths[1]), widths[1].or(widths[0])] else {
@@ -112,8 +98,16 @@ pub fn read(
     let Some(outer) = outer else {
         return none("neither outer_transverse_module nor outer_pitch_diameter: no pair file");
     };
-    let pressure_angle_deg = pressure_angle_deg(source, stage)?;
-    let is_right_hand = is_right_hand(source, [pinion, gear], spiral);
+    let pressure_angles = [
+        "nominal_design_pressure_angle_on_drive_side",
+        "generated_pressure_angle_on_drive_side",
+    ];
+    let pressure_angle_deg = stage.first_of(&pressure_angles, DEG)?;
+    let pressure_angle_deg = pressure_angle_deg.unwrap_or_else(|| {
+        stage.assume(About::Teeth, "no pressure angle given: 20 deg");
+        20.0
+    });
+    let is_right_hand = is_right_hand([pinion, gear], spiral);
     Ok(Some(BevelStage {
         pinion: order[0],
         teeth,
@@ -126,29 +120,16 @@ pub fn read(
     }))
 }
 
-fn pressure_angle_deg(source: &Source<'_>, stage: &Component) -> Result<f64, RexsError> {
-    for id in [
-        "nominal_design_pressure_angle_on_drive_side",
-        "generated_pressure_angle_on_drive_side",
-    ] {
-        if let Some(angle) = source.number(stage, id, DEG)? {
-            return Ok(angle);
-        }
-    }
-    source.assume(stage, About::Teeth, "no pressure angle given: 20 deg");
-    Ok(20.0)
-}
-
 /// Whether the pinion spirals with a right hand: what it or its mate states, else left.
-fn is_right_hand(source: &Source<'_>, pair: [&Component; 2], spiral_deg: f64) -> bool {
-    let hands = pair.map(|g| source.text(g, "spiral_angle_pitch_direction"));
+fn is_right_hand(pair: [Part<'_>; 2], spiral_deg: f64) -> bool {
+    let hands = pair.map(|g| g.text("spiral_angle_pitch_direction"));
     match hands.each_ref().map(Option::as_deref) {
         _ if spiral_deg.abs() <= 1e-6 => false,
         [Some(hand), _] => hand == "right",
         [None, Some(hand)] => hand == "left",
         [None, None] => {
             let what = "no spiral_angle_pitch_direction given: left";
-            source.assume(pair[0], About::Teeth, what);
+            pair[0].assume(About::Teeth, what);
             false
         }
     }
@@ -157,24 +138,15 @@ fn is_right_hand(source: &Source<'_>, pair: [&Component; 2], spiral_deg: f64) ->
 /// Text of the pair file; none where the stage lacks what it needs, which is reported.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn pair_file(
-    source: &Source<'_>,
-    structure: &Structure,
-    stage: &Component,
-    gears: [&Component; 2],
-) -> Result<Option<String>, RexsError> {
-    let Some(pair) = read(source, stage, gears)? else {
+/// Those of [`Part`].
+pub fn pair_file(stage: Part<'_>, gears: [Part<'_>; 2]) -> Result<Option<String>> {
+    let Some(pair) = read(stage, gears)? else {
         return Ok(None);
     };
     let is_spiral = pair.spiral_angle_deg > 1e-6;
     let mut text = format!(
         "title = {}\n\n[bevel]\nteeth = [{}, {}]\nouter_module_mm = {}\nface_width_mm = {}\nshaft_angle_deg = {}\npressure_angle_deg = {}\n",
-        quoted(if stage.name.is_empty() {
-            "Bevel pair"
-        } else {
-            &stage.name
-        }),
+        quoted(stage.name_or("Bevel pair")),
         pair.teeth[0],
         pair.teeth[1],
         number(pair.outer_module_mm),
@@ -185,10 +157,10 @@ pub fn pair_file(
     if is_spiral {
         let hand = if pair.is_right_hand { "right" } else { "left" };
         let mean_cone = pair.mean_cone_distance_mm();
-        let cutter = source.positive(stage, "cutter_radius", MM)?;
+        let cutter = stage.positive("cutter_radius", MM)?;
         let cutter = cutter.unwrap_or_else(|| {
             let what = format!("no cutter_radius given: the mean cone distance, {mean_cone:.3} mm");
-            source.assume(stage, About::Nothing, what);
+            stage.assume(About::Nothing, what);
             mean_cone
         });
         text.push_str(&format!(
@@ -201,15 +173,13 @@ pub fn pair_file(
         text.push_str("form = \"straight\"\n\n[pinion]\nsettings = \"crown\"\n\n[gear]\nsettings = \"crown\"\n");
     }
     for side in gears {
-        for flank in structure.flanks(side.id).into_iter().flatten() {
-            let kinds = ["bevel_gear_tool", "bevel_gear_manufacturing_settings"];
-            for found in structure.parts(source.model, flank, &kinds) {
-                source.leave_out(found, About::Nothing, "machine settings of other programs: frames and signs differ; the pair file lets the program propose settings, or give them as \"given\"");
+        for flank in side.flanks().into_iter().flatten() {
+            for found in flank.parts(&["bevel_gear_tool", "bevel_gear_manufacturing_settings"]) {
+                found.leave_out(About::Nothing, "machine settings of other programs: frames and signs differ; the pair file lets the program propose settings, or give them as \"given\"");
             }
         }
     }
-    source.assume(
-        stage,
+    stage.assume(
         About::Nothing,
         "bevel pair file: standard taper and thickness, machine settings as the program proposes",
     );

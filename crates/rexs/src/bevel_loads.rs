@@ -3,10 +3,9 @@
 use crate::bevel_force::{Line, MeanForce, mean_force};
 use crate::ledger::About;
 use crate::placement::{add, cross, dot};
-use crate::shaft::Shaft;
 use crate::source::Source;
 use crate::text::{number, numbers, quoted};
-use crate::train::{BevelSeat, Train};
+use crate::train::{BevelSeat, TorqueSeat, Train};
 
 /// Force and moment of one gear on its shaft, world axes. The torque about the axis is not in it.
 #[derive(Debug, Clone)]
@@ -28,12 +27,12 @@ pub fn bevel_loads(source: &Source<'_>, train: &Train) -> Vec<BevelLoad> {
     for seats in train.bevels.chunks_exact(2) {
         let found = force(train, seats);
         for seat in seats {
-            let Some(component) = source.model.component(seat.gear) else {
+            let Some(component) = source.part(seat.gear) else {
                 continue;
             };
             match found {
-                Some(_) => source.assume(component, About::Small, "no mesh in the scene: its torque, radial and axial forces act on the shaft at the middle of the face, without friction"),
-                None => source.leave_out(component, About::Lost, "no mesh in the scene: its torque acts on the shaft, its radial and axial forces do not, for the axes of the stage do not cross at its shaft angle, or its torque or teeth are not known"),
+                Some(_) => component.assume(About::Small, "no mesh in the scene: its torque, radial and axial forces act on the shaft at the middle of the face, without friction"),
+                None => component.leave_out(About::Lost, "no mesh in the scene: its torque acts on the shaft, its radial and axial forces do not, for the axes of the stage do not cross at its shaft angle, or its torque or teeth are not known"),
             }
         }
         let Some((force, pinion)) = found else {
@@ -41,12 +40,8 @@ pub fn bevel_loads(source: &Source<'_>, train: &Train) -> Vec<BevelLoad> {
         };
         for (side, seat) in seats.iter().enumerate() {
             let sign = if side == pinion { 1.0 } else { -1.0 };
-            loads.extend(on_shaft(
-                train,
-                seat,
-                force.point_mm,
-                force.on_pinion_n.map(|x| sign * x),
-            ));
+            let force_n = force.on_pinion_n.map(|x| sign * x);
+            loads.extend(on_shaft(train, &seat.seat, force.point_mm, force_n));
         }
     }
     loads
@@ -57,16 +52,15 @@ fn force(train: &Train, seats: &[BevelSeat]) -> Option<(MeanForce, usize)> {
     let [first, second] = seats else { return None };
     let pair = first.stage.as_ref()?;
     let pinion = pair.pinion;
-    let link = train.flow.link_nm.get(first.link.0).copied().flatten()?;
-    let line = |seat: &BevelSeat| {
+    let link = train.flow.torques_nm(first.seat.link.0)?;
+    let line = |seat: &TorqueSeat| {
         let shaft = train.shaft(seat.shaft)?;
-        let frame = shaft.frame?;
         Some(Line {
-            point_mm: frame.point([seat.u_mm, 0.0, 0.0]),
-            direction: z_of(shaft),
+            point_mm: shaft.frame?.point([seat.u_mm, 0.0, 0.0]),
+            direction: shaft.z(),
         })
     };
-    let mut lines = [line(first)?, line(second)?];
+    let mut lines = [line(&first.seat)?, line(&second.seat)?];
     if pinion == 1 {
         lines.reverse();
     }
@@ -74,19 +68,14 @@ fn force(train: &Train, seats: &[BevelSeat]) -> Option<(MeanForce, usize)> {
     Some((mean_force(pair, lines, -link[pinion])?, pinion))
 }
 
-fn z_of(shaft: &Shaft) -> [f64; 3] {
-    let axis = shaft.frame.map_or([1.0, 0.0, 0.0], |frame| frame.axes[0]);
-    axis.map(|x| shaft.sign() * x)
-}
-
 fn on_shaft(
     train: &Train,
-    seat: &BevelSeat,
+    seat: &TorqueSeat,
     point_mm: [f64; 3],
     force_n: [f64; 3],
 ) -> Option<BevelLoad> {
     let shaft = train.shaft(seat.shaft)?;
-    let z = z_of(shaft);
+    let z = shaft.z();
     let station_mm = shaft.frame?.point([seat.u_mm, 0.0, 0.0]);
     let arm_m = add(point_mm, station_mm, -1.0).map(|x| 1e-3 * x);
     let moment = cross(arm_m, force_n);

@@ -1,6 +1,6 @@
 //! From bytes to the text of a model: plain XML or JSON, or one member of a zip file.
 
-use crate::error::RexsError;
+use crate::error::{Result, RexsError};
 use std::io::{Cursor, Read};
 
 /// Text of more than this is not read: gearbox files have a few megabytes, and a zip file of some kilobytes may unpack to
@@ -25,7 +25,7 @@ const ENDINGS: [&str; 4] = [".rexs", ".rexsj", ".xml", ".json"];
 ///
 /// # Errors
 /// [`RexsError::Container`] and [`RexsError::TooLarge`].
-pub fn unpack(bytes: Vec<u8>) -> Result<Unpacked, RexsError> {
+pub fn unpack(bytes: Vec<u8>) -> Result<Unpacked> {
     if bytes.len() as u64 > MOST_MB << 20 {
         return Err(too_large("the file"));
     }
@@ -64,7 +64,7 @@ pub fn unpack(bytes: Vec<u8>) -> Result<Unpacked, RexsError> {
 }
 
 /// The one member of an archive that is a model.
-fn the_model(names: &[String]) -> Result<&String, RexsError> {
+fn the_model(names: &[String]) -> Result<&String> {
     let container = |found: String| RexsError::Container { found };
     let rank = |name: &str| {
         let lower = name.to_lowercase();
@@ -119,7 +119,7 @@ fn too_large(what: &str) -> RexsError {
 }
 
 /// Text from UTF-8, UTF-16 with a byte order mark, or Latin-1 where an XML declaration says so.
-fn decode(bytes: Vec<u8>) -> Result<String, RexsError> {
+fn decode(bytes: Vec<u8>) -> Result<String> {
     let utf16 = |read: fn([u8; 2]) -> u16| {
         let pairs = bytes[2..]
             .chunks_exact(2)

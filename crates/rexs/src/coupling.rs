@@ -1,11 +1,10 @@
 //! Couplings: what joins shafts, and whether it is engaged in the present gear.
 
-use crate::error::RexsError;
+use crate::error::Result;
 use crate::ledger::About;
-use crate::model::{Component, Value};
-use crate::source::Source;
-use crate::structure::Structure;
-use crate::units::{MM, N_PER_M, NMM_PER_RAD};
+use crate::model::Value;
+use crate::source::{Part, Source};
+use crate::units::{N_PER_M, NMM_PER_RAD};
 
 /// Types of couplings and of joints between shafts.
 pub const KINDS: [&str; 2] = ["coupling", "switchable_coupling"];
@@ -44,39 +43,24 @@ const RIGID_NM_PER_RAD: f64 = 1e7;
 /// Reads a coupling; none where it joins nothing or is open.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn read(
-    source: &Source<'_>,
-    structure: &Structure,
-    component: &Component,
-    name: String,
-    shift_index: i64,
-) -> Result<Option<Coupling>, RexsError> {
-    let Some(sides) = structure.sides(component.id) else {
-        source.leave_out(
-            component,
-            About::Lost,
-            "no relation says what it joins: not in the scene",
-        );
+/// Those of [`Part`].
+pub fn read(component: Part<'_>, name: String, shift_index: i64) -> Result<Option<Coupling>> {
+    let Some(sides) = component.sides() else {
+        let what = "no relation says what it joins: not in the scene";
+        component.leave_out(About::Lost, what);
         return Ok(None);
     };
-    if is_open(source, component, shift_index) {
-        source.leave_out(
-            component,
-            About::Nothing,
-            format!("open in gear {shift_index}: its two sides are not joined in the scene"),
-        );
+    if is_open(component, shift_index) {
+        let what = format!("open in gear {shift_index}: its two sides are not joined in the scene");
+        component.leave_out(About::Nothing, what);
         return Ok(None);
     }
-    let u_mm = [
-        source.number(component, "u_coordinate_on_shaft_inner_side", MM)?,
-        source.number(component, "u_coordinate_on_shaft_outer_side", MM)?,
-    ];
-    let number = |id: &str, unit, most: f64| -> Result<f64, RexsError> {
-        let given = source.number(component, id, unit)?.unwrap_or(0.0);
+    let u_mm = component.places_mm()?;
+    let number = |id: &str, unit, most: f64| -> Result<f64> {
+        let given = component.number(id, unit)?.unwrap_or(0.0);
         if given < 0.0 {
             let words = format!("{id} is below zero, which no coupling has: taken as not given");
-            source.assume(component, About::Stiffness, words);
+            component.assume(About::Stiffness, words);
         }
         Ok((1e-3 * given).clamp(0.0, most))
     };
@@ -86,11 +70,8 @@ pub fn read(
     let mut torsion = number("rotational_stiffness", NMM_PER_RAD, RIGID_NM_PER_RAD)?;
     let is_open = torsion == 0.0;
     if is_open {
-        source.assume(
-            component,
-            About::Stiffness,
-            format!("no rotational_stiffness given: {RIGID_NM_PER_RAD:e} N m/rad"),
-        );
+        let what = format!("no rotational_stiffness given: {RIGID_NM_PER_RAD:e} N m/rad");
+        component.assume(About::Stiffness, what);
         torsion = RIGID_NM_PER_RAD;
     }
     Ok(Some(Coupling {
@@ -106,22 +87,22 @@ pub fn read(
 /// The gear that is engaged, from 1 on.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn shift_index(source: &Source<'_>) -> Result<i64, RexsError> {
+/// Those of [`Part`].
+pub fn shift_index(source: &Source<'_>) -> Result<i64> {
     let mut found = 1;
-    for unit in source.model.of_kind(&["gear_unit"]) {
-        found = source.integer(unit, "gear_shift_index")?.unwrap_or(1);
+    for unit in source.of_kind(&["gear_unit"]) {
+        found = unit.integer("gear_shift_index")?.unwrap_or(1);
     }
     Ok(found)
 }
 
 /// Whether a coupling is open in a gear.
-pub fn is_open(source: &Source<'_>, component: &Component, shift_index: i64) -> bool {
-    source.has(component, "is_engaged") && !is_engaged(source, component, shift_index)
+pub fn is_open(component: Part<'_>, shift_index: i64) -> bool {
+    component.has("is_engaged") && !is_engaged(component, shift_index)
 }
 
 /// `is_engaged` holds one word, or one for each gear.
-fn is_engaged(source: &Source<'_>, component: &Component, shift_index: i64) -> bool {
+fn is_engaged(component: Part<'_>, shift_index: i64) -> bool {
     let yes = |text: &String| ["true", "1"].contains(&text.to_lowercase().as_str());
     let engaged = match component.attribute("is_engaged").map(|a| &a.value) {
         Some(Value::Scalar(text)) => yes(text),
@@ -134,6 +115,6 @@ fn is_engaged(source: &Source<'_>, component: &Component, shift_index: i64) -> b
         _ => true,
     };
     // Marks the attribute as used.
-    let _ = source.text(component, "is_engaged");
+    let _ = component.text("is_engaged");
     engaged
 }

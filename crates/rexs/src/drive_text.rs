@@ -56,10 +56,8 @@ pub fn drive(
         }
         let mine = torques_of.get(&group).map_or(&[][..], Vec::as_slice);
         let power = |t: &Torque| t.nm * train.flow.speed_rpm.get(&t.shaft).copied().unwrap_or(1.0);
-        let input = mine
-            .iter()
-            .copied()
-            .max_by(|a, b| power(a).total_cmp(&power(b)));
+        let all = mine.iter().copied();
+        let input = all.max_by(|a, b| power(a).total_cmp(&power(b)));
         let (body, name) = match input {
             Some(t) => (train.shaft(t.shaft).map(|s| s.body(t.u_mm)), t.name.clone()),
             None => {
@@ -71,18 +69,13 @@ pub fn drive(
         let Some(body) = body else { continue };
         let at = input.map_or(shaft.id, |t| t.shaft);
         let speed_rpm = train.flow.speed_rpm.get(&at).copied().unwrap_or(0.0);
-        let turning = (running == Running::InTime && speed_rpm != 0.0)
-            .then(|| train.shaft(at))
-            .flatten();
-        if let Some(on) = turning {
-            let frame = on.frame.unwrap_or(Frame::WORLD);
-            let axis = frame.axes[0].map(|x| on.sign() * x);
-            text.push_str(&driven_body(
-                (&name, &body),
-                (frame.origin_mm, axis),
-                speed_rpm,
-                HELD_NM_PER_RAD,
-            ));
+        if running == Running::InTime
+            && speed_rpm != 0.0
+            && let Some(on) = train.shaft(at)
+        {
+            let line = (on.frame.unwrap_or(Frame::WORLD).origin_mm, on.z());
+            let driven = driven_body((&name, &body), line, speed_rpm, HELD_NM_PER_RAD);
+            text.push_str(&driven);
         } else {
             let spring = format!("held at {name}");
             text.push_str(&format!(
@@ -117,9 +110,9 @@ fn torques(source: &Source<'_>, train: &Train) -> Vec<Torque> {
         .collect();
     for seat in train.torque_seats() {
         // What the shaft brings to the link, the link takes from the shaft.
-        let Some(link) = train.flow.link_nm.get(seat.link.0).copied().flatten() else {
-            if let Some(component) = source.model.component(seat.shaft) {
-                source.leave_out(component, About::Lost, format!("the torque at {}, which is part of a loop: it depends on stiffness, which a stage without a mesh in the scene does not have. Nothing acts there, what is behind it carries no load", seat.name));
+        let Some(link) = train.flow.torques_nm(seat.link.0) else {
+            if let Some(component) = source.part(seat.shaft) {
+                component.leave_out(About::Lost, format!("the torque at {}, which is part of a loop: it depends on stiffness, which a stage without a mesh in the scene does not have. Nothing acts there, what is behind it carries no load", seat.name));
             }
             continue;
         };

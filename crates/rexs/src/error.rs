@@ -1,5 +1,8 @@
 //! What can be wrong with a REXS file.
 
+/// What is read of a REXS file.
+pub type Result<T, E = RexsError> = std::result::Result<T, E>;
+
 /// A REXS file that cannot be read. The messages leave out the file's name, which the caller knows.
 #[derive(Debug, thiserror::Error)]
 pub enum RexsError {

@@ -64,7 +64,7 @@ pub fn gear_bodies(
         text.push_str(&format!(
             "position_mm = {}\ncardan_deg = {}\n",
             numbers(&frame.point([seated.mid_mm, 0.0, 0.0])),
-            numbers(&cardan_deg(frame.axes[0].map(|x| shaft.sign() * x)))
+            numbers(&cardan_deg(shaft.z()))
         ));
     }
     text + &joints

@@ -3,7 +3,7 @@
 use crate::bevel;
 use crate::container::{Unpacked, unpack};
 use crate::effort;
-use crate::error::RexsError;
+use crate::error::{Result, RexsError};
 use crate::gear_text::gear_file;
 use crate::in_time::Running;
 use crate::ledger::{About, Ledger};
@@ -11,7 +11,7 @@ use crate::mesh_model::Meshes;
 use crate::model::{Component, LoadCase, Model};
 use crate::scene_text::scene;
 use crate::sheet::Sheet;
-use crate::source::Source;
+use crate::source::{Part, Source};
 use crate::structure::Structure;
 use crate::text::file_stem;
 use crate::train;
@@ -99,7 +99,7 @@ const KNOWN: [&str; 40] = [
 ///
 /// # Errors
 /// [`RexsError`] for files that are no REXS or lack what a gearbox cannot do without.
-pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsError> {
+pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import> {
     import_to_run(bytes, stem, with, Running::AtRest)
 }
 
@@ -107,12 +107,7 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
 ///
 /// # Errors
 /// As [`import`], and [`RexsError::Missing`] for scenes in time of a gearbox whose gears do not turn.
-pub fn import_to_run(
-    bytes: Vec<u8>,
-    stem: &str,
-    with: Meshes,
-    running: Running,
-) -> Result<Import, RexsError> {
+pub fn import_to_run(bytes: Vec<u8>, stem: &str, with: Meshes, running: Running) -> Result<Import> {
     let before = effort::visits();
     let unpacked = unpack(bytes)?;
     let mut ledger = Ledger::default();
@@ -136,12 +131,12 @@ pub fn import_to_run(
         ..Made::default()
     };
     if cases.is_empty() {
-        let source = Source::new(&model, &ledger, &used);
-        made.case(&source, &structure, &stem, &model, None)?;
+        let source = Source::new(&model, &structure, &ledger, &used);
+        made.case(&source, &stem, &model, None)?;
     }
     for (i, case) in cases.iter().enumerate() {
         let in_case = model.in_case(case);
-        let source = Source::new(&in_case, &ledger, &used);
+        let source = Source::new(&in_case, &structure, &ledger, &used);
         let mut name = match i {
             0 => stem.clone(),
             _ => format!("{stem}_case_{}", case.id),
@@ -150,7 +145,7 @@ pub fn import_to_run(
         if made.scenes.contains(&format!("{name}.toml")) {
             name = format!("{stem}_case_{}_{}", i + 1, case.id);
         }
-        made.case(&source, &structure, &name, &model, Some(case))?;
+        made.case(&source, &name, &model, Some(case))?;
         if i + 1 == cases.len() {
             source.list_unused();
         }
@@ -166,15 +161,15 @@ pub fn import_to_run(
         }
     }
     list_accumulated(&model, &mut ledger.borrow_mut());
-    let source = Source::new(&model, &ledger, &used);
-    unjoined::list(&source, &structure);
+    let source = Source::new(&model, &structure, &ledger, &used);
+    unjoined::list(&source);
     if cases.is_empty() {
         source.list_unused();
     }
     let unknown = |c: &&Component| !KNOWN.contains(&c.kind.as_str());
     for component in model.components.iter().filter(unknown) {
         let what = "components of this type have no counterpart";
-        source.leave_out(component, About::Nothing, what);
+        Part::new(&source, component).leave_out(About::Nothing, what);
     }
     Ok(Import {
         version: model.version.clone(),
@@ -212,7 +207,7 @@ fn list_accumulated(model: &Model, ledger: &mut Ledger) {
     }
 }
 
-fn parse(unpacked: &Unpacked) -> Result<Model, RexsError> {
+fn parse(unpacked: &Unpacked) -> Result<Model> {
     match unpacked.text.trim_start().chars().next() {
         Some('<') => xml::read(&unpacked.text),
         Some('{') => json::read(&unpacked.text),
@@ -249,21 +244,16 @@ impl Made {
     fn case(
         &mut self,
         source: &Source<'_>,
-        structure: &Structure,
         name: &str,
         base: &Model,
         case: Option<&LoadCase>,
-    ) -> Result<(), RexsError> {
+    ) -> Result<()> {
         let stem = name.split("_case_").next().unwrap_or(name);
-        let train = train::read(source, structure, stem)?;
+        let train = train::read(source, stem)?;
         let (mut head, gravity) = unit_values(source, base, case)?;
         if !train.shafts.is_empty() {
-            let title = source
-                .model
-                .of_kind(&["gear_unit"])
-                .next()
-                .map_or("", |u| &u.name);
-            let title = if title.is_empty() { name } else { title };
+            let unit = source.of_kind(&["gear_unit"]).next();
+            let title = unit.map_or(name, |unit| unit.component.name_or(name));
             let title = case.map_or(title.to_owned(), |c| format!("{title}, load case {}", c.id));
             head.push(
                 "What was taken, assumed and not represented stands in the list beside this file."
@@ -298,14 +288,13 @@ impl Made {
         for (file, text) in train.bearings.iter().filter_map(|b| b.file.clone()) {
             self.add(file, text);
         }
-        for (i, stage) in structure.stages().iter().enumerate() {
-            let found =
-                [stage.id, stage.gears[0], stage.gears[1]].map(|id| source.model.component(id));
+        for (i, stage) in source.structure.stages().iter().enumerate() {
+            let found = [stage.id, stage.gears[0], stage.gears[1]].map(|id| source.part(id));
             let [Some(component), Some(g1), Some(g2)] = found else {
                 continue;
             };
             if component.kind == "bevel_stage"
-                && let Some(text) = bevel::pair_file(source, structure, component, [g1, g2])?
+                && let Some(text) = bevel::pair_file(component, [g1, g2])?
             {
                 self.add(format!("{stem}_bevel_{}.toml", i + 1), text);
             }
@@ -377,7 +366,7 @@ fn unit_values(
     source: &Source<'_>,
     base: &Model,
     case: Option<&LoadCase>,
-) -> Result<(Vec<String>, Option<[f64; 3]>), RexsError> {
+) -> Result<(Vec<String>, Option<[f64; 3]>)> {
     let mut head = vec![format!(
         "Imported from REXS {}{}",
         base.version,
@@ -388,9 +377,9 @@ fn unit_values(
         }
     )];
     let mut gravity = None;
-    for unit in source.model.of_kind(&["gear_unit"]) {
-        let share = source.number(unit, "operating_time_fraction", ONE)?;
-        let hours = source.number(unit, "operating_time", HOUR)?;
+    for unit in source.of_kind(&["gear_unit"]) {
+        let share = unit.number("operating_time_fraction", ONE)?;
+        let hours = unit.number("operating_time", HOUR)?;
         if let Some(case) = case {
             let mut words = format!("Load case {}", case.id);
             if let Some(share) = share {
@@ -401,19 +390,19 @@ fn unit_values(
             }
             head.push(words);
         }
-        if source.flag(unit, "account_for_gravity")? == Some(true) {
-            let size = source
-                .number(unit, "gravitational_acceleration", M_PER_S2)?
+        if unit.flag("account_for_gravity")? == Some(true) {
+            let size = unit
+                .number("gravitational_acceleration", M_PER_S2)?
                 .unwrap_or(9.81);
             let mut direction = [0.0; 3];
             for (value, axis) in direction.iter_mut().zip(["u", "v", "w"]) {
-                *value = source
-                    .number(unit, &format!("direction_vector_gravity_{axis}"), ONE)?
+                *value = unit
+                    .number(&format!("direction_vector_gravity_{axis}"), ONE)?
                     .unwrap_or(0.0);
             }
             match crate::placement::unit(direction) {
                 Some(direction) => gravity = Some(direction.map(|x| size * x)),
-                None => source.leave_out(unit, About::Lost, "gravity without a direction"),
+                None => unit.leave_out(About::Lost, "gravity without a direction"),
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Models in JSON (`.rexsj`): the same tree, a value under the name of its type.
 
-use crate::error::RexsError;
+use crate::error::{Result, RexsError};
 use crate::model::{
     Attribute, Component, LoadCase, LoadSpectrum, Model, Reference, Relation, Value,
 };
@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 ///
 /// # Errors
 /// [`RexsError::Syntax`], with the line where the text is no JSON.
-pub fn read(text: &str) -> Result<Model, RexsError> {
+pub fn read(text: &str) -> Result<Model> {
     let root: Json = serde_json::from_str(text).map_err(|cause| {
         RexsError::syntax(Some(cause.line() as u32), format!("broken JSON: {cause}"))
     })?;
@@ -65,7 +65,7 @@ pub fn read(text: &str) -> Result<Model, RexsError> {
     })
 }
 
-fn list<'a>(node: &'a Json, key: &str) -> Result<&'a [Json], RexsError> {
+fn list<'a>(node: &'a Json, key: &str) -> Result<&'a [Json]> {
     match node.get(key) {
         None | Some(Json::Null) => Ok(&[]),
         Some(Json::Array(items)) => Ok(items),
@@ -82,7 +82,7 @@ fn text_of(value: Option<&Json>) -> String {
     }
 }
 
-fn number(node: &Json, what: &str) -> Result<i64, RexsError> {
+fn number(node: &Json, what: &str) -> Result<i64> {
     let id = node.get("id");
     let found = id.and_then(|id| id.as_i64().or_else(|| id.as_str()?.trim().parse().ok()));
     found.ok_or_else(|| {
@@ -94,7 +94,7 @@ fn number(node: &Json, what: &str) -> Result<i64, RexsError> {
     })
 }
 
-fn relation(node: &Json) -> Result<Relation, RexsError> {
+fn relation(node: &Json) -> Result<Relation> {
     let references = list(node, "refs")?.iter().map(|r| {
         Ok(Reference {
             id: number(r, "reference in a relation")?,
@@ -105,11 +105,11 @@ fn relation(node: &Json) -> Result<Relation, RexsError> {
         id: number(node, "relation").unwrap_or(0),
         kind: text_of(node.get("type")),
         order: node.get("order").and_then(Json::as_i64),
-        references: references.collect::<Result<_, RexsError>>()?,
+        references: references.collect::<Result<_>>()?,
     })
 }
 
-fn components(node: &Json) -> Result<Vec<Component>, RexsError> {
+fn components(node: &Json) -> Result<Vec<Component>> {
     let one = |c: &Json| {
         let attributes = list(c, "attributes")?.iter().map(attribute);
         Ok(Component {
@@ -122,7 +122,7 @@ fn components(node: &Json) -> Result<Vec<Component>, RexsError> {
     list(node, "components")?.iter().map(one).collect()
 }
 
-fn attribute(node: &Json) -> Result<Attribute, RexsError> {
+fn attribute(node: &Json) -> Result<Attribute> {
     let id = text_of(node.get("id"));
     if id.is_empty() {
         return Err(RexsError::syntax(
@@ -165,7 +165,7 @@ fn of_type(key: &str, value: &Json) -> Result<Value, String> {
     })
 }
 
-fn spectrum(node: &Json) -> Result<LoadSpectrum, RexsError> {
+fn spectrum(node: &Json) -> Result<LoadSpectrum> {
     let case = |c: &Json| {
         Ok(LoadCase {
             id: number(c, "load case")?,
@@ -177,7 +177,7 @@ fn spectrum(node: &Json) -> Result<LoadSpectrum, RexsError> {
         cases: list(node, "load_cases")?
             .iter()
             .map(case)
-            .collect::<Result<_, RexsError>>()?,
+            .collect::<Result<_>>()?,
         accumulation: node
             .get("accumulation")
             .map_or(Ok(Vec::new()), components)?,

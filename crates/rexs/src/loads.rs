@@ -1,9 +1,8 @@
 //! External loads and additional masses on shafts.
 
-use crate::error::RexsError;
+use crate::error::Result;
 use crate::ledger::About;
-use crate::model::Component;
-use crate::source::Source;
+use crate::source::Part;
 use crate::units::{KG, KG_M2, KW, MM, N, NM};
 
 /// A load on a shaft.
@@ -39,31 +38,23 @@ const MOST: f64 = 1e9;
 /// Reads a load.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn read(
-    source: &Source<'_>,
-    component: &Component,
-    name: String,
-    shaft: i64,
-) -> Result<Load, RexsError> {
-    let u_mm = source.number(component, "u_coordinate_on_shaft", MM)?;
-    let value = |id: &str, unit| source.number_up_to(component, id, unit, MOST);
+/// Those of [`Part`].
+pub fn read(component: Part<'_>, name: String, shaft: i64) -> Result<Load> {
+    let u_mm = component.number("u_coordinate_on_shaft", MM)?;
+    let value = |id: &str, unit| component.number_up_to(id, unit, MOST);
     let torque_nm = value("torque_around_u_axis", NM)?;
     let power_w = value("power", KW)?.map(|p| 1e3 * p).filter(|p| *p != 0.0);
-    let states = source.flag(component, "transmits_torque")?;
-    let defines = source.flag(component, "defines_torque")?;
+    let states = component.flag("transmits_torque")?;
+    let defines = component.flag("defines_torque")?;
     // A load that neither has a torque nor says that it passes one on is a force.
     let transmits = states.unwrap_or(torque_nm.is_some() || power_w.is_some());
     let follows = transmits && defines == Some(false);
     if let Some(torque) = torque_nm.filter(|t| *t != 0.0 && !transmits) {
-        source.leave_out(
-            component,
-            About::Lost,
-            format!("a torque of {torque} N m where transmits_torque is false"),
-        );
+        let what = format!("a torque of {torque} N m where transmits_torque is false");
+        component.leave_out(About::Lost, what);
     }
     if u_mm.is_none() {
-        source.assume(component, About::Place, "no u_coordinate_on_shaft given: 0");
+        component.assume(About::Place, "no u_coordinate_on_shaft given: 0");
     }
     let force = |axis: &str| value(&format!("force_{axis}_direction"), N);
     Ok(Load {
@@ -117,21 +108,17 @@ pub struct AddedMass {
 /// Reads an additional mass; none where it has no mass.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn added_mass(
-    source: &Source<'_>,
-    component: &Component,
-    shaft: i64,
-) -> Result<Option<AddedMass>, RexsError> {
-    let u_mm = source
-        .number(component, "u_coordinate_on_shaft", MM)?
+/// Those of [`Part`].
+pub fn added_mass(component: Part<'_>, shaft: i64) -> Result<Option<AddedMass>> {
+    let u_mm = component
+        .number("u_coordinate_on_shaft", MM)?
         .unwrap_or(0.0);
-    let Some(mass_kg) = source.positive(component, "mass_of_component", KG)? else {
-        source.leave_out(component, About::Nothing, "no mass given");
+    let Some(mass_kg) = component.positive("mass_of_component", KG)? else {
+        component.leave_out(About::Nothing, "no mass given");
         return Ok(None);
     };
-    let inertia = |axis: &str| -> Result<f64, RexsError> {
-        let found = source.number(component, &format!("moment_of_inertia_{axis}_axis"), KG_M2)?;
+    let inertia = |axis: &str| -> Result<f64> {
+        let found = component.number(&format!("moment_of_inertia_{axis}_axis"), KG_M2)?;
         Ok(found.unwrap_or(0.0).max(0.0))
     };
     Ok(Some(AddedMass {

@@ -5,9 +5,7 @@
 use crate::bearing::{self, AxialSupport, Bearing};
 use crate::coupling;
 use crate::ledger::About;
-use crate::model::Component;
-use crate::source::Source;
-use crate::structure::Structure;
+use crate::source::{Part, Source};
 use crate::train::Train;
 
 /// Where a gear sits.
@@ -20,8 +18,8 @@ pub enum Seat {
 }
 
 /// The other side of a component that stands between a gear and a shaft of the scene.
-fn other_side(structure: &Structure, train: &Train, between: i64, gear: i64) -> Option<i64> {
-    let sides = structure.sides(between)?;
+fn other_side(train: &Train, between: Part<'_>, gear: i64) -> Option<i64> {
+    let sides = between.sides()?;
     let own = sides.iter().position(|&side| side == gear)?;
     let other = sides[1 - own];
     train.shaft(other).map(|_| other)
@@ -29,26 +27,18 @@ fn other_side(structure: &Structure, train: &Train, between: i64, gear: i64) -> 
 
 /// The shaft on which a gear sits, and whether it turns loose on it: all clutches between the two are open, or there
 /// are bearings between them and nothing else that joins them.
-pub fn seat(
-    source: &Source<'_>,
-    structure: &Structure,
-    train: &Train,
-    gear: &Component,
-    shift_index: i64,
-) -> Option<Seat> {
-    let between = |kinds: &[&str]| -> Vec<(&Component, i64)> {
-        structure
-            .parts(source.model, gear.id, kinds)
-            .filter_map(|c| Some((c, other_side(structure, train, c.id, gear.id)?)))
+pub fn seat(train: &Train, gear: Part<'_>, shift_index: i64) -> Option<Seat> {
+    let between = |kinds: &[&str]| -> Vec<(Part<'_>, i64)> {
+        gear.parts(kinds)
+            .filter_map(|c| Some((c, other_side(train, c, gear.id)?)))
             .collect()
     };
     let couplings = between(&coupling::KINDS);
-    let is_open = |c: &Component| coupling::is_open(source, c, shift_index);
+    let is_open = |c: &Part<'_>| coupling::is_open(*c, shift_index);
     if let Some((_, shaft)) = couplings.iter().find(|(c, _)| !is_open(c)) {
         return Some(Seat::Fixed(*shaft));
     }
-    let shafts = structure.partners(gear.id, &["shaft"]);
-    let shaft = *shafts.iter().find(|&&id| train.shaft(id).is_some())?;
+    let shaft = train.shaft_at(gear)?;
     let is_joined = !between(&coupling::JOINTS).is_empty();
     let has_bearing = !between(&bearing::KINDS).is_empty();
     let is_loose = !couplings.is_empty() || (has_bearing && !is_joined);
@@ -62,9 +52,8 @@ pub fn seat(
 /// Bearings between a shaft and a gear: on the hub of one that turns loose, at the same place as on the shaft where
 /// none is given. False for a bearing inside of a gear that is fixed to the shaft, which carries nothing.
 pub fn stand_on_hubs(
-    source: &Source<'_>,
     train: &Train,
-    component: &Component,
+    component: Part<'_>,
     sides: &mut [i64; 2],
     u_mm: &mut [Option<f64>; 2],
 ) -> bool {
@@ -75,7 +64,7 @@ pub fn stand_on_hubs(
         };
         if gear.shaft == sides[1 - side] {
             let what = "between a shaft and a gear that is fixed to it: carries nothing";
-            source.leave_out(component, About::Small, what);
+            component.leave_out(About::Small, what);
             return false;
         }
         sides[side] = gear.shaft;

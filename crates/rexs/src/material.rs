@@ -1,10 +1,8 @@
 //! Elastic materials of gears and shafts.
 
-use crate::error::RexsError;
+use crate::error::Result;
 use crate::ledger::About;
-use crate::model::Component;
-use crate::source::Source;
-use crate::structure::Structure;
+use crate::source::Part;
 use crate::units::{KG_PER_DM3, MPA, ONE};
 
 /// Linear elastic material.
@@ -31,35 +29,25 @@ const MOST_MPA: f64 = 2e7;
 /// Material of a component, steel where it names none.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn material(
-    source: &Source<'_>,
-    structure: &Structure,
-    component: &Component,
-) -> Result<Material, RexsError> {
-    let mut named = structure.parts(source.model, component.id, &["material"]);
+/// Those of [`Part`].
+pub fn material(component: Part<'_>) -> Result<Material> {
+    let mut named = component.parts(&["material"]);
     let Some(found) = named.next() else {
-        source.assume(
-            component,
-            About::Stiffness,
-            "no material given: steel, 206 GPa, 0.3, 7850 kg/m3",
-        );
+        let what = "no material given: steel, 206 GPa, 0.3, 7850 kg/m3";
+        component.assume(About::Stiffness, what);
         return Ok(STEEL);
     };
-    let young = source.positive(found, "elastic_modulus", MPA)?;
+    let young = found.positive("elastic_modulus", MPA)?;
     if let Some(rigid) = young.filter(|&e| e > MOST_MPA) {
-        source.assume(
-            found,
-            About::Small,
-            format!("a modulus of {rigid:e} MPa stands for rigid: {MOST_MPA:e} MPa"),
-        );
+        let what = format!("a modulus of {rigid:e} MPa stands for rigid: {MOST_MPA:e} MPa");
+        found.assume(About::Small, what);
     }
-    let poisson = source
-        .number(found, "poisson_ratio", ONE)?
+    let poisson = found
+        .number("poisson_ratio", ONE)?
         .filter(|v| (0.0..0.5).contains(v));
-    let density = source.positive(found, "density", KG_PER_DM3)?;
+    let density = found.positive("density", KG_PER_DM3)?;
     if young.is_none() || poisson.is_none() || density.is_none() {
-        source.assume(found, About::Stiffness, "modulus, Poisson's ratio or density not given or not possible: those of steel, 206 GPa, 0.3, 7850 kg/m3");
+        found.assume(About::Stiffness, "modulus, Poisson's ratio or density not given or not possible: those of steel, 206 GPa, 0.3, 7850 kg/m3");
     }
     Ok(Material {
         young_gpa: young.map_or(STEEL.young_gpa, |e| 1e-3 * e.min(MOST_MPA)),

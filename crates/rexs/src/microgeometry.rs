@@ -1,14 +1,12 @@
 //! Flank modifications: reliefs, crownings, slopes, twist, topography.
 
-use crate::error::RexsError;
+use crate::error::Result;
 use crate::gear::Gear;
 use crate::ledger::About;
-use crate::model::Component;
-use crate::source::Source;
-use crate::structure::Structure;
+use crate::source::{Part, Source};
 use crate::text::{number, numbers};
 use crate::train::Train;
-use crate::units::{MM, Unit};
+use crate::units::MM;
 use std::collections::HashSet;
 
 /// Keys of `[microgeometry]` and their values, of left and right flanks.
@@ -56,25 +54,20 @@ const UNREAD: [&str; 4] = [
 /// Reads the modifications of all gears.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn of_train(
-    source: &Source<'_>,
-    structure: &Structure,
-    train: &mut Train,
-) -> Result<(), RexsError> {
+/// Those of [`Part`].
+pub fn of_train(source: &Source<'_>, train: &mut Train) -> Result<()> {
     let in_sets = train.sets.iter().flat_map(|set| &set.against_u);
     let in_sets: HashSet<usize> = in_sets.copied().collect();
     for i in 0..train.gears.len() {
         let gear = &train.gears[i].gear;
-        let Some(component) = source.model.component(gear.id) else {
+        let Some(component) = source.part(gear.id) else {
             continue;
         };
         let is_reversed = match train.shaft(train.gears[i].shaft) {
             Some(shaft) => shaft.is_reversed,
             None => in_sets.contains(&i),
         };
-        let found = read(source, structure, component, gear, is_reversed)?;
-        train.gears[i].gear.microgeometry = found;
+        train.gears[i].gear.microgeometry = read(component, gear, is_reversed)?;
     }
     Ok(())
 }
@@ -83,47 +76,38 @@ pub fn of_train(
 /// planetary set, is −u.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn read(
-    source: &Source<'_>,
-    structure: &Structure,
-    component: &Component,
-    gear: &Gear,
-    is_reversed: bool,
-) -> Result<Microgeometry, RexsError> {
-    let flanks = structure.flank_parts(source.model, component.id);
+/// Those of [`Part`].
+pub fn read(component: Part<'_>, gear: &Gear, is_reversed: bool) -> Result<Microgeometry> {
+    let flanks = component.flanks();
     // The datum face looks to -u unless the file says otherwise.
-    let datum_along_u =
-        source.text(component, "datum_face_orientation").as_deref() == Some("positive");
+    let datum_along_u = component.text("datum_face_orientation").as_deref() == Some("positive");
     let datum_is_positive = datum_along_u != is_reversed;
     let mut sides = [Vec::new(), Vec::new()];
     for (side, flank) in sides.iter_mut().zip(flanks) {
         let Some(flank) = flank else { continue };
         let reader = Reader {
-            source,
             gear,
             datum_is_positive,
             is_reversed,
         };
-        let found = |kinds: &[&str]| structure.parts(source.model, flank.id, kinds);
+        let found = |kinds: &[&str]| flank.parts(kinds);
         let mut seen: Vec<&str> = Vec::new();
         for m in found(&READ) {
             if seen.contains(&m.kind.as_str()) {
-                reader.leave_out(m, "a second one of its kind on the same flank");
+                m.leave_out(About::Flanks, "a second one of its kind on the same flank");
                 continue;
             }
-            seen.push(&m.kind);
+            seen.push(&m.component.kind);
             side.extend(reader.modification(m)?);
         }
         side.extend(reader.ends(&found(&ENDS).collect::<Vec<_>>())?);
         for m in found(&UNREAD) {
-            reader.leave_out(m, "gear files have no such modification; give it as a topography or as an error of the mesh");
+            m.leave_out(About::Flanks, "gear files have no such modification; give it as a topography or as an error of the mesh");
         }
     }
     let [left, right] = sides;
     if left != right {
-        source.assume(
-            component,
+        component.assume(
             About::Flanks,
             "left and right flanks as seen from the end of the shaft at higher u, tips upwards",
         );
@@ -145,7 +129,6 @@ fn key(name: &str, value: f64) -> (String, String) {
 }
 
 struct Reader<'a> {
-    source: &'a Source<'a>,
     gear: &'a Gear,
     /// Whether the datum face looks to +z.
     datum_is_positive: bool,
@@ -154,47 +137,26 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn value(&self, m: &Component, id: &str, unit: Unit) -> Result<Option<f64>, RexsError> {
-        self.source.number(m, id, unit)
-    }
-
-    fn leave_out(&self, m: &Component, what: impl Into<String>) {
-        self.source.leave_out(m, About::Flanks, what);
-    }
-
-    fn assume(&self, m: &Component, what: impl Into<String>) {
-        self.source.assume(m, About::Flanks, what);
-    }
-
-    fn amount_um(&self, m: &Component, id: &str) -> Result<Option<f64>, RexsError> {
-        let found = self
-            .value(m, id, MM)?
+    fn amount_um(&self, m: Part<'_>, id: &str) -> Result<Option<f64>> {
+        let found = m
+            .number(id, MM)?
             .map(|mm| UM_PER_MM * mm)
             .filter(|um| *um != 0.0);
         if let Some(um) = found.filter(|um| um.abs() > 1000.0) {
-            self.leave_out(
-                m,
-                format!("{id} of {um} um: more than 1000 is no modification"),
-            );
+            let what = format!("{id} of {um} um: more than 1000 is no modification");
+            m.leave_out(About::Flanks, what);
             return Ok(None);
         }
         Ok(found)
     }
 
     /// A diameter, or the rolling length to it.
-    fn diameter_mm(
-        &self,
-        m: &Component,
-        diameter: &str,
-        length: &str,
-    ) -> Result<Option<f64>, RexsError> {
-        if let Some(d) = self.value(m, diameter, MM)? {
+    fn diameter_mm(&self, m: Part<'_>, diameter: &str, length: &str) -> Result<Option<f64>> {
+        if let Some(d) = m.number(diameter, MM)? {
             return Ok(Some(self.unsigned(d)));
         }
         let base = 0.5 * self.gear.base_diameter_mm();
-        Ok(self
-            .value(m, length, MM)?
-            .map(|roll| 2.0 * base.hypot(roll)))
+        Ok(m.number(length, MM)?.map(|roll| 2.0 * base.hypot(roll)))
     }
 
     /// A diameter without the sign that ISO 21771 gives to those of rings.
@@ -205,24 +167,25 @@ impl Reader<'_> {
         }
     }
 
-    fn shape(&self, m: &Component) -> &'static str {
-        let shape = self.source.text(m, "shape_of_relief");
+    fn shape(&self, m: Part<'_>) -> &'static str {
+        let shape = m.text("shape_of_relief");
         match shape.as_deref() {
             Some("parabolic") => "parabolic",
             Some("circular") => "arc",
             Some("linear") => "linear",
             Some(other) => {
-                self.leave_out(m, format!("shape `{other}`: taken as parabolic"));
+                let what = format!("shape `{other}`: taken as parabolic");
+                m.leave_out(About::Flanks, what);
                 "parabolic"
             }
             None => {
-                self.assume(m, "no shape given: linear");
+                m.assume(About::Flanks, "no shape given: linear");
                 "linear"
             }
         }
     }
 
-    fn modification(&self, m: &Component) -> Result<Keys, RexsError> {
+    fn modification(&self, m: Part<'_>) -> Result<Keys> {
         match m.kind.as_str() {
             "tip_relief" => self.relief(m, "tip_relief"),
             "root_relief" => self.relief(m, "root_relief"),
@@ -244,19 +207,20 @@ impl Reader<'_> {
         }
     }
 
-    fn profile_crowning(&self, m: &Component) -> Result<Keys, RexsError> {
+    fn profile_crowning(&self, m: Part<'_>) -> Result<Keys> {
         let tip = self.amount_um(m, "profile_crowning_at_tip")?;
         let root = self.amount_um(m, "profile_crowning_at_root")?;
-        let highest = self.value(m, "profile_highest_point", MM)?;
+        let highest = m.number("profile_highest_point", MM)?;
         let Some(tip) = tip.or(root) else {
             return Ok(Vec::new());
         };
         if let Some(root) = root.filter(|root| *root != tip) {
-            self.leave_out(m, format!("{root} um at the root: one parabola from the highest point on, {tip} um at the tip"));
+            m.leave_out(About::Flanks, format!("{root} um at the root: one parabola from the highest point on, {tip} um at the tip"));
         }
         let middle = highest.map_or_else(
             || {
-                self.assume(m, "no highest point given: the reference circle");
+                let what = "no highest point given: the reference circle";
+                m.assume(About::Flanks, what);
                 self.gear.reference_diameter_mm()
             },
             |d| self.unsigned(d),
@@ -267,7 +231,7 @@ impl Reader<'_> {
         ])
     }
 
-    fn helix_crowning(&self, m: &Component) -> Result<Keys, RexsError> {
+    fn helix_crowning(&self, m: Part<'_>) -> Result<Keys> {
         let ends = [
             self.amount_um(m, "helix_crowning_amount_datum_face")?,
             self.amount_um(m, "helix_crowning_amount_non_datum_face")?,
@@ -276,10 +240,8 @@ impl Reader<'_> {
             return Ok(Vec::new());
         };
         if a != b {
-            self.leave_out(
-                m,
-                format!("{a} and {b} um at the two faces: their mean at both"),
-            );
+            let what = format!("{a} and {b} um at the two faces: their mean at both");
+            m.leave_out(About::Flanks, what);
         }
         Ok(vec![key("lead_crowning_um", 0.5 * (a + b))])
     }
@@ -287,20 +249,20 @@ impl Reader<'_> {
     /// An amount under a key of ours. `from_datum`: its sign depends on where the datum face is.
     fn slope(
         &self,
-        m: &Component,
+        m: Part<'_>,
         (id, ours): (&str, &str),
         sign: &str,
         from_datum: bool,
-    ) -> Result<Keys, RexsError> {
+    ) -> Result<Keys> {
         let Some(amount) = self.amount_um(m, id)? else {
             return Ok(Vec::new());
         };
-        self.assume(m, sign);
+        m.assume(About::Flanks, sign);
         let is_reversed = from_datum && self.datum_is_positive;
         Ok(vec![key(ours, if is_reversed { -amount } else { amount })])
     }
 
-    fn relief(&self, m: &Component, name: &str) -> Result<Keys, RexsError> {
+    fn relief(&self, m: Part<'_>, name: &str) -> Result<Keys> {
         let Some(amount) = self.amount_um(m, &format!("{name}_depth"))? else {
             return Ok(Vec::new());
         };
@@ -310,8 +272,8 @@ impl Reader<'_> {
             &format!("{name}_datum_length"),
         )?;
         let Some(start) = start else {
-            self.leave_out(
-                m,
+            m.leave_out(
+                About::Flanks,
                 format!("{amount} um: neither a diameter nor a length at which it begins is given"),
             );
             return Ok(Vec::new());
@@ -322,7 +284,7 @@ impl Reader<'_> {
             false => [self.gear.base_diameter_mm(), tip],
         };
         if !(low..high).contains(&start) {
-            self.leave_out(m, format!("{amount} um from a diameter of {start:.4} mm on: not on the flank, {low:.4} to {high:.4} mm"));
+            m.leave_out(About::Flanks, format!("{amount} um from a diameter of {start:.4} mm on: not on the flank, {low:.4} to {high:.4} mm"));
             return Ok(Vec::new());
         }
         Ok(vec![
@@ -332,9 +294,9 @@ impl Reader<'_> {
         ])
     }
 
-    fn ends(&self, ends: &[&Component]) -> Result<Keys, RexsError> {
+    fn ends(&self, ends: &[Part<'_>]) -> Result<Keys> {
         let mut found: Vec<(f64, f64, &str, bool)> = Vec::new();
-        for m in ends {
+        for &m in ends {
             let is_datum = m.kind == ENDS[0];
             let face = if is_datum {
                 "datum_face"
@@ -342,7 +304,7 @@ impl Reader<'_> {
                 "non_datum_face"
             };
             let amount = self.amount_um(m, &format!("end_relief_depth_{face}"))?;
-            let length = self.value(m, &format!("end_relief_length_{face}"), MM)?;
+            let length = m.number(&format!("end_relief_length_{face}"), MM)?;
             match (amount, length) {
                 (Some(amount), Some(length))
                     if length > 0.0 && length < self.gear.face_width_mm =>
@@ -355,7 +317,7 @@ impl Reader<'_> {
                     ));
                 }
                 (None, _) => {}
-                _ => self.leave_out(m, "end relief without a length on the face"),
+                _ => m.leave_out(About::Flanks, "end relief without a length on the face"),
             }
         }
         let Some(&(amount, length, shape, is_positive)) = found.first() else {
@@ -366,8 +328,7 @@ impl Reader<'_> {
             None => "-z",
             Some(second) => {
                 if (second.0, second.1, second.2) != (amount, length, shape) {
-                    self.source.leave_out(
-                        ends[1],
+                    ends[1].leave_out(
                         About::Flanks,
                         "another end relief than at the other face: both have that of the first",
                     );
@@ -384,18 +345,13 @@ impl Reader<'_> {
     }
 
     /// A table: amounts at diameters times places over the face, the places running fastest.
-    fn topography(&self, m: &Component) -> Result<Keys, RexsError> {
-        let diameters = self
-            .source
-            .list(m, "diameters_of_topographical_modification", MM)?;
-        let places = self
-            .source
-            .list(m, "coordinates_of_topographical_modification", MM)?;
-        let amounts = self
-            .source
-            .list(m, "topographical_modification_amounts", MM)?;
+    fn topography(&self, m: Part<'_>) -> Result<Keys> {
+        let diameters = m.list("diameters_of_topographical_modification", MM)?;
+        let places = m.list("coordinates_of_topographical_modification", MM)?;
+        let amounts = m.list("topographical_modification_amounts", MM)?;
         let (Some(diameters), Some(places), Some(amounts)) = (diameters, places, amounts) else {
-            self.leave_out(m, "topography without diameters, coordinates and amounts");
+            let what = "topography without diameters, coordinates and amounts";
+            m.leave_out(About::Flanks, what);
             return Ok(Vec::new());
         };
         let increasing =
@@ -406,7 +362,7 @@ impl Reader<'_> {
             || !increasing(&places)
             || amounts.len() != diameters.len() * places.len()
         {
-            self.leave_out(m, format!(
+            m.leave_out(About::Flanks, format!(
                     "topography of {} diameters, {} places and {} amounts: no full grid of increasing points, diameters without sign",
                     diameters.len(),
                     places.len(),
@@ -415,7 +371,7 @@ impl Reader<'_> {
             );
             return Ok(Vec::new());
         }
-        self.assume(m, "places over the face count from the face at the lower u; positive amounts remove material");
+        m.assume(About::Flanks, "places over the face count from the face at the lower u; positive amounts remove material");
         let half = 0.5 * self.gear.face_width_mm;
         // z increases, as u does; against u the table runs from its other end.
         let along_z = |mut values: Vec<f64>| {

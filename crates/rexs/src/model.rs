@@ -47,6 +47,14 @@ impl Component {
         }
     }
 
+    /// Its name, or another one where it has none.
+    pub fn name_or<'a>(&'a self, other: &'a str) -> &'a str {
+        match self.name.is_empty() {
+            true => other,
+            false => &self.name,
+        }
+    }
+
     /// An attribute.
     pub fn attribute(&self, id: &str) -> Option<&Attribute> {
         effort::each(self.attributes.iter()).find(|a| a.id == id)

@@ -1,9 +1,8 @@
 //! Where components stand in space: vectors of a reference component, chained.
 
-use crate::error::RexsError;
+use crate::error::{Result, RexsError};
 use crate::ledger::About;
-use crate::model::Component;
-use crate::source::Source;
+use crate::source::Part;
 use std::collections::HashSet;
 
 /// Origin and axes in the coordinates of the gear unit.
@@ -73,9 +72,10 @@ pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
 /// The frame of a component; none where it has no support vector.
 ///
 /// # Errors
-/// [`RexsError::Cycle`] for components whose places are told by each other, those of [`Source`].
-pub fn frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>, RexsError> {
-    let mut chain: Vec<(&Component, Frame)> = Vec::new();
+/// [`RexsError::Cycle`] for components whose places are told by each other, those of [`Part`].
+pub fn frame(component: Part<'_>) -> Result<Option<Frame>> {
+    let source = component.source;
+    let mut chain: Vec<(Part<'_>, Frame)> = Vec::new();
     let mut seen = HashSet::new();
     let mut next = component;
     // The frame in which the last one of the chain stands.
@@ -83,12 +83,11 @@ pub fn frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>
         if let Some(known) = source.frame(next.id) {
             break known;
         }
-        let Some(own) = own_frame(source, next)? else {
+        let Some(own) = own_frame(next)? else {
             if chain.is_empty() {
                 return Ok(None);
             }
-            source.assume(
-                next,
+            next.assume(
                 About::Place,
                 "other components stand in its frame, which is not given: taken as the gear unit's",
             );
@@ -96,17 +95,17 @@ pub fn frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>
         };
         chain.push((next, own));
         seen.insert(next.id);
-        let reference = source.integer(next, "reference_component_for_position")?;
+        let reference = next.integer("reference_component_for_position")?;
         // Gear units say so that they stand in the world.
         let is_unit = next.kind == "gear_unit";
         let Some(id) = reference.filter(|&id| !(is_unit && id == next.id)) else {
             break Frame::WORLD;
         };
-        let Some(parent) = source.model.component(id) else {
+        let Some(parent) = source.part(id) else {
             let what = format!(
                 "its place is given from component {id}, which is not in the file: taken as from the gear unit"
             );
-            source.assume(next, About::Lost, what);
+            next.assume(About::Lost, what);
             break Frame::WORLD;
         };
         if seen.contains(&parent.id) {
@@ -140,22 +139,19 @@ pub fn frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>
     Ok(Some(frame))
 }
 
-fn own_frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>, RexsError> {
-    let Some(origin_mm) = source.vector(component, "support_vector")? else {
+fn own_frame(component: Part<'_>) -> Result<Option<Frame>> {
+    let Some(origin_mm) = component.vector("support_vector")? else {
         return Ok(None);
     };
-    let u = source.vector(component, "u_axis_vector")?;
-    let w = source.vector(component, "w_axis_vector")?;
+    let u = component.vector("u_axis_vector")?;
+    let w = component.vector("w_axis_vector")?;
     let wrong = |attribute: &str| {
         let allowed = "u and w are vectors that are not zero and not along each other";
         component.wrong(attribute, "no direction", allowed)
     };
     if u.is_none() || w.is_none() {
-        source.assume(
-            component,
-            About::Place,
-            "no u or w axis given: those of its reference component",
-        );
+        let what = "no u or w axis given: those of its reference component";
+        component.assume(About::Place, what);
     }
     let u = unit(u.unwrap_or([1.0, 0.0, 0.0])).ok_or_else(|| wrong("u_axis_vector"))?;
     let w = w.unwrap_or(if u[2].abs() > 0.9 {

@@ -7,11 +7,10 @@
 //! volume 2, planetary gears).
 
 use crate::ledger::About;
-use crate::model::Component;
 use crate::planetary_set;
 use crate::power_flow::Link;
-use crate::source::Source;
-use crate::structure::{Stage, Structure};
+use crate::source::{Part, Source};
+use crate::structure::Stage;
 use crate::train::{TorqueSeat, Train};
 use crate::units::{ONE, RPM};
 use std::collections::{HashMap, HashSet};
@@ -67,7 +66,7 @@ impl Acting {
                 .or_default()
                 .insert(seated.gear.id);
         }
-        let bevels = train.bevels.iter().map(|b| b.shaft);
+        let bevels = train.bevels.iter().map(|b| b.seat.shaft);
         let coupled = train.couplings.iter().flat_map(|c| c.sides);
         Self {
             loaded: transmitting.map(|l| l.shaft).collect(),
@@ -79,7 +78,7 @@ impl Acting {
     }
 
     /// Finds the shafts from one planetary stage to another.
-    fn share(&mut self, all: &[(&Component, Parts)]) {
+    fn share(&mut self, all: &[(Part<'_>, Parts)]) {
         let mut stages_on: HashMap<i64, (usize, bool)> = HashMap::new();
         for member in all.iter().flat_map(|(_, parts)| &parts.members) {
             if let Some(shaft) = member.shaft {
@@ -96,16 +95,16 @@ impl Acting {
 }
 
 /// Joins the members of all planetary stages.
-pub fn join(source: &Source<'_>, structure: &Structure, train: &mut Train) {
+pub fn join(source: &Source<'_>, train: &mut Train) {
     let mut acting = Acting::of(train);
     let mut pairs_of: HashMap<i64, Vec<(usize, Stage)>> = HashMap::new();
-    for (place, stage) in structure.stages().iter().enumerate() {
+    for (place, stage) in source.structure.stages().iter().enumerate() {
         pairs_of.entry(stage.id).or_default().push((place, *stage));
     }
     let mut in_sets: HashSet<i64> = HashSet::new();
     let mut all = Vec::new();
-    for stage in source.model.of_kind(&["planetary_stage"]) {
-        let stages = structure.partners(stage.id, &["cylindrical_stage"]);
+    for stage in source.of_kind(&["planetary_stage"]) {
+        let stages = stage.partners(&["cylindrical_stage"]);
         let mut pairs: Vec<_> = { stages.iter() }
             .filter_map(|id| pairs_of.get(id))
             .flatten()
@@ -113,11 +112,11 @@ pub fn join(source: &Source<'_>, structure: &Structure, train: &mut Train) {
             .collect();
         pairs.sort_unstable_by_key(|(place, _)| *place);
         let pairs: Vec<Stage> = pairs.into_iter().map(|(_, stage)| stage).collect();
-        match members(source, structure, train, (stage, &pairs)) {
+        match members(source, train, (stage, &pairs)) {
             Some(parts) => all.push((stage, parts)),
             None => {
                 let what = "sun, ring, planets and carrier were not found as one of each kind; the scene has no planets and no mesh of it";
-                source.leave_out(stage, About::Lost, what);
+                stage.leave_out(About::Lost, what);
             }
         }
     }
@@ -129,7 +128,7 @@ pub fn join(source: &Source<'_>, structure: &Structure, train: &mut Train) {
         let turning: Vec<usize> = (0..3).filter(|member| *member != standing).collect();
         let shafts = turning.iter().filter_map(|&i| parts.members[i].shaft);
         acting.joined.extend(shafts);
-        match planetary_set::read(source, structure, train, (stage, &parts), (standing, link)) {
+        match planetary_set::read(source, train, (stage, &parts), (standing, link)) {
             Ok(set) => {
                 in_sets.extend(&parts.planets);
                 in_sets.insert(parts.members[1].part);
@@ -141,40 +140,31 @@ pub fn join(source: &Source<'_>, structure: &Structure, train: &mut Train) {
                     "the scene has no planets and no mesh of it ({reason}); its {} stands, {told}",
                     parts.members[standing].name
                 );
-                source.leave_out(stage, About::Support, what);
+                stage.leave_out(About::Support, what);
             }
         }
     }
-    list_left_out(source, structure, train, &in_sets);
+    list_left_out(source, train, &in_sets);
 }
 
 /// Gears on no shaft, and bearings of planets, that no set has.
-fn list_left_out(
-    source: &Source<'_>,
-    structure: &Structure,
-    train: &Train,
-    in_sets: &HashSet<i64>,
-) {
+fn list_left_out(source: &Source<'_>, train: &Train, in_sets: &HashSet<i64>) {
     for seated in train.gears.iter().filter(|g| g.shaft < 0) {
         let id = seated.gear.id;
-        let Some(component) = source
-            .model
-            .component(id)
-            .filter(|_| !in_sets.contains(&id))
-        else {
+        let Some(component) = source.part(id).filter(|_| !in_sets.contains(&id)) else {
             continue;
         };
         // Planets stand on pins.
-        let shafts = structure.partners(id, &["shaft"]);
-        let is_planet = |id: &i64| structure.planetary_role(*id).is_some();
+        let shafts = source.structure.partners(id, &["shaft"]);
+        let is_planet = |id: &i64| source.structure.planetary_role(*id).is_some();
         let about = match shafts.iter().any(is_planet) || seated.gear.internal {
             true => About::Nothing,
             false => About::Lost,
         };
         let what = "on no shaft of the scene: its file is written, the scene does not have it";
-        source.leave_out(component, about, what);
+        component.leave_out(about, what);
     }
-    let planets = { in_sets.iter() }.flat_map(|gear| structure.partners(*gear, &["shaft"]));
+    let planets = { in_sets.iter() }.flat_map(|gear| source.structure.partners(*gear, &["shaft"]));
     let mut told: HashSet<i64> = HashSet::new();
     for shaft in planets {
         let own = train.of_planets.get(&shaft).into_iter().flatten();
@@ -182,9 +172,9 @@ fn list_left_out(
     }
     for bearing in train.of_planets.values().flatten() {
         if told.insert(bearing.id)
-            && let Some(component) = source.model.component(bearing.id)
+            && let Some(component) = source.part(bearing.id)
         {
-            source.leave_out(component, About::Nothing, "on no shaft of the scene");
+            component.leave_out(About::Nothing, "on no shaft of the scene");
         }
     }
 }
@@ -192,13 +182,12 @@ fn list_left_out(
 /// Sun, ring and carrier, and i₀.
 fn members(
     source: &Source<'_>,
-    structure: &Structure,
     train: &Train,
-    (stage, pairs): (&Component, &[Stage]),
+    (stage, pairs): (Part<'_>, &[Stage]),
 ) -> Option<Parts> {
     let in_scene = |ids: Vec<i64>| ids.into_iter().find(|&id| train.shaft(id).is_some());
     let is_ring = |id: i64| {
-        let component = source.model.component(id);
+        let component = source.part(id);
         component.is_some_and(|c| c.kind == "ring_gear")
     };
     let mate = |[a, b]: [i64; 2]| {
@@ -207,7 +196,7 @@ fn members(
     };
     let with_ring: Vec<(i64, i64)> = pairs.iter().filter_map(|s| mate(s.gears)).collect();
     let &(ring, planet_b) = with_ring.first()?;
-    let shaft_of = |gear: i64| structure.partners(gear, &["shaft"]).first().copied();
+    let shaft_of = |gear: i64| source.structure.partners(gear, &["shaft"]).first().copied();
     let planets: HashSet<i64> = with_ring.iter().map(|&(_, p)| p).collect();
     let pins: HashSet<i64> = planets.iter().filter_map(|&p| shaft_of(p)).collect();
     let is_planet = |gear: i64| {
@@ -232,18 +221,20 @@ fn members(
         return None;
     }
     let teeth = |gear: i64| -> Option<f64> {
-        let component = source.model.component(gear)?;
-        let teeth = source.number(component, "number_of_teeth", ONE).ok()??;
+        let component = source.part(gear)?;
+        let teeth = component.number("number_of_teeth", ONE).ok()??;
         Some(teeth.abs()).filter(|z| *z > 0.0)
     };
     let ratio = -teeth(planet_a)? * teeth(ring)? / (teeth(sun)? * teeth(planet_b)?);
-    let carriers = structure.planetary_shafts(stage.id, "planet_carrier_shaft");
+    let carriers = source
+        .structure
+        .planetary_shafts(stage.id, "planet_carrier_shaft");
     let carrier = in_scene(carriers.clone());
     let mut planets_of_sun: Vec<i64> = suns.iter().map(|s| s.1).collect();
     let mut seen = HashSet::new();
     planets_of_sun.retain(|planet| seen.insert(*planet));
     let member = |part: i64, name| Member {
-        shaft: in_scene(structure.partners(part, &["shaft"])),
+        shaft: in_scene(source.structure.partners(part, &["shaft"])),
         part,
         name,
     };
@@ -271,7 +262,7 @@ fn members(
 fn link(
     source: &Source<'_>,
     train: &mut Train,
-    (stage, acting): (&Component, &Acting),
+    (stage, acting): (Part<'_>, &Acting),
     parts: &Parts,
 ) -> Option<(usize, usize)> {
     let (members, ratio) = (&parts.members, parts.ratio);
@@ -296,7 +287,7 @@ fn link(
                     names.join(", ")
                 }
             );
-            source.leave_out(stage, About::Lost, what);
+            stage.leave_out(About::Lost, what);
             return None;
         }
     };
@@ -311,7 +302,7 @@ fn link(
 /// Torques on the shafts of the two members that turn; says what they are.
 fn torques(
     train: &mut Train,
-    (stage, parts): (&Component, &Parts),
+    (stage, parts): (Part<'_>, &Parts),
     (turning, link): (&[usize], usize),
 ) -> String {
     let members = &parts.members;
@@ -333,11 +324,7 @@ fn torques(
             shaft,
             u_mm,
             link: (link, side),
-            name: if stage.name.is_empty() {
-                format!("{} of {}", member.name, stage.words())
-            } else {
-                format!("{} of {}", member.name, stage.name)
-            },
+            name: format!("{} of {}", member.name, stage.name_or(&stage.words())),
         });
     }
     let [a, b] = [turning[0], turning[1]].map(|i| members[i].name);
@@ -349,10 +336,10 @@ fn torques(
 /// Whether something but the stage itself may turn a shaft: a load that transmits torque, another gear, a coupling to
 /// another shaft, another planetary stage.
 fn is_driven(source: &Source<'_>, acting: &Acting, part: i64, shaft: i64) -> bool {
-    let component = source.model.component(shaft);
+    let component = source.part(shaft);
     let stands = component.is_some_and(|c| {
-        let speed = source.number(c, "rotational_speed", RPM).ok().flatten();
-        speed == Some(0.0) && matches!(source.flag(c, "defines_speed"), Ok(Some(true)))
+        let speed = c.number("rotational_speed", RPM).ok().flatten();
+        speed == Some(0.0) && matches!(c.flag("defines_speed"), Ok(Some(true)))
     });
     let stands = stands || acting.braked.contains(&shaft);
     let mates = acting.gears.get(&shaft).into_iter().flatten();

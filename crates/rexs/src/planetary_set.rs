@@ -6,12 +6,10 @@ use crate::gear::Gear;
 use crate::in_time::Running;
 use crate::ledger::About;
 use crate::mesh_model::{Meshes, mesh_model};
-use crate::model::Component;
 use crate::placement::{Frame, add, dot, frame};
 use crate::planetary::Parts;
 use crate::power_flow::Link;
-use crate::source::Source;
-use crate::structure::Structure;
+use crate::source::{Part, Source};
 use crate::text::{number, numbers, quoted};
 use crate::train::Train;
 use crate::units::MM;
@@ -50,9 +48,8 @@ pub struct PlanetarySet {
 /// Why the scene cannot have it, in words.
 pub fn read(
     source: &Source<'_>,
-    structure: &Structure,
     train: &mut Train,
-    (stage, parts): (&Component, &Parts),
+    (stage, parts): (Part<'_>, &Parts),
     (standing, link): (usize, usize),
 ) -> Result<PlanetarySet, String> {
     let [sun, ring, _] = &parts.members;
@@ -72,29 +69,21 @@ pub fn read(
     let axis = own.axes[0].map(|x| sign * x);
     let mid_mm = train.gears[sun].mid_mm;
     let middle = own.point([mid_mm, 0.0, 0.0]);
-    let frame_of = |gear: i64| {
-        let shaft = structure.partners(gear, &["shaft"]).first().copied()?;
-        frame(source, source.model.component(shaft)?).ok()?
-    };
-    let frames: Vec<Option<Frame>> = parts.planets.iter().map(|&p| frame_of(p)).collect();
+    let planets = parts.planets.iter();
+    let frames: Vec<Option<Frame>> = planets.map(|&p| shaft_frame(source, p)).collect();
     let distance_mm = distance_mm(source, train, parts, (&own, &frames[0]), [sun, planet]);
     let teeth = train.gears[sun].gear.teeth + train.gears[ring_gear].gear.teeth;
-    let angles_deg = told_angles_deg(source, stage, (own.origin_mm, axis), &frames, teeth);
+    let angles_deg = told_angles_deg(stage, (own.origin_mm, axis), &frames, teeth);
     let is_against = |frame: &Option<Frame>| frame.is_some_and(|f| dot(f.axes[0], axis) < 0.0);
-    let bearings = of_planet(
-        structure,
-        train,
-        (parts.planets[0], planet),
-        is_against(&frames[0]),
-    );
+    let first = (parts.planets[0], planet);
+    let bearings = of_planet(source, train, first, is_against(&frames[0]));
     let planets = parts.planets.iter().zip(frames);
     let planets = planets.filter_map(|(&id, frame)| Some((train.gears.place(id)?, frame)));
     let planets: Vec<(usize, Option<Frame>)> = planets.collect();
     let others = planets.iter().skip(1).map(|(gear, _)| *gear).collect();
-    let on_no_shaft = planets
-        .into_iter()
-        .chain([(ring_gear, frame_of(ring.part))]);
-    let against_u = on_no_shaft.filter(|(_, frame)| is_against(frame));
+    let ring_frame = (ring_gear, shaft_frame(source, ring.part));
+    let against_u =
+        { planets.into_iter().chain([ring_frame]) }.filter(|(_, frame)| is_against(frame));
     let against_u = against_u.map(|(gear, _)| gear).collect();
     if standing == 2
         && let Some(on) = ring.shaft
@@ -108,21 +97,15 @@ pub fn read(
         2 => Vec::new(),
         _ => join_carriers(train, &parts.carriers, middle),
     };
-    source.assume(
-        stage,
-        About::Small,
-        format!(
-            "[[planetary]] of the scene: {} planets, all as the first one; its {} stands; carrier and pins are rigid",
-            parts.planets.len(),
-            parts.members[standing].name
-        ),
+    let what = format!(
+        "[[planetary]] of the scene: {} planets, all as the first one; its {} stands; carrier and pins are rigid",
+        parts.planets.len(),
+        parts.members[standing].name
     );
-    let name = match stage.name.is_empty() {
-        true => format!("planetary stage {}", stage.id),
-        false => stage.name.clone(),
-    };
+    stage.assume(About::Small, what);
+    let number = format!("planetary stage {}", stage.id);
     Ok(PlanetarySet {
-        name,
+        name: stage.name_or(&number).to_owned(),
         sun,
         planet,
         others,
@@ -134,6 +117,12 @@ pub fn read(
         link,
         against_u,
     })
+}
+
+/// Where the shaft of a gear stands, by its own place.
+fn shaft_frame(source: &Source<'_>, gear: i64) -> Option<Frame> {
+    let shafts = source.structure.partners(gear, &["shaft"]);
+    frame(source.part(*shafts.first()?)?).ok()?
 }
 
 /// Helix angle of the planets, with which sun and ring go together \[°\].
@@ -149,15 +138,14 @@ fn hand_deg([sun, planet, ring]: [&Gear; 3]) -> Result<f64, String> {
 
 /// Angles of the planets, and a word about them where they are not those of the file.
 fn told_angles_deg(
-    source: &Source<'_>,
-    stage: &Component,
+    stage: Part<'_>,
     axis: ([f64; 3], [f64; 3]),
     frames: &[Option<Frame>],
     teeth: u32,
 ) -> Vec<f64> {
     let Some((angles_deg, moved_deg)) = angles_deg(axis, frames, teeth) else {
         let about = "its planets have no places of their own around the axis: at equal angles";
-        source.assume(stage, About::Small, about);
+        stage.assume(About::Small, about);
         return equal_deg(frames.len());
     };
     if moved_deg > ROUNDING_DEG {
@@ -165,7 +153,7 @@ fn told_angles_deg(
             "its teeth do not fit where its planets are: moved by up to {moved_deg:.3} deg about its axis, \
              to the nearest places where they do"
         );
-        source.assume(stage, About::Place, about);
+        stage.assume(About::Place, about);
     }
     angles_deg
 }
@@ -189,12 +177,12 @@ pub fn tell_unlike_planets(source: &Source<'_>, train: &Train) {
         let first = &train.gears[set.planet].gear;
         let others = set.others.iter().map(|&i| &train.gears[i].gear);
         for gear in others.filter(|gear| gear.microgeometry != first.microgeometry) {
-            if let Some(component) = source.model.component(gear.id) {
+            if let Some(component) = source.part(gear.id) {
                 let what = format!(
                     "its flank modifications are others than those of {}, which all planets of the scene have: they stand in {} alone",
                     first.name, gear.file
                 );
-                source.leave_out(component, About::Flanks, what);
+                component.leave_out(About::Flanks, what);
             }
         }
     }
@@ -208,19 +196,13 @@ fn distance_mm(
     (sun, planet): (&Frame, &Option<Frame>),
     gears: [usize; 2],
 ) -> f64 {
-    let stage = source.model.component(parts.first_stage);
-    let stated = stage.and_then(|s| source.number(s, "center_distance", MM).ok().flatten());
+    let stage = source.part(parts.first_stage);
+    let stated = stage.and_then(|s| s.number("center_distance", MM).ok().flatten());
     let stated = stated.map(f64::abs).filter(|d| *d > 0.0);
     let by_place = planet.map(|frame| sun.from_axis_mm(frame.origin_mm));
-    let by_teeth = || {
-        gears
-            .iter()
-            .map(|&i| 0.5 * train.gears[i].gear.reference_diameter_mm())
-            .sum()
-    };
-    stated
-        .or(by_place.filter(|d| *d > 0.0))
-        .unwrap_or_else(by_teeth)
+    let radius = |&i: &usize| 0.5 * train.gears[i].gear.reference_diameter_mm();
+    let stated = stated.or(by_place.filter(|d| *d > 0.0));
+    stated.unwrap_or_else(|| gears.iter().map(radius).sum())
 }
 
 fn equal_deg(planets: usize) -> Vec<f64> {
@@ -269,19 +251,17 @@ fn angles_deg(
 
 /// Bearings between the shaft of a planet and its pin, with their places.
 fn of_planet(
-    structure: &Structure,
+    source: &Source<'_>,
     train: &Train,
     (gear, place): (i64, usize),
     reversed: bool,
 ) -> Vec<(f64, Bearing)> {
-    let shafts = structure.partners(gear, &["shaft"]);
+    let shafts = source.structure.partners(gear, &["shaft"]);
     let mid_mm = Some(train.gears[place].mid_mm).filter(|mid| mid.is_finite());
     let bearings = { shafts.iter() }.filter_map(|shaft| train.of_planets.get(shaft));
     let on = bearings.flatten().filter_map(|bearing| {
-        let side = bearing
-            .sides
-            .iter()
-            .position(|side| shafts.contains(side))?;
+        let mut sides = bearing.sides.iter();
+        let side = sides.position(|side| shafts.contains(side))?;
         let u_mm = bearing.u_mm[side].or(bearing.u_mm[1 - side]);
         let z_mm = u_mm.zip(mid_mm).map_or(0.0, |(u, mid)| u - mid);
         Some((if reversed { -z_mm } else { z_mm }, bearing.clone()))
@@ -293,9 +273,8 @@ fn of_planet(
     if let Some((_, first)) = found.first_mut()
         && first.axial == AxialSupport::None
     {
-        first.axial_n_per_mm = first
-            .axial_n_per_mm
-            .max(0.4 * first.radial_n_per_mm.max(1.0));
+        let least = 0.4 * first.radial_n_per_mm.max(1.0);
+        first.axial_n_per_mm = first.axial_n_per_mm.max(least);
     }
     found
 }
@@ -321,10 +300,10 @@ impl PlanetarySet {
             "\n[[planetary]]\nname = {}\nposition_mm = {}\naxis = {}\ncentre_distance_mm = {}\n",
             quoted(&self.name),
             numbers(&own.point([sun.mid_mm, 0.0, 0.0])),
-            numbers(&own.axes[0].map(|x| shaft.sign() * x)),
+            numbers(&shaft.z()),
             number(self.distance_mm)
         );
-        if let Some([torque, _]) = train.flow.link_nm.get(self.link).copied().flatten()
+        if let Some([torque, _]) = train.flow.torques_nm(self.link)
             && torque != 0.0
         {
             let sense = if torque > 0.0 { "positive" } else { "negative" };

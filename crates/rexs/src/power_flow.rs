@@ -48,6 +48,13 @@ pub struct Flow {
     pub other_speed: Vec<(i64, f64)>,
 }
 
+impl Flow {
+    /// What its two shafts bring to a link \[N m\], where it is known.
+    pub fn torques_nm(&self, link: usize) -> Option<[f64; 2]> {
+        self.link_nm.get(link).copied().flatten()
+    }
+}
+
 /// Speeds that differ by less are the same: files round them.
 const SAME_SPEED: f64 = 1e-3;
 

@@ -4,7 +4,7 @@ use crate::axial_supports::axial_supports;
 use crate::bevel_loads::bevel_loads;
 use crate::by_number::{grouped, topmost};
 use crate::drive_text::{Held, drive};
-use crate::error::RexsError;
+use crate::error::{Result, RexsError};
 use crate::gear_bodies::gear_bodies;
 use crate::in_time::{DAMPING_S, Running, run_tables};
 use crate::mesh_model::{Meshes, mesh_model};
@@ -26,7 +26,7 @@ pub fn scene(
     (title, head): (&str, &[String]),
     gravity: Option<[f64; 3]>,
     (with, running): (Meshes, Running),
-) -> Result<(String, Vec<Held>), RexsError> {
+) -> Result<(String, Vec<Held>)> {
     let mut text = String::new();
     for line in head {
         text.push_str(&format!("# {}\n", comment(line)));
@@ -116,7 +116,6 @@ fn shaft_table(
     on_shafts: &OnShafts,
 ) {
     let frame = shaft.frame.unwrap_or(Frame::WORLD);
-    let axis = frame.axes[0].map(|x| shaft.sign() * x);
     let stations = shaft.stations_mm();
     let pairs = stations.windows(2);
     let diameters: Vec<[f64; 2]> = pairs.map(|w| shaft.between_mm([w[0], w[1]])).collect();
@@ -126,7 +125,7 @@ fn shaft_table(
         "\n[[shaft]]\nname = {}\norigin_mm = {}\naxis = {}\nstations_mm = {}\nouter_diameters_mm = {}\n",
         quoted(&shaft.name),
         numbers(&frame.origin_mm),
-        numbers(&axis),
+        numbers(&shaft.z()),
         numbers(stations),
         numbers(&outer)
     ));
@@ -245,7 +244,7 @@ fn couplings(text: &mut String, train: &Train) {
 fn meshes(text: &mut String, train: &Train, with: Meshes, running: Running) {
     for mesh in &train.meshes {
         let [a, b] = mesh.gears.map(|i| &train.gears[i].gear);
-        let torque = train.flow.link_nm.get(mesh.link).copied().flatten();
+        let torque = train.flow.torques_nm(mesh.link);
         let flanks = match torque {
             Some([t, _]) if t < 0.0 => "right",
             Some([t, _]) if t > 0.0 => "left",

@@ -76,6 +76,12 @@ impl Shaft {
         if self.is_reversed { -1.0 } else { 1.0 }
     }
 
+    /// Direction of z in the gear unit; that of u, where the shaft has no place yet, is x.
+    pub fn z(&self) -> [f64; 3] {
+        let frame = self.frame.unwrap_or(Frame::WORLD);
+        frame.axes[0].map(|x| self.sign() * x)
+    }
+
     fn forget(&mut self) {
         self.stations.take();
         self.first_seated.take();

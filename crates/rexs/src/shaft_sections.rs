@@ -1,13 +1,11 @@
 //! Sections of shafts: read from a model, joined without gaps or overlaps, and demanded where it has none.
 
-use crate::error::RexsError;
+use crate::error::Result;
 use crate::ledger::About;
 use crate::material::material;
-use crate::model::Component;
 use crate::placement::Frame;
 use crate::shaft::{MOST_RPM, SAME_MM, Section, Shaft};
-use crate::source::Source;
-use crate::structure::Structure;
+use crate::source::Part;
 use crate::units::{MM, RPM};
 
 /// Pieces of a taper.
@@ -16,51 +14,40 @@ const TAPER_PIECES: usize = 3;
 /// Reads a shaft with its sections.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn read(
-    source: &Source<'_>,
-    structure: &Structure,
-    component: &Component,
-    name: String,
-    frame: Option<Frame>,
-) -> Result<Shaft, RexsError> {
+/// Those of [`Part`].
+pub fn read(component: Part<'_>, name: String, frame: Option<Frame>) -> Result<Shaft> {
     let mut sections = Vec::new();
     let mut end_mm = 0.0;
-    for piece in structure.parts(source.model, component.id, &["shaft_section"]) {
-        let Some(length) = source.positive(piece, "length", MM)? else {
-            source.leave_out(piece, About::Stiffness, "a section without length");
+    for piece in component.parts(&["shaft_section"]) {
+        let Some(length) = piece.positive("length", MM)? else {
+            piece.leave_out(About::Stiffness, "a section without length");
             continue;
         };
-        let start = source
-            .number(piece, "u_coordinate_on_shaft", MM)?
-            .unwrap_or(end_mm);
+        let start = piece.number("u_coordinate_on_shaft", MM)?.unwrap_or(end_mm);
         end_mm = start + length;
-        let Some(diameters) = diameters_mm(source, piece)? else {
+        let Some(diameters) = diameters_mm(piece)? else {
             let what = "a section without an outer diameter";
-            source.leave_out(piece, About::Stiffness, what);
+            piece.leave_out(About::Stiffness, what);
             continue;
         };
-        add_pieces(source, piece, (start, length), diameters, &mut sections);
+        add_pieces(piece, (start, length), diameters, &mut sections);
     }
     sections.sort_by(|a, b| a.start_mm.total_cmp(&b.start_mm));
-    let mut sections = part_overlaps(source, component, sections);
-    close_gaps(source, component, &mut sections);
-    let speed = source.number_up_to(component, "rotational_speed", RPM, MOST_RPM)?;
-    let defines = source.flag(component, "defines_speed")?;
+    let mut sections = part_overlaps(component, sections);
+    close_gaps(component, &mut sections);
+    let speed = component.number_up_to("rotational_speed", RPM, MOST_RPM)?;
+    let defines = component.flag("defines_speed")?;
     let mut shaft = Shaft::default();
     (shaft.id, shaft.name, shaft.frame) = (component.id, name, frame);
     shaft.sections = sections;
-    shaft.material = material(source, structure, component)?;
+    shaft.material = material(component)?;
     shaft.speed_rpm = speed.filter(|n| *n != 0.0 && defines != Some(false));
     Ok(shaft)
 }
 
 /// Outer and inner diameters of a section at its begin and end \[mm\]; none without an outer one.
-fn diameters_mm(
-    source: &Source<'_>,
-    piece: &Component,
-) -> Result<Option<[[f64; 2]; 2]>, RexsError> {
-    let value = |id: &str| source.number(piece, id, MM);
+fn diameters_mm(piece: Part<'_>) -> Result<Option<[[f64; 2]; 2]>> {
+    let value = |id: &str| piece.number(id, MM);
     let [outer_0, outer_1] = [value("outer_diameter_begin")?, value("outer_diameter_end")?];
     let [inner_0, inner_1] = [value("inner_diameter_begin")?, value("inner_diameter_end")?];
     let outer = outer_0.or(outer_1).filter(|d| *d > 0.0);
@@ -78,8 +65,7 @@ fn diameters_mm(
 
 /// A section as cylinders: one, or those that stand for a taper.
 fn add_pieces(
-    source: &Source<'_>,
-    piece: &Component,
+    piece: Part<'_>,
     (start, length): (f64, f64),
     [outer, inner]: [[f64; 2]; 2],
     sections: &mut Vec<Section>,
@@ -93,8 +79,7 @@ fn add_pieces(
             .map(|k| a + (b - a) * (k as f64 + 0.5) / TAPER_PIECES as f64)
             .map(|d| d.powi(-4) / TAPER_PIECES as f64);
         let off = (middles.sum::<f64>() / exact - 1.0).abs();
-        source.assume(
-            piece,
+        piece.assume(
             About::by(off > 1e-2 || inner[0] != inner[1], About::Stiffness),
             format!("a taper: {TAPER_PIECES} cylinders of its diameters in their middles"),
         );
@@ -104,8 +89,7 @@ fn add_pieces(
         let at = |d: [f64; 2]| d[0] + (d[1] - d[0]) * (k as f64 + 0.5) / pieces as f64;
         let [outer_mm, mut inner_mm] = [at(outer), at(inner).max(0.0)];
         if inner_mm >= outer_mm {
-            source.leave_out(
-                piece,
+            piece.leave_out(
                 About::Stiffness,
                 format!(
                     "an inner diameter of {inner_mm} mm, which is not below the outer one: solid"
@@ -124,11 +108,7 @@ fn add_pieces(
 }
 
 /// Where pieces overlap, all of them are there, as a collar that is drawn over a shaft.
-fn part_overlaps(
-    source: &Source<'_>,
-    component: &Component,
-    sections: Vec<Section>,
-) -> Vec<Section> {
+fn part_overlaps(component: Part<'_>, sections: Vec<Section>) -> Vec<Section> {
     let mut reach = f64::MIN;
     let mut has_overlap = false;
     for section in &sections {
@@ -138,11 +118,8 @@ fn part_overlaps(
     if !has_overlap {
         return sections;
     }
-    source.assume(
-        component,
-        About::Stiffness,
-        "sections overlap: there the largest outer and the smallest inner diameter count",
-    );
+    let what = "sections overlap: there the largest outer and the smallest inner diameter count";
+    component.assume(About::Stiffness, what);
     let mut borders: Vec<f64> = sections
         .iter()
         .flat_map(|s| [s.start_mm, s.end_mm])
@@ -171,14 +148,12 @@ fn part_overlaps(
 }
 
 /// Each piece ends where the next one begins.
-fn close_gaps(source: &Source<'_>, component: &Component, sections: &mut [Section]) {
+fn close_gaps(component: Part<'_>, sections: &mut [Section]) {
     for i in 1..sections.len() {
         let (start, end) = (sections[i].start_mm, sections[i - 1].end_mm);
         if (start - end).abs() > 1e-6 {
             let length = end - sections[i - 1].start_mm;
-            source.assume(
-                component,
-                About::by((start - end).abs() > 1e-2 * length, About::Stiffness),
+            component.assume(About::by((start - end).abs() > 1e-2 * length, About::Stiffness),
                 format!(
                     "sections do not join at u = {start} mm ({} of {:.6} mm): the one before ends there",
                     if start > end { "gap" } else { "overlap" },
@@ -194,12 +169,7 @@ fn close_gaps(source: &Source<'_>, component: &Component, sections: &mut [Sectio
 const MOST_SLENDER: f64 = 100.0;
 
 /// A shaft without sections: one as thick as what sits on it, and long enough.
-pub fn demand_sections(
-    source: &Source<'_>,
-    component: &Component,
-    shaft: &mut Shaft,
-    bores_mm: &[f64],
-) {
+pub fn demand_sections(component: Part<'_>, shaft: &mut Shaft, bores_mm: &[f64]) {
     let [least, most] = shaft.marked_mm();
     if shaft.sections.is_empty() {
         let outer = bores_mm.iter().copied().fold(f64::MAX, f64::min);
@@ -209,8 +179,7 @@ pub fn demand_sections(
         } else {
             [0.0, 100.0]
         };
-        source.assume(
-            component,
+        component.assume(
             About::Stiffness,
             format!("no sections given: {outer_mm} mm thick from u = {start_mm} to {end_mm} mm"),
         );
@@ -242,7 +211,7 @@ pub fn demand_sections(
                      {:.6} mm longer",
                     beyond
                 );
-                source.assume(component, about, what);
+                component.assume(about, what);
             }
         }
         let thickest = shaft.sections.iter().map(|s| s.outer_mm);
@@ -252,7 +221,7 @@ pub fn demand_sections(
             let what = format!(
                 "{length} mm long and {thickest} mm thick at most: look at the places along u of what stands on it"
             );
-            source.assume(component, About::Lost, what);
+            component.assume(About::Lost, what);
         }
     }
 }

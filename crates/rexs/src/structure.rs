@@ -1,9 +1,9 @@
 //! Which component belongs to which, from the relations.
 
 use crate::effort;
-use crate::error::RexsError;
+use crate::error::{Result, RexsError};
 use crate::ledger::{About, Ledger};
-use crate::model::{Component, Model, Relation};
+use crate::model::{Model, Relation};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
@@ -43,7 +43,7 @@ impl Structure {
     /// # Errors
     /// [`RexsError::Duplicate`] for numbers that stand twice, [`RexsError::Cycle`] for components that contain each
     /// other.
-    pub fn new(model: &Model, ledger: &mut Ledger) -> Result<Self, RexsError> {
+    pub fn new(model: &Model, ledger: &mut Ledger) -> Result<Self> {
         let mut kinds = BTreeMap::new();
         for component in &model.components {
             if kinds.insert(component.id, component.kind.clone()).is_some() {
@@ -118,7 +118,7 @@ impl Structure {
         Ok(structure)
     }
 
-    fn demand_no_cycle(&self, model: &Model) -> Result<(), RexsError> {
+    fn demand_no_cycle(&self, model: &Model) -> Result<()> {
         let mut parts: BTreeMap<i64, Vec<i64>> = BTreeMap::new();
         for r in self
             .relations
@@ -192,17 +192,6 @@ impl Structure {
         found
     }
 
-    /// The components themselves.
-    pub fn parts<'m>(
-        &self,
-        model: &'m Model,
-        id: i64,
-        kinds: &[&str],
-    ) -> impl Iterator<Item = &'m Component> + use<'m> {
-        let ids = self.partners(id, kinds).into_iter();
-        ids.filter_map(|id| model.component(id))
-    }
-
     fn found_partners(&self, id: i64, kinds: &[&str]) -> Vec<i64> {
         let mut found = Vec::new();
         let mut seen = HashSet::new();
@@ -237,11 +226,6 @@ impl Structure {
             }
         }
         found
-    }
-
-    /// The components themselves.
-    pub fn flank_parts<'m>(&self, model: &'m Model, gear: i64) -> [Option<&'m Component>; 2] {
-        self.flanks(gear).map(|id| model.component(id?))
     }
 
     /// What stands inside and outside of a bearing or coupling: the two sides.

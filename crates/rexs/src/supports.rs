@@ -15,7 +15,7 @@ const GROUND: i64 = i64::MIN;
 pub fn leave_out_bare(source: &Source<'_>, train: &mut Train) {
     let mut used: HashSet<i64> = HashSet::new();
     used.extend(train.gears.iter().map(|g| g.shaft));
-    used.extend(train.bevels.iter().map(|b| b.shaft));
+    used.extend(train.bevels.iter().map(|b| b.seat.shaft));
     // A brake alone holds nothing that turns.
     let loads = train.loads.iter().filter(|l| !l.is_brake);
     used.extend(loads.map(|l| l.shaft));
@@ -23,10 +23,10 @@ pub fn leave_out_bare(source: &Source<'_>, train: &mut Train) {
     used.extend(train.bearings.iter().flat_map(|b| b.sides));
     used.extend(train.couplings.iter().flat_map(|c| c.sides));
     let bare = train.shafts.iter().filter(|s| !used.contains(&s.id));
-    for component in bare.filter_map(|s| source.model.component(s.id)) {
+    for component in bare.filter_map(|s| source.part(s.id)) {
         let what =
             "no gear, bearing, coupling, load or mass of the scene stands on it: not in the scene";
-        source.leave_out(component, About::Nothing, what);
+        component.leave_out(About::Nothing, what);
     }
     train.shafts.retain(|s| used.contains(&s.id));
     train.loads.retain(|l| used.contains(&l.shaft));

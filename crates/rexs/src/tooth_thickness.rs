@@ -1,10 +1,9 @@
 //! How much thinner than without backlash teeth are: DIN 3967 codes such as `c25`, or allowances of span.
 
-use crate::error::RexsError;
+use crate::error::Result;
 use crate::gear::Gear;
 use crate::ledger::About;
-use crate::model::Component;
-use crate::source::Source;
+use crate::source::Part;
 use crate::units::{MM, UM};
 
 /// Upper limits of the ranges of reference diameters \[mm\].
@@ -68,60 +67,41 @@ pub fn din_3967_mm(code: &str, reference_diameter_mm: f64) -> Option<f64> {
 /// thickness, a DIN 3967 code, in this order.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn thickness(
-    source: &Source<'_>,
-    component: &Component,
-    gear: &mut Gear,
-) -> Result<(), RexsError> {
+/// Those of [`Part`].
+pub fn thickness(component: Part<'_>, gear: &mut Gear) -> Result<()> {
     let cos_helix = gear.helix_deg.to_radians().cos();
     let span = [
-        source.number(component, "upper_backlash_allowance_referenced_to_span", UM)?,
-        source.number(component, "lower_backlash_allowance_referenced_to_span", UM)?,
+        component.number("upper_backlash_allowance_referenced_to_span", UM)?,
+        component.number("lower_backlash_allowance_referenced_to_span", UM)?,
     ];
     // In the normal section; those of the transverse one are larger by 1/cos beta.
     let mut chordal = [None, None];
     for (found, end) in chordal.iter_mut().zip(["upper", "lower"]) {
-        let normal = source.number(
-            component,
-            &format!("chordal_tooth_thickness_{end}_deviation"),
-            MM,
-        )?;
+        let normal = component.number(&format!("chordal_tooth_thickness_{end}_deviation"), MM)?;
         let transverse = format!("chordal_transverse_tooth_thickness_{end}_deviation");
-        let transverse = source.number(component, &transverse, MM)?;
+        let transverse = component.number(&transverse, MM)?;
         *found = normal.or(transverse.map(|s| s * cos_helix));
     }
-    let code = source.text(
-        component,
-        "tooth_thickness_deviation_tolerance_series_din_3967_1978",
-    );
+    let code = component.text("tooth_thickness_deviation_tolerance_series_din_3967_1978");
     let normal_mm = if let [Some(upper), Some(lower)] = span {
         let mean = -0.5e-3 * (upper + lower) / gear.pressure_angle_deg.to_radians().cos();
-        source.assume(
-            component,
-            About::Small,
-            "tooth thickness: the middle of the allowances of span",
-        );
+        let what = "tooth thickness: the middle of the allowances of span";
+        component.assume(About::Small, what);
         Some(mean)
     } else if let [Some(upper), Some(lower)] = chordal {
-        source.assume(
-            component,
-            About::Small,
-            "tooth thickness: the middle of the allowances of the chordal thickness",
-        );
+        let what = "tooth thickness: the middle of the allowances of the chordal thickness";
+        component.assume(About::Small, what);
         Some(-0.5 * (upper + lower))
     } else if let Some(code) = code {
         let found = din_3967_mm(&code, gear.reference_diameter_mm());
         match found {
-            Some(mean) => source.assume(
-                component,
-                About::Small, format!("tooth thickness: {:.1} um thinner in the normal section, the middle of DIN 3967 {code}", 1e3 * mean),
+            Some(mean) => component.assume(About::Small, format!("tooth thickness: {:.1} um thinner in the normal section, the middle of DIN 3967 {code}", 1e3 * mean),
             ),
-            None => source.leave_out(component, About::Small, format!("tooth thickness `{code}`, which the tables of DIN 3967 do not have for this diameter")),
+            None => component.leave_out(About::Small, format!("tooth thickness `{code}`, which the tables of DIN 3967 do not have for this diameter")),
         }
         found
     } else {
-        source.assume(component, About::Small, "no tooth thickness allowance given: none, teeth without backlash at the theoretical centre distance");
+        component.assume(About::Small, "no tooth thickness allowance given: none, teeth without backlash at the theoretical centre distance");
         None
     };
     if let Some(mean) = normal_mm.filter(|m| *m > 0.0 && *m < 0.5 * gear.module_mm) {

@@ -5,21 +5,20 @@ use crate::bearings_and_couplings::bearings_and_couplings;
 use crate::bevel::{self, BevelStage};
 use crate::by_number::{ByNumber, Numbered, grouped};
 use crate::coupling::{self, Coupling};
-use crate::error::RexsError;
+use crate::error::{Result, RexsError};
 use crate::gear::{self, Gear};
 use crate::ledger::About;
 use crate::loads::{self, AddedMass, Load};
 use crate::loose_gears::{self, Seat};
 use crate::microgeometry;
-use crate::model::Component;
 use crate::placement::frame;
 use crate::planetary;
 use crate::planetary_set::{self, PlanetarySet};
 use crate::power_flow::{Flow, Link};
 use crate::shaft::Shaft;
 use crate::shaft_sections;
-use crate::source::Source;
-use crate::structure::{Stage, Structure};
+use crate::source::{Part, Source};
+use crate::structure::Stage;
 use crate::supports::{hold, leave_out_bare};
 use crate::text::{Names, file_stem};
 use crate::train_finish::{finish_gears, finish_shafts, point_shafts_one_way};
@@ -69,14 +68,8 @@ pub struct Mesh {
 pub struct BevelSeat {
     /// The gear: component.
     pub gear: i64,
-    /// Shaft: component.
-    pub shaft: i64,
-    /// Place along u \[mm\].
-    pub u_mm: f64,
-    /// Its link, and which side of it.
-    pub link: (usize, usize),
-    /// Name.
-    pub name: String,
+    /// Where its torque passes.
+    pub seat: TorqueSeat,
     /// What the stage says; none where it says too little.
     pub stage: Option<BevelStage>,
 }
@@ -137,14 +130,9 @@ impl Train {
     }
 
     /// Members of bevel and planetary stages, which pass torques on without a mesh of the scene.
-    pub fn torque_seats(&self) -> impl Iterator<Item = TorqueSeat> + '_ {
-        let bevels = self.bevels.iter().map(|b| TorqueSeat {
-            shaft: b.shaft,
-            u_mm: b.u_mm,
-            link: b.link,
-            name: b.name.clone(),
-        });
-        bevels.chain(self.planetary.iter().cloned())
+    pub fn torque_seats(&self) -> impl Iterator<Item = &TorqueSeat> {
+        let bevels = self.bevels.iter().map(|b| &b.seat);
+        bevels.chain(&self.planetary)
     }
 
     /// Places of the gears of each shaft.
@@ -169,6 +157,12 @@ impl Train {
         all.flat_map(|(i, mesh)| mesh.gears.map(|gear| (gear, i)))
     }
 
+    /// The first shaft of the train that shares a relation with a component.
+    pub fn shaft_at(&self, part: Part<'_>) -> Option<i64> {
+        let mut shafts = part.partners(&["shaft"]).into_iter();
+        shafts.find(|&id| self.shaft(id).is_some())
+    }
+
     /// A shaft, to be changed.
     pub fn shaft_mut(&mut self, id: i64) -> Option<&mut Shaft> {
         let place = self.shafts.place(id)?;
@@ -179,36 +173,36 @@ impl Train {
 /// Reads the gearbox.
 ///
 /// # Errors
-/// Those of [`Source`], and what a gearbox cannot do without.
-pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Train, RexsError> {
+/// Those of [`Part`], and what a gearbox cannot do without.
+pub fn read(source: &Source<'_>, stem: &str) -> Result<Train> {
     let mut names = Names::default();
     let mut files = Names::default();
     let mut train = Train::default();
-    for component in source.model.of_kind(&["shaft"]) {
+    for component in source.of_kind(&["shaft"]) {
         // Planets of the scene have no shafts.
-        let role = structure.planetary_role(component.id);
+        let role = source.structure.planetary_role(component.id);
         if role.is_some_and(|r| r != "planet_carrier_shaft") {
             continue;
         }
-        let place = frame(source, component)?;
+        let place = frame(component)?;
         let name = names.unique(&component.name, component.id);
-        train.shafts.push(shaft_sections::read(
-            source, structure, component, name, place,
-        )?);
+        train
+            .shafts
+            .push(shaft_sections::read(component, name, place)?);
     }
-    seat_gears(source, structure, &mut train, &mut names, &mut files, stem)?;
-    join_stages(source, structure, &mut train, &mut names)?;
-    place_shafts(source, structure, &mut train)?;
+    seat_gears(source, &mut train, &mut names, &mut files, stem)?;
+    join_stages(source, &mut train, &mut names)?;
+    place_shafts(source, &mut train)?;
     settle_middles(source, &mut train)?;
-    bearings_and_couplings(source, structure, &mut train, &mut names, &mut files)?;
-    on_shafts(source, structure, &mut train, &mut names)?;
+    bearings_and_couplings(source, &mut train, &mut names, &mut files)?;
+    on_shafts(source, &mut train, &mut names)?;
     leave_out_bare(source, &mut train);
     point_shafts_one_way(&mut train);
-    planetary::join(source, structure, &mut train);
+    planetary::join(source, &mut train);
     hold(source, &mut train);
     finish_shafts(source, &mut train);
     finish_gears(source, &mut train);
-    microgeometry::of_train(source, structure, &mut train)?;
+    microgeometry::of_train(source, &mut train)?;
     planetary_set::tell_unlike_planets(source, &train);
     train.flow = power(source, &train);
     Ok(train)
@@ -216,37 +210,33 @@ pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Tr
 
 fn seat_gears(
     source: &Source<'_>,
-    structure: &Structure,
     train: &mut Train,
     names: &mut Names,
     files: &mut Names,
     stem: &str,
-) -> Result<(), RexsError> {
-    for component in source.model.of_kind(&["worm_gear", "worm_wheel"]) {
-        source.leave_out(
-            component,
-            About::Nothing,
-            format!("{}s have no model", component.kind.replace('_', " ")),
-        );
+) -> Result<()> {
+    for component in source.of_kind(&["worm_gear", "worm_wheel"]) {
+        let what = format!("{}s have no model", component.kind.replace('_', " "));
+        component.leave_out(About::Nothing, what);
     }
     let shift_index = coupling::shift_index(source)?;
-    for component in source.model.of_kind(&["cylindrical_gear", "ring_gear"]) {
+    for component in source.of_kind(&["cylindrical_gear", "ring_gear"]) {
         let name = names.unique(&component.name, component.id);
         let file = files.unique(&format!("{stem}_{}", file_stem(&name)), component.id);
         let file = format!("{}.toml", file_stem(&file));
-        let gear = match gear::read(source, structure, component, name, file) {
+        let gear = match gear::read(component, name, file) {
             // Sets go without planets where files say little of their rings.
             Err(error @ RexsError::Missing { .. }) if component.kind == "ring_gear" => {
-                source.leave_out(component, About::Lost, error.to_string());
+                component.leave_out(About::Lost, error.to_string());
                 continue;
             }
             read => read?,
         };
         // Rings are seated with their planetary stage.
         let seat = (!gear.internal)
-            .then(|| loose_gears::seat(source, structure, train, component, shift_index))
+            .then(|| loose_gears::seat(train, component, shift_index))
             .flatten();
-        let start = source.number(component, "u_coordinate_on_shaft", MM)?;
+        let start = component.number("u_coordinate_on_shaft", MM)?;
         let shaft = match seat {
             Some(Seat::Fixed(id)) => id,
             Some(Seat::Loose(id)) => {
@@ -268,29 +258,20 @@ fn seat_gears(
     Ok(())
 }
 
-fn join_stages(
-    source: &Source<'_>,
-    structure: &Structure,
-    train: &mut Train,
-    names: &mut Names,
-) -> Result<(), RexsError> {
+fn join_stages(source: &Source<'_>, train: &mut Train, names: &mut Names) -> Result<()> {
     let mut pairs: HashMap<[usize; 2], usize> = HashMap::new();
-    for &Stage { id, gears } in structure.stages() {
-        let (Some(stage), Some(g1), Some(g2)) = (
-            source.model.component(id),
-            source.model.component(gears[0]),
-            source.model.component(gears[1]),
-        ) else {
+    for &Stage { id, gears } in source.structure.stages() {
+        let [Some(stage), Some(g1), Some(g2)] = [id, gears[0], gears[1]].map(|id| source.part(id))
+        else {
             continue;
         };
         match stage.kind.as_str() {
             "cylindrical_stage" => {
                 let mates = (stage, [g1, g2]);
-                join_cylindrical(source, structure, (train, &mut pairs), names, mates)?;
+                join_cylindrical((train, &mut pairs), names, mates)?;
             }
-            "bevel_stage" => bevel_stage(source, structure, train, stage, [g1, g2])?,
-            _ => source.leave_out(
-                stage,
+            "bevel_stage" => bevel_stage(train, stage, [g1, g2])?,
+            _ => stage.leave_out(
                 About::Lost,
                 format!(
                     "{}s have no model in scenes: speeds and torques do not pass",
@@ -304,30 +285,28 @@ fn join_stages(
 
 /// Joins two gears of the scene, once.
 fn join_cylindrical(
-    source: &Source<'_>,
-    structure: &Structure,
     (train, pairs): (&mut Train, &mut HashMap<[usize; 2], usize>),
     names: &mut Names,
-    (stage, gears): (&Component, [&Component; 2]),
-) -> Result<(), RexsError> {
-    let place = |gear: &Component| {
+    (stage, gears): (Part<'_>, [Part<'_>; 2]),
+) -> Result<()> {
+    let place = |gear: Part<'_>| {
         let place = train.gears.place(gear.id);
         place.filter(|&place| train.gears[place].shaft >= 0)
     };
     let [Some(a), Some(b)] = gears.map(place) else {
         // Stages of planets are reported with the planetary stage.
-        let planetary = structure.partners(stage.id, &["planetary_stage"]);
+        let planetary = stage.partners(&["planetary_stage"]);
         if planetary.is_empty() {
-            let [g1, g2] = gears.map(Component::words);
+            let [g1, g2] = gears.map(|gear| gear.words());
             let what = format!("between {g1} and {g2}, of which the scene does not have both");
-            source.leave_out(stage, About::Lost, what);
+            stage.leave_out(About::Lost, what);
         }
         return Ok(());
     };
     if let Some(&first) = pairs.get(&[a.min(b), a.max(b)]) {
         let name = &train.meshes[first].name;
         let what = format!("its gears are in mesh already in {name}");
-        source.leave_out(stage, About::Nothing, what);
+        stage.leave_out(About::Nothing, what);
         return Ok(());
     }
     let [first, second] = [&train.gears[a], &train.gears[b]];
@@ -336,36 +315,24 @@ fn join_cylindrical(
         shafts: [first.shaft, second.shaft],
         ratio: -f64::from(first.gear.teeth) / f64::from(second.gear.teeth),
     });
-    let name = match stage.name.is_empty() {
-        true => "stage",
-        false => &stage.name,
-    };
     pairs.insert([a.min(b), a.max(b)], train.meshes.len());
     train.meshes.push(Mesh {
         stage: stage.id,
-        name: names.unique(name, stage.id),
+        name: names.unique(stage.name_or("stage"), stage.id),
         gears: [a, b],
         link: train.links.len() - 1,
     });
     Ok(())
 }
 
-fn demand_mates(stage: &Component, [a, b]: [&Gear; 2]) -> Result<(), RexsError> {
+fn demand_mates(stage: Part<'_>, [a, b]: [&Gear; 2]) -> Result<()> {
     let angles = [a, b].map(|gear| gear.pressure_angle_deg);
-    let helices = "helix angles (which must be opposite)";
+    let modules = [a, b].map(|gear| gear.module_mm);
+    let helices = [a, b].map(|gear| gear.helix_deg);
+    let words = "helix angles (which must be opposite)";
     for (what, [x, y], off, most) in [
-        (
-            "modules",
-            [a, b].map(|gear| gear.module_mm),
-            a.module_mm - b.module_mm,
-            a.module_mm,
-        ),
-        (
-            helices,
-            [a, b].map(|gear| gear.helix_deg),
-            a.helix_deg + b.helix_deg,
-            1.0,
-        ),
+        ("modules", modules, modules[0] - modules[1], modules[0]),
+        (words, helices, helices[0] + helices[1], 1.0),
         ("pressure angles", angles, angles[0] - angles[1], 1.0),
     ] {
         if off.abs() > 1e-6 * most {
@@ -376,45 +343,26 @@ fn demand_mates(stage: &Component, [a, b]: [&Gear; 2]) -> Result<(), RexsError> 
     Ok(())
 }
 
-fn bevel_stage(
-    source: &Source<'_>,
-    structure: &Structure,
-    train: &mut Train,
-    stage: &Component,
-    gears: [&Component; 2],
-) -> Result<(), RexsError> {
-    let teeth = [
-        bevel::teeth(source, gears[0])?,
-        bevel::teeth(source, gears[1])?,
-    ];
+fn bevel_stage(train: &mut Train, stage: Part<'_>, gears: [Part<'_>; 2]) -> Result<()> {
+    let teeth = [bevel::teeth(gears[0])?, bevel::teeth(gears[1])?];
     let mut seats = Vec::new();
     let mut sense = 1.0;
     for gear in gears {
-        let shafts = structure.partners(gear.id, &["shaft"]);
-        let Some(&shaft) = shafts.iter().find(|&&id| train.shaft(id).is_some()) else {
+        let Some(shaft) = train.shaft_at(gear) else {
             continue;
         };
         // The apex at +u turns the cone round.
         // Version 1.0 has a whole number for it.
-        let orientation = source.text(gear, "bevel_cone_orientation");
-        if matches!(
-            orientation.as_deref(),
-            Some("positive" | "1" | "+1" | "1.0")
-        ) {
+        let orientation = gear.text("bevel_cone_orientation").unwrap_or_default();
+        if ["positive", "1", "+1", "1.0"].contains(&orientation.as_str()) {
             sense = -sense;
         }
-        let start = source
-            .number(gear, "u_coordinate_on_shaft", MM)?
-            .unwrap_or(0.0);
-        let width = source.number(gear, "face_width", MM)?.unwrap_or(0.0);
+        let start = gear.number("u_coordinate_on_shaft", MM)?.unwrap_or(0.0);
+        let width = gear.number("face_width", MM)?.unwrap_or(0.0);
         seats.push((gear.id, shaft, start + 0.5 * width, gear.name.clone()));
     }
     let [(_, a, ..), (_, b, ..)] = seats.as_slice() else {
-        source.leave_out(
-            stage,
-            About::Lost,
-            "its gears sit on no shafts of the scene",
-        );
+        stage.leave_out(About::Lost, "its gears sit on no shafts of the scene");
         return Ok(());
     };
     // Equal speeds of the pitch cones in their common line, seen from apex to heel.
@@ -423,38 +371,30 @@ fn bevel_stage(
         ratio: -sense * teeth[0] as f64 / teeth[1] as f64,
     });
     let link = train.links.len() - 1;
-    let found = bevel::read(source, stage, gears)?;
+    let found = bevel::read(stage, gears)?;
     for (side, (gear, shaft, u_mm, name)) in seats.into_iter().enumerate() {
-        train.bevels.push(BevelSeat {
-            gear,
+        let seat = TorqueSeat {
             shaft,
             u_mm,
             link: (link, side),
             name,
-            stage: found.clone(),
-        });
+        };
+        let stage = found.clone();
+        train.bevels.push(BevelSeat { gear, seat, stage });
     }
     Ok(())
 }
 
-fn on_shafts(
-    source: &Source<'_>,
-    structure: &Structure,
-    train: &mut Train,
-    names: &mut Names,
-) -> Result<(), RexsError> {
-    for component in source.model.of_kind(&["external_load", "additional_mass"]) {
-        let shafts = structure.partners(component.id, &["shaft"]);
-        let Some(&shaft) = shafts.iter().find(|&&id| train.shaft(id).is_some()) else {
-            source.leave_out(component, About::Lost, "on no shaft of the scene");
+fn on_shafts(source: &Source<'_>, train: &mut Train, names: &mut Names) -> Result<()> {
+    for component in source.of_kind(&["external_load", "additional_mass"]) {
+        let Some(shaft) = train.shaft_at(component) else {
+            component.leave_out(About::Lost, "on no shaft of the scene");
             continue;
         };
         if component.kind == "external_load" {
             let name = names.unique(&component.name, component.id);
-            train
-                .loads
-                .push(loads::read(source, component, name, shaft)?);
-        } else if let Some(mass) = loads::added_mass(source, component, shaft)? {
+            train.loads.push(loads::read(component, name, shaft)?);
+        } else if let Some(mass) = loads::added_mass(component, shaft)? {
             train.masses.push(mass);
         }
     }

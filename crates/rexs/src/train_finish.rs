@@ -89,14 +89,14 @@ pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
         if shaft.hub_on.is_some() {
             continue;
         }
-        if let Some(component) = source.model.component(shaft.id) {
+        if let Some(component) = source.part(shaft.id) {
             let mine = bores_of.get(&shaft.id).map_or(&[][..], Vec::as_slice);
-            demand_sections(source, component, shaft, mine);
+            demand_sections(component, shaft, mine);
         }
     }
     // Ratios are between speeds about z.
     let sign = |id: i64| train.shaft(id).map_or(1.0, Shaft::sign);
-    let bevel_links: HashSet<usize> = train.bevels.iter().map(|b| b.link.0).collect();
+    let bevel_links: HashSet<usize> = train.bevels.iter().map(|b| b.seat.link.0).collect();
     let signs: Vec<f64> = train
         .links
         .iter()
@@ -137,7 +137,7 @@ pub fn finish_gears(source: &Source<'_>, train: &mut Train) {
             if gear.tip_diameter_mm.is_some() {
                 continue;
             }
-            let Some(component) = source.model.component(gear.id) else {
+            let Some(component) = source.part(gear.id) else {
                 continue;
             };
             // Adding 0 makes 0 of -0, and rounding is no shortening.
@@ -148,7 +148,7 @@ pub fn finish_gears(source: &Source<'_>, train: &mut Train) {
             };
             let tip = gear.reference_diameter_mm()
                 + 2.0 * module * (gear.addendum + gear.profile_shift + k);
-            source.assume(component, About::Teeth, format!("tip diameter not given or not possible: {tip:.4} mm, addendum {} modules, shortened by {:.4} modules for the clearance at this centre distance", gear.addendum, k.abs()));
+            component.assume(About::Teeth, format!("tip diameter not given or not possible: {tip:.4} mm, addendum {} modules, shortened by {:.4} modules for the clearance at this centre distance", gear.addendum, k.abs()));
             gear.tip_diameter_mm = Some(tip);
         }
     }
@@ -157,10 +157,10 @@ pub fn finish_gears(source: &Source<'_>, train: &mut Train) {
 
 /// Says so where the stage states another centre distance than its shafts have.
 fn told_distance(source: &Source<'_>, mesh: &Mesh, distance_mm: f64) {
-    let Some(stage) = source.model.component(mesh.stage) else {
+    let Some(stage) = source.part(mesh.stage) else {
         return;
     };
-    let Ok(Some(stated)) = source.number(stage, "center_distance", MM) else {
+    let Ok(Some(stated)) = stage.number("center_distance", MM) else {
         return;
     };
     let off = (stated.abs() - distance_mm).abs() / distance_mm;
@@ -168,14 +168,14 @@ fn told_distance(source: &Source<'_>, mesh: &Mesh, distance_mm: f64) {
         // d tan alpha_w = da/(a sin alpha_w cos alpha_w): at 20 deg a thousandth of the distance is 0.9 % of the radial
         // force.
         let about = About::by(off > 1e-3, About::Place);
-        source.assume(stage, about, format!("center_distance is {stated} mm, but the shafts stand {distance_mm:.4} mm apart: as the shafts stand"));
+        stage.assume(about, format!("center_distance is {stated} mm, but the shafts stand {distance_mm:.4} mm apart: as the shafts stand"));
     }
 }
 
 /// Says so where the axes of mates are not parallel, or their faces do not overlap: the scene refuses such meshes by
 /// its own names.
 fn told_apart(source: &Source<'_>, mesh: &Mesh, gears: [&SeatedGear; 2], frames: [Frame; 2]) {
-    let Some(stage) = source.model.component(mesh.stage) else {
+    let Some(stage) = source.part(mesh.stage) else {
         return;
     };
     let [a, b] = gears;
@@ -183,14 +183,14 @@ fn told_apart(source: &Source<'_>, mesh: &Mesh, gears: [&SeatedGear; 2], frames:
     let cosine = dot(frames[0].axes[0], frames[1].axes[0]).abs();
     if cosine < 1.0 - 1e-5 {
         let angle = cosine.min(1.0).acos().to_degrees();
-        source.leave_out(stage, About::Lost, format!("the axes of {names} stand {angle:.3} deg from parallel: the scene will refuse this mesh; mend u_axis_vector of their shafts"));
+        stage.leave_out(About::Lost, format!("the axes of {names} stand {angle:.3} deg from parallel: the scene will refuse this mesh; mend u_axis_vector of their shafts"));
         return;
     }
     let there = frames[1].point([b.mid_mm, 0.0, 0.0]);
     let offset = (frames[0].u_of(there) - a.mid_mm).abs();
     let reach = 0.5 * (a.gear.face_width_mm + b.gear.face_width_mm);
     if offset >= reach {
-        source.leave_out(stage, About::Lost, format!("the middles of the faces of {names} stand {offset:.3} mm apart along the axis, they overlap below {reach:.3} mm: the scene will refuse this mesh; mend u_coordinate_on_shaft or support_vector"));
+        stage.leave_out(About::Lost, format!("the middles of the faces of {names} stand {offset:.3} mm apart along the axis, they overlap below {reach:.3} mm: the scene will refuse this mesh; mend u_coordinate_on_shaft or support_vector"));
     }
 }
 
@@ -205,7 +205,7 @@ fn bores(source: &Source<'_>, train: &mut Train) {
         if gear.internal {
             continue;
         }
-        let Some(component) = source.model.component(gear.id) else {
+        let Some(component) = source.part(gear.id) else {
             continue;
         };
         let on = |id: i64| train.shafts.place(id);
@@ -220,7 +220,7 @@ fn bores(source: &Source<'_>, train: &mut Train) {
         if wanted > 0.0 && wanted <= most {
             if gear.bore_mm.is_none() {
                 let what = format!("bore {wanted} mm, the diameter of its shaft");
-                source.assume(component, About::Blank, what);
+                component.assume(About::Blank, what);
             }
             gear.bore_mm = Some(wanted);
             continue;
@@ -240,9 +240,7 @@ fn bores(source: &Source<'_>, train: &mut Train) {
                 _ => "at its front face",
             };
             if ends != [0.0; 2] && shaft.cut_in(seated.mid_mm, gear.face_width_mm) {
-                source.assume(
-                    component,
-                    About::Blank,
+                component.assume(About::Blank,
                     format!(
                         "cut into its shaft ({outer} mm thick, root {root:.3} mm): no bore, the shaft goes on {faces}; beams begin at its faces, so that the \
                          core's mass, bending and torsion count once"
@@ -257,7 +255,7 @@ fn bores(source: &Source<'_>, train: &mut Train) {
             let what = format!(
                 "on no shaft of the scene: a ring from a bore of {bore:.3} mm, half its root diameter, on"
             );
-            source.assume(component, About::Stiffness, what);
+            component.assume(About::Stiffness, what);
             gear.bore_mm = Some(bore);
             continue;
         }
@@ -265,13 +263,11 @@ fn bores(source: &Source<'_>, train: &mut Train) {
             let what = format!(
                 "a bore of {wanted} mm leaves too little below the teeth (root {root:.3} mm): {bore:.3} mm"
             );
-            source.assume(component, About::Blank, what);
+            component.assume(About::Blank, what);
             gear.bore_mm = Some(bore);
             continue;
         }
-        source.assume(
-            component,
-            About::Blank, format!("cut into its shaft ({outer} mm thick, root {root:.3} mm), where other things stand within its face, or no shaft goes on: a ring from a bore of {bore:.3} mm on, held there; the shaft's own mass under the teeth counts besides"),
+        component.assume(About::Blank, format!("cut into its shaft ({outer} mm thick, root {root:.3} mm), where other things stand within its face, or no shaft goes on: a ring from a bore of {bore:.3} mm on, held there; the shaft's own mass under the teeth counts besides"),
         );
         gear.bore_mm = Some(bore);
     }

@@ -1,12 +1,10 @@
 //! Where shafts stand, and gears on them.
 
 use crate::by_number::grouped;
-use crate::error::RexsError;
+use crate::error::Result;
 use crate::ledger::About;
-use crate::model::Component;
 use crate::placement::{Frame, add, frame};
-use crate::source::Source;
-use crate::structure::Structure;
+use crate::source::{Part, Source};
 use crate::train::Train;
 use crate::units::{DEG, MM};
 use std::collections::{BTreeMap, HashMap, VecDeque};
@@ -14,13 +12,9 @@ use std::collections::{BTreeMap, HashMap, VecDeque};
 /// Places of shafts without vectors, from those of their mates: centre distance and angle of the stage.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn place_shafts(
-    source: &Source<'_>,
-    structure: &Structure,
-    train: &mut Train,
-) -> Result<(), RexsError> {
-    let stages: HashMap<[i64; 2], i64> = (structure.stages().iter().rev())
+/// Those of [`Part`].
+pub fn place_shafts(source: &Source<'_>, train: &mut Train) -> Result<()> {
+    let stages: HashMap<[i64; 2], i64> = (source.structure.stages().iter().rev())
         .map(|s| (s.gears, s.id))
         .collect();
     if let Some(first) = train.shafts.first_mut().filter(|s| s.frame.is_none()) {
@@ -55,7 +49,7 @@ pub fn place_shafts(
         for &mesh in meshes_of.get(&placed).into_iter().flatten() {
             let gears = train.meshes[mesh].gears;
             let ids = gears.map(|g| train.gears[g].gear.id);
-            let stage = stages.get(&ids).and_then(|&id| source.model.component(id));
+            let stage = stages.get(&ids).and_then(|&id| source.part(id));
             if let Some(stage) = stage {
                 queue.extend(place_mate(source, train, stage, gears)?);
             }
@@ -67,9 +61,9 @@ pub fn place_shafts(
 fn place_mate(
     source: &Source<'_>,
     train: &mut Train,
-    stage: &Component,
+    stage: Part<'_>,
     gears: [usize; 2],
-) -> Result<Option<i64>, RexsError> {
+) -> Result<Option<i64>> {
     let gears = gears.map(|g| &train.gears[g]);
     let (frame, from) = match gears.map(|g| train.shaft(g.shaft).and_then(|s| s.frame)) {
         [Some(known), None] => (known, 0),
@@ -77,9 +71,9 @@ fn place_mate(
         _ => return Ok(None),
     };
     let sum = gears[0].gear.reference_diameter_mm() + gears[1].gear.reference_diameter_mm();
-    let distance = source.number(stage, "center_distance", MM)?;
+    let distance = stage.number("center_distance", MM)?;
     let distance = distance.unwrap_or(0.5 * sum);
-    let angle = source.number(stage, "rotating_angle_around_neg_u_axis", DEG)?;
+    let angle = stage.number("rotating_angle_around_neg_u_axis", DEG)?;
     let angle = angle.unwrap_or(0.0);
     // From gear 1 to gear 2: the w axis, turned about -u.
     let (sin, cos) = angle.to_radians().sin_cos();
@@ -129,8 +123,8 @@ fn follow_hubs(
 /// the middle in all of them.
 ///
 /// # Errors
-/// Those of [`Source`].
-pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<(), RexsError> {
+/// Those of [`Part`].
+pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<()> {
     let frames: BTreeMap<i64, Frame> = train
         .shafts
         .iter()
@@ -138,10 +132,10 @@ pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<(), Rexs
         .collect();
     let mut open = Vec::new();
     for (i, seated) in train.gears.iter_mut().enumerate() {
-        let Some(component) = source.model.component(seated.gear.id) else {
+        let Some(component) = source.part(seated.gear.id) else {
             continue;
         };
-        let own = frame(source, component)?;
+        let own = frame(component)?;
         let by_vector = match (own, frames.get(&seated.shaft)) {
             (Some(own), Some(shaft)) => Some(shaft.u_of(own.origin_mm)),
             _ => None,
@@ -149,15 +143,15 @@ pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<(), Rexs
         let half = 0.5 * seated.gear.face_width_mm;
         match by_vector {
             Some(u) if !seated.mid_mm.is_finite() => {
-                source.assume(component, About::Nothing, format!("no u_coordinate_on_shaft given: the middle of the face stands at the support vector, u = {u:.4} mm"));
+                component.assume(About::Nothing, format!("no u_coordinate_on_shaft given: the middle of the face stands at the support vector, u = {u:.4} mm"));
                 seated.mid_mm = u;
             }
             Some(u) if (u - (seated.mid_mm - half)).abs() < 1e-3 && half > 1e-3 => {
-                source.assume(component, About::Place, format!("u_coordinate_on_shaft of {u:.4} mm is the middle of the face, where its support vector stands, not its start"));
+                component.assume(About::Place, format!("u_coordinate_on_shaft of {u:.4} mm is the middle of the face, where its support vector stands, not its start"));
                 seated.mid_mm = u;
             }
             Some(u) if (u - seated.mid_mm).abs() > 1e-2 => {
-                source.assume(component, About::Place, format!("its support vector stands at u = {u:.4} mm of the shaft, its u_coordinate_on_shaft means {:.4} mm: the latter", seated.mid_mm));
+                component.assume(About::Place, format!("its support vector stands at u = {u:.4} mm of the shaft, its u_coordinate_on_shaft means {:.4} mm: the latter", seated.mid_mm));
             }
             _ => {}
         }

@@ -2,10 +2,9 @@
 
 use crate::ledger::About;
 use crate::loads::Load;
-use crate::model::Component;
 use crate::power_flow::{ASSUMED_RPM, Flow, TorqueOn, flow};
 use crate::shaft::{MOST_RPM, Shaft};
-use crate::source::Source;
+use crate::source::{Part, Source};
 use crate::train::Train;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -89,7 +88,7 @@ impl Told<'_> {
         let is_loaded = self.transmitting.iter().any(stated);
         let turned: HashSet<usize> = self.found.turned.iter().copied().collect();
         for (i, load) in self.transmitting.iter().enumerate() {
-            let Some(component) = self.source.model.component(load.id) else {
+            let Some(component) = self.source.part(load.id) else {
                 continue;
             };
             if load.torque_nm.is_none() && !self.balanced_torque(component, (i, load), is_loaded) {
@@ -98,7 +97,7 @@ impl Told<'_> {
             if turned.contains(&i) {
                 let what =
                     "its torque has the other sign: only then does the power that goes in come out";
-                self.source.assume(component, About::Torque, what);
+                component.assume(About::Torque, what);
             }
         }
     }
@@ -106,7 +105,7 @@ impl Told<'_> {
     /// The torque of a load that does not state it; false where none comes to it.
     fn balanced_torque(
         &self,
-        component: &Component,
+        component: Part<'_>,
         (i, load): (usize, &Load),
         is_loaded: bool,
     ) -> bool {
@@ -114,7 +113,7 @@ impl Told<'_> {
         if is_idle && is_loaded {
             let what = "it transmits torque, but none comes to it: no load that states one is joined to its shaft by stages and couplings. \
                         Look for a stage, a coupling or a relation that is missing";
-            self.source.assume(component, About::Lost, what);
+            component.assume(About::Lost, what);
             return false;
         }
         let about = if is_idle { About::Torque } else { About::Small };
@@ -124,13 +123,13 @@ impl Told<'_> {
             let what = format!(
                 "a torque of {stated:.4} N m is stated, but defines_torque is false: {acts:.4} N m follow from the others"
             );
-            self.source.assume(component, About::Torque, what);
+            component.assume(About::Torque, what);
         }
         let what = format!(
             "torque {:.6} N m about u, from the balance of power",
             acts + 0.0
         );
-        self.source.assume(component, about, what);
+        component.assume(about, what);
         true
     }
 

@@ -3,23 +3,22 @@
 
 use crate::ledger::About;
 use crate::source::Source;
-use crate::structure::Structure;
 use std::collections::BTreeSet;
 
 /// Lists stages without gears and sections without a shaft.
-pub fn list(source: &Source<'_>, structure: &Structure) {
-    let joined: BTreeSet<i64> = structure.stages().iter().map(|s| s.id).collect();
+pub fn list(source: &Source<'_>) {
+    let joined: BTreeSet<i64> = source.structure.stages().iter().map(|s| s.id).collect();
     let stages = ["cylindrical_stage", "bevel_stage", "worm_stage"];
-    for stage in source.model.of_kind(&stages) {
+    for stage in source.of_kind(&stages) {
         if !joined.contains(&stage.id) {
             let what = "no relation names both of its gears (roles stage, gear_1, gear_2): it passes no torque on";
-            source.leave_out(stage, About::Lost, what);
+            stage.leave_out(About::Lost, what);
         }
     }
-    for section in source.model.of_kind(&["shaft_section"]) {
-        if structure.partners(section.id, &["shaft"]).is_empty() {
+    for section in source.of_kind(&["shaft_section"]) {
+        if section.partners(&["shaft"]).is_empty() {
             let what = "no relation joins it to a shaft: the shaft is without it";
-            source.leave_out(section, About::Stiffness, what);
+            section.leave_out(About::Stiffness, what);
         }
     }
 }

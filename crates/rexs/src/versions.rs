@@ -1,7 +1,7 @@
 //! Names of older versions in those of version 2.0.0, after the change logs of the format. A name is brought up to date
 //! wherever it stands: programs write names of one version under the number of another.
 
-use crate::error::RexsError;
+use crate::error::{Result, RexsError};
 use crate::ledger::{About, Ledger};
 use crate::model::{Component, Model};
 use std::collections::HashMap;
@@ -13,167 +13,55 @@ const KINDS: [(&str, &str, &str); 3] = [
     ("stage_gear_data", "cylindrical_stage_gear_data", "1.3"),
 ];
 
-/// Attributes that were renamed in a version.
-struct Renamed {
-    /// Part of the type's name.
-    kind: &'static str,
-    /// Old and new names.
-    names: &'static [[&'static str; 2]],
-}
-
-/// Attributes that were renamed, version by version.
-const ATTRIBUTES: [Renamed; 12] = [
-    // Version 1.1.
-    Renamed {
-        kind: "rolling_bearing_with",
-        names: &[
-            ["name", "catalogue_designation"],
-            ["dynamic_capacity", "radial_dynamic_load_rating"],
-            ["static_capacity", "radial_static_load_rating"],
-            ["axial_backlash", "operating_axial_bearing_clearance"],
-            ["radial_backlash", "operating_radial_bearing_clearance"],
-            [
-                "minimum_bearing_clearance",
-                "minimum_radial_bearing_clearance",
-            ],
-            [
-                "maximum_bearing_clearance",
-                "maximum_radial_bearing_clearance",
-            ],
-            ["minimum_outer_diameter", "minimum_bearing_outer_diameter"],
-            ["maximum_outer_diameter", "maximum_bearing_outer_diameter"],
-            ["minimum_pin_diameter", "minimum_shaft_diameter"],
-            ["maximum_pin_diameter", "maximum_shaft_diameter"],
-            ["minimum_bore_diameter", "minimum_casing_bore_diameter"],
-            ["maximum_bore_diameter", "maximum_casing_bore_diameter"],
-            ["decisive_housing_outer_diameter", "casing_outer_diameter"],
-            ["decisive_pin_diameter", "shaft_inner_diameter"],
-            ["clearance_class", "radial_clearance_class"],
-            ["boring_tolerance_class", "casing_bore_tolerance_class"],
-            ["pin_tolerance_class", "shaft_tolerance_class"],
-        ],
-    },
-    Renamed {
-        kind: "bearing",
-        names: &[
-            ["initial_load", "preload_force"],
-            ["initial_load_shift", "preload_distance"],
-        ],
-    },
-    Renamed {
-        kind: "rolling_bearing_row",
-        names: &[
-            [
-                "significant_width_inner",
-                "significant_contact_length_inner_ring",
-            ],
-            [
-                "significant_width_outer",
-                "significant_contact_length_outer_ring",
-            ],
-            [
-                "running_path_radius_of_inner_ring",
-                "raceway_radius_of_inner_ring",
-            ],
-            [
-                "running_path_radius_of_outer_ring",
-                "raceway_radius_of_outer_ring",
-            ],
-        ],
-    },
-    Renamed {
-        kind: "rolling_element",
-        names: &[["roller_shell_radius", "roller_crowning_radius"]],
-    },
-    Renamed {
-        kind: "gear",
-        names: &[[
-            "din_3967_deviation_tolerance_series",
-            "tooth_thickness_deviation_tolerance_series_din_3967_1978",
-        ]],
-    },
-    Renamed {
-        kind: "stage",
-        names: &[[
-            "din_3964_center_distance_tolerance_field",
-            "center_distance_tolerance_field_din_3964_1980",
-        ]],
-    },
-    // Version 1.3.
-    Renamed {
-        kind: "gear_unit",
-        names: &[
-            ["load_duration", "operating_time"],
-            ["load_duration_fraction", "operating_time_fraction"],
-            ["custom_load_duration_fraction", "operating_time_fraction"],
-        ],
-    },
-    // Version 1.5.
-    Renamed {
-        kind: "gear",
-        names: &[[
-            "normal_tooth_thickness_at_pitch_diameter",
-            "normal_tooth_thickness_at_reference_diameter",
-        ]],
-    },
-    // Version 2.0.0.
-    Renamed {
-        kind: "rolling_bearing_row",
-        names: &[["reference_diameter", "reference_diameter_rolling_bearing"]],
-    },
-    Renamed {
-        kind: "tool",
-        names: &[
-            ["tip_radius", "tip_corner_radius_reference_profile"],
-            [
-                "tip_radius_factor",
-                "tip_corner_radius_factor_reference_profile",
-            ],
-        ],
-    },
-    Renamed {
-        kind: "bevel_gear",
-        names: &[
-            [
-                "basic_addendum_coefficient",
-                "basic_crown_gear_addendum_factor",
-            ],
-            [
-                "basic_dedendum_coefficient",
-                "basic_crown_gear_dedendum_factor",
-            ],
-        ],
-    },
-    Renamed {
-        kind: "bevel_stage",
-        names: &[
-            [
-                "generated_pressure_angle_drive",
-                "generated_pressure_angle_on_drive_side",
-            ],
-            [
-                "generated_pressure_angle_coast",
-                "generated_pressure_angle_on_coast_side",
-            ],
-            [
-                "nominal_design_pressure_angle_drive",
-                "nominal_design_pressure_angle_on_drive_side",
-            ],
-            [
-                "nominal_design_pressure_angle_coast",
-                "nominal_design_pressure_angle_on_coast_side",
-            ],
-            [
-                "effective_pressure_angle_drive",
-                "effective_pressure_angle_on_drive_side",
-            ],
-            [
-                "effective_pressure_angle_coast",
-                "effective_pressure_angle_on_coast_side",
-            ],
-        ],
-    },
-];
+/// Attributes that were renamed, version by version: part of the type's name, old name, new name.
+const ATTRIBUTES: &str = "
+Version 1.1:
+rolling_bearing_with name                                     catalogue_designation
+rolling_bearing_with dynamic_capacity                         radial_dynamic_load_rating
+rolling_bearing_with static_capacity                          radial_static_load_rating
+rolling_bearing_with axial_backlash                           operating_axial_bearing_clearance
+rolling_bearing_with radial_backlash                          operating_radial_bearing_clearance
+rolling_bearing_with minimum_bearing_clearance                minimum_radial_bearing_clearance
+rolling_bearing_with maximum_bearing_clearance                maximum_radial_bearing_clearance
+rolling_bearing_with minimum_outer_diameter                   minimum_bearing_outer_diameter
+rolling_bearing_with maximum_outer_diameter                   maximum_bearing_outer_diameter
+rolling_bearing_with minimum_pin_diameter                     minimum_shaft_diameter
+rolling_bearing_with maximum_pin_diameter                     maximum_shaft_diameter
+rolling_bearing_with minimum_bore_diameter                    minimum_casing_bore_diameter
+rolling_bearing_with maximum_bore_diameter                    maximum_casing_bore_diameter
+rolling_bearing_with decisive_housing_outer_diameter          casing_outer_diameter
+rolling_bearing_with decisive_pin_diameter                    shaft_inner_diameter
+rolling_bearing_with clearance_class                          radial_clearance_class
+rolling_bearing_with boring_tolerance_class                   casing_bore_tolerance_class
+rolling_bearing_with pin_tolerance_class                      shaft_tolerance_class
+bearing              initial_load                             preload_force
+bearing              initial_load_shift                       preload_distance
+rolling_bearing_row  significant_width_inner                  significant_contact_length_inner_ring
+rolling_bearing_row  significant_width_outer                  significant_contact_length_outer_ring
+rolling_bearing_row  running_path_radius_of_inner_ring        raceway_radius_of_inner_ring
+rolling_bearing_row  running_path_radius_of_outer_ring        raceway_radius_of_outer_ring
+rolling_element      roller_shell_radius                      roller_crowning_radius
+gear                 din_3967_deviation_tolerance_series      tooth_thickness_deviation_tolerance_series_din_3967_1978
+stage                din_3964_center_distance_tolerance_field center_distance_tolerance_field_din_3964_1980
+Version 1.3:
+gear_unit            load_duration                            operating_time
+gear_unit            load_duration_fraction                   operating_time_fraction
+gear_unit            custom_load_duration_fraction            operating_time_fraction
+Version 1.5:
+gear                 normal_tooth_thickness_at_pitch_diameter normal_tooth_thickness_at_reference_diameter
+Version 2.0.0:
+rolling_bearing_row  reference_diameter                       reference_diameter_rolling_bearing
+tool                 tip_radius                               tip_corner_radius_reference_profile
+tool                 tip_radius_factor                        tip_corner_radius_factor_reference_profile
+bevel_gear           basic_addendum_coefficient               basic_crown_gear_addendum_factor
+bevel_gear           basic_dedendum_coefficient               basic_crown_gear_dedendum_factor
+bevel_stage          generated_pressure_angle_drive           generated_pressure_angle_on_drive_side
+bevel_stage          generated_pressure_angle_coast           generated_pressure_angle_on_coast_side
+bevel_stage          nominal_design_pressure_angle_drive      nominal_design_pressure_angle_on_drive_side
+bevel_stage          nominal_design_pressure_angle_coast      nominal_design_pressure_angle_on_coast_side
+bevel_stage          effective_pressure_angle_drive           effective_pressure_angle_on_drive_side
+bevel_stage          effective_pressure_angle_coast           effective_pressure_angle_on_coast_side
+";
 
 /// Versions with a published schema.
 const PUBLISHED: [&str; 9] = [
@@ -184,7 +72,7 @@ const PUBLISHED: [&str; 9] = [
 ///
 /// # Errors
 /// [`RexsError::Version`].
-pub fn bring_up_to_date(model: &mut Model, ledger: &mut Ledger) -> Result<(), RexsError> {
+pub fn bring_up_to_date(model: &mut Model, ledger: &mut Ledger) -> Result<()> {
     let stated = model
         .version
         .trim()
@@ -240,17 +128,19 @@ fn rename(component: &mut Component) {
     if let Some((_, new, _)) = KINDS.iter().find(|(old, ..)| *old == component.kind) {
         (*new).clone_into(&mut component.kind);
     }
-    for renamed in ATTRIBUTES {
-        if !component.kind.contains(renamed.kind) {
+    for row in ATTRIBUTES.lines() {
+        let mut words = row.split_whitespace();
+        let (Some(kind), Some(old), Some(new)) = (words.next(), words.next(), words.next()) else {
+            continue;
+        };
+        if !component.kind.contains(kind)
+            || component.attribute(old).is_none()
+            || component.attribute(new).is_some()
+        {
             continue;
         }
-        for [old, new] in renamed.names {
-            if component.attribute(old).is_none() || component.attribute(new).is_some() {
-                continue;
-            }
-            for attribute in component.attributes.iter_mut().filter(|a| a.id == *old) {
-                (*new).clone_into(&mut attribute.id);
-            }
+        for attribute in component.attributes.iter_mut().filter(|a| a.id == old) {
+            new.clone_into(&mut attribute.id);
         }
     }
 }

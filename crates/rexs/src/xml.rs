@@ -1,6 +1,6 @@
 //! Models in XML (`.rexs`).
 
-use crate::error::RexsError;
+use crate::error::{Result, RexsError};
 use crate::model::{
     Attribute, Component, LoadCase, LoadSpectrum, Model, Reference, Relation, Value,
 };
@@ -14,7 +14,7 @@ const DEEPEST: usize = 64;
 ///
 /// # Errors
 /// [`RexsError::Syntax`] with the line.
-pub fn read(text: &str) -> Result<Model, RexsError> {
+pub fn read(text: &str) -> Result<Model> {
     demand_shallow(text)?;
     // A document type with its entities is refused by the parser: the format has none.
     let options = ParsingOptions {
@@ -91,7 +91,7 @@ fn broken(text: &str, cause: &roxmltree::Error) -> RexsError {
 }
 
 /// Refuses text that nests deeper than any model before the parser, which calls itself for each level, sees it.
-fn demand_shallow(text: &str) -> Result<(), RexsError> {
+fn demand_shallow(text: &str) -> Result<()> {
     let bytes = text.as_bytes();
     let mut depth = 0_usize;
     for (at, &byte) in bytes.iter().enumerate() {
@@ -163,7 +163,7 @@ pub fn words(texts: &[&str]) -> String {
     filled.join(" ")
 }
 
-fn number(node: &Node<'_, '_>, name: &str) -> Result<i64, RexsError> {
+fn number(node: &Node<'_, '_>, name: &str) -> Result<i64> {
     let Some(text) = node.attribute(name) else {
         return Err(wrong(
             node,
@@ -179,7 +179,7 @@ fn number(node: &Node<'_, '_>, name: &str) -> Result<i64, RexsError> {
     })
 }
 
-fn relation(node: &Node<'_, '_>) -> Result<Relation, RexsError> {
+fn relation(node: &Node<'_, '_>) -> Result<Relation> {
     let references = elements(*node).map(|child| {
         Ok(Reference {
             id: number(&child, "id")?,
@@ -193,7 +193,7 @@ fn relation(node: &Node<'_, '_>) -> Result<Relation, RexsError> {
         order: node
             .attribute("order")
             .and_then(|text| text.trim().parse().ok()),
-        references: references.collect::<Result<_, RexsError>>()?,
+        references: references.collect::<Result<_>>()?,
     })
 }
 
@@ -201,7 +201,7 @@ fn components(
     node: Node<'_, '_>,
     lines: &Lines,
     unread: &mut Vec<String>,
-) -> Result<Vec<Component>, RexsError> {
+) -> Result<Vec<Component>> {
     let mut found = Vec::new();
     for child in elements(node) {
         if child.tag_name().name() != "component" {
@@ -234,7 +234,7 @@ fn components(
     Ok(found)
 }
 
-fn attribute(node: &Node<'_, '_>, lines: &Lines) -> Result<Attribute, RexsError> {
+fn attribute(node: &Node<'_, '_>, lines: &Lines) -> Result<Attribute> {
     let Some(id) = node.attribute("id") else {
         return Err(wrong(
             node,
@@ -278,20 +278,20 @@ fn cells(node: Node<'_, '_>) -> Vec<String> {
     elements(node).map(|c| text_of(&c)).collect()
 }
 
-fn array(node: &Node<'_, '_>) -> Result<Vec<String>, RexsError> {
+fn array(node: &Node<'_, '_>) -> Result<Vec<String>> {
     match node.attribute("code") {
         None => Ok(cells(*node)),
         Some(code) => decoded(code, &text_of(node)).map_err(|what| wrong(node, what)),
     }
 }
 
-fn matrix(node: &Node<'_, '_>) -> Result<Vec<Vec<String>>, RexsError> {
+fn matrix(node: &Node<'_, '_>) -> Result<Vec<Vec<String>>> {
     let Some(code) = node.attribute("code") else {
         return Ok(elements(*node).map(cells).collect());
     };
     let values = decoded(code, &text_of(node)).map_err(|what| wrong(node, what))?;
     // The grammar lets either be left out.
-    let count = |name: &str| -> Result<usize, RexsError> {
+    let count = |name: &str| -> Result<usize> {
         Ok(usize::try_from(number(node, name)?).unwrap_or(0).max(1))
     };
     let columns = match (node.has_attribute("columns"), node.has_attribute("rows")) {
@@ -334,11 +334,7 @@ pub fn decoded(code: &str, text: &str) -> Result<Vec<String>, String> {
     Ok(bytes.chunks_exact(width).map(one).collect())
 }
 
-fn spectrum(
-    node: &Node<'_, '_>,
-    lines: &Lines,
-    unread: &mut Vec<String>,
-) -> Result<LoadSpectrum, RexsError> {
+fn spectrum(node: &Node<'_, '_>, lines: &Lines, unread: &mut Vec<String>) -> Result<LoadSpectrum> {
     let mut found = LoadSpectrum {
         id: number(node, "id").unwrap_or(1),
         cases: Vec::new(),
