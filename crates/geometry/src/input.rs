@@ -60,6 +60,16 @@ pub struct InputError {
 }
 
 impl InputError {
+    /// About a file as a whole.
+    pub fn of_file(file: impl Display, problem: impl Display) -> Self {
+        Self {
+            file: file.to_string(),
+            line: None,
+            key: String::new(),
+            problem: problem.to_string(),
+        }
+    }
+
     /// File and line, as far as there are any.
     fn place(&self) -> String {
         let line = self.line.map(|line| format!(":{line}"));

@@ -37,6 +37,17 @@ pub struct Column {
     pub description: String,
 }
 
+impl Column {
+    /// What a column holds.
+    pub fn new(name: impl Into<String>, unit: &str, description: &str) -> Self {
+        Self {
+            name: name.into(),
+            unit: unit.to_owned(),
+            description: description.to_owned(),
+        }
+    }
+}
+
 /// Writes a tree and all rows of a log as a sealed HDF5 file, atomically. `axis` says what the rows count.
 ///
 /// The file is written in the folder of the log and then moved to `path`, which must be on the same file system: a

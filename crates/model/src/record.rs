@@ -360,6 +360,16 @@ impl<'a> Fields<'a> {
         }
     }
 
+    /// Whether a part of this group that may be missing is in the file that is read; of a record that is written
+    /// whether it has it, `is_kept`.
+    pub fn keeps(&self, name: &str, is_kept: bool) -> bool {
+        match self.way {
+            Way::Read(..) => self.has(name),
+            Way::List(_) => true,
+            _ => is_kept,
+        }
+    }
+
     /// The error of parts that do not go together.
     pub fn contradiction(&self, name: &str, problem: &str) -> FileError {
         FileError::Contradiction {

@@ -1,5 +1,5 @@
-//! Values of a model with their units, and the list of what became of it. Whoever asks for an attribute leaves a trace: what nobody has asked for is
-//! listed as not represented, so that nothing is dropped in silence.
+//! Values of a model with their units, and the list of what became of it. Whoever asks for an attribute leaves a trace:
+//! what nobody has asked for is listed as not represented, so that nothing is dropped in silence.
 
 use crate::effort;
 use crate::error::{Result, RexsError};

@@ -118,12 +118,7 @@ impl NumberTable {
     /// A complaint about the file as a whole.
     #[must_use]
     pub fn error(&self, problem: impl std::fmt::Display) -> InputError {
-        InputError {
-            file: self.file.clone(),
-            line: None,
-            key: String::new(),
-            problem: problem.to_string(),
-        }
+        InputError::of_file(&self.file, problem)
     }
 
     /// A complaint about a value, by the numbers of its row and of its column.

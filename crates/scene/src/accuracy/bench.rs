@@ -115,14 +115,7 @@ impl<'a> Bench<'a> {
             scratch: Scratch::new(options.scratch, options.stop),
             options,
         };
-        let error = |problem: String| {
-            StudyError::Input(InputError {
-                file: "--columns".to_owned(),
-                line: None,
-                key: String::new(),
-                problem,
-            })
-        };
+        let error = |problem: String| StudyError::Input(InputError::of_file("--columns", problem));
         let subject = this.subject(&Case::default(), &mut MadeFiles::new())?;
         if let Subject::Bearing(_) = subject {
             let problem = "is a bearing file, which has no knobs; allowed is a scene, in which bearings have models to choose from, or a bevel pair";
@@ -224,11 +217,7 @@ impl<'a> Bench<'a> {
         let off = 1e-4 * number as f64;
         let beside = stated + if stated > 0.5 { -off } else { off };
         let mut case = case.clone();
-        case.settings.push(Setting {
-            parameter: key.to_owned(),
-            keys: vec![key.to_owned()],
-            value: toml::Value::Float(beside),
-        });
+        case.settings.push(Setting::of(key, beside));
         Some(case)
     }
 
@@ -348,12 +337,7 @@ impl<'a> Bench<'a> {
     }
 
     pub(super) fn refused(&self, problem: String) -> InputError {
-        InputError {
-            file: self.base.file().to_owned(),
-            line: None,
-            key: String::new(),
-            problem,
-        }
+        InputError::of_file(self.base.file(), problem)
     }
 
     /// What runs in the scene: the kind of a multibody run, `pair at rest` or `tooth contact`.

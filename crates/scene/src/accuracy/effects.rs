@@ -78,10 +78,7 @@ pub(super) fn of_scene(base: &BaseScene) -> Vec<Effect> {
     }
     for (list, keys) in OF_TABLES {
         for key in keys {
-            let there: Vec<String> = tables(base, list)
-                .map(|table| format!("{table}.{key}"))
-                .filter(|whole| base.value(whole).is_some())
-                .collect();
+            let there = stated(base, list, key);
             if !there.is_empty() {
                 found.push(off(&format!("{list}.{key}"), there));
             }
@@ -101,11 +98,23 @@ fn tables<'a>(base: &'a BaseScene, list: &'a str) -> impl Iterator<Item = String
         .take_while(move |table| base.value(table).is_some())
 }
 
-fn setting(name: &str, keys: Vec<String>, value: Value) -> Setting {
-    Setting {
-        parameter: name.to_owned(),
+/// A key of all tables of a list that state it.
+fn stated(base: &BaseScene, list: &str, key: &str) -> Vec<String> {
+    let all = tables(base, list).map(|table| format!("{table}.{key}"));
+    all.filter(|whole| base.value(whole).is_some()).collect()
+}
+
+/// An effect that a value at some keys takes away, or brings.
+fn set(present: bool, name: String, keys: Vec<String>, value: Value) -> Effect {
+    let setting = Setting {
+        parameter: name.clone(),
         keys,
         value,
+    };
+    Effect {
+        present,
+        case: Case::of(vec![setting]),
+        name,
     }
 }
 
@@ -114,10 +123,7 @@ fn replaced(base: &BaseScene, list: &str, key: &str, words: &[&str]) -> Vec<Effe
     let higher = |keys: &mut Vec<String>, word: &str| {
         keys.retain(|key| base.value(key) != Some(Value::String(word.to_owned())));
     };
-    let mut keys: Vec<String> = tables(base, list)
-        .map(|table| format!("{table}.{key}"))
-        .filter(|whole| base.value(whole).is_some())
-        .collect();
+    let mut keys = stated(base, list, key);
     let mut effects = Vec::new();
     for word in words {
         higher(&mut keys, word);
@@ -126,14 +132,7 @@ fn replaced(base: &BaseScene, list: &str, key: &str, words: &[&str]) -> Vec<Effe
         }
         let value = Value::String((*word).to_owned());
         let name = format!("{list}.{key} above \"{word}\"");
-        effects.push(Effect {
-            present: true,
-            case: Case {
-                settings: vec![setting(&name, keys.clone(), value)],
-                ..Case::default()
-            },
-            name,
-        });
+        effects.push(set(true, name, keys.clone(), value));
     }
     effects
 }
@@ -148,18 +147,8 @@ fn rigid_shafts(base: &BaseScene) -> Option<Effect> {
         .collect();
     let rigid = [("kind".to_owned(), Value::String("rigid".to_owned()))];
     let name = "shaft.model of kind \"beam\"".to_owned();
-    (!beams.is_empty()).then(|| Effect {
-        present: true,
-        case: Case {
-            settings: vec![setting(
-                &name,
-                beams,
-                Value::Table(rigid.into_iter().collect()),
-            )],
-            ..Case::default()
-        },
-        name,
-    })
+    let rigid = Value::Table(rigid.into_iter().collect());
+    (!beams.is_empty()).then(|| set(true, name, beams, rigid))
 }
 
 /// Friction of teeth where the scene has none, with a coefficient that lubricated gears have.
@@ -178,16 +167,6 @@ fn friction(base: &BaseScene) -> Option<Effect> {
         return None;
     }
     let name = "friction of teeth, coulomb, 0.05".to_owned();
-    Some(Effect {
-        present: false,
-        case: Case {
-            settings: vec![setting(
-                &name,
-                keys,
-                Value::Table(model.into_iter().collect()),
-            )],
-            ..Case::default()
-        },
-        name,
-    })
+    let model = Value::Table(model.into_iter().collect());
+    Some(set(false, name, keys, model))
 }

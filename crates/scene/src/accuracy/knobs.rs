@@ -68,15 +68,8 @@ pub(super) fn case_of_rung(rung: &Rung) -> Case {
 }
 
 fn case_with<'a>(settings: impl IntoIterator<Item = &'a (String, Value)>) -> Case {
-    let setting = |(key, value): &(String, Value)| Setting {
-        parameter: key.clone(),
-        keys: vec![key.clone()],
-        value: value.clone(),
-    };
-    Case {
-        settings: settings.into_iter().map(setting).collect(),
-        ..Case::default()
-    }
+    let setting = |(key, value): &(String, Value)| Setting::of(key, value.clone());
+    Case::of(settings.into_iter().map(setting).collect())
 }
 
 /// Local terms of a hybrid mesh, cheapest first.

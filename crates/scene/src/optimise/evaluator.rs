@@ -270,16 +270,8 @@ impl<'a> Evaluator<'a> {
             };
             *at.entry(key).or_insert_with(stated) += added;
         }
-        let setting = |(key, value): (&str, f64)| Setting {
-            parameter: key.to_owned(),
-            keys: vec![key.to_owned()],
-            value: toml::Value::Float(value),
-        };
-        let settings = at.into_iter().map(setting).collect();
-        let case = Case {
-            settings,
-            ..Case::default()
-        };
+        let settings = at.into_iter().map(|(key, value)| Setting::of(key, value));
+        let case = Case::of(settings.collect());
         let mut files = MadeFiles::new();
         let subject = self.base.scene(&case, &mut files, self.scratch.folder())?;
         self.write(&files, &case)?;
@@ -292,14 +284,8 @@ impl<'a> Evaluator<'a> {
             let MadeFile::Text(text) = made else {
                 return Err(self.of_model(case));
             };
-            let unwritten = |told: String| {
-                VaryError::Scene(InputError {
-                    file: path.display().to_string(),
-                    line: None,
-                    key: String::new(),
-                    problem: told,
-                })
-            };
+            let unwritten =
+                |told: String| VaryError::Scene(InputError::of_file(path.display(), told));
             // Named by what is in it: what is there is right.
             if path.exists() {
                 continue;

@@ -53,28 +53,18 @@ impl BevelRest {
             }
         }
         let mut name = self.side.name().to_owned();
-        f.text(
-            "flank",
-            &mut name,
-            "side of the teeth that touches: right or left",
-        )?;
+        let what = "side of the teeth that touches: right or left";
+        f.text("flank", &mut name, what)?;
         let side = Flank::ALL.into_iter().find(|side| side.name() == name);
         self.side = side.ok_or_else(|| f.contradiction("flank", "it is neither right nor left"))?;
         let what = "radius on gear 2 at which the transmission error counts";
         f.number("radius_2_m", &mut self.radius_2_m, "m", what)?;
         let what = "face widths; the slices divide that of gear 1";
-        f.fixed(
-            "face_widths_m",
-            &mut self.face_widths_m,
-            &[("gear", 2)],
-            "m",
-            what,
-        )?;
-        let (heights, what) = (
-            &mut self.flank_heights_m,
-            "way up the flanks, root to tip at mid-face",
-        );
-        f.fixed("flank_heights_m", heights, &[("gear", 2)], "m", what)?;
+        let (widths, gears) = (&mut self.face_widths_m, [("gear", 2)]);
+        f.fixed("face_widths_m", widths, &gears, "m", what)?;
+        let heights = &mut self.flank_heights_m;
+        let what = "way up the flanks, root to tip at mid-face";
+        f.fixed("flank_heights_m", heights, &gears, "m", what)?;
         let what = "coefficient of friction of the teeth, for the efficiency";
         f.optional_number("friction", &mut self.friction, "1", what)
     }

@@ -96,11 +96,8 @@ impl SceneResult {
         let Some(pair) = self.gear_pair()? else {
             return Ok(None);
         };
-        Ok(Some(StageSummary::new(
-            &pair,
-            self.definitions()?,
-            self.overlap_width_m()?,
-        )))
+        let (gears, width_m) = (self.definitions()?, self.overlap_width_m()?);
+        Ok(Some(StageSummary::new(&pair, gears, width_m)))
     }
 
     /// The pair on its flanks, its axes parallel; none of bevel pairs.
@@ -119,7 +116,11 @@ impl SceneResult {
         Ok(Some(pair.on_flanks(scene.flank)))
     }
 
-    fn definitions(&self) -> Result<[&GearDefinition; 2], InputError> {
+    /// What both gears of a pair of cylindrical gears are.
+    ///
+    /// # Errors
+    /// As of [`Self::overlap_width_m`].
+    pub fn definitions(&self) -> Result<[&GearDefinition; 2], InputError> {
         let [first, second] = &self.gears;
         Ok([
             first.definition_in("the result")?,

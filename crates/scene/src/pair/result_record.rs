@@ -132,27 +132,18 @@ impl Record for SceneResult {
 impl SceneResult {
     fn head_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         f.text("title", &mut self.title, "title of the scene")?;
-        f.text(
-            "scene_toml",
-            &mut self.scene_toml,
-            "the scene, word for word",
-        )?;
+        let what = "the scene, word for word";
+        f.text("scene_toml", &mut self.scene_toml, what)?;
         let typed = f.version() >= TYPED_DEFINITION;
-        for (gear, names) in self
-            .gears
-            .iter_mut()
-            .zip([("gear_1_toml", "gear_1"), ("gear_2_toml", "gear_2")])
-        {
+        let names = [("gear_1_toml", "gear_1"), ("gear_2_toml", "gear_2")];
+        for (gear, names) in self.gears.iter_mut().zip(names) {
             gear.fields(f, names, typed)?;
         }
         for (file, name) in self.model_files.iter_mut().zip(["model_1", "model_2"]) {
             f.text(name, file, "file of the model, absolute")?;
         }
-        for (text, name) in self
-            .microgeometry
-            .iter_mut()
-            .zip(["microgeometry_1", "microgeometry_2"])
-        {
+        let names = ["microgeometry_1", "microgeometry_2"];
+        for (text, name) in self.microgeometry.iter_mut().zip(names) {
             if f.has(name) {
                 f.text(name, text, "microgeometry of the gear in words")?;
             }
@@ -164,11 +155,8 @@ impl SceneResult {
         f.text("version", &mut self.version, "version of the program")?;
         f.text("created_utc", &mut self.created_utc, "when, UTC")?;
         f.lines("warnings", &mut self.warnings, "warnings about assumptions")?;
-        f.count(
-            "pitches",
-            &mut self.pitches,
-            "pitches of gear 1 run through",
-        )?;
+        let what = "pitches of gear 1 run through";
+        f.count("pitches", &mut self.pitches, what)?;
         self.pitches = self.pitches.max(1);
         let what = "wall time of contact and of strain";
         f.fixed("seconds", &mut self.seconds, &[("stage", 2)], "s", what)
@@ -179,34 +167,19 @@ impl SceneResult {
         let what = "driver angle, zero where pair 0 touches at the pitch point";
         f.numbers("angle_rad", angles, &[("driver angle", OPEN)], "rad", what)?;
         let torques = &mut self.torque_nm;
-        f.numbers(
-            "torque_Nm",
-            torques,
-            &[("torque", OPEN)],
-            "N m",
-            "torque on gear 2",
-        )?;
+        let what = "torque on gear 2";
+        f.numbers("torque_Nm", torques, &[("torque", OPEN)], "N m", what)?;
         let (t, a) = (("torque", torques.len()), ("driver angle", angles.len()));
         let what = "transmission error r_b2 theta_2 - r_b1 theta_1, negative under load";
         f.bulk("te_m", &mut self.te_m, &[t, a], "m", what)?;
         let what = "transmission error at first touch";
         f.bulk("te_unloaded_m", &mut self.unloaded_m, &[a], "m", what)?;
-        f.bulk(
-            "torque_1_Nm",
-            &mut self.torque_1_nm,
-            &[t, a],
-            "N m",
-            "torque on gear 1",
-        )?;
+        let (values, what) = (&mut self.torque_1_nm, "torque on gear 1");
+        f.bulk("torque_1_Nm", values, &[t, a], "N m", what)?;
         if f.has("axial_force_1_N") {
+            let values = &mut self.axial_force_1_n;
             let what = "axial force on gear 1, positive along +z; gear 2 feels the opposite";
-            f.bulk(
-                "axial_force_1_N",
-                &mut self.axial_force_1_n,
-                &[t, a],
-                "N",
-                what,
-            )?;
+            f.bulk("axial_force_1_N", values, &[t, a], "N", what)?;
         } else {
             // Version 1 knew spur gears only.
             self.axial_force_1_n = vec![0.0; t.1 * a.1];
@@ -236,13 +209,8 @@ impl SceneResult {
             ("driver angle", self.angle_rad.len()),
         );
         let what = "pair number of each contact line";
-        f.numbers(
-            "pair",
-            &mut self.pair,
-            &[a, ("contact line", OPEN)],
-            "1",
-            what,
-        )?;
+        let lines = [a, ("contact line", OPEN)];
+        f.numbers("pair", &mut self.pair, &lines, "1", what)?;
         if f.is_reading() {
             self.slots = self.pair.len() / a.1.max(1);
         }
@@ -257,15 +225,10 @@ impl SceneResult {
         }
         let s = ("slice", self.slices);
         let what = "peak Hertz pressure of each slice";
-        f.bulk(
-            "pressure_Pa",
-            &mut self.pressure_pa,
-            &[t, a, l, s],
-            "Pa",
-            what,
-        )?;
+        let axes = [t, a, l, s];
+        f.bulk("pressure_Pa", &mut self.pressure_pa, &axes, "Pa", what)?;
         // Older programs did not store the places.
-        if f.has("contact/width_m") && (f.is_reading() || f.is_listing() || self.places.is_some()) {
+        if f.keeps("contact/width_m", self.places.is_some()) {
             place_fields(self.places.get_or_insert_default(), f, "", &[a, l, s])?;
         }
         Ok(())
@@ -279,12 +242,7 @@ impl SceneResult {
         f: &mut Fields<'_>,
     ) -> Result<Option<(&'static str, usize)>, FileError> {
         let it = &mut self.between;
-        let is_there = if f.is_reading() {
-            f.has("between/angle_rad")
-        } else {
-            f.is_listing() || !it.angle_rad.is_empty()
-        };
-        if !is_there {
+        if !f.keeps("between/angle_rad", !it.angle_rad.is_empty()) {
             return Ok(None);
         }
         let t = ("torque", self.torque_nm.len());
@@ -309,49 +267,27 @@ impl SceneResult {
         if f.is_reading() {
             it.slots = it.force_n.len() / (e.1 * self.slices).max(1);
         }
-        let axes = [
-            e,
-            ("contact line between", it.slots),
-            ("slice", self.slices),
-        ];
-        let what = "peak Hertz pressure of each slice";
-        f.bulk(
-            "between/pressure_Pa",
-            &mut it.pressure_pa,
-            &axes,
-            "Pa",
-            what,
-        )?;
-        let is_stored = if f.is_reading() {
-            f.has("between/pair")
-        } else {
-            f.is_listing() || it.places.is_some()
-        };
-        if is_stored {
-            let lines = [e, ("contact line between", it.slots)];
+        let lines = [e, ("contact line between", it.slots)];
+        let axes = [lines[0], lines[1], ("slice", self.slices)];
+        let (name, what) = ("between/pressure_Pa", "peak Hertz pressure of each slice");
+        f.bulk(name, &mut it.pressure_pa, &axes, "Pa", what)?;
+        if f.keeps("between/pair", it.places.is_some()) {
             let what = "bevel gears: pair number of each contact line";
             f.numbers("between/pair", &mut it.pair, &lines, "1", what)?;
             place_fields(it.places.get_or_insert_default(), f, "between/", &axes)?;
         }
-        let what =
-            "what of the transmission error's peak-to-peak value the positions leave open, over it";
-        f.numbers("between/te_error", &mut it.te_error, &[t], "1", what)?;
-        let what = "what of K_Hβ the positions leave open, over it";
-        f.numbers(
-            "between/k_h_beta_error",
-            &mut it.k_h_beta_error,
-            &[t],
-            "1",
-            what,
-        )?;
-        let what = "what of the largest pressure the positions leave open, over it";
-        f.numbers(
-            "between/pressure_error",
-            &mut it.pressure_error,
-            &[t],
-            "1",
-            what,
-        )?;
+        for (name, values, of) in [
+            (
+                "te",
+                &mut it.te_error,
+                "the transmission error's peak-to-peak value",
+            ),
+            ("k_h_beta", &mut it.k_h_beta_error, "K_Hβ"),
+            ("pressure", &mut it.pressure_error, "the largest pressure"),
+        ] {
+            let what = format!("what of {of} the positions leave open, over it");
+            f.numbers(&format!("between/{name}_error"), values, &[t], "1", &what)?;
+        }
         Ok(Some(e))
     }
 }
@@ -372,8 +308,8 @@ fn place_fields(
     visit("z_m", &mut it.z_m, "m", what)?;
     let what = "touching width of the slice, zero where it does not touch";
     visit("width_m", &mut it.width_m, "m", what)?;
-    let is_there = !it.roll_2_rad.is_empty() || f.is_listing();
-    if !(is_there || f.is_reading() && f.has(&format!("{prefix}contact/roll_2_rad"))) {
+    let of_bevel = format!("{prefix}contact/roll_2_rad");
+    if !f.keeps(&of_bevel, !it.roll_2_rad.is_empty()) {
         return Ok(());
     }
     let mut visit = |name: &str, values: &mut Vec<f64>, unit: &str, what: &str| {

@@ -123,26 +123,7 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         scene.modify_flanks(1, &mut gear_1)?,
         scene.modify_flanks(2, &mut gear_2)?,
     ];
-    let mut taken = None;
-    if let Some(from) = &scene.misalignment_from {
-        let keys = TableKeys::new(&scene.document, "pair");
-        let pair = ([gear_1.profile.teeth, gear_2.profile.teeth], scene.flank);
-        from.refuse_further_torques(&scene.document, &scene.torques_nm)?;
-        let axes = from.take(&keys, &scene.folder, pair)?;
-        scene.misalignment = axes.misalignment;
-        scene.notes.push(axes.note.clone());
-        taken = Some(axes);
-    }
-    let pair = GearPair::new(
-        gear_1.profile.clone(),
-        gear_2.profile.clone(),
-        scene.centre_distance_m,
-        scene.misalignment,
-    )
-    .map_err(|e| scene.document.error("pair", e))?
-    .on_flanks(scene.flank);
-    let other_load = taken.and_then(|axes| axes.other_load(&pair, scene.torques_nm[0]));
-    scene.notes.extend(other_load);
+    let pair = standing(&mut scene, [&gear_1, &gear_2])?;
     if pair.is_helical() && scene.path_by_default {
         scene.edge_radius_m = None;
     }
@@ -151,15 +132,7 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         .map(|radius| PathExtension::new(&pair, radius));
     let model_digests = [model_1.digest, model_2.digest];
     let mut models = [model_1.model, model_2.model];
-    let mut bores = [None, None];
-    for (k, model) in models.iter_mut().enumerate() {
-        if scene.slides[k] {
-            bores[k] = Some(Arc::clone(model));
-            let sliding = model.with_sliding_bore();
-            let key = format!("gear_{}.bore", k + 1);
-            *model = Arc::new(sliding.map_err(|e| scene.document.error(&key, e))?.gear);
-        }
-    }
+    let bores = on_their_bores(&scene, &mut models)?;
     let sides = [0, 1].map(|gear| pair.flank_of(gear));
     for (key, i) in [("pair.gear_1", 0), ("pair.gear_2", 1)] {
         let flank = models[i].flank_index(sides[i]);
@@ -179,10 +152,8 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
     let deviations = flank_effects::deviations(&scene, [&gear_1, &gear_2])?;
     let runout = flank_effects::runout(&scene, &pair)?;
     let mut periods = PairPeriods::of([&gear_1, &gear_2]);
-    for gear in [1, 2]
-        .into_iter()
-        .filter(|gear| scene.tells_teeth_apart(*gear))
-    {
+    let unlike = [1, 2].into_iter();
+    for gear in unlike.filter(|gear| scene.tells_teeth_apart(*gear)) {
         periods = periods.with_unlike_teeth(gear);
     }
     let lines = ContactLines {
@@ -209,6 +180,44 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         model_digests,
         condensed: shelf.condensed(),
     })
+}
+
+/// The pair as its axes stand, by the scene or by a result that it names.
+fn standing(scene: &mut Scene, gears: [&GearDefinition; 2]) -> Result<GearPair, InputError> {
+    let mut taken = None;
+    if let Some(from) = &scene.misalignment_from {
+        let keys = TableKeys::new(&scene.document, "pair");
+        let pair = (gears.map(|gear| gear.profile.teeth), scene.flank);
+        from.refuse_further_torques(&scene.document, &scene.torques_nm)?;
+        let axes = from.take(&keys, &scene.folder, pair)?;
+        scene.misalignment = axes.misalignment;
+        scene.notes.push(axes.note.clone());
+        taken = Some(axes);
+    }
+    let [gear_1, gear_2] = gears.map(|gear| gear.profile.clone());
+    let pair = GearPair::new(gear_1, gear_2, scene.centre_distance_m, scene.misalignment);
+    let pair = pair.map_err(|e| scene.document.error("pair", e))?;
+    let pair = pair.on_flanks(scene.flank);
+    let other_load = taken.and_then(|axes| axes.other_load(&pair, scene.torques_nm[0]));
+    scene.notes.extend(other_load);
+    Ok(pair)
+}
+
+/// Lets gears slide on their bores that do so; gives their models with the motions of the bore.
+fn on_their_bores(
+    scene: &Scene,
+    models: &mut [Arc<ReducedGear>; 2],
+) -> Result<[Option<Arc<ReducedGear>>; 2], InputError> {
+    let mut bores = [None, None];
+    for (k, model) in models.iter_mut().enumerate() {
+        if scene.slides[k] {
+            bores[k] = Some(Arc::clone(model));
+            let sliding = model.with_sliding_bore();
+            let key = format!("gear_{}.bore", k + 1);
+            *model = Arc::new(sliding.map_err(|e| scene.document.error(&key, e))?.gear);
+        }
+    }
+    Ok(bores)
 }
 
 /// The model of a gear of the scene, and the gear that it was made of.
@@ -246,9 +255,8 @@ fn gauge_places(
                     false => names.join(", "),
                 };
                 let problem = format!("the model has no gauge `{name}`; it has: {known}");
-                scene
-                    .document
-                    .error(&format!("gauges.gear_{gear}.{i}"), problem)
+                let key = format!("gauges.gear_{gear}.{i}");
+                scene.document.error(&key, problem)
             })?;
             places.push((gear, index));
         }
@@ -442,11 +450,8 @@ pub(super) fn te_mesh_error(models: [&ReducedGear; 2]) -> f64 {
 
 /// A file's place, so that a result can be used from any folder.
 pub(super) fn absolute(file: &Path) -> String {
-    let found = std::path::absolute(file);
-    found
-        .unwrap_or_else(|_| file.to_owned())
-        .display()
-        .to_string()
+    let found = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    found.display().to_string()
 }
 
 /// Strain of gauges (gear, index in its model) for all positions of a result.

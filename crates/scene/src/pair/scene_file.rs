@@ -41,6 +41,46 @@ pub struct PairTables {
     pub rating: Vec<RatingTable>,
 }
 
+impl PairTables {
+    /// What keys say together.
+    fn check_together(&self, document: &InputDocument) -> Result<(), InputError> {
+        let (pair, teeth) = (&self.pair, &self.mesh.teeth);
+        for (key, value) in [
+            ("pair.inclination_mrad", pair.inclination_mrad),
+            ("pair.deviation_mrad", pair.deviation_mrad),
+        ] {
+            if value.is_some() && pair.misalignment_from.is_some() {
+                let problem =
+                    "is stated and taken from a result (misalignment_from); remove one of the two";
+                return Err(document.error(key, problem));
+            }
+        }
+        if self.run.torques_Nm.is_empty() {
+            let problem = "is empty; name at least one torque on gear 2";
+            return Err(document.error("run.torques_Nm", problem));
+        }
+        if matches!(teeth.path, Some(PathWord::LineOfAction)) && teeth.edge_radius_um.is_some() {
+            let problem =
+                "is not used on the line of action; set path = \"extended\" or leave it out";
+            return Err(document.error("mesh.teeth.edge_radius_um", problem));
+        }
+        let gears = [(1, &self.gear_1), (2, &self.gear_2)];
+        for (number, gear) in gears {
+            if let Some(own) = &gear.microgeometry {
+                own.check_together((document, &format!("gear_{number}.microgeometry")))?;
+            }
+        }
+        for (number, gear) in gears {
+            if gear.bore == Some(BoreHold::Rollers) {
+                let problem = "found \"rollers\", allowed are \"bonded\" and \"sliding\": a pair has no bearing; state the gears as [[body]] of a scene, \
+                               with the [[bearing]] whose outer ring is the bore";
+                return Err(document.error(&format!("gear_{number}.bore"), problem));
+            }
+        }
+        Ok(())
+    }
+}
+
 /// `[pair]`.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -260,52 +300,17 @@ impl Scene {
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let document = document.with_former(PAIR);
         let table: PairTables = document.parse()?;
-        let pair = &table.pair;
-        for (key, value) in [
-            ("pair.inclination_mrad", pair.inclination_mrad),
-            ("pair.deviation_mrad", pair.deviation_mrad),
-        ] {
-            if value.is_some() && pair.misalignment_from.is_some() {
-                return Err(document.error(
-                    key,
-                    "is stated and taken from a result (misalignment_from); remove one of the two",
-                ));
-            }
-        }
-        if table.run.torques_Nm.is_empty() {
-            return Err(document.error(
-                "run.torques_Nm",
-                "is empty; name at least one torque on gear 2",
-            ));
-        }
-        let teeth = table.mesh.teeth;
+        table.check_together(&document)?;
+        let (pair, teeth) = (&table.pair, table.mesh.teeth);
         let friction = teeth.friction.as_ref().map(PairFrictionTable::friction);
-        let edge_radius_m = match (teeth.path, teeth.edge_radius_um) {
-            (Some(PathWord::Extended) | None, radius) => {
-                Some(1e-6 * radius.map_or(DEFAULT_EDGE_RADIUS_UM, f64::from))
+        let edge_radius_m = match teeth.path {
+            Some(PathWord::LineOfAction) => None,
+            Some(PathWord::Extended) | None => {
+                let radius_um = teeth.edge_radius_um;
+                Some(1e-6 * radius_um.map_or(DEFAULT_EDGE_RADIUS_UM, f64::from))
             }
-            (Some(PathWord::LineOfAction), Some(_)) => {
-                return Err(document.error(
-                    "mesh.teeth.edge_radius_um",
-                    "is not used on the line of action; set path = \"extended\" or leave it out",
-                ));
-            }
-            (Some(PathWord::LineOfAction), None) => None,
         };
-        let own = [&table.gear_1.microgeometry, &table.gear_2.microgeometry];
-        for (number, own) in [1, 2].into_iter().zip(own) {
-            if let Some(own) = own {
-                own.check_together((&document, &format!("gear_{number}.microgeometry")))?;
-            }
-        }
         let bores = [table.gear_1.bore, table.gear_2.bore];
-        for (number, bore) in [1, 2].into_iter().zip(bores) {
-            if bore == Some(BoreHold::Rollers) {
-                let problem = "found \"rollers\", allowed are \"bonded\" and \"sliding\": a pair has no bearing; state the gears as [[body]] of a scene, \
-                               with the [[bearing]] whose outer ring is the bore";
-                return Err(document.error(&format!("gear_{number}.bore"), problem));
-            }
-        }
         let PairModel::Hybrid { local, slices } = table.mesh.model;
         let notes = document.former_notes()?;
         let notes = notes.iter().map(ToString::to_string).collect();

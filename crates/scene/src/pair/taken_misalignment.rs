@@ -49,6 +49,29 @@ impl MisalignmentFrom {
         Err(document.error("run.torques_Nm", problem))
     }
 
+    /// The result; `at` complains about a key.
+    fn opened(
+        &self,
+        path: &Path,
+        at: impl Fn(&str, String) -> InputError,
+    ) -> Result<SystemResult, InputError> {
+        if !path.is_file() {
+            let shown = path.display();
+            let problem = format!(
+                "the result {shown} does not exist; make it with `gearmesh run SCENE.toml -o {shown}`, run.kind = \"static\""
+            );
+            return Err(at("result", problem));
+        }
+        let result = SystemResult::open(path).map_err(|error| at("result", error.to_string()))?;
+        match result.kind {
+            ResultKind::Static => Ok(result),
+            kind => {
+                let problem = format!("found a result of kind \"{kind}\", allowed is \"static\"");
+                Err(at("result", problem))
+            }
+        }
+    }
+
     /// The axes of a pair with so many teeth in contact on these flanks.
     ///
     /// # Errors
@@ -63,22 +86,8 @@ impl MisalignmentFrom {
         let at =
             |key: &str, problem: String| keys.error(&format!("misalignment_from.{key}"), problem);
         let path = folder.join(&self.result);
-        let shown = path.display();
-        if !path.is_file() {
-            let problem = format!(
-                "the result {shown} does not exist; make it with `gearmesh run SCENE.toml -o {shown}`, run.kind = \"static\""
-            );
-            return Err(at("result", problem));
-        }
+        let result = self.opened(&path, at)?;
         let unreadable = |error: gearmesh_model::FileError| at("result", error.to_string());
-        let result = SystemResult::open(&path).map_err(unreadable)?;
-        if result.kind != ResultKind::Static {
-            let kind = result.kind;
-            return Err(at(
-                "result",
-                format!("found a result of kind \"{kind}\", allowed is \"static\""),
-            ));
-        }
         let meshes = &result.head.meshes;
         let mesh = meshes.iter().find(|mesh| mesh.name == self.mesh);
         let mesh = mesh.ok_or_else(|| {
@@ -95,12 +104,10 @@ impl MisalignmentFrom {
             return Err(at("mesh", problem));
         }
         let rows = result.rows.rows();
-        let point = self.point.unwrap_or(rows.saturating_sub(1));
+        let last = rows.saturating_sub(1);
+        let point = self.point.unwrap_or(last);
         if point >= rows {
-            let problem = format!(
-                "found {point}, the result has points 0 to {}",
-                rows.saturating_sub(1)
-            );
+            let problem = format!("found {point}, the result has points 0 to {last}");
             return Err(at("point", problem));
         }
         let loaded = result.loaded_flank(&self.mesh, point).map_err(unreadable)?;
@@ -125,10 +132,8 @@ impl MisalignmentFrom {
             at("result", problem)
         })?;
         let misalignment = axes.misalignment(flank);
-        let (inclination, deviation) = (
-            1e3 * misalignment.inclination_rad,
-            1e3 * misalignment.deviation_rad,
-        );
+        let inclination = 1e3 * misalignment.inclination_rad;
+        let deviation = 1e3 * misalignment.deviation_rad;
         for (what, value) in [("inclination", inclination), ("deviation", deviation)] {
             if value.is_nan() || value.abs() > 10.0 {
                 let problem = format!(
@@ -139,8 +144,9 @@ impl MisalignmentFrom {
             }
         }
         let note = format!(
-            "misalignment of mesh `{}` at point {point} of {shown}: inclination_mrad = {inclination:.6}, deviation_mrad = {deviation:.6}; its centre distance there is {:.4} mm",
+            "misalignment of mesh `{}` at point {point} of {}: inclination_mrad = {inclination:.6}, deviation_mrad = {deviation:.6}; its centre distance there is {:.4} mm",
             self.mesh,
+            path.display(),
             1e3 * axes.centre_distance_m
         );
         let normal_force_n = (result.loaded_force_n(&self.mesh, point)).map_err(unreadable)?;

@@ -38,12 +38,8 @@ pub(super) fn file_text(path: &Path) -> Result<String, InputError> {
     if !is_hdf5(path) {
         return Ok(InputDocument::read(path)?.text);
     }
-    let model = read_reduced_gear(path).map_err(|error| InputError {
-        file: path.display().to_string(),
-        line: None,
-        key: String::new(),
-        problem: error.to_string(),
-    })?;
+    let model = read_reduced_gear(path);
+    let model = model.map_err(|error| InputError::of_file(path.display(), error))?;
     Ok(model.input.text)
 }
 

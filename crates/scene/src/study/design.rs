@@ -49,6 +49,18 @@ pub struct Setting {
     pub value: toml::Value,
 }
 
+impl Setting {
+    /// A value at one key, whose name it has.
+    #[must_use]
+    pub fn of(key: &str, value: impl Into<toml::Value>) -> Self {
+        Self {
+            parameter: key.to_owned(),
+            keys: vec![key.to_owned()],
+            value: value.into(),
+        }
+    }
+}
+
 /// What is changed in one run; nothing in the scene as it is.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Case {
@@ -59,6 +71,13 @@ pub struct Case {
 }
 
 impl Case {
+    /// Of some settings.
+    #[must_use]
+    pub fn of(settings: Vec<Setting>) -> Self {
+        let removed = Vec::new();
+        Self { settings, removed }
+    }
+
     /// `load = -900.0, speed = 250.0`, or `as it is`.
     #[must_use]
     pub fn name(&self) -> String {
@@ -92,11 +111,7 @@ pub(super) fn cases(
     });
     match design {
         Design::OneAtATime => {
-            let single = |setting| Case {
-                settings: vec![setting],
-                ..Case::default()
-            };
-            let varied = listed.flatten().map(single);
+            let varied = listed.flatten().map(|setting| Case::of(vec![setting]));
             std::iter::once(Case::default()).chain(varied).collect()
         }
         Design::Grid => listed.fold(vec![Case::default()], |cases, settings| {

@@ -15,14 +15,13 @@ use std::time::{Duration, Instant};
 
 use gearmesh_dynamics::{Motion, OutputGrid, Params, Simulation, System, TimeFunction};
 use gearmesh_geometry::InputError;
-use gearmesh_model::Column;
 
 use super::error::SystemRunError;
 use super::from_scene::varied;
 use super::in_time::begin;
-use super::job::{RunJob, RunKind};
+use super::job::{InTime, RunJob, RunKind};
 use super::recorded_columns::ResultSize;
-use super::recorder::{Course, Moment, Recorder, Selection};
+use super::recorder::{Course, Moment, Recorder, Selection, time};
 use crate::system::{LoadedSystem, Run, Start, SystemPlan, SystemScene, step_in_words};
 
 /// Wall time of all trials together, equilibria not counted: enough for some thousand steps of a pair.
@@ -89,15 +88,7 @@ impl RunCost {
         match job.kind {
             RunKind::Static(_) => return Ok(None),
             RunKind::Transient(run) => {
-                let trial = Trial {
-                    params: &run.params,
-                    start: run.start,
-                    interval_s: Some(run.interval_s / run.samples_per_row() as f64),
-                    recorded: 1.0,
-                    end_s: run.end_s,
-                    budget: TRIALS,
-                };
-                paces.push(trial.make(job.system, selection)?);
+                paces.push(Trial::of(&run, 1.0, TRIALS).make(job.system, selection)?);
             }
             RunKind::SpeedSweep(run) => {
                 let measured: f64 = run.windows.iter().map(|w| w.to_s - w.from_s).sum();
@@ -110,14 +101,8 @@ impl RunCost {
                 for speed in spread(&speeds) {
                     let function = Motion::Speed(TimeFunction::Constant(speed));
                     let built = loaded.build_varied(&varied(&sweep.motion, function, 1.0))?;
-                    let trial = Trial {
-                        params: &run.params,
-                        start: run.start,
-                        interval_s: Some(run.interval_s / run.samples_per_row() as f64),
-                        recorded: measured / run.end_s,
-                        end_s: run.end_s,
-                        budget: TRIALS / MOST_TRIALS as u32,
-                    };
+                    let budget = TRIALS / MOST_TRIALS as u32;
+                    let trial = Trial::of(&run, measured / run.end_s, budget);
                     paces.push(trial.make(built.system, selection)?);
                 }
             }
@@ -158,7 +143,19 @@ fn spread<T: Copy>(values: &[T]) -> Vec<T> {
         .collect()
 }
 
-impl Trial<'_> {
+impl<'a> Trial<'a> {
+    /// Of a run in time that records rows in a share of it.
+    fn of(run: &'a InTime, recorded: f64, budget: Duration) -> Self {
+        Self {
+            params: &run.params,
+            start: run.start,
+            interval_s: Some(run.interval_s / run.samples_per_row() as f64),
+            recorded,
+            end_s: run.end_s,
+            budget,
+        }
+    }
+
     fn make(&self, system: System, selection: &Selection) -> Result<Pace, SystemRunError> {
         let mut simulation = begin(system, (self.params, self.start), &mut Vec::new())?;
         let mut first = 0;
@@ -199,18 +196,13 @@ impl Trial<'_> {
         } else {
             self.budget / 2
         };
-        let time = Column {
-            name: "time_s".to_owned(),
-            unit: "s".to_owned(),
-            description: "time".to_owned(),
-        };
         let state = simulation.state();
         let (begun_s, system) = (state.time_s, simulation.system());
         let mut rows = interval_s.map(|interval_s| {
             let next = (begun_s / interval_s).floor() as u64 + 1;
             (
                 OutputGrid::new(interval_s, state).from_index(next),
-                Recorder::new(system, state, selection, vec![time], Course::InTime),
+                Recorder::new(system, state, selection, vec![time()], Course::InTime),
             )
         });
         let mut before = simulation.info().energy;

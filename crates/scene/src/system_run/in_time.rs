@@ -4,14 +4,14 @@
 //! result, and it goes on. A run that is resumed from there gives the same bits as one that was never stopped.
 
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use gearmesh_dynamics::{
     Accepted, EnergyBalance, OutputGrid, Simulation, StaticParams, System, equilibrium,
 };
-use gearmesh_model::{Column, DataTree, FileError, RowLog};
+use gearmesh_model::{DataTree, FileError, RowLog};
 
 use super::column_statistics::ColumnStatistics;
 use super::error::SystemRunError;
@@ -20,7 +20,7 @@ use super::low_pass::RowFilter;
 use super::mesh_pace::MeshPace;
 use super::part_folder::PartFolder;
 use super::rating;
-use super::recorder::{Course, Moment, Recorder, Selection};
+use super::recorder::{Course, Moment, Recorder, Selection, time};
 use super::result::SweepResult;
 use super::result_kind::ResultKind;
 use super::result_record::Contents;
@@ -132,42 +132,30 @@ impl<'a> Tape<'a> {
     }
 
     /// What does not go with this run: its name, and what is wrong with it.
-    fn contradiction(&self, time_s: f64, recorded: &Recorded) -> Option<(&'static str, String)> {
+    fn contradiction(&self, time_s: f64, recorded: &Recorded) -> Option<(String, String)> {
         let windows = self.run.windows.len();
         let columns = self.recorder.columns().len();
+        let [statistics, window] = &recorded.statistics;
+        let closed = 4 * columns * recorded.closed.min(windows);
         for (item, found, needed) in [
-            (
-                "recorded/angles",
-                recorded.angles.len(),
-                self.recorder.save().len(),
-            ),
-            (
-                "recorded/statistics",
-                recorded.statistics[0].len(),
-                self.statistics.save().len(),
-            ),
-            (
-                "recorded/window",
-                recorded.statistics[1].len(),
-                self.window.save().len(),
-            ),
-            (
-                "recorded/windows",
-                recorded.windows.len(),
-                4 * columns * recorded.closed.min(windows),
-            ),
+            ("angles", &recorded.angles, self.recorder.save().len()),
+            ("statistics", statistics, self.statistics.save().len()),
+            ("window", window, self.window.save().len()),
+            ("windows", &recorded.windows, closed),
         ] {
+            let found = found.len();
             if found != needed {
-                return Some((item, format!("it has {found} entries, {needed} are needed")));
+                let problem = format!("it has {found} entries, {needed} are needed");
+                return Some((format!("recorded/{item}"), problem));
             }
         }
         if !self.rows.fits(&recorded.rows, self.samples) {
             let problem = "it is not that of these rows".to_owned();
-            return Some(("recorded/rows", problem));
+            return Some(("recorded/rows".to_owned(), problem));
         }
         if recorded.next_sample > self.samples || recorded.closed > windows {
             let problem = format!("there are {} rows and {windows} windows", self.samples);
-            return Some(("recorded/progress", problem));
+            return Some(("recorded/progress".to_owned(), problem));
         }
         // A run that has come to its end has no checkpoint.
         let last_s = self.run.end_s + self.run.interval_s;
@@ -175,7 +163,37 @@ impl<'a> Tape<'a> {
             "its time is {time_s} s, the run ends at {} s",
             self.run.end_s
         );
-        (time_s > last_s).then_some(("simulation/scalars", problem))
+        (time_s > last_s).then(|| ("simulation/scalars".to_owned(), problem))
+    }
+
+    /// A run that goes on from its checkpoint, the wall time before, and the notes of its start.
+    fn resumed(
+        &mut self,
+        system: System,
+        mut tree: DataTree,
+        path: PathBuf,
+    ) -> Result<(Simulation, f64, Vec<String>), SystemRunError> {
+        let damaged = |source| SystemRunError::Checkpoint { source };
+        let (checkpoint, recorded) = from_tree(&mut tree, &path).map_err(damaged)?;
+        let simulation = Simulation::resume(system, self.run.params, &checkpoint)?;
+        let time_s = simulation.state().time_s;
+        if let Some((item, problem)) = self.contradiction(time_s, &recorded) {
+            let source = FileError::Contradiction {
+                path,
+                item,
+                problem,
+            };
+            return Err(damaged(source));
+        }
+        let wall_s = recorded.wall_s;
+        // A resumed run does not make them again.
+        let notes = tree.take_text(&path, NOTES).map_err(damaged)?;
+        self.resume_at(&simulation, recorded);
+        Ok((
+            simulation,
+            wall_s,
+            notes.lines().map(str::to_owned).collect(),
+        ))
     }
 
     fn resume_at(&mut self, simulation: &Simulation, recorded: Recorded) {
@@ -288,6 +306,32 @@ impl<'a> Tape<'a> {
         }
         Ok(())
     }
+
+    /// Writes what was recorded: the rows, or the figures of the windows.
+    fn write(
+        &self,
+        mut contents: Contents,
+        ratings: &[RatingJob],
+        output: &Path,
+        log: &mut RowLog,
+    ) -> Result<(), SystemRunError> {
+        let (run, columns) = (self.run, self.recorder.columns());
+        if run.windows.is_empty() {
+            let written = self.rows.columns(columns);
+            contents.statistics = self.statistics.figures();
+            contents.statistics_from_s = Some(run.statistics_from_s);
+            contents.folded = self.rows.folded();
+            contents.samples_per_row = Some(run.samples_per_row() as f64);
+            contents.ratings = rating::of_rows(ratings, &written, log)?;
+            contents.write_with_rows(output, ("time", &written, log))?;
+        } else {
+            let sweep = SweepResult::of_run(&run.windows, columns.to_vec(), &self.figures);
+            contents.ratings = rating::of_windows(ratings, columns, &self.figures);
+            contents.sweep = Some(sweep);
+            contents.write(output)?;
+        }
+        Ok(())
+    }
 }
 
 fn close(window: &mut ColumnStatistics, figures: &mut Vec<f64>) {
@@ -306,14 +350,9 @@ pub(super) fn run_in_time(
     options: &RunOptions<'_>,
 ) -> Result<Outcome, SystemRunError> {
     let mut tape = Tape::new(run, (&head, &system), selection)?;
-    let columns = tape.recorder.columns().to_vec();
-    let written = tape.rows.columns(&columns);
-    let (mut part, saved) = PartFolder::open(
-        options.output,
-        &head.identity(),
-        written.len(),
-        options.restart,
-    )?;
+    let written = tape.rows.columns(tape.recorder.columns());
+    let (identity, width) = (head.identity(), written.len());
+    let (mut part, saved) = PartFolder::open(options.output, &identity, width, options.restart)?;
     let tell = |time_s: f64, resumed| {
         (options.progress)(Advance {
             done: time_s.min(run.end_s),
@@ -321,30 +360,17 @@ pub(super) fn run_in_time(
             resumed,
         });
     };
-    let mut wall_s = 0.0;
-    let mut simulation = match saved {
+    let (mut simulation, mut wall_s) = match saved {
         None => {
             let simulation = begin(system, (&run.params, run.start), &mut head.notes)?;
             tape.start_at(&simulation, selection);
-            simulation
+            (simulation, 0.0)
         }
-        Some(mut tree) => {
-            let damaged = |source| SystemRunError::Checkpoint { source };
+        Some(tree) => {
             let path = PartFolder::beside(options.output);
-            let (checkpoint, recorded) = from_tree(&mut tree, &path).map_err(damaged)?;
-            let simulation = Simulation::resume(system, run.params, &checkpoint)?;
-            let time_s = simulation.state().time_s;
-            if let Some((item, problem)) = tape.contradiction(time_s, &recorded) {
-                return Err(damaged(FileError::Contradiction {
-                    path,
-                    item: item.to_owned(),
-                    problem,
-                }));
-            }
-            wall_s = recorded.wall_s;
-            head.notes = notes_of(&mut tree, &path).map_err(damaged)?;
-            tape.resume_at(&simulation, recorded);
-            simulation
+            let (simulation, wall_s, notes) = tape.resumed(system, tree, path)?;
+            head.notes = notes;
+            (simulation, wall_s)
         }
     };
     tell(simulation.state().time_s, wall_s > 0.0);
@@ -382,39 +408,12 @@ pub(super) fn run_in_time(
     tape.finish(part.log())?;
     // The last step may go past the end: rows are interpolated, and nothing behind it is used.
     let simulated_s = simulation.state().time_s.min(run.end_s);
-    let record = RunRecord::new(simulation.info(), simulated_s, wall_s);
     let mut contents = Contents::of_run(kind, head);
-    contents.record = Some(record);
-    if run.windows.is_empty() {
-        contents.statistics = tape.statistics.figures();
-        contents.statistics_from_s = Some(run.statistics_from_s);
-        contents.folded = tape.rows.folded();
-        contents.samples_per_row = Some(run.samples_per_row() as f64);
-        contents.ratings = rating::of_rows(ratings, &written, part.log())?;
-        let rows = ("time", &written[..], part.log());
-        contents.write_with_rows(options.output, rows)?;
-    } else {
-        contents.ratings = rating::of_windows(ratings, &columns, &tape.figures);
-        contents.sweep = Some(SweepResult::of_run(&run.windows, columns, &tape.figures));
-        contents.write(options.output)?;
-    }
+    contents.record = Some(RunRecord::new(simulation.info(), simulated_s, wall_s));
+    tape.write(contents, ratings, options.output, part.log())?;
     part.finish()?;
     Ok(Outcome::Finished)
 }
 
-/// Text of a checkpoint with the notes of the start, which a resumed run does not make again.
+/// Text of a checkpoint with the notes of the start.
 const NOTES: &str = "notes";
-
-fn notes_of(tree: &mut DataTree, path: &Path) -> Result<Vec<String>, FileError> {
-    let notes = tree.take_text(path, NOTES)?;
-    Ok(notes.lines().map(str::to_owned).collect())
-}
-
-/// The first column of a run in time.
-pub(super) fn time() -> Column {
-    Column {
-        name: "time_s".to_owned(),
-        unit: "s".to_owned(),
-        description: "time".to_owned(),
-    }
-}

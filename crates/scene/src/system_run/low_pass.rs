@@ -89,15 +89,13 @@ impl RowFilter {
     /// The columns of what is given: those of a row, then the filtered ones.
     pub fn columns(&self, columns: &[Column]) -> Vec<Column> {
         let filtered = self.filtered.iter().map(|place| {
-            let column = &columns[*place];
-            Column {
-                name: format!("{GROUP}{}", column.name),
-                unit: column.unit.clone(),
-                description: format!(
-                    "{}; low-pass below half the rate of the rows",
-                    column.description
-                ),
-            }
+            let Column {
+                name,
+                unit,
+                description,
+            } = &columns[*place];
+            let text = format!("{description}; low-pass below half the rate of the rows");
+            Column::new(format!("{GROUP}{name}"), unit, &text)
         });
         columns.iter().cloned().chain(filtered).collect()
     }
@@ -239,12 +237,9 @@ mod tests {
     const PER_ROW: usize = 5;
 
     fn columns() -> Vec<Column> {
-        let column = |name: &str| Column {
-            name: name.to_owned(),
-            unit: "N".to_owned(),
-            description: String::new(),
-        };
-        vec![column("time_s"), column("elements/mesh/force_N")]
+        ["time_s", "elements/mesh/force_N"]
+            .map(|name| Column::new(name, "N", ""))
+            .into()
     }
 
     /// Time, value at the instant, filtered value of each row, of a run that is stored and goes on again at one sample.

@@ -7,7 +7,7 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::Column;
 
 use super::job::{RunJob, RunKind};
-use super::recorder::{Course, Recorder};
+use super::recorder::{Course, Recorder, time};
 use super::{in_time, static_series};
 use crate::system::{Run, SystemScene};
 
@@ -15,7 +15,7 @@ use crate::system::{Run, SystemScene};
 #[must_use]
 pub fn recorded_columns(job: &RunJob) -> Vec<Column> {
     let (abscissas, course) = match &job.kind {
-        RunKind::Transient(_) | RunKind::SpeedSweep(_) => (vec![in_time::time()], Course::InTime),
+        RunKind::Transient(_) | RunKind::SpeedSweep(_) => (vec![time()], Course::InTime),
         RunKind::Static(series) => (static_series::abscissas_of(&series.points), Course::Static),
         RunKind::Eigen(_) => return Vec::new(),
     };

@@ -116,6 +116,11 @@ pub(crate) fn body_column(body: &str, channel: &str) -> String {
     format!("bodies/{}/{channel}", plain(body))
 }
 
+/// The first column of rows in time.
+pub(super) fn time() -> Column {
+    Column::new("time_s", "s", "time")
+}
+
 impl Recorder {
     /// A recorder that begins at a state. `abscissas` describes the first columns.
     pub fn new(
@@ -154,41 +159,35 @@ impl Recorder {
             }
         }
         if course == Course::InTime {
+            let stored = "energy stored in springs, teeth, modes and the field of gravity";
+            let supplied = "work of loads and prescribed motions since the start";
+            let balance = "kinetic + potential - their start + dissipated - supplied";
             for (name, text) in [
                 ("kinetic_J", "kinetic energy"),
-                (
-                    "potential_J",
-                    "energy stored in springs, teeth, modes and the field of gravity",
-                ),
+                ("potential_J", stored),
                 ("dissipated_J", "heat since the start"),
-                (
-                    "supplied_J",
-                    "work of loads and prescribed motions since the start",
-                ),
-                (
-                    "error_J",
-                    "kinetic + potential - their start + dissipated - supplied",
-                ),
+                ("supplied_J", supplied),
+                ("error_J", balance),
             ] {
                 recorder.column(format!("energy/{name}"), "J", text);
             }
             recorder.column("run/step_s".into(), "s", "length of the integrator's step");
-            recorder.column(
-                "run/largest_violation".into(),
-                "m or rad",
-                "largest violation of a joint equation so far",
-            );
+            let text = "largest violation of a joint equation so far";
+            recorder.column("run/largest_violation".into(), "m or rad", text);
         }
         recorder.row = Vec::with_capacity(recorder.columns.len());
         recorder
     }
 
     fn column(&mut self, name: String, unit: &str, description: &str) {
-        self.columns.push(Column {
-            name,
-            unit: unit.to_owned(),
-            description: description.to_owned(),
-        });
+        self.columns.push(Column::new(name, unit, description));
+    }
+
+    /// A column for each axis, between a stem and the unit as names have it.
+    fn three(&mut self, (group, stem): (&str, &str), unit: &str, in_name: &str, text: &str) {
+        for axis in AXES {
+            self.column(format!("{group}/{stem}{axis}_{in_name}"), unit, text);
+        }
     }
 
     fn add_bodies(&mut self, system: &System, state: &State, ids: &[BodyId]) {
@@ -210,51 +209,23 @@ impl Recorder {
                     modal: (modal, modes),
                 });
                 let group = format!("bodies/{}", plain(&body.name));
-                let mut three = |stem: &str, unit: &str, suffix: &str, text: &str| {
-                    for axis in AXES {
-                        let name = if stem.is_empty() {
-                            format!("{group}/{axis}_{suffix}")
-                        } else {
-                            format!("{group}/{stem}_{axis}_{suffix}")
-                        };
-                        self.column(name, unit, text);
-                    }
-                };
-                three("", "m", "m", "reference point, world axes");
-                let cardan = "Cardan angle, R = Rx Ry Rz, turns counted";
-                three("cardan", "rad", "rad", cardan);
+                self.three((&group, ""), "m", "m", "reference point, world axes");
+                let text = "Cardan angle, R = Rx Ry Rz, turns counted";
+                self.three((&group, "cardan_"), "rad", "rad", text);
                 let turn = "turn about its own z axis since the start, turns counted";
                 self.column(format!("{group}/turn_rad"), "rad", turn);
                 if in_time {
-                    let mut three = |stem: &str, unit: &str, suffix: &str, text: &str| {
-                        for axis in AXES {
-                            self.column(format!("{group}/{stem}_{axis}_{suffix}"), unit, text);
-                        }
-                    };
-                    three(
-                        "velocity",
-                        "m/s",
-                        "m_per_s",
-                        "velocity of the reference point, world axes",
-                    );
-                    three(
-                        "angular_velocity",
-                        "rad/s",
-                        "rad_per_s",
-                        "angular velocity, body axes",
-                    );
-                    three(
-                        "acceleration",
-                        "m/s²",
-                        "m_per_s2",
-                        "acceleration of the reference point, world axes",
-                    );
-                    three(
-                        "angular_acceleration",
-                        "rad/s²",
-                        "rad_per_s2",
+                    let text = "velocity of the reference point, world axes";
+                    self.three((&group, "velocity_"), "m/s", "m_per_s", text);
+                    let text = "angular velocity, body axes";
+                    self.three((&group, "angular_velocity_"), "rad/s", "rad_per_s", text);
+                    let text = "acceleration of the reference point, world axes";
+                    self.three((&group, "acceleration_"), "m/s²", "m_per_s2", text);
+                    let (stem, text) = (
+                        "angular_acceleration_",
                         "rate of the angular velocity, body axes",
                     );
+                    self.three((&group, stem), "rad/s²", "rad_per_s2", text);
                 }
                 for mode in 0..modes {
                     let name = format!("{group}/mode_{mode}_sqrt_kg_m");
@@ -280,19 +251,13 @@ impl Recorder {
                 } else {
                     format!("joints/{}/pair_{}", plain(joint.name()), pair + 1)
                 };
-                for axis in AXES {
-                    let text = "force of the joint on body 2, axes of the marker of body 1";
-                    self.column(format!("{group}/force_{axis}_N"), "N", text);
-                }
-                for axis in AXES {
-                    let text =
-                        "moment of the joint on body 2 in its marker, axes of the marker of body 1";
-                    self.column(format!("{group}/moment_{axis}_Nm"), "N·m", text);
-                }
-                for axis in AXES {
-                    let text = "force of the joint on body 2, world axes";
-                    self.column(format!("{group}/force_world_{axis}_N"), "N", text);
-                }
+                let text = "force of the joint on body 2, axes of the marker of body 1";
+                self.three((&group, "force_"), "N", "N", text);
+                let text =
+                    "moment of the joint on body 2 in its marker, axes of the marker of body 1";
+                self.three((&group, "moment_"), "N·m", "Nm", text);
+                let text = "force of the joint on body 2, world axes";
+                self.three((&group, "force_world_"), "N", "N", text);
                 let text = "angle of body 2 about z of body 1's marker, turns counted";
                 self.column(format!("{group}/angle_rad"), "rad", text);
                 let text = "offset of body 2's marker along z of body 1's";

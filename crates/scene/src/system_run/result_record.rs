@@ -64,12 +64,7 @@ impl Record for Contents {
                 let what =
                     "samples for each row, from which statistics and filtered columns are made";
                 f.number_if_there("samples_per_row", &mut self.samples_per_row, "1", what)?;
-                let is_there = if f.is_reading() {
-                    f.has("folded")
-                } else {
-                    f.is_listing() || !self.folded.is_empty()
-                };
-                if is_there {
+                if f.keeps("folded", !self.folded.is_empty()) {
                     let axes = [("column", self.statistics.len())];
                     let what = "RMS value of what vibrates faster than rows can tell";
                     f.numbers("folded", &mut self.folded, &axes, "of the column", what)?;
@@ -91,11 +86,8 @@ impl Record for Contents {
 impl Record for RunHead {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         f.text("title", &mut self.title, "title of the scene")?;
-        f.text(
-            "scene_toml",
-            &mut self.scene_toml,
-            "the scene, word for word",
-        )?;
+        let what = "the scene, word for word";
+        f.text("scene_toml", &mut self.scene_toml, what)?;
         let what = "names and digests of the files that the scene names";
         f.lines("inputs", &mut self.inputs, what)?;
         f.lines("notes", &mut self.notes, "assumptions and warnings")?;
@@ -112,11 +104,8 @@ impl Record for PlanetarySet {
             ("teeth_planet", &mut teeth.planet),
             ("teeth_planet_to_ring", &mut teeth.planet_to_ring),
         ] {
-            f.count(
-                name,
-                count,
-                "teeth of the planet to the sun and to the ring",
-            )?;
+            let what = "teeth of the planet to the sun and to the ring";
+            f.count(name, count, what)?;
         }
         for (name, count, body, own) in [
             ("sun", &mut teeth.sun, "teeth_sun", &mut members.sun),
@@ -142,7 +131,7 @@ impl Record for PlanetarySet {
         let what = "distance of the pins from the axis";
         f.number("centre_distance_m", &mut self.centre_distance_m, "m", what)?;
         let mut axis = self.axis.to_vec();
-        if !f.is_reading() || f.has("axis") {
+        if f.has("axis") {
             let what = "direction of the axis in the world";
             f.numbers("axis", &mut axis, &[("coordinate", 3)], "1", what)?;
         }
@@ -154,11 +143,7 @@ impl Record for PlanetarySet {
 impl PlanetarySet {
     /// Of meshed planets; files of older programs have none.
     fn partner_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        let is_there = match f.is_reading() {
-            true => f.has("partners"),
-            false => f.is_listing() || self.teeth.is_meshed,
-        };
-        if !is_there {
+        if !f.keeps("partners", self.teeth.is_meshed) {
             return Ok(());
         }
         self.teeth.is_meshed = true;
@@ -183,34 +168,20 @@ impl Record for MeshRecord {
         for (teeth, name) in self.teeth.iter_mut().zip(["teeth_1", "teeth_2"]) {
             f.count(name, teeth, "teeth of the gear")?;
         }
-        let is_there = if f.is_reading() {
-            f.has("flank_corners_m")
-        } else {
-            f.is_listing() || !self.flank_corners_m.is_empty()
-        };
-        if is_there {
+        let corners = &mut self.flank_corners_m;
+        if f.keeps("flank_corners_m", !corners.is_empty()) {
             let axes = [("gear", 2), ("corner", 4), ("place", 2)];
             let what = "of bevel pairs: cone distance and height above the pitch cone of lower line and tip at the toe, tip and lower line at the heel";
-            f.numbers(
-                "flank_corners_m",
-                &mut self.flank_corners_m,
-                &axes,
-                "m",
-                what,
-            )?;
+            f.numbers("flank_corners_m", corners, &axes, "m", what)?;
         }
         f.optional("stage", &mut self.stage, StageSummary::fields)?;
         let mut speeds: Vec<f64> = self.speeds_rad_per_s.into_iter().flatten().collect();
-        if !f.is_reading() || f.has("speeds_rad_per_s") {
+        if f.has("speeds_rad_per_s") {
             let what = "speeds of gear 1 and gear 2 about their z at the start";
             let axes = [("gear", OPEN)];
             f.numbers("speeds_rad_per_s", &mut speeds, &axes, "rad/s", what)?;
         }
-        self.speeds_rad_per_s = speeds
-            .first()
-            .copied()
-            .zip(speeds.get(1).copied())
-            .map(Into::into);
+        self.speeds_rad_per_s = speeds.first_chunk().copied();
         Ok(())
     }
 }
@@ -266,11 +237,8 @@ impl SweepResult {
             return Err(f.contradiction("units", "there are not as many as columns"));
         }
         let columns = names.into_iter().zip(units).zip(texts);
-        let column = |((name, unit), description)| Column {
-            name,
-            unit,
-            description,
-        };
+        let column =
+            |((name, unit), text): ((String, String), String)| Column::new(name, &unit, &text);
         self.columns = columns.map(column).collect();
         Ok(())
     }
@@ -301,11 +269,8 @@ impl Contents {
         f.lines("eigen/bodies", &mut self.bodies, "names of the bodies")?;
         // Files of older programs have no elements.
         if f.has("eigen/elements") {
-            f.lines(
-                "eigen/elements",
-                &mut self.elements,
-                "names of the force elements",
-            )?;
+            let what = "names of the force elements";
+            f.lines("eigen/elements", &mut self.elements, what)?;
         }
         let names = [self.bodies.len(), self.elements.len()];
         f.numbered_list("eigen", &mut self.eigen, |point, f| {
@@ -322,34 +287,17 @@ fn point_fields(
     let what = "share of the scene's loads";
     f.number("load_factor", &mut it.point.load_factor, "1", what)?;
     let what = "speed of the varied motion, where one is varied";
-    f.number_if_there(
-        "speed_rad_per_s",
-        &mut it.point.speed_rad_per_s,
-        "rad/s",
-        what,
-    )?;
+    let speed = &mut it.point.speed_rad_per_s;
+    f.number_if_there("speed_rad_per_s", speed, "rad/s", what)?;
     let of = |value: fn(&NaturalMode) -> f64| it.modes.iter().map(value).collect::<Vec<f64>>();
-    let (mut frequency, mut damping, mut growth) = (
-        of(NaturalMode::frequency_hz),
-        of(NaturalMode::damping_ratio),
-        of(|mode| mode.growth_per_s),
-    );
-    let what = "frequency of the damped vibration";
-    f.numbers(
-        "frequency_Hz",
-        &mut frequency,
-        &[("mode", OPEN)],
-        "Hz",
-        what,
-    )?;
+    let mut frequency = of(NaturalMode::frequency_hz);
+    let mut damping = of(NaturalMode::damping_ratio);
+    let mut growth = of(|mode| mode.growth_per_s);
+    let (modes, what) = (("mode", OPEN), "frequency of the damped vibration");
+    f.numbers("frequency_Hz", &mut frequency, &[modes], "Hz", what)?;
     let modes = ("mode", frequency.len());
-    f.numbers(
-        "damping_ratio",
-        &mut damping,
-        &[modes],
-        "1",
-        "damping ratio",
-    )?;
+    let what = "damping ratio";
+    f.numbers("damping_ratio", &mut damping, &[modes], "1", what)?;
     let what = "real part of the eigenvalue, negative where the motion dies out";
     f.numbers("growth_per_s", &mut growth, &[modes], "1/s", what)?;
     let amplitudes = || it.modes.iter().flat_map(|mode| &mode.shape);

@@ -63,89 +63,32 @@ type Field = (
     fn(&mut RunRecord) -> &mut f64,
 );
 
-const FIELDS: [Field; 18] = [
-    (
-        "simulated_s",
-        "s",
-        "time that was simulated, to the end of the run",
-        |r| &mut r.simulated_s,
-    ),
-    ("wall_s", "s", "wall time of the run", |r| &mut r.wall_s),
-    ("steps", "1", "accepted steps", |r| &mut r.steps),
-    (
-        "rejected",
-        "1",
-        "steps repeated for their estimated error",
-        |r| &mut r.rejected,
-    ),
-    (
-        "unconverged",
-        "1",
-        "steps repeated because Newton's iteration did not converge",
-        |r| &mut r.unconverged,
-    ),
-    ("iterations", "1", "Newton iterations", |r| {
-        &mut r.iterations
-    }),
-    (
-        "factorisations",
-        "1",
-        "factorisations of the iteration matrix",
-        |r| &mut r.factorisations,
-    ),
-    ("evaluations", "1", "evaluations of the equations", |r| {
-        &mut r.evaluations
-    }),
-    ("least_step_s", "s", "shortest accepted step", |r| {
-        &mut r.least_step_s
-    }),
-    ("largest_step_s", "s", "longest accepted step", |r| {
-        &mut r.largest_step_s
-    }),
-    (
-        "largest_violation",
-        "m or rad",
-        "largest violation of a joint equation",
-        |r| &mut r.largest_violation,
-    ),
-    (
-        "largest_violation_rate",
-        "m/s or rad/s",
-        "largest violation of the rate of a joint equation",
-        |r| &mut r.largest_violation_rate,
-    ),
-    (
-        "first_energy_J",
-        "J",
-        "kinetic and potential energy at the start",
-        |r| &mut r.first_energy_j,
-    ),
-    (
-        "last_energy_J",
-        "J",
-        "kinetic and potential energy at the end",
-        |r| &mut r.last_energy_j,
-    ),
-    ("dissipated_J", "J", "heat", |r| &mut r.dissipated_j),
-    (
-        "supplied_J",
-        "J",
-        "work of loads and prescribed motions",
-        |r| &mut r.supplied_j,
-    ),
-    (
-        "largest_energy_error_J",
-        "J",
-        "largest error of the energy balance",
-        |r| &mut r.largest_energy_error_j,
-    ),
-    (
-        WORK,
-        "J",
-        "work done, whatever its sign: of loads and prescribed motions, heat, and of all forces on each degree of freedom",
-        |r| &mut r.work_j,
-    ),
-];
+macro_rules! fields {
+    ($($name:literal $unit:literal $what:literal $of:ident;)*) => {
+        [$(($name, $unit, $what, |r| &mut r.$of)),*]
+    };
+}
+
+const FIELDS: [Field; 18] = fields! {
+    "simulated_s" "s" "time that was simulated, to the end of the run" simulated_s;
+    "wall_s" "s" "wall time of the run" wall_s;
+    "steps" "1" "accepted steps" steps;
+    "rejected" "1" "steps repeated for their estimated error" rejected;
+    "unconverged" "1" "steps repeated because Newton's iteration did not converge" unconverged;
+    "iterations" "1" "Newton iterations" iterations;
+    "factorisations" "1" "factorisations of the iteration matrix" factorisations;
+    "evaluations" "1" "evaluations of the equations" evaluations;
+    "least_step_s" "s" "shortest accepted step" least_step_s;
+    "largest_step_s" "s" "longest accepted step" largest_step_s;
+    "largest_violation" "m or rad" "largest violation of a joint equation" largest_violation;
+    "largest_violation_rate" "m/s or rad/s" "largest violation of the rate of a joint equation" largest_violation_rate;
+    "first_energy_J" "J" "kinetic and potential energy at the start" first_energy_j;
+    "last_energy_J" "J" "kinetic and potential energy at the end" last_energy_j;
+    "dissipated_J" "J" "heat" dissipated_j;
+    "supplied_J" "J" "work of loads and prescribed motions" supplied_j;
+    "largest_energy_error_J" "J" "largest error of the energy balance" largest_energy_error_j;
+    "work_J" "J" "work done, whatever its sign: of loads and prescribed motions, heat, and of all forces on each degree of freedom" work_j;
+};
 
 const WORK: &str = "work_J";
 

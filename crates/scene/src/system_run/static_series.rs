@@ -35,33 +35,7 @@ pub(super) fn run_static(
     let mut first: Option<State> = None;
     let mut last: Option<(f64, System, Equilibrium)> = None;
     for (number, point) in points.iter().enumerate() {
-        let params = StaticParams::default();
-        let on_the_way = StaticParams {
-            load_steps: point.steps,
-            ..params
-        };
-        let same = last
-            .take()
-            .filter(|(factor, ..)| factor.to_bits() == point.load_factor.to_bits());
-        let (mut system, found) = match same {
-            Some((_, mut system, before)) => {
-                let found = next_equilibrium(&mut system, &before, point.time_s, &on_the_way)?;
-                (system, found)
-            }
-            None => {
-                let mut system = (job.system_at)(point.load_factor)?;
-                let mut state = first.clone().unwrap_or_else(|| system.start().clone());
-                let found = if first.is_none() && point.time_s > state.time_s {
-                    // From where the scene begins, where teeth touch, and on to the first position.
-                    let begun = equilibrium(&mut system, &state, &params)?;
-                    next_equilibrium(&mut system, &begun, point.time_s, &on_the_way)?
-                } else {
-                    state.time_s = point.time_s;
-                    equilibrium(&mut system, &state, &params)?
-                };
-                (system, found)
-            }
-        };
+        let (mut system, found) = solved(job, point, last.take(), first.as_ref())?;
         if number == 0 {
             let held = found.held.iter();
             let notes = held.map(|motion| format!("nothing resists {motion}: held where it was"));
@@ -105,21 +79,51 @@ pub(super) fn run_static(
     Ok(Outcome::Finished)
 }
 
+/// The equilibrium of a point: on from the one before, of the same load factor, or from the first one of the series.
+fn solved(
+    job: &StaticJob,
+    point: &StaticPoint,
+    before: Option<(f64, System, Equilibrium)>,
+    first: Option<&State>,
+) -> Result<(System, Equilibrium), SystemRunError> {
+    let params = StaticParams::default();
+    let on_the_way = StaticParams {
+        load_steps: point.steps,
+        ..params
+    };
+    if let Some((factor, mut system, before)) = before
+        && factor.to_bits() == point.load_factor.to_bits()
+    {
+        let found = next_equilibrium(&mut system, &before, point.time_s, &on_the_way)?;
+        return Ok((system, found));
+    }
+    let mut system = (job.system_at)(point.load_factor)?;
+    let mut state = first.unwrap_or(system.start()).clone();
+    let found = if first.is_none() && point.time_s > state.time_s {
+        // From where the scene begins, where teeth touch, and on to the first position.
+        let begun = equilibrium(&mut system, &state, &params)?;
+        next_equilibrium(&mut system, &begun, point.time_s, &on_the_way)?
+    } else {
+        state.time_s = point.time_s;
+        equilibrium(&mut system, &state, &params)?
+    };
+    Ok((system, found))
+}
+
 /// The first columns of a series.
 pub(super) fn abscissas_of(points: &[StaticPoint]) -> Vec<Column> {
     let varied = points.iter().any(|point| point.angle_rad.is_some());
-    let column = |name: &str, unit: &str, description: &str| Column {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        description: description.to_owned(),
-    };
     let mut columns = vec![
-        column("point", "1", "number of the equilibrium"),
-        column("load_factor", "1", "share of the scene's loads"),
+        Column::new("point", "1", "number of the equilibrium"),
+        Column::new("load_factor", "1", "share of the scene's loads"),
     ];
     if varied {
-        columns.push(column("angle_rad", "rad", "angle of the varied motion"));
+        columns.push(Column::new(
+            "angle_rad",
+            "rad",
+            "angle of the varied motion",
+        ));
     }
-    columns.push(column("iterations", "1", "iterations of the solver"));
+    columns.push(Column::new("iterations", "1", "iterations of the solver"));
     columns
 }
