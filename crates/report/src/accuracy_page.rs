@@ -86,9 +86,8 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
         found.tried.len()
     );
     let mut section = Section::new("What accuracy costs").push(Text::paragraph(told));
-    for sentence in doubts_in_words(found) {
-        section = section.push(Text::paragraph(sentence));
-    }
+    let doubts = doubts_in_words(found).into_iter();
+    section = section.push_all(doubts.map(Text::paragraph));
     if found.tried.iter().any(is_drawn) {
         section = section.push(chart);
     }
@@ -111,9 +110,8 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
     }
     if !found.left_out.is_empty() || !found.failed.is_empty() {
         let mut section = Section::new("What was not varied");
-        for line in found.left_out.iter().chain(&found.failed) {
-            section = section.push(Text::paragraph(line.clone()));
-        }
+        let lines = found.left_out.iter().chain(&found.failed);
+        section = section.push_all(lines.map(|line| Text::paragraph(line.clone())));
         page = page.section(section);
     }
     page.footer(format!("by gearmesh {}", env!("CARGO_PKG_VERSION")))

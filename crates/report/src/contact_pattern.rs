@@ -55,9 +55,7 @@ pub(crate) fn section(r: &SceneResult) -> Option<Section> {
         ("line load", "N/mm", 1e-3),
         &line_load(last),
     );
-    if let Some(picture) = picture {
-        section = section.push(picture);
-    }
+    section = section.push_all(picture);
     Some(section)
 }
 

@@ -1,6 +1,13 @@
 //! Fewer points for a chart: of every bin the smallest and the largest value, in the order in which they come, so that
 //! no peak is lost.
 
+/// Least and largest of some values.
+pub(crate) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+        [low.min(value), high.max(value)]
+    })
+}
+
 /// Bins of a chart.
 const BINS: usize = 1500;
 

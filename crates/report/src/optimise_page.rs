@@ -3,6 +3,7 @@
 use gearmesh_scene::optimise::{Judged, Optimisation, Optimum, Trial};
 
 use crate::column_words::{axis, head, parameter, words_and_unit};
+use crate::min_max::ends;
 use crate::page::{Align, KeyFigures, Page, PointSeries, ScatterChart, Section, Table, Text};
 use crate::short;
 
@@ -70,7 +71,7 @@ pub fn optimise_page(problem: &Optimisation, found: &Optimum) -> Page {
             );
         }
     }
-    section = section.push(front_table(problem, found));
+    let section = section.push(front_table(problem, found));
     Page::new(tables.title.clone())
         .subtitle("Optimisation")
         .section(section)
@@ -132,13 +133,6 @@ fn picture(problem: &Optimisation, found: &Optimum, [a, b]: [usize; 2]) -> Scatt
     chart
 }
 
-/// Least and largest.
-fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-        [low.min(value), high.max(value)]
-    })
-}
-
 /// Choices of the front without those that are almost one that stands there already.
 fn distinct(front: &[Trial]) -> Vec<&Trial> {
     let objectives = front.first().map_or(0, |trial| trial.objectives.len());
@@ -184,9 +178,7 @@ fn front_table(problem: &Optimisation, found: &Optimum) -> Table {
     let variables = tables.variable.iter();
     let variables = variables.map(|v| parameter(&v.name, &v.keys));
     let objectives = tables.objective.iter().map(|o| words_and_unit(&o.name));
-    for name in variables.chain(objectives) {
-        table = table.column(head(name), Align::Right);
-    }
+    table = table.columns(Align::Right, variables.chain(objectives).map(head));
     for trial in rows {
         let cells = trial.values.iter().chain(&trial.objectives);
         table.push_row(cells.map(|value| short(*value)));
@@ -208,9 +200,7 @@ fn question(problem: &Optimisation, found: &Optimum) -> Section {
 fn variables(problem: &Optimisation, found: &Optimum) -> Table {
     let mut table = Table::new("Variables, their bounds, and what the front has of them")
         .column("variable", Align::Left)
-        .column("from", Align::Right)
-        .column("to", Align::Right)
-        .column("front", Align::Right)
+        .columns(Align::Right, ["from", "to", "front"])
         .column("at a bound", Align::Left)
         .column("keys", Align::Phrase);
     for (k, variable) in problem.tables.variable.iter().enumerate() {
@@ -241,10 +231,8 @@ fn variables(problem: &Optimisation, found: &Optimum) -> Table {
 
 fn objectives(problem: &Optimisation) -> Table {
     let mut table = Table::new("Objectives, sums of what is to be small")
-        .column("objective", Align::Left)
-        .column("column", Align::Left)
-        .column("torque N m", Align::Right)
-        .column("weight", Align::Right);
+        .columns(Align::Left, ["objective", "column"])
+        .columns(Align::Right, ["torque N m", "weight"]);
     for objective in &problem.tables.objective {
         for term in &objective.term {
             table.push_row([
@@ -268,8 +256,7 @@ fn scatter(problem: &Optimisation) -> Table {
         "Scatter: every choice is tried on {} pairs, {judged}",
         problem.samples()
     ))
-    .column("what scatters", Align::Left)
-    .column("by", Align::Left)
+    .columns(Align::Left, ["what scatters", "by"])
     .column("keys", Align::Phrase);
     for one in &problem.tables.scatter {
         let by = match (&one.normal, &one.uniform) {

@@ -44,9 +44,7 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
     let shown = FigureTable::new(&torques, |figure| {
         results.iter().any(|(_, r)| r.shows(figure))
     });
-    let mut table = Table::new("At the largest torque")
-        .column("file", Align::Left)
-        .column("title", Align::Left);
+    let mut table = Table::new("At the largest torque").columns(Align::Left, ["file", "title"]);
     for head in shown.heads {
         table = table.column(head, Align::Right);
     }
@@ -77,12 +75,8 @@ fn with_root_strain(mut section: Section, results: &[(String, &SceneResult)]) ->
     };
     let mut table = Table::new("Root strain at the largest torque, µε")
         .column("gear", Align::Right)
-        .column("gauge", Align::Left)
-        .column("file", Align::Left)
-        .column("method", Align::Right)
-        .column("largest", Align::Right)
-        .column("smallest", Align::Right)
-        .column("range", Align::Right);
+        .columns(Align::Left, ["gauge", "file"])
+        .columns(Align::Right, ["method", "largest", "smallest", "range"]);
     let degrees = |r: &SceneResult| -> Vec<f64> {
         r.angle_rad.iter().map(|angle| angle.to_degrees()).collect()
     };

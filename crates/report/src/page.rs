@@ -130,6 +130,12 @@ impl Section {
         self.blocks.push(block.into());
         self
     }
+
+    /// Adds blocks at the end.
+    #[must_use]
+    pub fn push_all<B: Into<Block>>(self, blocks: impl IntoIterator<Item = B>) -> Self {
+        blocks.into_iter().fold(self, Self::push)
+    }
 }
 
 /// A report page.

@@ -149,25 +149,12 @@ impl ReferenceRecord {
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
         let toml_path = folder.join("record.toml");
         let data_path = folder.join("data.csv");
-        let description = parse_description(&read_text(&toml_path)?).map_err(
-            |TomlProblem {
-                 line,
-                 column,
-                 message,
-             }| RecordError::Toml {
-                path: toml_path,
-                line,
-                column,
-                message,
-            },
-        )?;
-        let data = parse_data(&record_bytes(&data_path)?, description.revolutions()).map_err(
-            |source| RecordError::Data {
-                path: data_path,
-                source,
-            },
-        )?;
+        let description = parse_description(&read_text(&toml_path)?);
+        let description = description.map_err(|problem| problem.in_file(&toml_path))?;
         let revolutions = description.revolutions();
+        let data = parse_data(&record_bytes(&data_path)?, revolutions);
+        let path = data_path;
+        let data = data.map_err(|source| RecordError::Data { path, source })?;
         Ok(Self {
             folder: folder.to_path_buf(),
             title: description.title,
@@ -179,9 +166,9 @@ impl ReferenceRecord {
             multibody_columns: description.columns,
             method: description.method,
             command: description.command,
-            date: description.date.map(|date| {
-                date.as_str()
-                    .map_or_else(|| date.to_string(), str::to_string)
+            date: description.date.map(|date| match date {
+                toml::Value::String(text) => text,
+                date => date.to_string(),
             }),
             uncertainty: description.uncertainty.in_si(),
             angle_rad: data.angle_rad,
@@ -220,13 +207,8 @@ fn record_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
 fn read_text(path: &Path) -> Result<String, RecordError> {
     String::from_utf8(record_bytes(path)?).map_err(|e| {
         let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
-        let (line, column) = line_and_column(&String::from_utf8_lossy(before), before.len());
-        RecordError::Toml {
-            path: path.to_path_buf(),
-            line,
-            column,
-            message: "the file is not UTF-8 text; save it as UTF-8".into(),
-        }
+        let message = "the file is not UTF-8 text; save it as UTF-8".to_owned();
+        TomlProblem::at(&String::from_utf8_lossy(before), before.len(), message).in_file(path)
     })
 }
 
@@ -282,28 +264,40 @@ struct TomlProblem {
     message: String,
 }
 
-fn parse_description(text: &str) -> Result<Description, TomlProblem> {
-    let description: Description = toml::from_str(text).map_err(|e| {
-        let (line, column) = line_and_column(text, e.span().map_or(0, |span| span.start));
-        TomlProblem {
+impl TomlProblem {
+    /// At a byte of a text.
+    fn at(text: &str, byte: usize, message: String) -> Self {
+        let (line, column) = line_and_column(text, byte);
+        Self {
             line,
             column,
-            message: e.message().trim().replace('\n', "; "),
+            message,
         }
+    }
+
+    fn in_file(self, path: &Path) -> RecordError {
+        RecordError::Toml {
+            path: path.to_path_buf(),
+            line: self.line,
+            column: self.column,
+            message: self.message,
+        }
+    }
+}
+
+fn parse_description(text: &str) -> Result<Description, TomlProblem> {
+    let description: Description = toml::from_str(text).map_err(|e| {
+        let message = e.message().trim().replace('\n', "; ");
+        TomlProblem::at(text, e.span().map_or(0, |span| span.start), message)
     })?;
     if let Some(revolutions) = &description.revolutions
         && !(1..=MOST_REVOLUTIONS).contains(revolutions.get_ref())
     {
-        let (line, column) = line_and_column(text, revolutions.span().start);
         let message = format!(
             "revolutions = {}; allowed is 1 to {MOST_REVOLUTIONS}",
             revolutions.get_ref()
         );
-        return Err(TomlProblem {
-            line,
-            column,
-            message,
-        });
+        return Err(TomlProblem::at(text, revolutions.span().start, message));
     }
     let u = &description.uncertainty;
     let named = [
@@ -314,16 +308,11 @@ fn parse_description(text: &str) -> Result<Description, TomlProblem> {
     for (key, value) in named {
         let Some(value) = value else { continue };
         if !(value.get_ref().is_finite() && *value.get_ref() >= 0.0) {
-            let (line, column) = line_and_column(text, value.span().start);
             let message = format!(
                 "uncertainty.{key} = {}; it must be a finite number, 0 or more",
                 value.get_ref()
             );
-            return Err(TomlProblem {
-                line,
-                column,
-                message,
-            });
+            return Err(TomlProblem::at(text, value.span().start, message));
         }
     }
     Ok(description)

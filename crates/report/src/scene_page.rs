@@ -20,7 +20,6 @@ use crate::torque_tables;
 use gearmesh_model::FileError;
 use gearmesh_scene::SceneResult;
 use gearmesh_scene::pair::figure_table::{FIGURES, FigureKind};
-use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_signal::RigSettings;
 use gearmesh_signal::rig::process;
@@ -153,14 +152,14 @@ fn pair_sections(chapter: &SceneChapter, in_space: bool) -> Result<Vec<Section>,
 
 fn overview(r: &SceneResult) -> Section {
     let last = r.torque_nm.len() - 1;
-    let mark = mark(&r.contact_coverage);
+    let of_means = mark(r.contact_coverage.is_whole());
     let (f, over) = (r.figures(last), r.overlap_width_m().ok());
     let mut figures = KeyFigures::new();
     for row in FIGURES.iter().filter(|row| r.shows(row)) {
         let mark = if row.kind == FigureKind::Torque {
             ""
         } else {
-            mark
+            of_means
         };
         let unit = row.kind.read_unit(over).name;
         figures = figures.figure(format!("{}{mark}", row.words), row.text(&f, over), unit);
@@ -169,15 +168,13 @@ fn overview(r: &SceneResult) -> Section {
         let [least, most] = r.strain_ends(0, 2, last);
         let range = 1e6 * (most - least);
         figures = figures.figure(
-            format!("strain range {}{}", s.name, mark_of_extremes(&s.coverage)),
+            format!("strain range {}{}", s.name, mark(s.coverage.has_extremes())),
             format!("{range:.0}"),
             "µε",
         );
     }
     let mut section = Section::new(r.title.clone()).push(figures);
-    for table in torque_tables::tables(r, mark) {
-        section = section.push(table);
-    }
+    section = section.push_all(torque_tables::tables(r, of_means));
     section = section.push(Text::paragraph(format!(
         "{}. Errors: {}. Curves are drawn over the even positions.",
         page::capital(&r.means_over()),
@@ -194,34 +191,18 @@ fn overview(r: &SceneResult) -> Section {
             )));
         }
     }
-    for sentence in r.incomplete() {
-        section = section.push(Text::note(sentence));
-    }
+    section = section.push_all(r.incomplete().into_iter().map(Text::note));
     if !r.proposal.is_empty() {
         section = section.push(Text::note(format!("To cover it: {}", r.proposal)));
     }
-    for warning in &r.warnings {
-        section = section.push(Text::note(format!("Warning: {warning}")));
-    }
+    let warnings = r.warnings.iter();
+    section = section.push_all(warnings.map(|text| Text::note(format!("Warning: {text}"))));
     section
 }
 
-/// What stands behind the name of a mean or a whole curve that a longer run may change.
-fn mark(coverage: &Coverage) -> &'static str {
-    if coverage.is_whole() {
-        ""
-    } else {
-        " (incomplete)"
-    }
-}
-
-/// What stands behind the name of a peak or a range that a longer run may change.
-fn mark_of_extremes(coverage: &Coverage) -> &'static str {
-    if coverage.has_extremes() {
-        ""
-    } else {
-        " (incomplete)"
-    }
+/// What stands behind the name of a figure or curve that a longer run may change.
+fn mark(is_final: bool) -> &'static str {
+    if is_final { "" } else { " (incomplete)" }
 }
 
 fn angles_deg(r: &SceneResult) -> Vec<f64> {
@@ -252,7 +233,10 @@ fn reference_values(
 fn transmission_error(chapter: &SceneChapter) -> Section {
     let r = &chapter.result;
     let mut chart = LineChart::new(
-        format!("Transmission error by torque{}", mark(&r.contact_coverage)),
+        format!(
+            "Transmission error by torque{}",
+            mark(r.contact_coverage.is_whole())
+        ),
         angle_axis(),
         Axis::new("TE", "µm"),
     )
@@ -420,7 +404,7 @@ fn root_strain(chapter: &SceneChapter) -> Section {
                 s.gear,
                 s.name,
                 r.torque_nm[last],
-                mark_of_extremes(&s.coverage)
+                mark(s.coverage.has_extremes())
             ),
             angle_axis(),
             Axis::new("strain", "µε"),
@@ -450,22 +434,18 @@ fn root_strain(chapter: &SceneChapter) -> Section {
 
 impl From<&GearPicture> for FieldPicture {
     fn from(picture: &GearPicture) -> Self {
-        stress_picture(picture)
+        // The load patches of the model would take the whole scale; the roots are what one wants to see.
+        let mut sorted = picture.von_mises_mpa.clone();
+        sorted.sort_by(f64::total_cmp);
+        let high = sorted
+            .get(sorted.len().saturating_sub(1 + sorted.len() / 1000))
+            .copied()
+            .unwrap_or(1.0);
+        FieldPicture::new(picture.title.clone(), "von Mises stress", "MPa")
+            .mesh(picture.nodes_mm.clone(), picture.quads.clone())
+            .values(FieldValues::PerElement(picture.von_mises_mpa.clone()))
+            .colour_range(0.0, high.max(1e-6))
     }
-}
-
-fn stress_picture(picture: &GearPicture) -> FieldPicture {
-    // The load patches of the model would take the whole scale; the roots are what one wants to see.
-    let mut sorted = picture.von_mises_mpa.clone();
-    sorted.sort_by(f64::total_cmp);
-    let high = sorted
-        .get(sorted.len().saturating_sub(1 + sorted.len() / 1000))
-        .copied()
-        .unwrap_or(1.0);
-    FieldPicture::new(picture.title.clone(), "von Mises stress", "MPa")
-        .mesh(picture.nodes_mm.clone(), picture.quads.clone())
-        .values(FieldValues::PerElement(picture.von_mises_mpa.clone()))
-        .colour_range(0.0, high.max(1e-6))
 }
 
 fn provenance(r: &SceneResult) -> Section {

@@ -4,8 +4,10 @@ mod cases_table;
 
 use gearmesh_scene::optimise::{Trial, front};
 use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, Study};
+use gearmesh_scene::system_run::Figures;
 
 use crate::column_words::{self, axis, shown};
+use crate::min_max::ends;
 use crate::page::{Align, Axis, KeyFigures, Page, PointSeries, ScatterChart, Section, Table, Text};
 use crate::short;
 
@@ -98,24 +100,20 @@ impl Column {
             let finite = |own: &Vec<Selected>| value(own).filter(|x: &f64| x.is_finite());
             of_cases.iter().map(finite).collect()
         };
-        let single = |value: &SelectedValue| match value {
-            SelectedValue::Single(value) => *value,
-            SelectedValue::Series(figures) => figures.mean,
+        let figure = |of: fn(&Figures) -> f64| {
+            move |value: &SelectedValue| match value {
+                SelectedValue::Single(value) => *value,
+                SelectedValue::Series(figures) => of(figures),
+            }
         };
+        let single = figure(|f| f.mean);
         let curves = match sample[0].value {
             SelectedValue::Series(_) => {
-                let largest = |value: &SelectedValue| match value {
-                    SelectedValue::Single(value) => *value,
-                    SelectedValue::Series(figures) => figures.largest,
-                };
-                let peak_to_peak = |value: &SelectedValue| match value {
-                    SelectedValue::Single(value) => *value,
-                    SelectedValue::Series(figures) => figures.peak_to_peak(),
-                };
+                let peak_to_peak = number(0, &figure(Figures::peak_to_peak));
                 vec![
                     ("mean".to_owned(), number(0, &single)),
-                    ("largest".to_owned(), number(0, &largest)),
-                    ("peak to peak".to_owned(), number(0, &peak_to_peak)),
+                    ("largest".to_owned(), number(0, &figure(|f| f.largest))),
+                    ("peak to peak".to_owned(), peak_to_peak),
                 ]
             }
             SelectedValue::Single(_) if is_same_at_every_torque(&of_cases) => {
@@ -157,24 +155,18 @@ impl Column {
     }
 
     fn ends(&self) -> [f64; 2] {
-        let all = || {
+        ends(
             self.curves
                 .iter()
-                .flat_map(|(_, v)| v.iter().flatten().copied())
-        };
-        [
-            all().fold(f64::INFINITY, f64::min),
-            all().fold(f64::NEG_INFINITY, f64::max),
-        ]
+                .flat_map(|(_, v)| v.iter().flatten().copied()),
+        )
     }
 
     /// What is to be small: the amount, or of what is better large its negative.
     fn badness(&self, value: f64) -> f64 {
         let better_large = ["stiffness_", "life_", "rating_", "contact_ratio"];
-        match better_large
-            .iter()
-            .any(|start| self.name.starts_with(start))
-        {
+        let mut better_large = better_large.iter();
+        match better_large.any(|start| self.name.starts_with(start)) {
             true => -value,
             false => value.abs(),
         }
@@ -253,11 +245,8 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
 fn main_effects(study: &Study, cases: &[CaseResult], columns: &[Column]) -> Option<Section> {
     let mut table =
         Table::new("Largest less least mean of groups of cases, by the parameter's values")
-            .column("parameter", Align::Left)
-            .column("column", Align::Left)
-            .column("curve", Align::Left)
-            .column("difference", Align::Right)
-            .column("rank correlation", Align::Right);
+            .columns(Align::Left, ["parameter", "column", "curve"])
+            .columns(Align::Right, ["difference", "rank correlation"]);
     let mut pictures = Vec::new();
     for parameter in &study.tables.parameter {
         let (words, unit) = column_words::parameter(&parameter.name, &parameter.keys);
@@ -338,13 +327,7 @@ impl Effect {
 
     /// Least and largest mean; none of a single group.
     fn ends_of_means(&self) -> Option<[f64; 2]> {
-        let means = || self.means.iter().map(|m| m.1);
-        (self.means.len() > 1).then(|| {
-            [
-                means().fold(f64::INFINITY, f64::min),
-                means().fold(f64::NEG_INFINITY, f64::max),
-            ]
-        })
+        (self.means.len() > 1).then(|| ends(self.means.iter().map(|m| m.1)))
     }
 
     /// The series of a chart, and whether its line joins means of several cases; none without a line.

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use gearmesh_model::FileError;
 use gearmesh_scene::system_run::{MeshRecord, ResultKind, SystemResult};
-use gearmesh_signal::{AngleSeries, AngleSeriesError, Resampler, SeriesError, synchronous_average};
+use gearmesh_signal::{AngleSeries, Resampler, SeriesError, synchronous_average};
 
 use crate::comparison::{ComparisonError, RigView, SeriesComparison, compare_with_column};
 use crate::pair_orders::{PairOrders, Shaft};
@@ -128,21 +128,13 @@ pub enum SystemComparisonError {
     /// The result cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The column cannot be brought to the shaft's angle.
-    #[error("column `{column}`: {source}")]
-    Resampling {
-        /// Column of the result.
-        column: String,
-        /// Why.
-        source: SeriesError,
-    },
-    /// The average is no periodic series.
+    /// The column cannot be brought to the shaft's angle, or its average is no periodic series.
     #[error("column `{column}`: {source}")]
     Series {
         /// Column of the result.
         column: String,
         /// Why.
-        source: AngleSeriesError,
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// The pipeline failed.
     #[error(transparent)]
@@ -337,10 +329,11 @@ impl RunOnShaft<'_> {
             });
         }
         let per_turn = found.floor() as usize;
-        let resampling = |source| SystemComparisonError::Resampling {
+        let refused = |source| SystemComparisonError::Series {
             column: self.column.into(),
             source,
         };
+        let resampling = |error: SeriesError| refused(error.into());
         let on_shaft = Resampler::default().to_angle(self.values, self.turns_rad, per_turn);
         let on_shaft = on_shaft.map_err(resampling)?;
         let per_stretch = per_turn * revolutions;
@@ -355,12 +348,8 @@ impl RunOnShaft<'_> {
         }
         let averaged = synchronous_average(&on_shaft.values, per_stretch, stretches);
         let averaged = averaged.map_err(resampling)?.average;
-        AngleSeries::uniform(on_shaft.start_rad, &averaged, revolutions).map_err(|source| {
-            SystemComparisonError::Series {
-                column: self.column.into(),
-                source,
-            }
-        })
+        let series = AngleSeries::uniform(on_shaft.start_rad, &averaged, revolutions);
+        series.map_err(|error| refused(error.into()))
     }
 }
 

@@ -107,17 +107,11 @@ fn overview(r: &SystemResult, passings: &[MeshPassing]) -> Result<Section, FileE
     if !figures.is_empty() {
         section = section.push(figures);
     }
-    let warnings = r.warnings()?;
-    for warning in warnings {
-        section = section.push(Text::note(format!("Warning: {warning}")));
-    }
-    for table in stages::table(r)?.into_iter().chain(tables) {
-        section = section.push(table);
-    }
-    for passing in passings {
-        section = section.push(Text::paragraph(passing.in_words()));
-    }
-    Ok(section)
+    let warnings = r.warnings()?.into_iter();
+    section = section.push_all(warnings.map(|text| Text::note(format!("Warning: {text}"))));
+    section = section.push_all(stages::table(r)?.into_iter().chain(tables));
+    let passings = passings.iter();
+    Ok(section.push_all(passings.map(|passing| Text::paragraph(passing.in_words()))))
 }
 
 /// What was computed: assumptions, input files, the scene.

@@ -57,6 +57,17 @@ impl Table {
         self
     }
 
+    /// Adds columns that stand alike.
+    #[must_use]
+    pub fn columns<S: Into<String>>(
+        self,
+        align: Align,
+        heads: impl IntoIterator<Item = S>,
+    ) -> Self {
+        let heads = heads.into_iter();
+        heads.fold(self, |table, head| table.column(head, align))
+    }
+
     /// Adds a row with one cell for each column.
     #[must_use]
     pub fn row<S: Into<String>>(mut self, cells: impl IntoIterator<Item = S>) -> Self {

@@ -18,8 +18,7 @@ pub(super) fn section(r: &SystemResult) -> Result<Option<Section>, FileError> {
         Axis::new("line load", "N/mm"),
     );
     let mut table = Table::new("Load across the face and tilt of the axes")
-        .column("mesh", Align::Left)
-        .column("flanks", Align::Left)
+        .columns(Align::Left, ["mesh", "flanks"])
         .column("largest line load N/mm", Align::Right)
         .column("K_Hbeta", Align::Right)
         .column("tilt in the plane of the axes µm/mm", Align::Right)

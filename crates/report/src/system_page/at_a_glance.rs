@@ -156,11 +156,8 @@ fn empty_tables(r: &SystemResult, extent: Extent) -> [Table; 3] {
         ),
     };
     let with_heads = |title: String| {
-        let table = Table::new(title)
-            .column("column", Align::Left)
-            .column("unit", Align::Left);
-        let heads = heads.iter();
-        heads.fold(table, |table, head| table.column(*head, Align::Right))
+        let table = Table::new(title).columns(Align::Left, ["column", "unit"]);
+        table.columns(Align::Right, heads.iter().copied())
     };
     let folded = |what: &str| with_heads(format!("{what}{over}")).folded();
     [

@@ -3,6 +3,7 @@
 use gearmesh_model::FileError;
 use gearmesh_scene::system_run::SystemResult;
 
+use super::columns::{half, mean};
 use crate::page::{Axis, KeyFigures, LineChart, LineSeries, PathChart, Section};
 use crate::short_number::short;
 
@@ -39,12 +40,6 @@ pub(super) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
     Ok(found)
 }
 
-/// The second half of a column.
-fn half(r: &SystemResult, column: &str) -> Result<Vec<f64>, FileError> {
-    let all = r.rows.read(column)?;
-    Ok(all[all.len() / 2..].to_vec())
-}
-
 fn of_cage(
     r: &SystemResult,
     section: Section,
@@ -52,7 +47,6 @@ fn of_cage(
     cage: usize,
 ) -> Result<Section, FileError> {
     let read = |what: &str| half(r, &format!("{head}_{what}"));
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
     let (ratio, whirl) = (read("speed_ratio")?, read("whirl_rad_per_s")?);
     let forces = [read("force_x_N")?, read("force_y_N")?, read("force_z_N")?];
     let largest = (0..ratio.len())

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
+use gearmesh_model::FileError;
 use gearmesh_scene::system_run::{MeshPassing, SystemResult, is_of_pair, rank, stem};
 
-use crate::page::{Axis, Section, Text};
+use crate::page::{Axis, LineChart, LineSeries, Section, Text};
 use crate::short_number::usual_unit;
 
 /// Charts of one section; what is left out is named.
@@ -36,6 +37,17 @@ pub(super) fn quantity(unit: &str) -> &'static str {
 /// The meshes that turned.
 pub(super) fn turning(passings: &[MeshPassing]) -> impl Iterator<Item = &MeshPassing> {
     passings.iter().filter(|mesh| mesh.frequency_hz > 0.0)
+}
+
+/// The second half of a column of a result.
+pub(super) fn half(r: &SystemResult, column: &str) -> Result<Vec<f64>, FileError> {
+    let all = r.rows.read(column)?;
+    Ok(all[all.len() / 2..].to_vec())
+}
+
+/// Mean of some values.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 /// Columns that make one chart: title, unit, and the columns with the names of their curves.
@@ -126,6 +138,22 @@ fn chart_of(kind: &str, owner: &str, stem: &str, unit: &str) -> Option<(String, 
 }
 
 impl Group {
+    /// A chart of all curves over some abscissas: `values` of each column.
+    pub(super) fn chart(
+        &self,
+        title: String,
+        (x, x_values): (Axis, Vec<f64>),
+        values: impl FnMut(&(String, String)) -> Result<Vec<f64>, FileError>,
+    ) -> Result<LineChart, FileError> {
+        let curves = self.columns.iter().map(values);
+        let mut curves = curves.collect::<Result<Vec<_>, _>>()?;
+        let unit = scaled(&self.unit, curves.iter_mut());
+        let chart = LineChart::new(title, x, Axis::new(self.ordinate(), unit)).x_values(x_values);
+        let series = self.columns.iter().zip(curves);
+        let series = series.map(|((_, name), values)| LineSeries::new(name.clone(), values));
+        Ok(series.fold(chart, LineChart::series))
+    }
+
     /// What the ordinate shows, without its unit.
     pub(super) fn ordinate(&self) -> &str {
         match &self.columns[..] {

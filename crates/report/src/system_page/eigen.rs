@@ -13,17 +13,9 @@ const MOST_SHARES: usize = 3;
 
 pub(super) fn eigen(r: &SystemResult) -> Section {
     let mut section = Section::new(format!("{}: natural frequencies", r.head.title));
-    if let Some(chart) = campbell(r) {
-        section = section.push(chart);
-    }
-    for found in &r.eigen {
-        for table in modes_tables(r, found) {
-            if !table.is_empty() {
-                section = section.push(table);
-            }
-        }
-    }
-    section
+    section = section.push_all(campbell(r));
+    let tables = r.eigen.iter().flat_map(|found| modes_tables(r, found));
+    section.push_all(tables.filter(|table| !table.is_empty()))
 }
 
 /// Vibrations, and motions that only die out.
@@ -33,12 +25,8 @@ fn modes_tables(r: &SystemResult, found: &EigenResult) -> [Table; 2] {
         title += &format!(", {:.2} rpm", speed * 60.0 / TAU);
     }
     let overdamped = Table::new(format!("{title}: motions that die out without vibrating"))
-        .column("motion", Align::Right)
-        .column("ms to 1/e", Align::Right);
-    let vibrating = Table::new(title)
-        .column("mode", Align::Right)
-        .column("frequency Hz", Align::Right)
-        .column("damping %", Align::Right);
+        .columns(Align::Right, ["motion", "ms to 1/e"]);
+    let vibrating = Table::new(title).columns(Align::Right, ["mode", "frequency Hz", "damping %"]);
     let [mut vibrating, mut overdamped] = [vibrating, overdamped.folded()].map(|table| {
         table
             .column("share of the kinetic energy", Align::Left)

@@ -5,7 +5,7 @@ use gearmesh_scene::system_run::{SystemResult, rank, stem};
 
 use super::columns::{MOST_CHARTS, groups, left_out, scaled};
 use crate::column_words::readable;
-use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table};
+use crate::page::{Align, Axis, Section, Table};
 use crate::short_number::short;
 
 /// Columns of the table.
@@ -52,19 +52,11 @@ pub(super) fn equilibria(r: &SystemResult) -> Result<Option<Section>, FileError>
             } else {
                 group.title.clone()
             };
-            let of_rows = |(column, _): &(String, String)| {
-                let values = r.rows.read(column)?;
-                Ok::<_, FileError>(rows.iter().map(|&row| values[row]).collect())
-            };
-            let columns = group.columns.iter().map(of_rows);
-            let mut curves: Vec<Vec<f64>> = columns.collect::<Result<_, _>>()?;
-            let unit = scaled(&group.unit, curves.iter_mut());
-            let y = Axis::new(group.ordinate(), unit);
-            let mut chart = LineChart::new(title, axis.clone(), y)
-                .x_values(rows.iter().map(|&row| x[row]).collect());
-            for ((_, name), values) in group.columns.iter().zip(curves) {
-                chart = chart.series(LineSeries::new(name.clone(), values));
-            }
+            let of_rows = |values: &[f64]| rows.iter().map(|&row| values[row]).collect();
+            let over = (axis.clone(), of_rows(&x));
+            let chart = group.chart(title, over, |(column, _)| {
+                Ok(of_rows(&r.rows.read(column)?))
+            })?;
             section = section.push(chart);
         }
     }

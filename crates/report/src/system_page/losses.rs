@@ -14,8 +14,7 @@ pub(super) fn section(r: &SystemResult) -> Result<Option<Section>, FileError> {
     let mut table = Table::new("Power lost by friction, mean over the rows")
         .column("part", Align::Left)
         .column("loss W", Align::Right)
-        .column("power through it W", Align::Right)
-        .column("efficiency %", Align::Right);
+        .columns(Align::Right, ["power through it W", "efficiency %"]);
     let shown = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), short);
     let percent = |value: Option<f64>| {
         value.map_or_else(|| "-".to_owned(), |value| format!("{:.3}", 100.0 * value))

@@ -6,6 +6,7 @@ use gearmesh_model::FileError;
 use gearmesh_scene::system_run::{MeshPassing, SystemResult};
 use gearmesh_signal::{Window, amplitude_spectrum};
 
+use super::columns::{half, mean};
 use crate::page::{Axis, AxisScale, LineChart, LineSeries, PathChart, Section, Text};
 
 /// Points of a picture at most.
@@ -32,15 +33,6 @@ pub(super) fn section(
     let text = "Way of the body's origin (of a bevel gear the pitch apex) across its axis over the second half of the run, from its mean place.";
     let section = Section::new(format!("{}: orbits", r.head.title)).push(Text::paragraph(text));
     Ok(Some(charts.into_iter().fold(section, Section::push)))
-}
-
-fn half(r: &SystemResult, column: &str) -> Result<Vec<f64>, FileError> {
-    let all = r.rows.read(column)?;
-    Ok(all[all.len() / 2..].to_vec())
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 fn orbit(r: &SystemResult, body: &str) -> Result<Option<PathChart>, FileError> {

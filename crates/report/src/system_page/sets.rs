@@ -28,9 +28,7 @@ pub(super) fn section(r: &SystemResult) -> Result<Option<Section>, FileError> {
             set.set.words()
         )));
         section = section.push(table(set));
-        if let Some(picture) = picture(set) {
-            section = section.push(picture);
-        }
+        section = section.push_all(picture(set));
     }
     Ok(Some(section))
 }
@@ -66,9 +64,7 @@ fn table(found: &SetFigures) -> Table {
             "pin force of the partner, N",
         ]);
     }
-    for head in heads {
-        table = table.column(head, Align::Right);
-    }
+    table = table.columns(Align::Right, heads);
     for (planet, name) in found.set.planets.iter().enumerate() {
         let of = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
         let of_meshes = |shares: &Option<MeshShares>| {

@@ -12,8 +12,7 @@ pub(super) fn table(r: &SystemResult) -> Result<Option<Table>, FileError> {
         return Ok(None);
     };
     let mut table = Table::new(format!("Stages, loads {}", stages.over))
-        .column("figure", Align::Left)
-        .column("unit", Align::Left);
+        .columns(Align::Left, ["figure", "unit"]);
     for row in &stages.rows {
         table = table.column(row.mesh.name.clone(), Align::Right);
     }

@@ -92,17 +92,12 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
     let mut section = Section::new(format!("{}: speed sweep", r.head.title)).push(Text::paragraph(
         "Each speed goes on from the state that the one before has left: where the curves up and down differ, there are two motions.",
     ));
-    for line in r.incomplete_windows() {
-        section = section.push(Text::note(line));
-    }
+    let incomplete = r.incomplete_windows().into_iter();
+    section = section.push_all(incomplete.map(Text::note));
     let over = Speeds::of(sweep);
-    for column in chosen(sweep).into_iter().take(MOST_CHARTS) {
-        section = section.push(over.chart(sweep, column));
-    }
-    if let Some(record) = &r.record {
-        section = section.push(run_table(record));
-    }
-    section
+    let columns = chosen(sweep).into_iter().take(MOST_CHARTS);
+    section = section.push_all(columns.map(|column| over.chart(sweep, column)));
+    section.push_all(r.record.as_ref().map(run_table))
 }
 
 /// Columns whose curves are drawn, the foremost first.

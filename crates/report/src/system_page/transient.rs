@@ -27,21 +27,10 @@ pub(super) fn histories(r: &SystemResult) -> Result<Section, FileError> {
     let groups = groups(r, varies(r));
     let mut section = Section::new(format!("{}: time histories", r.head.title));
     for group in groups.iter().take(MOST_CHARTS) {
-        let read = |(column, _): &(String, String)| r.rows.read(column);
-        let columns = group.columns.iter().map(read);
-        let mut curves = columns.collect::<Result<Vec<_>, _>>()?;
-        curves.iter_mut().for_each(|y| *y = min_max::values(y));
-        let unit = scaled(&group.unit, curves.iter_mut());
-        let mut chart = LineChart::new(
-            group.title.clone(),
-            Axis::new("time", "s"),
-            Axis::new(group.ordinate(), unit),
-        )
-        .x_values(x.clone());
-        for ((_, name), values) in group.columns.iter().zip(curves) {
-            chart = chart.series(LineSeries::new(name.clone(), values));
-        }
-        section = section.push(chart);
+        let over = (Axis::new("time", "s"), x.clone());
+        section = section.push(group.chart(group.title.clone(), over, |(column, _)| {
+            Ok(min_max::values(&r.rows.read(column)?))
+        })?);
     }
     if times.len() > x.len() {
         section = section.push(Text::paragraph(format!(
