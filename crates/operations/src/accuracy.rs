@@ -1,6 +1,6 @@
 //! What accuracy costs in time, for a scene of the user's own.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::file_words::time_words;
 use crate::reduce::reduced_for_study;
 use crate::scratch::Scratch;
@@ -55,7 +55,7 @@ pub struct AccuracyRequest {
 ///
 /// # Errors
 /// [`Failure`] for a scene or column that is wrong, and a page that cannot be written.
-pub fn accuracy(a: &AccuracyRequest, watch: &Watch<'_>) -> Result<Accuracy, Failure> {
+pub fn accuracy(a: &AccuracyRequest, watch: &Watch<'_>) -> Result<Accuracy> {
     let outputs: Vec<PathBuf> = a.output.iter().cloned().collect();
     overwriting::refuse(vec![a.scene.clone()], &outputs)?;
     if let Some(path) = &a.output {
@@ -85,7 +85,7 @@ pub(crate) fn bench_of<'a>(
     scratch: &'a Scratch,
     reduce: Reduce<'a>,
     watch: &'a Watch<'_>,
-) -> Result<Bench<'a>, Failure> {
+) -> Result<Bench<'a>> {
     let options = BenchOptions {
         wanted: a.columns.iter().map(|c| Wanted::of(c)).collect(),
         from_s: a.from_s,
@@ -107,7 +107,7 @@ pub(crate) fn bench_of<'a>(
 ///
 /// # Errors
 /// [`Failure`] where it does not.
-pub fn demand_kept(found: &Accuracy) -> Result<(), Failure> {
+pub fn demand_kept(found: &Accuracy) -> Result<()> {
     for Advice { goal, tried, .. } in &found.advice {
         if let Goal::Within(most) = goal
             && tried.error() > *most

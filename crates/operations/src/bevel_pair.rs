@@ -1,7 +1,7 @@
 //! A bevel pair as designed: blank, machine settings and checks of a bevel pair.
 
 use crate::answer::Answer;
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::watch::Watch;
 use gearmesh_bevel::cut_thickness::{is_one_operation, normal_m, settings_of_thickness};
 use gearmesh_bevel::pair_file::settings_toml;
@@ -40,7 +40,7 @@ fn usual_grid() -> Vec<u16> {
 ///
 /// # Errors
 /// [`Failure`] for a pair that cannot be made, and points that cannot be written.
-pub fn design(a: &BevelRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
+pub fn design(a: &BevelRequest, watch: &Watch<'_>) -> Result<Answer> {
     let document = InputDocument::read(&a.pair)?;
     let file = PairFile::from_document(&document)?;
     let (design, checks) = file.checked_design(&document)?;

@@ -1,7 +1,7 @@
 //! Stress in the bodies of a bevel pair under its loads: pictures for the page, whole fields for other programs.
 
 use crate::cross_section::{FieldCase, largest_torque, nearest_angle};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::mesh_file::{LengthUnit, export_bevel_mesh};
 use crate::result_stress::{StressSection, add_worst};
 use crate::stressed_gear::{Pressed, StressedBody, StressedGear};
@@ -31,7 +31,7 @@ pub fn section(
     result: &SceneResult,
     angle_deg: Option<f64>,
     watch: &Watch<'_>,
-) -> Result<StressSection, Failure> {
+) -> Result<StressSection> {
     demand_bodies(result, "--stress")?;
     let models = models_of(result)?;
     let words = format!(
@@ -57,7 +57,7 @@ pub fn write_field(
     case: FieldCase,
     output: &Path,
     watch: &Watch<'_>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     demand_bodies(result, "--field-gear")?;
     let (models, member) = (models_of(result)?, case.gear - 1);
     let stressed = StressedGear::of_bevel(&models[member], &result.model_files[member], watch)?;
@@ -78,7 +78,7 @@ pub fn write_field(
 ///
 /// # Errors
 /// [`Failure`] for rigid gears.
-pub fn demand_bodies(result: &SceneResult, option: &str) -> Result<(), Failure> {
+pub fn demand_bodies(result: &SceneResult, option: &str) -> Result<()> {
     match result.model_files[0].is_empty() {
         false => Ok(()),
         true => Err(Failure::input(format!(
@@ -91,7 +91,7 @@ pub fn demand_bodies(result: &SceneResult, option: &str) -> Result<(), Failure> 
 ///
 /// # Errors
 /// [`Failure`] where one cannot be read, or has been made again.
-pub fn models_of(result: &SceneResult) -> Result<[ReducedGear; 2], Failure> {
+pub fn models_of(result: &SceneResult) -> Result<[ReducedGear; 2]> {
     let read = |i: usize| {
         let file = &result.model_files[i];
         let model = read_reduced_gear(Path::new(file)).map_err(Failure::input)?;
@@ -124,7 +124,7 @@ fn pressed(result: &SceneResult, case: FieldCase) -> Pressed {
 }
 
 /// The bevel body, which it always is here.
-fn bevel(gear: &StressedGear) -> Result<(&BevelGear, &GearBody<BevelMesh>), Failure> {
+fn bevel(gear: &StressedGear) -> Result<(&BevelGear, &GearBody<BevelMesh>)> {
     match &gear.body {
         StressedBody::Bevel(gear, body) => Ok((gear, body)),
         StressedBody::Cylindrical(..) => Err(Failure::work("no bevel gear")),
@@ -136,7 +136,7 @@ fn pictures(
     (angle_deg, result): (Option<f64>, &SceneResult),
     (member, stressed): (usize, &StressedGear),
     watch: &Watch<'_>,
-) -> Result<StressSection, Failure> {
+) -> Result<StressSection> {
     let angles = match angle_deg {
         // A pitch: the others are alike.
         None => (0..result.points_per_pitch()).collect(),
@@ -160,19 +160,12 @@ fn pictures(
     let drawn = figures.last().and_then(|f| f["tooth"].as_u64());
     let tooth = drawn.unwrap_or_default() as usize;
     let side = result.bevel.map_or(Flank::Right, |bevel| bevel.side);
-    let unrolled = tooth_surface(gear, body, &field, (tooth, side))?;
     let words = words(worst);
-    let section = section
-        .push(along_axis(
-            body,
-            &field,
-            &format!("{name} along its axis, {words}"),
-        ))
-        .push(unrolled.titled(&format!(
-            "{name}, tooth {tooth}, {} side unrolled, toe left, tip up, {words}",
-            side
-        )));
-    Ok((section, figures))
+    let title = format!("{name} along its axis, {words}");
+    let section = section.push(along_axis(body, &field, &title));
+    let title = format!("{name}, tooth {tooth}, {side} side unrolled, toe left, tip up, {words}");
+    let unrolled = tooth_surface(gear, body, &field, (tooth, side), &title)?;
+    Ok((section.push(unrolled), figures))
 }
 
 /// The section in the middle of the face as it is seen along the axis, coloured by the largest stress along the teeth.
@@ -198,28 +191,14 @@ fn along_axis(body: &GearBody<BevelMesh>, field: &Field, title: &str) -> FieldPi
         .values(FieldValues::PerElement(values))
 }
 
-/// A tooth's side, unrolled.
-struct Unrolled {
-    nodes_mm: Vec<[f64; 2]>,
-    quads: Vec<[u32; 4]>,
-    values_mpa: Vec<f64>,
-}
-
-impl Unrolled {
-    fn titled(self, title: &str) -> FieldPicture {
-        FieldPicture::new(title, "von Mises stress", "MPa")
-            .mesh(self.nodes_mm, self.quads)
-            .values(FieldValues::PerElement(self.values_mpa))
-    }
-}
-
 /// One side of a tooth from the middle of the space to the tip: along the face, and the length over root, fillet and flank.
 fn tooth_surface(
     gear: &BevelGear,
     body: &GearBody<BevelMesh>,
     field: &Field,
     (tooth, side): (usize, Flank),
-) -> Result<Unrolled, Failure> {
+    title: &str,
+) -> Result<FieldPicture> {
     let mesh = &body.mesh;
     let faces = mesh.outline_faces(tooth, side, |k, section| [k as f64, section as f64]);
     // Nodes by their numbers on the outline and along the tooth.
@@ -254,11 +233,10 @@ fn tooth_surface(
         let corner = |k: usize| number[&face.corners[k]];
         [corner(0), corner(1), corner(2), corner(3)]
     });
-    Ok(Unrolled {
-        quads: quads.collect(),
-        nodes_mm,
-        values_mpa: stress.iter().map(|x| 1e-6 * x).collect(),
-    })
+    let values_mpa = stress.iter().map(|x| 1e-6 * x).collect();
+    Ok(FieldPicture::new(title, "von Mises stress", "MPa")
+        .mesh(nodes_mm, quads.collect())
+        .values(FieldValues::PerElement(values_mpa)))
 }
 
 fn distance_m(a: [f64; 3], b: [f64; 3]) -> f64 {

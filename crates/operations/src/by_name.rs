@@ -1,7 +1,7 @@
 //! Operations by name, with requests and figures as JSON: for modules of other languages, and for services.
 
 use crate::accuracy::{self, demand_kept};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::import::{ImportRequest, import};
 use crate::optimise::OptimiseRequest;
 use crate::watch::Watch;
@@ -21,7 +21,7 @@ struct CheckRequest {
 ///
 /// # Errors
 /// [`Failure`] of the operation, for a name that is none, and for a request that the operation does not know.
-pub fn call(name: &str, request: Value, watch: &Watch<'_>) -> Result<Value, Failure> {
+pub fn call(name: &str, request: Value, watch: &Watch<'_>) -> Result<Value> {
     match name {
         "accuracy" => {
             let found = accuracy::accuracy(&read(name, request)?, watch)?;
@@ -67,6 +67,6 @@ pub fn call(name: &str, request: Value, watch: &Watch<'_>) -> Result<Value, Fail
 }
 
 /// The request of an operation.
-fn read<T: DeserializeOwned>(name: &str, request: Value) -> Result<T, Failure> {
+fn read<T: DeserializeOwned>(name: &str, request: Value) -> Result<T> {
     serde_json::from_value(request).map_err(|error| Failure::input(format!("{name}: {error}")))
 }

@@ -13,7 +13,7 @@ use gearmesh_scene::pair::{PairWatch, load_from, run_watched};
 use gearmesh_scene::study::{BaseScene, Case, MadeFile, MadeFiles, Setting, Subject, VaryError};
 use gearmesh_scene::{LoadedScene, Scene, SceneResult, named_files, renamed_files};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::gear_file::{AnyGear, GearFile};
 use crate::reduce::{Reduction, reduce_to};
 use crate::scratch::Scratch;
@@ -50,7 +50,7 @@ impl ChangedPair {
     ///
     /// # Errors
     /// [`Failure`] for a scene that is wrong.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
+    pub fn read(path: &Path) -> Result<Self> {
         let folder = path.parent().unwrap_or(Path::new(""));
         Self::new(InputDocument::read(path)?, folder)
     }
@@ -59,7 +59,7 @@ impl ChangedPair {
     ///
     /// # Errors
     /// As [`ChangedPair::read`].
-    pub fn of_result(shown: &Path, result: &SceneResult) -> Result<Self, Failure> {
+    pub fn of_result(shown: &Path, result: &SceneResult) -> Result<Self> {
         let scene = InputDocument::new(shown.display().to_string(), result.scene_toml.clone());
         let table = scene.table()?;
         let models = result.model_files.clone();
@@ -72,7 +72,7 @@ impl ChangedPair {
         Self::new(InputDocument::new(scene.file, text), Path::new(""))
     }
 
-    fn new(document: InputDocument, folder: &Path) -> Result<Self, Failure> {
+    fn new(document: InputDocument, folder: &Path) -> Result<Self> {
         let named = named_files(&document.text, folder).into_iter();
         let names = named.map(|(name, path)| {
             let path = std::path::absolute(&path).unwrap_or(path);
@@ -102,7 +102,7 @@ impl ChangedPair {
     ///
     /// # Errors
     /// [`Failure`] for what the scene refuses, and for bodies that are not reduced yet.
-    pub fn loaded(&self, case: &Case) -> Result<LoadedScene, Failure> {
+    pub fn loaded(&self, case: &Case) -> Result<LoadedScene> {
         Ok(load_from(self.scene(case)?, &self.shelf)?)
     }
 
@@ -110,7 +110,7 @@ impl ChangedPair {
     ///
     /// # Errors
     /// [`Failure`] where a position has no solution, and once `watch` stops it.
-    pub fn solve(loaded: &LoadedScene, watch: &PairWatch) -> Result<SceneResult, Failure> {
+    pub fn solve(loaded: &LoadedScene, watch: &PairWatch) -> Result<SceneResult> {
         Ok(run_watched(loaded, &|_, _| (), watch)?)
     }
 
@@ -118,7 +118,7 @@ impl ChangedPair {
     ///
     /// # Errors
     /// [`Failure`] for a body that its file refuses.
-    pub fn unreduced(&self, case: &Case) -> Result<Vec<String>, Failure> {
+    pub fn unreduced(&self, case: &Case) -> Result<Vec<String>> {
         let bodies = self.bodies(case)?;
         let missing = bodies.gears.iter().filter(|(path, _)| !path.exists());
         Ok(missing.map(|(_, gear)| gear.name.clone()).collect())
@@ -128,10 +128,10 @@ impl ChangedPair {
     ///
     /// # Errors
     /// As [`ChangedPair::unreduced`].
-    pub fn gears(&self, case: &Case) -> Result<[GearDefinition; 2], Failure> {
+    pub fn gears(&self, case: &Case) -> Result<[GearDefinition; 2]> {
         let bodies = self.bodies(case)?;
         let scene = self.scene(case)?;
-        let gear = |path: &Path| -> Result<GearDefinition, Failure> {
+        let gear = |path: &Path| -> Result<GearDefinition> {
             match bodies.gears.iter().find(|(made, _)| made == path) {
                 Some((_, gear)) => Ok(gear.clone()),
                 None => Ok(definition(&*self.model(path)?, path)?.clone()),
@@ -140,7 +140,7 @@ impl ChangedPair {
         Ok([gear(&scene.gear_1)?, gear(&scene.gear_2)?])
     }
 
-    fn model(&self, path: &Path) -> Result<Arc<ReducedGear>, Failure> {
+    fn model(&self, path: &Path) -> Result<Arc<ReducedGear>> {
         let found = self.shelf.model(path);
         Ok(found.map_err(|error| Failure::of_input(&error))?.model)
     }
@@ -150,7 +150,7 @@ impl ChangedPair {
     ///
     /// # Errors
     /// [`Failure`] for a body that cannot be meshed or held, where memory is short, and once `watch` stops it.
-    pub fn reduce(&self, case: &Case, watch: &Watch<'_>) -> Result<(), Failure> {
+    pub fn reduce(&self, case: &Case, watch: &Watch<'_>) -> Result<()> {
         for (path, gear) in self.bodies(case)?.gears {
             if path.exists() {
                 continue;
@@ -175,7 +175,7 @@ impl ChangedPair {
     ///
     /// # Errors
     /// [`Failure`] for what the scene refuses, and for models that cannot be copied.
-    pub fn toml(&self, case: &Case, models: &Path) -> Result<String, Failure> {
+    pub fn toml(&self, case: &Case, models: &Path) -> Result<String> {
         let mut names = self.names.clone();
         for (path, _) in self.bodies(case)?.gears {
             let kept = models.join(path.file_name().unwrap_or_default());
@@ -194,24 +194,20 @@ impl ChangedPair {
     ///
     /// # Errors
     /// [`Failure`] for what the scene refuses.
-    pub fn text(&self, case: &Case) -> Result<String, Failure> {
+    pub fn text(&self, case: &Case) -> Result<String> {
         renamed_files(&self.scene(case)?.document.text, &self.names).map_err(Failure::work)
     }
 
-    fn scene(&self, case: &Case) -> Result<Scene, Failure> {
+    fn scene(&self, case: &Case) -> Result<Scene> {
         let [_, mut of_scene] = parted(case);
         for (key, model) in self.bodies(case)?.models {
-            of_scene.settings.push(Setting {
-                parameter: key.clone(),
-                keys: vec![key],
-                value: model.into(),
-            });
+            of_scene.settings.push(Setting::of(&key, model));
         }
         Ok(*self.varied(&of_scene, &mut MadeFiles::new())?)
     }
 
     /// The changed bodies of a case.
-    fn bodies(&self, case: &Case) -> Result<Bodies, Failure> {
+    fn bodies(&self, case: &Case) -> Result<Bodies> {
         let [of_bodies, _] = parted(case);
         if of_bodies.settings.is_empty() {
             return Ok(Bodies::default());
@@ -243,7 +239,7 @@ impl ChangedPair {
         Ok(found)
     }
 
-    fn varied(&self, case: &Case, files: &mut MadeFiles) -> Result<Box<Scene>, Failure> {
+    fn varied(&self, case: &Case, files: &mut MadeFiles) -> Result<Box<Scene>> {
         let subject = self.base.scene(case, files, self.scratch.path());
         let subject = subject.map_err(|error| match error {
             VaryError::Key { problem, .. } => Failure::input(problem),
@@ -261,19 +257,12 @@ fn parted(case: &Case) -> [Case; 2] {
     let is_of_body = |setting: &&Setting| setting.keys.iter().any(|key| key.contains(':'));
     let (of_bodies, of_scene) = case.settings.iter().partition::<Vec<_>, _>(is_of_body);
     let owned = |settings: Vec<&Setting>| settings.into_iter().cloned().collect();
-    [
-        Case {
-            settings: owned(of_bodies),
-            removed: Vec::new(),
-        },
-        Case {
-            settings: owned(of_scene),
-            removed: case.removed.clone(),
-        },
-    ]
+    let mut of_scene = Case::of(owned(of_scene));
+    of_scene.removed.clone_from(&case.removed);
+    [Case::of(owned(of_bodies)), of_scene]
 }
 
 /// The gear that a model was made of.
-fn definition<'a>(model: &'a ReducedGear, path: &Path) -> Result<&'a GearDefinition, Failure> {
+fn definition<'a>(model: &'a ReducedGear, path: &Path) -> Result<&'a GearDefinition> {
     Ok(model.input.definition_in(path.display())?)
 }

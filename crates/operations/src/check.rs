@@ -1,7 +1,7 @@
 //! Reads a file of any kind and says what it is, or what is wrong with it.
 
 use crate::bevel_pair::{thickness_figures, thickness_words};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::gear_file::demand_body_file;
 use crate::tca_sides::edge_words;
 use crate::{reduce, system_table};
@@ -101,7 +101,7 @@ impl Finding {
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn demand(path: &Path) -> Result<Vec<InputError>, Failure> {
+pub fn demand(path: &Path) -> Result<Vec<InputError>> {
     let found = check(path)?;
     match found.problem {
         Some(problem) => Err(Failure::work(problem)),
@@ -113,7 +113,7 @@ pub fn demand(path: &Path) -> Result<Vec<InputError>, Failure> {
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn check(path: &Path) -> Result<Finding, Failure> {
+pub fn check(path: &Path) -> Result<Finding> {
     let ends_in = |ending: &str| {
         path.extension()
             .is_some_and(|e| e.eq_ignore_ascii_case(ending))
@@ -149,7 +149,7 @@ pub fn check(path: &Path) -> Result<Finding, Failure> {
 ///
 /// # Errors
 /// [`Failure`] for flanks that cannot be made, do not touch or jam.
-pub fn bevel_pair(scene: &BevelScene) -> Result<Finding, Failure> {
+pub fn bevel_pair(scene: &BevelScene) -> Result<Finding> {
     let (file, design) = (&scene.file, scene.design()?);
     let pair = scene.assembled().map_err(Failure::work)?;
     let coast = pair.coast.as_ref().ok().and_then(Option::as_ref);
@@ -176,14 +176,14 @@ pub fn bevel_pair(scene: &BevelScene) -> Result<Finding, Failure> {
     Ok(finding)
 }
 
-fn bevel_gear(document: &InputDocument, folder: &Path) -> Result<Finding, Failure> {
+fn bevel_gear(document: &InputDocument, folder: &Path) -> Result<Finding> {
     let gear = BevelGear::from_document(document, folder)?;
     let mut finding = Finding::new("bevel gear", Some(&gear.name));
     finding.slips = document.unit_slips();
     Ok(finding)
 }
 
-fn bearing(document: &InputDocument) -> Result<Finding, Failure> {
+fn bearing(document: &InputDocument) -> Result<Finding> {
     let found = BearingFromFile::from_document(document)?;
     QuasiStaticBearing::new(&found.definition).map_err(Failure::work)?;
     let mut finding = Finding::new("bearing", Some(&found.definition.name));
@@ -195,14 +195,14 @@ fn bearing(document: &InputDocument) -> Result<Finding, Failure> {
     Ok(finding)
 }
 
-fn model(path: &Path) -> Result<Finding, Failure> {
+fn model(path: &Path) -> Result<Finding> {
     let model = read_reduced_gear(path).map_err(Failure::input)?;
     let mut finding = Finding::new("reduced gear", None);
     finding.lines = reduce::summary(&model);
     Ok(finding)
 }
 
-fn result(path: &Path) -> Result<Finding, Failure> {
+fn result(path: &Path) -> Result<Finding> {
     let result = match ResultFile::open(path).map_err(Failure::input)? {
         ResultFile::Pair(result) => {
             let (torques, angles) = (result.torque_nm.len(), result.angles());
@@ -231,7 +231,7 @@ fn result(path: &Path) -> Result<Finding, Failure> {
     Ok(finding)
 }
 
-fn scene(scene: SceneFile) -> Result<Finding, Failure> {
+fn scene(scene: SceneFile) -> Result<Finding> {
     match scene {
         SceneFile::Pair(scene) => {
             let loaded = load(*scene)?;
@@ -259,7 +259,7 @@ fn scene(scene: SceneFile) -> Result<Finding, Failure> {
 }
 
 /// The scene is loaded with the variables in the middle of their bounds.
-fn optimisation(problem: &Optimisation) -> Result<Finding, Failure> {
+fn optimisation(problem: &Optimisation) -> Result<Finding> {
     // Nothing is run.
     let stop = AtomicBool::new(false);
     Evaluator::new(problem, Scratch::new(Path::new(""), &stop))?;
@@ -276,7 +276,7 @@ fn optimisation(problem: &Optimisation) -> Result<Finding, Failure> {
 }
 
 /// All scenes of a study are read; the scene as it is is built with its gears, whose columns are known then.
-fn study(study: &Study) -> Result<Finding, Failure> {
+fn study(study: &Study) -> Result<Finding> {
     let made = StudyScenes::new(study, Path::new(""))?;
     made.check_columns(study, &RestCases::default())?;
     let (cases, columns) = (made.cases.len(), study.tables.columns.len());
@@ -287,7 +287,7 @@ fn study(study: &Study) -> Result<Finding, Failure> {
     ))
 }
 
-fn sn_table(document: &InputDocument) -> Result<Finding, Failure> {
+fn sn_table(document: &InputDocument) -> Result<Finding> {
     let curve = sn_curve(document)?;
     let points = curve.points();
     let [first, last] = [points.first(), points.last()].map(|point| {
@@ -303,7 +303,7 @@ fn sn_table(document: &InputDocument) -> Result<Finding, Failure> {
 }
 
 /// A record is a folder.
-fn record(folder: &Path) -> Result<Finding, Failure> {
+fn record(folder: &Path) -> Result<Finding> {
     let record = ReferenceRecord::read(folder).map_err(Failure::input)?;
     let columns: Vec<&str> = record.columns.iter().map(|c| &c.name[..]).collect();
     let angles = record.angle_rad.len();
@@ -335,7 +335,7 @@ fn root_of_ring(root: &InternalRoot) -> (String, Value) {
     }
 }
 
-fn gear(document: &InputDocument) -> Result<Finding, Failure> {
+fn gear(document: &InputDocument) -> Result<Finding> {
     let gear = GearDefinition::from_document(document)?;
     demand_body_file(&gear, document)?;
     let p = &gear.profile;

@@ -1,6 +1,6 @@
 //! A result against a reference record, both through the rig pipeline.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use gearmesh_report::system_comparison::{SystemSelection, compare_system};
 use gearmesh_report::{ReferenceRecord, SeriesComparison, scene_comparison::compare_scene};
 use gearmesh_scene::ResultFile;
@@ -73,7 +73,7 @@ impl Compared {
 ///
 /// # Errors
 /// [`Failure`] for files that cannot be read or do not belong together, and options of the other kind of result.
-pub fn compare(a: &CompareRequest) -> Result<Compared, Failure> {
+pub fn compare(a: &CompareRequest) -> Result<Compared> {
     let record = || ReferenceRecord::read(&a.reference).map_err(Failure::input);
     let (title, record, comparisons) = match ResultFile::open(&a.result).map_err(Failure::input)? {
         ResultFile::System(result) => {
@@ -106,7 +106,7 @@ pub fn compare(a: &CompareRequest) -> Result<Compared, Failure> {
     })
 }
 
-fn refuse_options_of_systems(a: &CompareRequest) -> Result<(), Failure> {
+fn refuse_options_of_systems(a: &CompareRequest) -> Result<()> {
     let given = [
         ("--column", !a.column.is_empty()),
         ("--from-s", a.from_s.is_some()),

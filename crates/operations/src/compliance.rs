@@ -1,6 +1,6 @@
 //! Deflection along a flank of a reduced gear under a line load.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::projected_compliance::{ProjectedDeflections, projected_deflections};
 use crate::watch::Watch;
 use gearmesh_contact::LocalContact;
@@ -99,7 +99,7 @@ impl FoundDeflections {
 ///
 /// # Errors
 /// [`Failure`] for a file that is no model of a cylindrical gear, and for a place or load that it does not allow.
-pub fn compliance(a: &ComplianceRequest, watch: &Watch<'_>) -> Result<FoundDeflections, Failure> {
+pub fn compliance(a: &ComplianceRequest, watch: &Watch<'_>) -> Result<FoundDeflections> {
     let model = read_reduced_gear(&a.model).map_err(Failure::input)?;
     model.demand_cylindrical().map_err(Failure::input)?;
     let at_tooth = a.at_tooth.unwrap_or(a.tooth);

@@ -1,6 +1,6 @@
 //! Displacement and stress of a cylindrical gear at one position of a pair's result, and the picture of its whole cross-section.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::GearBody;
@@ -33,7 +33,7 @@ impl FieldCase {
         result: &SceneResult,
         gear: usize,
         (angle_deg, torque_nm): (Option<f64>, Option<f64>),
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let torque = asked_torque(result, "--field-torque-Nm", torque_nm)?;
         let most_n = |angle: usize| {
             let pairs = 0..result.slots;
@@ -71,7 +71,7 @@ pub(crate) fn asked_torque(
     result: &SceneResult,
     option: &str,
     torque_nm: Option<f64>,
-) -> Result<usize, Failure> {
+) -> Result<usize> {
     let Some(wanted) = torque_nm else {
         return Ok(largest_torque(result));
     };
@@ -111,7 +111,7 @@ pub fn field_of(
     definition: &GearDefinition,
     body: &GearBody,
     case: FieldCase,
-) -> Result<Field, Failure> {
+) -> Result<Field> {
     let model = &loaded.models[case.gear - 1];
     let slices = loaded.patches_at(result.angle_rad[case.angle]);
     let forces = result.position_forces(case.torque, case.angle);
@@ -143,7 +143,7 @@ pub fn picture(
     result: &SceneResult,
     case: FieldCase,
     (definition, body): (&GearDefinition, &GearBody),
-) -> Result<GearPicture, Failure> {
+) -> Result<GearPicture> {
     let field = field_of(loaded, result, definition, body, case)?;
     let section = &body.mesh.section;
     let values = (0..section.quads.len())

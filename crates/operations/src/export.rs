@@ -11,7 +11,7 @@ mod step;
 mod tables;
 
 use crate::answer::Answer;
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::watch::Watch;
 use crate::{output_name, overwriting};
 use serde::Deserialize;
@@ -58,7 +58,7 @@ pub struct ExportRequest {
 ///
 /// # Errors
 /// [`Failure`] for files that cannot be read or written, and options for which the format has no use.
-pub fn export(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
+pub fn export(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer> {
     let inputs = vec![a.result.clone(), a.result.join("study.csv")];
     overwriting::refuse(inputs, std::slice::from_ref(&a.output))?;
     let ending = output_name::export_ending(&a.output)?;

@@ -40,6 +40,9 @@ pub enum Cause {
     Memory,
 }
 
+/// What an operation gives.
+pub type Result<T, E = Failure> = std::result::Result<T, E>;
+
 /// A failed operation.
 #[derive(Debug, Clone, thiserror::Error)]
 #[error("{message}")]

@@ -1,6 +1,6 @@
 //! Gear files for the offline stage: cylindrical or bevel, and what is found wrong before anything is meshed.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::watch::Watch;
 use gearmesh_bevel::BevelGear;
 use gearmesh_geometry::GearDefinition;
@@ -30,7 +30,7 @@ impl GearFile {
     ///
     /// # Errors
     /// [`Failure`] with the place of what is wrong.
-    pub fn read(path: &Path, watch: &Watch<'_>) -> Result<Self, Failure> {
+    pub fn read(path: &Path, watch: &Watch<'_>) -> Result<Self> {
         Self::of(&InputDocument::read(path)?, watch)
     }
 
@@ -38,7 +38,7 @@ impl GearFile {
     ///
     /// # Errors
     /// As [`GearFile::read`].
-    pub fn of(document: &InputDocument, watch: &Watch<'_>) -> Result<Self, Failure> {
+    pub fn of(document: &InputDocument, watch: &Watch<'_>) -> Result<Self> {
         let gear = if BevelGear::recognises(document)? {
             AnyGear::Bevel(Box::new(BevelGear::from_document(
                 document,
@@ -60,7 +60,7 @@ impl GearFile {
     ///
     /// # Errors
     /// [`Failure`] for a bevel gear.
-    pub fn cylindrical(self) -> Result<GearDefinition, Failure> {
+    pub fn cylindrical(self) -> Result<GearDefinition> {
         match self.gear {
             AnyGear::Cylindrical(gear) => Ok(*gear),
             AnyGear::Bevel(_) => Err(Failure::input(format!(
@@ -75,7 +75,7 @@ impl GearFile {
 ///
 /// # Errors
 /// [`Failure`] where it is not there or cannot be read.
-pub fn demand_body_file(gear: &GearDefinition, document: &InputDocument) -> Result<(), Failure> {
+pub fn demand_body_file(gear: &GearDefinition, document: &InputDocument) -> Result<()> {
     if let Some(body) = gear.blank.meshed() {
         let shown = body.file.display();
         if !body.file.exists() {

@@ -1,6 +1,6 @@
 //! A gearbox from a REXS file: its files, and what its scenes come to at rest.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::import_trial::Trial;
 use crate::overwriting::apart;
 use crate::scratch::Scratch;
@@ -53,7 +53,7 @@ pub struct Imported {
 ///
 /// # Errors
 /// [`Failure`] for a file that is no gearbox, and files that cannot be written.
-pub fn import(a: &ImportRequest, watch: &Watch<'_>) -> Result<Imported, Failure> {
+pub fn import(a: &ImportRequest, watch: &Watch<'_>) -> Result<Imported> {
     let shown = a.model.display();
     let bytes = read_bytes(&a.model, MOST_MB << 20)
         .map_err(|cause| Failure::input(format!("{shown}: {cause}")))?;
@@ -108,12 +108,7 @@ pub fn import(a: &ImportRequest, watch: &Watch<'_>) -> Result<Imported, Failure>
     })
 }
 
-fn write(
-    made: &Import,
-    folder: &Path,
-    list: Option<(String, String)>,
-    model: &Path,
-) -> Result<(), Failure> {
+fn write(made: &Import, folder: &Path, list: Option<(String, String)>, model: &Path) -> Result<()> {
     let files = made.files.iter().map(|f| (f.name.clone(), f.text.clone()));
     let files: Vec<(String, String)> = files.chain(list).collect();
     for (name, _) in &files {

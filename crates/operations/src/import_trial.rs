@@ -2,7 +2,7 @@
 //! does, and the figures are held against those that follow by the ratios.
 
 use crate::check;
-use crate::failure::{Failure, Fault};
+use crate::failure::{Failure, Fault, Result};
 use crate::run::{RunHow, run_system};
 use crate::scratch::Scratch;
 use crate::watch::{Silent, Watch};
@@ -108,7 +108,7 @@ impl Trial {
     }
 
     /// Runs the scenes of a folder that it has not refused.
-    pub fn run(&mut self, made: &Import, folder: &Path, watch: &Watch<'_>) -> Result<(), Failure> {
+    pub fn run(&mut self, made: &Import, folder: &Path, watch: &Watch<'_>) -> Result<()> {
         let scratch = Scratch::new()?;
         if made.sheets.len() > MOST_SCENES {
             self.notes.push(format!(
@@ -178,7 +178,7 @@ impl Trial {
 }
 
 /// What a scene comes to at rest; its remarks and warnings are those of its file, which has been judged.
-fn at_rest(scene: &Path, output: &Path, watch: &Watch<'_>) -> Result<SystemResult, Failure> {
+fn at_rest(scene: &Path, output: &Path, watch: &Watch<'_>) -> Result<SystemResult> {
     let SceneFile::System(scene) = SceneFile::read(scene)? else {
         return Err(Failure::work("the scene is none of shafts and bearings"));
     };
@@ -195,9 +195,9 @@ fn at_rest(scene: &Path, output: &Path, watch: &Watch<'_>) -> Result<SystemResul
 }
 
 /// Figures of the run; speeds are those of the ratios.
-fn figures(sheet: &Sheet, result: &SystemResult) -> Result<SceneRow, Failure> {
+fn figures(sheet: &Sheet, result: &SystemResult) -> Result<SceneRow> {
     let columns = result.rows.columns();
-    let read = |column: &str| -> Result<f64, Failure> {
+    let read = |column: &str| -> Result<f64> {
         if !columns.iter().any(|c| c.name == column) {
             return Ok(0.0);
         }

@@ -77,7 +77,7 @@ pub mod uff;
 mod watch;
 
 pub use answer::Answer;
-pub use failure::{Cause, Failure, Fault};
+pub use failure::{Cause, Failure, Fault, Result};
 pub use moving_modes::MovingModes;
 pub use moving_system::moving_system;
 pub use scratch::Scratch;

@@ -4,10 +4,10 @@ use gearmesh_report::short;
 use gearmesh_scene::system_run::SystemResult;
 use serde_json::{Value, json};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 
 /// A line for each part that loses power, and their sum; nothing where no part names friction.
-pub fn lines(result: &SystemResult) -> Result<Vec<String>, Failure> {
+pub fn lines(result: &SystemResult) -> Result<Vec<String>> {
     let Some(losses) = result.power_losses().map_err(Failure::work)? else {
         return Ok(Vec::new());
     };
@@ -38,7 +38,7 @@ pub fn lines(result: &SystemResult) -> Result<Vec<String>, Failure> {
 }
 
 /// For `--json`; null where no part names friction.
-pub fn json(result: &SystemResult) -> Result<Value, Failure> {
+pub fn json(result: &SystemResult) -> Result<Value> {
     let losses = result.power_losses().map_err(Failure::work)?;
     Ok(losses.map_or(Value::Null, |losses| {
         let parts = losses.parts.iter().map(|loss| {

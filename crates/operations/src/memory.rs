@@ -1,6 +1,6 @@
 //! Memory that an offline job will take against what the machine has free: told, or refused before it is taken.
 
-use crate::failure::Failure;
+use crate::failure::Result;
 use crate::watch::Watch;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
@@ -49,7 +49,7 @@ pub(crate) fn demand(
     (job, duration): (OfflineJob, Option<Duration>),
     even_if_short: bool,
     watch: &Watch<'_>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let Some(estimate) = MemoryEstimate::new(gear, job) else {
         return Ok(());
     };

@@ -1,6 +1,6 @@
 //! A gear's mesh for other programs.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::gear_file::{AnyGear, GearFile, note_element, note_sound};
 use crate::memory;
 use crate::mesh_file::{LengthUnit, MeshFields, export_bevel_mesh, export_mesh, note_body_grid};
@@ -75,7 +75,7 @@ impl Meshed {
 ///
 /// # Errors
 /// [`Failure`] where the gear cannot be meshed, an element is unfit for the finite element model, or the file cannot be written.
-pub fn mesh(a: &MeshRequest, watch: &Watch<'_>) -> Result<Meshed, Failure> {
+pub fn mesh(a: &MeshRequest, watch: &Watch<'_>) -> Result<Meshed> {
     overwriting::refuse(vec![a.gear.clone()], std::slice::from_ref(&a.output))?;
     output_name::demand_mesh(&a.output)?;
     let read = GearFile::read(&a.gear, watch)?;

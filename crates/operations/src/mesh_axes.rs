@@ -1,11 +1,11 @@
 //! How the axes of gears in mesh stand to each other in a static result: to be put into a `[pair]`.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use gearmesh_geometry::Flank;
 use gearmesh_scene::system_run::SystemResult;
 
 /// A line for each mesh whose gears' places are in the result, at its last point.
-pub fn lines(result: &SystemResult) -> Result<Vec<String>, Failure> {
+pub fn lines(result: &SystemResult) -> Result<Vec<String>> {
     let Some(last) = result.rows.rows().checked_sub(1) else {
         return Ok(Vec::new());
     };

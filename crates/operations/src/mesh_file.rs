@@ -1,6 +1,6 @@
 //! Meshes as files of other programs, with their sets and fields; written by meshio in a Python process.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::scratch::Scratch;
 use crate::watch::Watch;
 use gearmesh_bevel::BevelGear;
@@ -88,7 +88,7 @@ pub fn export_mesh(
     fields: MeshFields,
     (output, unit): (&Path, LengthUnit),
     watch: &Watch<'_>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let data = MeshData {
         points: mesh.nodes.clone(),
         cells: cells_of(&mesh.elements),
@@ -115,7 +115,7 @@ pub fn export_bevel_mesh(
     fields: MeshFields,
     (output, unit): (&Path, LengthUnit),
     watch: &Watch<'_>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let mut point_sets = BTreeMap::from([("bore".to_owned(), mesh.bore())]);
     for tooth in 0..mesh.teeth() {
         for side in [Flank::Right, Flank::Left] {
@@ -145,7 +145,7 @@ fn export(
     (data, element): (&MeshData, Element),
     (output, unit): (&Path, LengthUnit),
     watch: &Watch<'_>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     watch.go_on()?;
     let folder = Scratch::new()?;
     let exchange = folder.path().join("mesh.h5");

@@ -1,6 +1,6 @@
 //! Natural frequencies and shapes of a gear with its bore held, or the ends of its shaft's stubs.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::gear_file::{GearFile, note_element, note_sound};
 use crate::memory;
 use crate::mesh_file::{LengthUnit, MeshFields, export_mesh};
@@ -54,7 +54,7 @@ pub struct FoundModes {
 ///
 /// # Errors
 /// [`Failure`] where the gear has no density or cannot be meshed, the range is wrong, or a file cannot be written.
-pub fn modes(a: &ModesRequest, watch: &Watch<'_>) -> Result<FoundModes, Failure> {
+pub fn modes(a: &ModesRequest, watch: &Watch<'_>) -> Result<FoundModes> {
     let outputs: Vec<PathBuf> = a.shapes.iter().cloned().collect();
     overwriting::refuse(vec![a.gear.clone()], &outputs)?;
     if let Some(path) = &a.shapes {
@@ -101,7 +101,7 @@ pub fn modes(a: &ModesRequest, watch: &Watch<'_>) -> Result<FoundModes, Failure>
 }
 
 /// What is asked for, or else the gear file says.
-fn range(a: &ModesRequest, gear: &GearDefinition) -> Result<ModeRange, Failure> {
+fn range(a: &ModesRequest, gear: &GearDefinition) -> Result<ModeRange> {
     match (a.count, a.up_to_Hz) {
         (Some(0), _) => Err(Failure::input("--count: found 0, allowed is 1 or more")),
         (Some(count), _) => Ok(ModeRange::Count(count)),

@@ -10,7 +10,7 @@ use gearmesh_scene::system_run::{EigenResult, SystemResult, is_overdamped, share
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde_json::{Value, json};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::moving_parts::{PartsInMotion, place};
 use crate::moving_system::{drawn, surfaces};
 use crate::system_moments::{WantedMoments, machine_of};
@@ -46,7 +46,7 @@ impl MovingModes {
     ///
     /// # Errors
     /// [`Failure`] for files that are not as they were in the run, and for a result without modes.
-    pub fn new(file: &Path, result: SystemResult) -> Result<Self, Failure> {
+    pub fn new(file: &Path, result: SystemResult) -> Result<Self> {
         let wanted = WantedMoments {
             result: file,
             from_s: None,
@@ -134,7 +134,7 @@ impl MovingModes {
     ///
     /// # Errors
     /// [`Failure::input`] for a point or mode that is not there.
-    pub fn frames(&self, point: usize, mode: usize) -> Result<Value, Failure> {
+    pub fn frames(&self, point: usize, mode: usize) -> Result<Value> {
         let found = self.points.get(point);
         let shape = found
             .and_then(|found| found.modes.get(mode))

@@ -6,7 +6,7 @@ use gearmesh_scene::system::{GearState, MovingElements, MovingParts, PartShape};
 use gearmesh_scene::system_run::SystemResult;
 use serde_json::{Value, json};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 
 /// Micrometres: finer than a picture.
 pub fn rounded_mm(x_m: f64) -> f64 {
@@ -50,7 +50,7 @@ impl PartsInMotion {
     ///
     /// # Errors
     /// [`Failure`] for a result that cannot be read.
-    pub fn new(parts: &MovingParts, result: &SystemResult) -> Result<Self, Failure> {
+    pub fn new(parts: &MovingParts, result: &SystemResult) -> Result<Self> {
         let names: Vec<&str> = result.rows.columns().iter().map(|c| &*c.name).collect();
         let is_recorded = |body: &Option<String>| match body {
             None => true,
@@ -64,14 +64,14 @@ impl PartsInMotion {
         parts.elements.retain(|row| is_recorded(&row.outer));
         let read = |name: &str| result.rows.read(name).map_err(Failure::input);
         let carriers = carriers_of(&parts);
-        let state = |body: &String| -> Result<Vec<Vec<f64>>, Failure> {
+        let state = |body: &String| -> Result<Vec<Vec<f64>>> {
             let columns = GearState::columns(body);
             columns[..6].iter().map(|name| read(name)).collect()
         };
         let states = carriers.iter().map(state).collect::<Result<_, _>>()?;
         let count = result.rows.rows();
         let mut turns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-        let recorded = |columns: &[String]| -> Result<Option<Vec<Vec<f64>>>, Failure> {
+        let recorded = |columns: &[String]| -> Result<Option<Vec<Vec<f64>>>> {
             let all = columns.iter().all(|name| names.contains(&&**name));
             if columns.is_empty() || !all {
                 return Ok(None);

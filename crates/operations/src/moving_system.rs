@@ -9,7 +9,7 @@ use gearmesh_scene::system::{MovingGear, MovingShape};
 use gearmesh_scene::system_run::SystemResult;
 use serde_json::{Value, json};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::moving_parts::{PartsInMotion, place, rounded_mm};
 use crate::system_moments::{SystemMoments, WantedMoments, surface};
 use crate::watch::Watch;
@@ -28,7 +28,7 @@ pub fn moving_system(
     [from_s, to_s]: [Option<f64>; 2],
     most: usize,
     watch: &Watch<'_>,
-) -> Result<Value, Failure> {
+) -> Result<Value> {
     let wanted = WantedMoments {
         result: file,
         from_s,
@@ -72,7 +72,7 @@ pub fn moving_system(
 ///
 /// # Errors
 /// [`Failure`] of a bevel gear's mesh.
-pub(crate) fn surfaces(gears: &[MovingGear]) -> Result<Vec<GearSurface>, Failure> {
+pub(crate) fn surfaces(gears: &[MovingGear]) -> Result<Vec<GearSurface>> {
     let of_gear = |gear: &MovingGear| match &gear.shape {
         MovingShape::Cylindrical(of) if of.tooth.helix_angle_rad == 0.0 => {
             Ok(GearSurface::new(of, &[]))

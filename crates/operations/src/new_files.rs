@@ -12,7 +12,7 @@ use gearmesh_scene::study::{RestCases, RestFigures, Subject};
 use serde_json::{Value, json};
 
 use crate::check::{Finding, bevel_pair, check};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::gear_file::GearFile;
 use crate::reduce::{Reduction, reduce_to};
 use crate::schema::TextKind;
@@ -68,7 +68,7 @@ pub const KINDS: [NewKind; 4] = [
 ///
 /// # Errors
 /// [`Failure`] for a name that is none.
-pub fn kind(name: &str) -> Result<NewKind, Failure> {
+pub fn kind(name: &str) -> Result<NewKind> {
     let found = KINDS.into_iter().find(|kind| kind.name == name);
     found.ok_or_else(|| {
         let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
@@ -84,7 +84,7 @@ pub type Texts = BTreeMap<String, String>;
 ///
 /// # Errors
 /// [`Failure`] with the name that is missing or too much.
-pub fn demand_names(kind: NewKind, files: &Texts) -> Result<(), Failure> {
+pub fn demand_names(kind: NewKind, files: &Texts) -> Result<()> {
     let names: Vec<&str> = kind.files.iter().map(|file| file.name).collect();
     let missing = names.iter().find(|name| !files.contains_key(**name));
     let others = files.keys().map(String::as_str);
@@ -103,6 +103,14 @@ pub fn demand_names(kind: NewKind, files: &Texts) -> Result<(), Failure> {
 struct Kept(Mutex<Vec<String>>);
 
 impl Kept {
+    /// Hears the warnings of an operation that nothing stops.
+    fn watch(&self) -> Watch<'_> {
+        Watch {
+            listener: self,
+            ..Watch::unattended()
+        }
+    }
+
     fn all(self) -> Vec<String> {
         let kept = self.0.into_inner();
         kept.unwrap_or_else(PoisonError::into_inner)
@@ -126,12 +134,9 @@ impl Listener for Kept {
 ///
 /// # Errors
 /// [`Failure`] for the first one that is wrong, and for gears that do not run together.
-pub fn look(kind: NewKind, folder: &Path) -> Result<Vec<String>, Failure> {
+pub fn look(kind: NewKind, folder: &Path) -> Result<Vec<String>> {
     let kept = Kept::default();
-    let watch = Watch {
-        listener: &kept,
-        ..Watch::unattended()
-    };
+    let watch = kept.watch();
     for template in kind.files {
         let path = folder.join(template.name);
         match template.kind {
@@ -157,18 +162,15 @@ pub fn look(kind: NewKind, folder: &Path) -> Result<Vec<String>, Failure> {
 ///
 /// # Errors
 /// [`Failure`] for flanks that cannot be made, do not touch or jam.
-pub fn look_at_bevel(scene: &BevelScene) -> Result<Vec<String>, Failure> {
+pub fn look_at_bevel(scene: &BevelScene) -> Result<Vec<String>> {
     let kept = Kept::default();
-    let watch = Watch {
-        listener: &kept,
-        ..Watch::unattended()
-    };
+    let watch = kept.watch();
     told(bevel_pair(scene)?, Path::new(&scene.document.file), &watch)?;
     Ok(kept.all())
 }
 
 /// Tells what was found in a file that has no problem.
-fn told(found: Finding, path: &Path, watch: &Watch<'_>) -> Result<(), Failure> {
+fn told(found: Finding, path: &Path, watch: &Watch<'_>) -> Result<()> {
     if let Some(problem) = found.problem {
         return Err(Failure::input(problem).about(path));
     }
@@ -181,7 +183,7 @@ fn told(found: Finding, path: &Path, watch: &Watch<'_>) -> Result<(), Failure> {
 ///
 /// # Errors
 /// [`Failure`] for what is wrong or not carried.
-pub fn bearing_figures(kind: NewKind, folder: &Path) -> Result<Value, Failure> {
+pub fn bearing_figures(kind: NewKind, folder: &Path) -> Result<Value> {
     let last = kind.files.last().map_or("", |file| file.name);
     let bearing = InputDocument::read(&folder.join(last))?;
     let operation = InputDocument::read(&folder.join(templates::OPERATION.name))?;
@@ -208,7 +210,7 @@ pub fn figures_as_json(found: &RestFigures) -> Value {
 ///
 /// # Errors
 /// [`Failure`] for a gear that cannot be reduced, and once `watch` stops it.
-pub fn reduce_gears(kind: NewKind, folder: &Path, watch: &Watch<'_>) -> Result<(), Failure> {
+pub fn reduce_gears(kind: NewKind, folder: &Path, watch: &Watch<'_>) -> Result<()> {
     let how = Reduction {
         estimate_error: false,
         even_if_memory_is_short: false,

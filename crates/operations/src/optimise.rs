@@ -1,6 +1,6 @@
 //! Keys of a scene that make its objectives least.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::file_words::positive;
 use crate::scratch::Scratch;
 use crate::watch::Watch;
@@ -32,7 +32,7 @@ impl OptimiseRequest {
     ///
     /// # Errors
     /// As [`optimise`].
-    pub fn optimise(&self, watch: &Watch<'_>) -> Result<FoundOptimum, Failure> {
+    pub fn optimise(&self, watch: &Watch<'_>) -> Result<FoundOptimum> {
         optimise(&self.file, &self.output, self.most_result_gb, watch)
     }
 }
@@ -56,7 +56,7 @@ pub fn optimise(
     folder: &Path,
     most_result_gb: f64,
     watch: &Watch<'_>,
-) -> Result<FoundOptimum, Failure> {
+) -> Result<FoundOptimum> {
     let outputs = ["front.csv", "tried.csv", "optimise.html"].map(|name| folder.join(name));
     overwriting::refuse(vec![PathBuf::from(file)], &outputs)?;
     let mut problem = Optimisation::read(file)?;
@@ -112,7 +112,7 @@ impl FoundOptimum {
     ///
     /// # Errors
     /// [`Failure::stopped`] where it was.
-    pub fn demand_ended(&self) -> Result<(), Failure> {
+    pub fn demand_ended(&self) -> Result<()> {
         match self.optimum.stopped {
             true => Err(Failure::stopped(
                 "interrupted; the files have what was tried until then",

@@ -1,7 +1,7 @@
 //! What a name behind `-o` may end in: a file whose ending promises another format than is written misleads every
 //! program after.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use std::path::Path;
 
 /// Endings of HDF5 files.
@@ -22,7 +22,7 @@ const PAGE: [&str; 2] = [".html", ".htm"];
 ///
 /// # Errors
 /// [`Failure`] that says what the command writes and how other formats are had.
-pub fn demand_hdf5(path: &Path) -> Result<(), Failure> {
+pub fn demand_hdf5(path: &Path) -> Result<()> {
     demand(
         path,
         &HDF5,
@@ -36,7 +36,7 @@ pub fn demand_hdf5(path: &Path) -> Result<(), Failure> {
 ///
 /// # Errors
 /// [`Failure`] that says what the command writes.
-pub fn demand_page(path: &Path) -> Result<(), Failure> {
+pub fn demand_page(path: &Path) -> Result<()> {
     demand(path, &PAGE, "an HTML page", "").map(|_| ())
 }
 
@@ -44,7 +44,7 @@ pub fn demand_page(path: &Path) -> Result<(), Failure> {
 ///
 /// # Errors
 /// As [`demand_page`], with the option.
-pub fn demand_report(path: &Path) -> Result<(), Failure> {
+pub fn demand_report(path: &Path) -> Result<()> {
     demand_page(path).map_err(|problem| Failure::input(format!("--report: {}", problem.message)))
 }
 
@@ -52,7 +52,7 @@ pub fn demand_report(path: &Path) -> Result<(), Failure> {
 ///
 /// # Errors
 /// [`Failure`] that lists them.
-pub fn demand_mesh(path: &Path) -> Result<(), Failure> {
+pub fn demand_mesh(path: &Path) -> Result<()> {
     demand(
         path,
         &gearmesh_model::EXPORT_ENDINGS,
@@ -66,7 +66,7 @@ pub fn demand_mesh(path: &Path) -> Result<(), Failure> {
 ///
 /// # Errors
 /// [`Failure`] that lists them.
-pub fn export_ending(path: &Path) -> Result<&'static str, Failure> {
+pub fn export_ending(path: &Path) -> Result<&'static str> {
     demand(path, &EXPORT, "tables, series of moving gears or CAD", "")
 }
 
@@ -83,7 +83,7 @@ pub enum Measured {
 ///
 /// # Errors
 /// [`Failure`] that lists the endings.
-pub fn measured_ending(path: &Path) -> Result<Measured, Failure> {
+pub fn measured_ending(path: &Path) -> Result<Measured> {
     let name = path.to_string_lossy().to_lowercase();
     match MEASURED.iter().find(|ending| name.ends_with(**ending)) {
         Some(&(".csv" | ".txt")) => Ok(Measured::Table),
@@ -97,12 +97,7 @@ pub fn measured_ending(path: &Path) -> Result<Measured, Failure> {
 }
 
 /// The ending that a name has.
-fn demand(
-    path: &Path,
-    endings: &[&'static str],
-    what: &str,
-    advice: &str,
-) -> Result<&'static str, Failure> {
+fn demand(path: &Path, endings: &[&'static str], what: &str, advice: &str) -> Result<&'static str> {
     let name = path.file_name().unwrap_or_default();
     let name = name.to_string_lossy().to_lowercase();
     let found = endings.iter().find(|ending| name.ends_with(**ending));

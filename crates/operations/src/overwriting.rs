@@ -1,6 +1,6 @@
 //! What an operation reads is never what it writes, however the two are spelled.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use gearmesh_geometry::input::{InputDocument, MOST_TEXT_BYTES, demand_readable};
 use gearmesh_model::FileError;
 use gearmesh_scene::named_files;
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// [`Failure`] that names both.
-pub fn refuse(inputs: Vec<PathBuf>, outputs: &[PathBuf]) -> Result<(), Failure> {
+pub fn refuse(inputs: Vec<PathBuf>, outputs: &[PathBuf]) -> Result<()> {
     // Most outputs are new.
     if outputs.iter().all(|path| path.symlink_metadata().is_err()) {
         return Ok(());
@@ -24,7 +24,7 @@ pub fn refuse(inputs: Vec<PathBuf>, outputs: &[PathBuf]) -> Result<(), Failure> 
 ///
 /// # Errors
 /// [`Failure`] that names both.
-pub fn apart(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
+pub fn apart(output: &Path, inputs: &[PathBuf]) -> Result<()> {
     let path = output.to_owned();
     match output.symlink_metadata() {
         Err(_) => return Ok(()),

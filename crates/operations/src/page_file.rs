@@ -1,6 +1,6 @@
 //! Pages as files.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::watch::Watch;
 use gearmesh_model::write_text;
 use gearmesh_report::page::Page;
@@ -10,7 +10,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`Failure`] for a page that cannot be rendered or written.
-pub fn write(page: &Page, path: &Path, watch: &Watch<'_>) -> Result<(), Failure> {
+pub fn write(page: &Page, path: &Path, watch: &Watch<'_>) -> Result<()> {
     let html = page.render().map_err(Failure::work)?;
     write_text(path, &html).map_err(Failure::work)?;
     let megabytes = html.len() as f64 * 1e-6;

@@ -1,7 +1,7 @@
 //! What a scene will compute.
 
 use crate::answer::Answer;
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::watch::Watch;
 use gearmesh_scene::ModelShelf;
 use gearmesh_scene::system::SystemPlan;
@@ -13,7 +13,7 @@ use serde_json::json;
 ///
 /// # Errors
 /// [`Failure`] for what a run would refuse.
-pub fn plan(scene: SceneFile, watch: &Watch<'_>) -> Result<Answer, Failure> {
+pub fn plan(scene: SceneFile, watch: &Watch<'_>) -> Result<Answer> {
     match scene {
         SceneFile::Pair(scene) => {
             let loaded = load(*scene)?;

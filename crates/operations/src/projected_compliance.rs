@@ -1,7 +1,7 @@
 //! Deflection of a flank by forces on single element faces: the gear is meshed and factorised again, and each slice of
 //! each line is solved for, where the reduced gear combines what it has.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::watch::Watch;
 use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankDeflection, FlankLoad};
@@ -41,7 +41,7 @@ pub fn projected_deflections(
     (loads, by_grid): (&[FlankLoad], &[FlankDeflection]),
     (at_tooth, local): (usize, LocalContact),
     watch: &Watch<'_>,
-) -> Result<ProjectedDeflections, Failure> {
+) -> Result<ProjectedDeflections> {
     let gear = model.input.definition_in(file)?;
     demand_own_factor(gear, file)?;
     let (tooth, side) = loads
@@ -116,7 +116,7 @@ pub fn projected_deflections(
 }
 
 /// Refuses a gear whose compliance is not that of the factor that is made here.
-fn demand_own_factor(gear: &GearDefinition, file: &str) -> Result<(), Failure> {
+fn demand_own_factor(gear: &GearDefinition, file: &str) -> Result<()> {
     for (is_so, what) in [
         (gear.crack.is_some(), "has a crack"),
         (
@@ -144,7 +144,7 @@ fn calibrated(
     gear: &GearDefinition,
     body: &GearBody,
     (loads, rolls_rad): (&[FlankLoad], &[f64]),
-) -> Result<Vec<f64>, Failure> {
+) -> Result<Vec<f64>> {
     let field = model.calibration().map_err(Failure::input)?;
     let contact = field.contact_curve(model.signed_base_radius_m());
     let plane = PlaneTooth::new(gear, &body.mesh, &body.model, &model.grid)?;

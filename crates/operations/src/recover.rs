@@ -2,7 +2,7 @@
 
 use crate::bevel_stress;
 use crate::cross_section::{FieldCase, field_of};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::mesh_file::{LengthUnit, export_mesh};
 use crate::result_scene::scene_of;
 use crate::watch::Watch;
@@ -95,7 +95,7 @@ pub fn figures(result: &SceneResult) -> Value {
 ///
 /// # Errors
 /// [`Failure`] where the models are not those of the result, have no gauges, or a file cannot be written.
-pub fn recover(a: &RecoverRequest, watch: &Watch<'_>) -> Result<SceneResult, Failure> {
+pub fn recover(a: &RecoverRequest, watch: &Watch<'_>) -> Result<SceneResult> {
     let outputs: Vec<PathBuf> = a.field_output.iter().chain([&a.output]).cloned().collect();
     overwriting::refuse(vec![a.result.clone()], &outputs)?;
     output_name::demand_hdf5(&a.output)?;
@@ -141,7 +141,7 @@ pub fn recover(a: &RecoverRequest, watch: &Watch<'_>) -> Result<SceneResult, Fai
 fn gauges(
     models: [&ReducedGear; 2],
     request: &Option<FieldRequest<'_>>,
-) -> Result<Vec<(usize, usize)>, Failure> {
+) -> Result<Vec<(usize, usize)>> {
     let of = |gear: usize| (0..models[gear - 1].gauges.len()).map(move |k| (gear, k));
     let all: Vec<(usize, usize)> = [1, 2].into_iter().flat_map(of).collect();
     match all.is_empty() && request.is_none() {
@@ -157,7 +157,7 @@ type FieldRequest<'a> = (FieldCase, &'a Path);
 fn field_request<'a>(
     a: &'a RecoverRequest,
     result: &SceneResult,
-) -> Result<Option<FieldRequest<'a>>, Failure> {
+) -> Result<Option<FieldRequest<'a>>> {
     let place = (a.field_angle_deg, a.field_torque_Nm);
     match (a.field_gear, &a.field_output) {
         (Some(gear @ 1..=2), Some(output)) => {
@@ -182,7 +182,7 @@ fn field(
     loaded: &LoadedScene,
     result: &SceneResult,
     watch: &Watch<'_>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let definition = result.gears[case.gear - 1].definition_in("the result")?;
     let python = watch.python()?;
     let body = watch.offline(&definition.name, |told| {

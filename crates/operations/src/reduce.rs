@@ -1,6 +1,6 @@
 //! The offline stage: a gear becomes its compliance at the flanks.
 
-use crate::failure::Failure;
+use crate::failure::Result;
 use crate::gear_file::{AnyGear, GearFile, note_element};
 use crate::memory;
 use crate::mesh_file::note_body_grid;
@@ -25,8 +25,8 @@ pub struct Reduction {
 /// Meshes and reduces a gear of either family.
 ///
 /// # Errors
-/// [`Failure`] where it cannot be meshed or held, or the memory is short.
-pub fn reduce(of: &GearFile, how: Reduction, watch: &Watch<'_>) -> Result<ReducedGear, Failure> {
+/// [`Failure`](crate::Failure) where it cannot be meshed or held, or the memory is short.
+pub fn reduce(of: &GearFile, how: Reduction, watch: &Watch<'_>) -> Result<ReducedGear> {
     let options = ReductionOptions {
         estimate_error: how.estimate_error,
     };
@@ -70,7 +70,7 @@ pub fn reduce_to(
     how: Reduction,
     output: &Path,
     watch: &Watch<'_>,
-) -> Result<ReducedGear, Failure> {
+) -> Result<ReducedGear> {
     let model = reduce(of, how, watch)?;
     watch.go_on()?;
     write_reduced_gear(output, &model)?;
@@ -85,7 +85,7 @@ pub fn reduced(
     gear: &GearDefinition,
     estimate_error: bool,
     watch: &Watch<'_>,
-) -> Result<(ReducedGear, GearBody), Failure> {
+) -> Result<(ReducedGear, GearBody)> {
     let python = watch.python()?;
     let options = ReductionOptions { estimate_error };
     watch.offline(&gear.name, |told| {
@@ -110,7 +110,7 @@ fn reduced_import(
     gear: &GearDefinition,
     body: &MeshedBody,
     watch: &Watch<'_>,
-) -> Result<ReducedGear, Failure> {
+) -> Result<ReducedGear> {
     let folder = Scratch::new()?;
     let python = watch.python()?;
     watch.offline(&gear.name, |told| {

@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::bevel_stress;
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::result_stress::{self, StressRequest, StressSection};
 use crate::watch::Watch;
 use crate::{output_name, overwriting, page_file};
@@ -52,7 +52,7 @@ pub struct ReportRequest {
 ///
 /// # Errors
 /// [`Failure`] for files that cannot be read, options that do not belong to a result, and a page that cannot be written.
-pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
+pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer> {
     demand_sound(a)?;
     let how = StressRequest {
         at_s: a.stress_at_s,
@@ -118,14 +118,11 @@ pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
     if a.stress {
         told["stress"] = figures.into();
     }
-    Ok(Answer {
-        figures: told,
-        lines: Vec::new(),
-    })
+    Ok(told.into())
 }
 
 /// Refuses options that do not go together, before anything is read.
-fn demand_sound(a: &ReportRequest) -> Result<(), Failure> {
+fn demand_sound(a: &ReportRequest) -> Result<()> {
     let of_record = |folder: &PathBuf| ["record.toml", "data.csv"].map(|name| folder.join(name));
     let records = a.reference.iter().flat_map(of_record);
     let inputs = a.results.iter().cloned().chain(records).collect();
@@ -157,7 +154,7 @@ fn stress_at_rest(
     result: &SceneResult,
     path: &Path,
     watch: &Watch<'_>,
-) -> Result<StressSection, Failure> {
+) -> Result<StressSection> {
     if how.at_s.is_some() {
         return Err(Failure::input(format!(
             "--stress-at-s is for runs in time; {} is a pair at rest, use --stress-angle-deg",
@@ -194,7 +191,7 @@ pub fn write_page(
     systems: &[SystemChapter],
     output: &Path,
     watch: &Watch<'_>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let page = scene_page(chapters, systems).map_err(Failure::work)?;
     page_file::write(&page, output, watch)
 }

@@ -1,12 +1,12 @@
 //! The scene inside a pair's result, with its models.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::{LoadedScene, Scene, SceneResult, load};
 use std::path::Path;
 
 /// The scene of a result, with its models; their paths are those of the run.
-pub fn scene_of(result: &SceneResult, path: &Path) -> Result<LoadedScene, Failure> {
+pub fn scene_of(result: &SceneResult, path: &Path) -> Result<LoadedScene> {
     let document = InputDocument::new(
         format!("scene inside {}", path.display()),
         result.scene_toml.clone(),

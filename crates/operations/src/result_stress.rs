@@ -1,7 +1,7 @@
 //! The stress of a result's gears for its page: of each gear at the moment at which its roots are stressed most, or at one that is named.
 
 use crate::cross_section::{CROSS_SECTION, FieldCase, largest_torque, nearest_angle, picture};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::result_scene::scene_of;
 use crate::stressed_gear::{Pressed, RootSearch, StressedBody, StressedGear, pressed_at};
 use crate::system_moments::{SystemMoments, WantedMoments, stressed};
@@ -40,7 +40,7 @@ fn worst_moment(
     gear: (&str, &StressedGear),
     moments: &[Pressed],
     watch: &Watch<'_>,
-) -> Result<Option<usize>, Failure> {
+) -> Result<Option<usize>> {
     if moments.len() == 1 {
         return Ok((!moments[0].forces.is_empty()).then_some(0));
     }
@@ -76,7 +76,7 @@ pub fn add_worst(
     moments: &[Pressed],
     when: impl Fn(usize) -> String,
     watch: &Watch<'_>,
-) -> Result<(StressSection, Option<usize>), Failure> {
+) -> Result<(StressSection, Option<usize>)> {
     let Some(worst) = worst_moment((name, gear), moments, watch)? else {
         let words = format!("{name}: nothing presses on its teeth.");
         return Ok(((section.push(Text::note(words)), figures), None));
@@ -98,14 +98,10 @@ pub fn of_pair(
     result: &SceneResult,
     path: &Path,
     watch: &Watch<'_>,
-) -> Result<StressSection, Failure> {
+) -> Result<StressSection> {
     let loaded = scene_of(result, path)?;
     let torque = largest_torque(result);
-    let [gear_1, gear_2] = &result.gears;
-    let gears = [
-        gear_1.definition_in("the result")?,
-        gear_2.definition_in("the result")?,
-    ];
+    let gears = result.definitions()?;
     let angles: Vec<usize> = match a.angle_deg {
         None => (0..result.angles()).collect(),
         Some(wanted) => vec![nearest_angle(result, wanted)],
@@ -159,7 +155,7 @@ pub fn of_system(
     result: &SystemResult,
     path: &Path,
     watch: &Watch<'_>,
-) -> Result<StressSection, Failure> {
+) -> Result<StressSection> {
     if a.angle_deg.is_some() {
         return Err(Failure::input(format!(
             "--stress-angle-deg is for pairs at rest; {} is a multibody result, use --stress-at-s",

@@ -1,6 +1,6 @@
 //! A scene becomes a result.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::watch::Watch;
 use crate::{pair_table, system_figures, system_table};
 use gearmesh_geometry::input::InputDocument;
@@ -61,7 +61,7 @@ impl Ran {
     ///
     /// # Errors
     /// [`Failure`] where the result's file cannot be read.
-    pub fn lines(&self) -> Result<Vec<String>, Failure> {
+    pub fn lines(&self) -> Result<Vec<String>> {
         match self {
             Self::Pair(result) => Ok(pair_table::table(result)),
             Self::System(result) => system_table::table(result),
@@ -72,7 +72,7 @@ impl Ran {
     ///
     /// # Errors
     /// As [`Ran::lines`].
-    pub fn figures(&self) -> Result<Value, Failure> {
+    pub fn figures(&self) -> Result<Value> {
         match self {
             Self::Pair(result) => Ok(pair_figures(result)),
             Self::System(result) => system_figures::figures(result),
@@ -93,7 +93,7 @@ impl Ran {
 ///
 /// # Errors
 /// [`Failure`] for a scene that is wrong or has no solution, and a result that is too large or cannot be written.
-pub fn run(scene: SceneFile, how: &RunHow<'_>, watch: &Watch<'_>) -> Result<Ran, Failure> {
+pub fn run(scene: SceneFile, how: &RunHow<'_>, watch: &Watch<'_>) -> Result<Ran> {
     match scene {
         SceneFile::Pair(scene) => {
             refuse_restart(how)?;
@@ -111,7 +111,7 @@ pub fn run(scene: SceneFile, how: &RunHow<'_>, watch: &Watch<'_>) -> Result<Ran,
     }
 }
 
-fn refuse_restart(how: &RunHow<'_>) -> Result<(), Failure> {
+fn refuse_restart(how: &RunHow<'_>) -> Result<()> {
     match how.restart {
         true => Err(Failure::input(
             "--restart: scenes of a gear pair are not resumed; leave it out",
@@ -124,11 +124,7 @@ fn refuse_restart(how: &RunHow<'_>) -> Result<(), Failure> {
 ///
 /// # Errors
 /// As [`run`].
-pub fn run_pair(
-    loaded: &LoadedScene,
-    how: &RunHow<'_>,
-    watch: &Watch<'_>,
-) -> Result<SceneResult, Failure> {
+pub fn run_pair(loaded: &LoadedScene, how: &RunHow<'_>, watch: &Watch<'_>) -> Result<SceneResult> {
     refuse_restart(how)?;
     loaded.scene.notes.iter().for_each(|note| watch.note(note));
     demand_size(
@@ -147,11 +143,7 @@ pub fn run_pair(
 ///
 /// # Errors
 /// As [`run`].
-pub fn run_bevel(
-    scene: &BevelScene,
-    how: &RunHow<'_>,
-    watch: &Watch<'_>,
-) -> Result<SceneResult, Failure> {
+pub fn run_bevel(scene: &BevelScene, how: &RunHow<'_>, watch: &Watch<'_>) -> Result<SceneResult> {
     refuse_restart(how)?;
     let loaded = scene.load(&ModelShelf::default())?;
     let assembled = scene.assembled().map_err(Failure::work)?;
@@ -171,11 +163,7 @@ fn with_torques<T>(watch: &Watch<'_>, run: impl FnOnce(&(dyn Fn(usize, usize) + 
 }
 
 /// Writes a pair's result where a file is named, and tells its warnings.
-fn written(
-    result: SceneResult,
-    how: &RunHow<'_>,
-    watch: &Watch<'_>,
-) -> Result<SceneResult, Failure> {
+fn written(result: SceneResult, how: &RunHow<'_>, watch: &Watch<'_>) -> Result<SceneResult> {
     watch.go_on()?;
     if let Some(output) = how.output {
         result.write(output)?;
@@ -194,7 +182,7 @@ pub fn run_system(
     loaded: LoadedSystem,
     how: &RunHow<'_>,
     watch: &Watch<'_>,
-) -> Result<SystemResult, Failure> {
+) -> Result<SystemResult> {
     let output = how.output.ok_or_else(|| {
         Failure::input("output: the result of a multibody scene is a file; name it")
     })?;
@@ -249,7 +237,7 @@ fn demand_size(
     place: (&InputDocument, &str),
     how: &RunHow<'_>,
     watch: &Watch<'_>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     demand_result_size(place, ("the result", bytes), 1e9 * how.most_result_gb)?;
     if bytes >= WORTH_A_WORD {
         watch.note(format!("the result will have {}", megabytes(bytes)));

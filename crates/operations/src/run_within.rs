@@ -1,7 +1,7 @@
 //! A scene is run in the cheapest setting that is found to be exact enough.
 
 use crate::accuracy::{AccuracyRequest, bench_of, by_column};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::reduce::reduced_for_study;
 use crate::run::{Ran, RunHow, run};
 use crate::scratch::Scratch;
@@ -22,7 +22,7 @@ pub fn run_within(
     goal: f64,
     how: &RunHow<'_>,
     watch: &Watch<'_>,
-) -> Result<(Ran, Chosen), Failure> {
+) -> Result<(Ran, Chosen)> {
     // A file that is no scene is refused before any setting is run.
     SceneFile::read(&a.scene)?;
     let scratch = Scratch::new()?;

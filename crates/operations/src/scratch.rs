@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 
 static ALL: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
@@ -16,7 +16,7 @@ impl Scratch {
     ///
     /// # Errors
     /// [`Failure`] where the system refuses it.
-    pub fn new() -> Result<Self, Failure> {
+    pub fn new() -> Result<Self> {
         let path = tempfile::tempdir().map_err(Failure::work)?.keep();
         let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
         all.push(path.clone());

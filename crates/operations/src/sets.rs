@@ -5,10 +5,10 @@ use gearmesh_report::short;
 use gearmesh_scene::system_run::{MeshShares, SetFigures, SystemResult};
 use serde_json::{Map, Value, json};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 
 /// A line a planet; nothing of a scene without planetary sets.
-pub fn lines(result: &SystemResult) -> Result<Vec<String>, Failure> {
+pub fn lines(result: &SystemResult) -> Result<Vec<String>> {
     let sets = result.sets().map_err(Failure::work)?;
     Ok(sets.iter().flat_map(of_set).collect())
 }
@@ -91,7 +91,7 @@ fn of_set(found: &SetFigures) -> Vec<String> {
 }
 
 /// For `--json`: the figures of each set by its name; null of a scene without.
-pub fn json(result: &SystemResult) -> Result<Value, Failure> {
+pub fn json(result: &SystemResult) -> Result<Value> {
     let sets = result.sets().map_err(Failure::work)?;
     if sets.is_empty() {
         return Ok(Value::Null);

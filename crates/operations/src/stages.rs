@@ -4,13 +4,13 @@ use gearmesh_report::short;
 use gearmesh_scene::system_run::SystemResult;
 use serde_json::{Map, Value, json};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 
 /// Stages side by side.
 const MOST_STAGES: usize = 6;
 
 /// A line a figure, a column a stage; nothing of a scene without gear meshes.
-pub fn lines(result: &SystemResult) -> Result<Vec<String>, Failure> {
+pub fn lines(result: &SystemResult) -> Result<Vec<String>> {
     let Some(table) = result.stages().map_err(Failure::work)? else {
         return Ok(Vec::new());
     };
@@ -41,7 +41,7 @@ pub fn lines(result: &SystemResult) -> Result<Vec<String>, Failure> {
 }
 
 /// For `--json`: the figures of each stage by the name of its mesh; null of a scene without gear meshes.
-pub fn json(result: &SystemResult) -> Result<Value, Failure> {
+pub fn json(result: &SystemResult) -> Result<Value> {
     let Some(table) = result.stages().map_err(Failure::work)? else {
         return Ok(Value::Null);
     };

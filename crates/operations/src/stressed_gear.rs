@@ -12,7 +12,7 @@ mod tooth;
 pub use root_search::RootSearch;
 pub use tooth::{GaugeReading, RootFace, ToothFrame};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::watch::Watch;
 use gearmesh_bevel::BevelGear;
 use gearmesh_contact::ProfileHats;
@@ -75,7 +75,7 @@ pub enum StressedBody {
 }
 
 /// The bevel gear of a reduced model, from the texts that it keeps; `file` names the model in messages.
-pub fn bevel_gear_of(model: &ReducedGear, file: &str) -> Result<BevelGear, Failure> {
+pub fn bevel_gear_of(model: &ReducedGear, file: &str) -> Result<BevelGear> {
     let bevel = model.bevel.as_ref().ok_or_else(|| {
         Failure::input(format!(
             "{file}: found a cylindrical gear, allowed is a reduced bevel gear"
@@ -108,7 +108,7 @@ pub fn pressed_at(moment: &Moment, gear: usize) -> Pressed {
 
 impl StressedGear {
     /// Meshes and factorises a cylindrical gear.
-    pub fn of_gear(gear: &GearDefinition, watch: &Watch<'_>) -> Result<Self, Failure> {
+    pub fn of_gear(gear: &GearDefinition, watch: &Watch<'_>) -> Result<Self> {
         let python = watch.python()?;
         let body = watch.offline(&gear.name, |told| GearBody::new(gear, &python, told))?;
         let grid = flank_grid(gear);
@@ -125,7 +125,7 @@ impl StressedGear {
     }
 
     /// Meshes and factorises a reduced bevel gear again.
-    pub fn of_bevel(model: &ReducedGear, file: &str, watch: &Watch<'_>) -> Result<Self, Failure> {
+    pub fn of_bevel(model: &ReducedGear, file: &str, watch: &Watch<'_>) -> Result<Self> {
         let gear = bevel_gear_of(model, file)?;
         let body = watch.offline(&gear.name, |told| bevel_body(&gear, told))?;
         Ok(Self {
@@ -146,7 +146,7 @@ impl StressedGear {
     }
 
     /// Forces on the unit loads of the flanks.
-    pub fn grid_forces(&self, forces: &[PlacedForce]) -> Result<Vec<GridForce>, Failure> {
+    pub fn grid_forces(&self, forces: &[PlacedForce]) -> Result<Vec<GridForce>> {
         if let Some(force) = forces.iter().find(|f| self.hats[f.side as usize].is_none()) {
             let problem = format!(
                 "the reduced gear carries no loads on its {} flanks; reduce it with both",
@@ -169,7 +169,7 @@ impl StressedGear {
     }
 
     /// Von Mises stress in the middles of the surface's faces \[Pa\].
-    pub fn stress(&self, pressed: &Pressed) -> Result<Vec<f64>, Failure> {
+    pub fn stress(&self, pressed: &Pressed) -> Result<Vec<f64>> {
         if pressed.forces.is_empty() && pressed.bore_m.is_empty() {
             return Ok(vec![0.0; self.faces.len()]);
         }
@@ -182,7 +182,7 @@ impl StressedGear {
     }
 
     /// Displacement of all degrees of freedom \[m\].
-    pub fn displacement_m(&self, pressed: &Pressed) -> Result<Vec<f64>, Failure> {
+    pub fn displacement_m(&self, pressed: &Pressed) -> Result<Vec<f64>> {
         let forces = self.grid_forces(&pressed.forces)?;
         match &self.body {
             StressedBody::Cylindrical(_, body) => {
@@ -211,12 +211,12 @@ impl StressedGear {
     }
 
     /// The whole field.
-    pub fn field(&self, pressed: &Pressed) -> Result<Field, Failure> {
+    pub fn field(&self, pressed: &Pressed) -> Result<Field> {
         Ok(Field::new(self.model(), &self.displacement_m(pressed)?)?)
     }
 
     /// The surface of the elements, to be drawn.
-    pub fn surface(&self) -> Result<GearSurface, Failure> {
+    pub fn surface(&self) -> Result<GearSurface> {
         match &self.body {
             StressedBody::Cylindrical(gear, body) => {
                 let curve = ProfileCurve::new(&gear.profile);
@@ -241,7 +241,7 @@ pub fn bevel_surface(
     gear: &BevelGear,
     mesh: &BevelMesh,
     faces: &[SkinFace],
-) -> Result<GearSurface, Failure> {
+) -> Result<GearSurface> {
     let patch = |side| gear.patch(side).map_err(Failure::work);
     let patches = [patch(Flank::Right)?, patch(Flank::Left)?];
     let width_m = gear.blank().face_width_m;

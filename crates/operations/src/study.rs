@@ -1,6 +1,6 @@
 //! A scene again and again with some of its keys changed.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::page_file;
 use crate::reduce::reduced_for_study;
 use crate::watch::Watch;
@@ -14,7 +14,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`Failure`] before the first case where the study or one of its scenes is wrong, and where files cannot be written.
-pub fn study(study: &Study, folder: &Path, watch: &Watch<'_>) -> Result<StudyOutcome, Failure> {
+pub fn study(study: &Study, folder: &Path, watch: &Watch<'_>) -> Result<StudyOutcome> {
     let task = watch.listener.begin("study");
     let progress = |done: usize, count: usize| task.advance(done as f64, count as f64);
     let options = StudyOptions {
@@ -45,19 +45,14 @@ pub fn gather(
     folder: &Path,
     failures: &BTreeMap<String, String>,
     watch: &Watch<'_>,
-) -> Result<StudyOutcome, Failure> {
+) -> Result<StudyOutcome> {
     let outcome = gather_study(study, folder, failures)?;
     conclude(study, &outcome, folder, watch)?;
     Ok(outcome)
 }
 
 /// Writes the page, and warns of pressures that no steel carries.
-fn conclude(
-    study: &Study,
-    outcome: &StudyOutcome,
-    folder: &Path,
-    watch: &Watch<'_>,
-) -> Result<(), Failure> {
+fn conclude(study: &Study, outcome: &StudyOutcome, folder: &Path, watch: &Watch<'_>) -> Result<()> {
     let page = study_page(study, &outcome.cases);
     page_file::write(&page, &folder.join("study.html"), watch)?;
     let pressures = outcome.cases.iter().filter_map(|case| {

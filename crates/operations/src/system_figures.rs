@@ -6,14 +6,14 @@ use gearmesh_model::Column;
 use gearmesh_scene::system_run::{Figures, ResultKind, SweepResult, SystemResult, is_overdamped};
 use serde_json::{Value, json};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::{losses, sets, stages};
 
 /// All figures of a run.
 ///
 /// # Errors
 /// [`Failure`] where the result's file cannot be read.
-pub fn figures(result: &SystemResult) -> Result<Value, Failure> {
+pub fn figures(result: &SystemResult) -> Result<Value> {
     let mut value = json!({"title": result.head.title, "kind": result.kind.to_string(), "notes": result.head.notes});
     if let Some(record) = &result.record {
         let entries = record
@@ -45,7 +45,7 @@ pub fn figures(result: &SystemResult) -> Result<Value, Failure> {
                 Ok((column.name.clone(), json!(values)))
             };
             let columns = result.rows.columns().iter().map(read);
-            json!({"columns": Value::Object(columns.collect::<Result<_, Failure>>()?)})
+            json!({"columns": Value::Object(columns.collect::<Result<_>>()?)})
         }
         ResultKind::Eigen => of_points(result),
     };
@@ -55,7 +55,7 @@ pub fn figures(result: &SystemResult) -> Result<Value, Failure> {
     Ok(value)
 }
 
-fn of_rows(result: &SystemResult) -> Result<Value, Failure> {
+fn of_rows(result: &SystemResult) -> Result<Value> {
     let passings = result.mesh_passings().map_err(Failure::work)?;
     let columns = result.summaries(|_| true).map_err(Failure::work)?;
     let columns = columns.iter().map(|c| {

@@ -1,6 +1,6 @@
 //! Moments of a multibody result: gears where their bodies are, line loads and pressures computed again from places and speeds.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::stressed_gear::{StressedGear, bevel_gear_of, bevel_surface};
 use crate::watch::Watch;
 use gearmesh_geometry::input::InputDocument;
@@ -49,11 +49,7 @@ pub struct SystemMoments {
 
 impl SystemMoments {
     /// Reads the columns of all gears and builds their meshes.
-    pub fn new(
-        a: &WantedMoments<'_>,
-        result: &SystemResult,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Failure> {
+    pub fn new(a: &WantedMoments<'_>, result: &SystemResult, watch: &Watch<'_>) -> Result<Self> {
         let shown = a.result.display();
         let axis = match result.kind {
             ResultKind::Transient => "time_s",
@@ -118,7 +114,7 @@ impl SystemMoments {
     ///
     /// # Errors
     /// [`Failure`] naming the result.
-    pub fn demand_gears(&self, file: &Path) -> Result<(), Failure> {
+    pub fn demand_gears(&self, file: &Path) -> Result<()> {
         if self.gears.gears.is_empty() {
             return Err(Failure::input(format!(
                 "{}: no body of the scene is a cylindrical gear or has a reduced bevel gear (bevel_models)",
@@ -149,7 +145,7 @@ impl SystemMoments {
     }
 
     /// The moment of a row.
-    pub fn moment(&mut self, row: usize) -> Result<Moment, Failure> {
+    pub fn moment(&mut self, row: usize) -> Result<Moment> {
         let state = |columns: &Vec<Vec<f64>>| {
             let values: Vec<f64> = columns.iter().map(|column| column[row]).collect();
             GearState::from_values(&values)
@@ -195,12 +191,12 @@ impl SystemMoments {
 ///
 /// # Errors
 /// [`Failure`] for files that are not as they were in the run.
-pub fn machine_of(a: &WantedMoments<'_>, result: &SystemResult) -> Result<GearsInMotion, Failure> {
+pub fn machine_of(a: &WantedMoments<'_>, result: &SystemResult) -> Result<GearsInMotion> {
     Ok(loaded_of(a, result)?.gears_in_motion()?)
 }
 
 /// Times of the equilibria of a series \[s\], by which rollers have gone round.
-fn times_of_points(loaded: LoadedSystem) -> Result<Vec<f64>, Failure> {
+fn times_of_points(loaded: LoadedSystem) -> Result<Vec<f64>> {
     match RunJob::from_scene(loaded).map_err(Failure::input)?.kind {
         RunKind::Static(job) => Ok(job.points.iter().map(|point| point.time_s).collect()),
         RunKind::Transient(_) | RunKind::SpeedSweep(_) | RunKind::Eigen(_) => Ok(Vec::new()),
@@ -208,7 +204,7 @@ fn times_of_points(loaded: LoadedSystem) -> Result<Vec<f64>, Failure> {
 }
 
 /// The scene of a result with its gears.
-fn loaded_of(a: &WantedMoments<'_>, result: &SystemResult) -> Result<LoadedSystem, Failure> {
+fn loaded_of(a: &WantedMoments<'_>, result: &SystemResult) -> Result<LoadedSystem> {
     let folder = scene_folder(a, result)?;
     let document = InputDocument::new(
         format!("scene inside {}", a.result.display()),
@@ -219,7 +215,7 @@ fn loaded_of(a: &WantedMoments<'_>, result: &SystemResult) -> Result<LoadedSyste
 }
 
 /// A gear as it is drawn without stress.
-pub fn surface(gear: &MovingGear) -> Result<GearSurface, Failure> {
+pub fn surface(gear: &MovingGear) -> Result<GearSurface> {
     match &gear.shape {
         MovingShape::Cylindrical(definition) => {
             let width_m = definition.tooth.face_width_m;
@@ -237,7 +233,7 @@ pub fn surface(gear: &MovingGear) -> Result<GearSurface, Failure> {
 }
 
 /// A gear's body, factorised.
-pub fn stressed(gear: &MovingGear, watch: &Watch<'_>) -> Result<StressedGear, Failure> {
+pub fn stressed(gear: &MovingGear, watch: &Watch<'_>) -> Result<StressedGear> {
     match &gear.shape {
         MovingShape::Cylindrical(definition) => {
             Ok(StressedGear::of_gear(definition, watch)?.on_bore(gear.bore.clone()))
@@ -249,7 +245,7 @@ pub fn stressed(gear: &MovingGear, watch: &Watch<'_>) -> Result<StressedGear, Fa
 }
 
 /// The folder from which the scene names the files that the result was computed with.
-fn scene_folder(a: &WantedMoments<'_>, result: &SystemResult) -> Result<PathBuf, Failure> {
+fn scene_folder(a: &WantedMoments<'_>, result: &SystemResult) -> Result<PathBuf> {
     let beside = a.result.parent().unwrap_or(Path::new("")).to_owned();
     let candidates = match a.scene_folder {
         Some(folder) => vec![folder.to_owned()],

@@ -9,7 +9,7 @@ use gearmesh_scene::system_run::{
     is_overdamped, is_prominent, rank, shares_in_words, stem,
 };
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::periods::MARK;
 use crate::{losses, mesh_axes, ratings, sets, stages};
 
@@ -23,7 +23,7 @@ const MOST_COLUMNS: usize = 5;
 const MOST_SHARES: usize = 3;
 
 /// The figures for people.
-pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
+pub fn table(result: &SystemResult) -> Result<Vec<String>> {
     let mut lines = vec![format!("{}: {}", result.head.title, result.kind)];
     lines.extend(sets::lines(result)?);
     lines.extend(match result.kind {
@@ -74,7 +74,7 @@ fn effort(r: &RunRecord, relative_energy_error: f64) -> Vec<String> {
     ]
 }
 
-fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
+fn columns(result: &SystemResult) -> Result<Vec<String>> {
     let found = result.summaries(is_prominent).map_err(Failure::work)?;
     let passings = result.mesh_passings().map_err(Failure::work)?;
     let all = found.len();
@@ -191,7 +191,7 @@ fn last_parts(name: &str) -> String {
 }
 
 /// One line a column: the value where there is one equilibrium, mean and extremes over several.
-fn equilibria(result: &SystemResult) -> Result<Vec<String>, Failure> {
+fn equilibria(result: &SystemResult) -> Result<Vec<String>> {
     let wanted = |name: &str| is_prominent(name) || name.ends_with("/turn_rad");
     let found = foremost(result.summaries(wanted).map_err(Failure::work)?);
     let rows = result.rows.rows();

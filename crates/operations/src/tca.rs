@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::bevel_pair::{thickness_figures, thickness_words};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::tca_sides::{
     NO_MEAN, Side, backlash_words, edge_words, figures, headline, moves, side, vh_rows,
     worth_of_points,
@@ -32,7 +32,7 @@ pub struct TcaRequest {
 ///
 /// # Errors
 /// [`Failure`] for a pair that cannot be made or does not touch, and for files that cannot be read or written.
-pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
+pub fn tca(a: &TcaRequest, watch: &Watch<'_>) -> Result<Answer> {
     if let Some(path) = &a.report {
         overwriting::refuse(vec![a.pair.clone()], std::slice::from_ref(path))?;
         output_name::demand_report(path)?;

@@ -1,6 +1,6 @@
 //! The page of a tooth contact analysis: contact pattern, transmission error, ease-off, and what assembly errors do.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::page_file;
 use crate::tca_sides::{NO_MEAN, Side, headline, moves, vh_rows, worth_of_points};
 use crate::watch::Watch;
@@ -38,17 +38,12 @@ pub struct Analysed<'a> {
 ///
 /// # Errors
 /// [`Failure`] where the page cannot be made or the file not be written.
-pub fn write(
-    of: &Analysed<'_>,
-    pair: &Path,
-    path: &Path,
-    watch: &Watch<'_>,
-) -> Result<(), Failure> {
+pub fn write(of: &Analysed<'_>, pair: &Path, path: &Path, watch: &Watch<'_>) -> Result<()> {
     let page = page(of, pair)?;
     page_file::write(&page, path, watch)
 }
 
-fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page, Failure> {
+fn page(of: &Analysed<'_>, pair: &Path) -> Result<Page> {
     let page = Page::new(of.file.title.clone()).subtitle(format!(
         "Tooth contact analysis: {}, without load",
         of.sides[0].name()
@@ -302,8 +297,7 @@ fn assembly_errors(section: Section, side: &Side<'_>) -> Section {
                 side.name()
             ))
             .column("by", Align::Left)
-            .column("along the tooth", Align::Right)
-            .column("up the flank", Align::Right);
+            .columns(Align::Right, ["along the tooth", "up the flank"]);
             for (name, [along, up]) in moves(moved) {
                 table.push_row([name.to_owned(), short(along), short(up)]);
             }

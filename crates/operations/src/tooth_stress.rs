@@ -1,6 +1,6 @@
 //! Pictures of the stress in a loaded tooth and its neighbours, for the pages of `report` and `tca`: from the side that is pressed, and in the middle of the face.
 
-use crate::failure::Failure;
+use crate::failure::Result;
 use crate::stressed_gear::{GaugeReading, Pressed, RootFace, StressedGear, ToothFrame};
 use gearmesh_fe::von_mises;
 use gearmesh_geometry::Flank;
@@ -29,7 +29,7 @@ pub struct LoadedGear<'a> {
 }
 
 /// The largest of a root's stresses, and where.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Largest {
     mpa: f64,
     at_m: [f64; 3],
@@ -44,28 +44,22 @@ pub const WORDS: &str = "Stress of the finite elements under the forces of all p
      one stands for.";
 
 /// The stress of one side's root.
-fn root_stress(of: &LoadedGear<'_>, root: &[RootFace], u: &[f64]) -> Result<Pair, Failure> {
+fn root_stress(of: &LoadedGear<'_>, root: &[RootFace], u: &[f64]) -> Result<Pair> {
     let faces: Vec<_> = root.iter().map(|r| r.face.clone()).collect();
     let stress = stress_on_faces(of.stressed.model(), &faces, u)?;
     let largest = |value: OfStress| {
         let values = stress.iter().map(|s| 1e-6 * value(s)).zip(root);
         let found = values.max_by(|a, b| a.0.total_cmp(&b.0));
-        found.map_or(
-            Largest {
-                mpa: 0.0,
-                at_m: [0.0; 3],
-            },
-            |(mpa, root)| Largest {
-                mpa,
-                at_m: root.middle_m,
-            },
-        )
+        found.map_or(Largest::default(), |(mpa, root)| Largest {
+            mpa,
+            at_m: root.middle_m,
+        })
     };
     Ok([largest(von_mises), largest(first_principal_pa)])
 }
 
 /// Adds a table and the pictures of a gear; and the figures for other programs.
-pub fn add(section: Section, of: &LoadedGear<'_>) -> Result<(Section, Value), Failure> {
+pub fn add(section: Section, of: &LoadedGear<'_>) -> Result<(Section, Value)> {
     let u = of.stressed.displacement_m(of.pressed)?;
     let Some(worst) = WorstTooth::new(of, &u)? else {
         let words = format!("{}: nothing presses on its teeth, {}.", of.name, of.when);
@@ -90,7 +84,7 @@ struct WorstTooth {
 
 impl WorstTooth {
     /// None where nothing presses.
-    fn new(of: &LoadedGear<'_>, u: &[f64]) -> Result<Option<Self>, Failure> {
+    fn new(of: &LoadedGear<'_>, u: &[f64]) -> Result<Option<Self>> {
         let gear = of.stressed;
         let mut loaded: Vec<(usize, Flank)> = of
             .pressed
@@ -153,7 +147,7 @@ impl WorstTooth {
         of: &LoadedGear<'_>,
         u: &[f64],
         mut section: Section,
-    ) -> Result<Section, Failure> {
+    ) -> Result<Section> {
         let (gear, side) = (of.stressed, self.side);
         let frame = gear.frame(self.tooth, side);
         let view = seen_along(&frame, FROM_SIDE);
@@ -189,7 +183,7 @@ impl WorstTooth {
         of: &LoadedGear<'_>,
         u: &[f64],
         mut section: Section,
-    ) -> Result<Section, Failure> {
+    ) -> Result<Section> {
         let (gear, tooth) = (of.stressed, self.tooth);
         let half = Shown::new(of, tooth, u, StressedGear::half_cell_elements)?;
         let frame = gear.frame(tooth, self.side);
@@ -265,7 +259,7 @@ impl<'a> Shown<'a> {
         tooth: usize,
         displacement_m: &[f64],
         elements: fn(&StressedGear, usize) -> Vec<u32>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let (gear, teeth) = (of.stressed, of.stressed.teeth());
         let shown = [tooth + teeth - 1, tooth, tooth + 1];
         let elements: Vec<u32> = (shown.iter())

@@ -1,6 +1,6 @@
 //! Universal files (data set 58) of measuring programs, read by pyuff in a Python process.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::watch::Watch;
 use gearmesh_geometry::input::{MOST_TEXT_BYTES, demand_readable};
 use gearmesh_mesh::python::PythonError;
@@ -13,7 +13,7 @@ const READ: &str = include_str!("uff/read.py");
 ///
 /// # Errors
 /// [`Failure`] where Python or pyuff is missing, or the file is no universal file with functions, is cut, or holds what is no number.
-pub fn read(path: &Path, watch: &Watch<'_>) -> Result<Vec<Function>, Failure> {
+pub fn read(path: &Path, watch: &Watch<'_>) -> Result<Vec<Function>> {
     demand_readable(path, MOST_TEXT_BYTES)
         .map_err(|error| Failure::input(format!("{}: {error}", path.display())))?;
     let task = format!("reading {}", path.display());

@@ -9,7 +9,7 @@ use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_reduction::Progress;
 use gearmesh_scene::pair::warnings::{ColumnPressure, yielding_in_words};
 
-use crate::failure::{Failure, NOTHING_WRITTEN};
+use crate::failure::{Failure, NOTHING_WRITTEN, Result};
 
 /// Hears what an operation says. A door prints it, draws it, or keeps it for later.
 pub trait Listener: Sync {
@@ -92,9 +92,8 @@ impl Watch<'_> {
 
     /// The column with the largest pressure, where steel yields under it.
     pub fn yielding(&self, column: Option<&ColumnPressure>) {
-        column
-            .into_iter()
-            .for_each(|one| self.warning(yielding_in_words(one)));
+        let column = column.into_iter();
+        column.for_each(|one| self.warning(yielding_in_words(one)));
     }
 
     /// Numbers that look like those of another unit.
@@ -112,7 +111,7 @@ impl Watch<'_> {
     ///
     /// # Errors
     /// [`Failure::stopped`] once the operation shall stop.
-    pub fn go_on(&self) -> Result<(), Failure> {
+    pub fn go_on(&self) -> Result<()> {
         match self.is_stopped() {
             true => Err(Failure::stopped(NOTHING_WRITTEN)),
             false => Ok(()),
@@ -123,7 +122,7 @@ impl Watch<'_> {
     ///
     /// # Errors
     /// [`Failure`] where none is found.
-    pub fn python(&self) -> Result<PythonEnvironment, Failure> {
+    pub fn python(&self) -> Result<PythonEnvironment> {
         match self.python {
             Some(interpreter) => Ok(PythonEnvironment::at(interpreter.to_owned())),
             None => PythonEnvironment::find().map_err(Failure::work),
@@ -140,7 +139,7 @@ impl Watch<'_> {
         &self,
         title: &str,
         work: impl FnOnce(&dyn Progress) -> Result<T, E>,
-    ) -> Result<T, Failure>
+    ) -> Result<T>
     where
         Failure: From<E>,
     {

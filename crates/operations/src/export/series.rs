@@ -3,7 +3,7 @@
 use super::ExportRequest;
 use crate::answer::Answer;
 use crate::cross_section::asked_torque;
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::result_scene::scene_of;
 use crate::stressed_gear::{StressedGear, pressed_at};
 use crate::system_moments::{SystemMoments, WantedMoments, stressed, surface};
@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 const MOMENTS: usize = 100;
 
 /// Writes the moments of a result.
-pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
+pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer> {
     match ResultFile::open(&a.result).map_err(Failure::input)? {
         ResultFile::Pair(result) => pair(a, &result, watch),
         ResultFile::System(result) => {
@@ -56,7 +56,7 @@ pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer, Fail
     }
 }
 
-fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<Answer, Failure> {
+fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<Answer> {
     for (name, given) in [
         ("--from-s", a.from_s.is_some()),
         ("--to-s", a.to_s.is_some()),
@@ -73,17 +73,13 @@ fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<An
     }
     let torque = asked_torque(result, "--torque-Nm", a.torque_Nm)?;
     let loaded = scene_of(result, &a.result)?;
-    let [gear_1, gear_2] = &result.gears;
-    let gears = [
-        gear_1.definition_in("the result")?,
-        gear_2.definition_in("the result")?,
-    ];
+    let gears = result.definitions()?;
     let asked = gears.iter().zip(&loaded.bores).filter(|_| a.stress);
     let stressed = asked.map(|(gear, bore)| {
         let stressed = StressedGear::of_gear(gear, watch)?;
         Ok(stressed.on_bore(bore.clone()))
     });
-    let stressed: Vec<_> = stressed.collect::<Result<_, Failure>>()?;
+    let stressed: Vec<_> = stressed.collect::<Result<_>>()?;
     let surfaces = match &stressed[..] {
         [] => pair_surfaces(&loaded, gears).to_vec(),
         stressed => (stressed.iter().map(StressedGear::surface)).collect::<Result<_, _>>()?,
@@ -100,7 +96,7 @@ fn pair(a: &ExportRequest, result: &SceneResult, watch: &Watch<'_>) -> Result<An
 }
 
 /// Adds the stress of each gear under the forces on its flanks, where gears are given.
-fn with_stress(mut moment: Moment, gears: &[StressedGear]) -> Result<Moment, Failure> {
+fn with_stress(mut moment: Moment, gears: &[StressedGear]) -> Result<Moment> {
     for (number, gear) in gears.iter().enumerate() {
         let pressed = pressed_at(&moment, number);
         moment.von_mises_pa.push(gear.stress(&pressed)?);
@@ -127,8 +123,8 @@ fn write_moments(
     surfaces: &[GearSurface],
     unit: &str,
     count: usize,
-    mut moment: impl FnMut(usize) -> Result<Moment, Failure>,
-) -> Result<Answer, Failure> {
+    mut moment: impl FnMut(usize) -> Result<Moment>,
+) -> Result<Answer> {
     let folder = frames_folder(&a.output)?;
     let name = folder
         .file_name()
@@ -166,14 +162,12 @@ fn write_moments(
     ));
     let at: Vec<f64> = files.iter().map(|(at, _)| *at).collect();
     let paths: Vec<&String> = files.iter().map(|(_, file)| file).collect();
-    Ok(Answer {
-        figures: json!({ "file": a.output, "moments": at, "unit": unit, "files": paths }),
-        lines: Vec::new(),
-    })
+    let figures = json!({ "file": a.output, "moments": at, "unit": unit, "files": paths });
+    Ok(figures.into())
 }
 
 /// The folder beside the file; one that is there must hold nothing but moments of an earlier export.
-fn frames_folder(output: &Path) -> Result<PathBuf, Failure> {
+fn frames_folder(output: &Path) -> Result<PathBuf> {
     let stem = output.file_stem().unwrap_or_default().to_string_lossy();
     let folder = output.with_file_name(format!("{stem}_moments"));
     let Ok(found) = folder.symlink_metadata() else {

@@ -2,7 +2,7 @@
 
 use super::ExportRequest;
 use crate::answer::Answer;
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::gear_file::{AnyGear, GearFile};
 use crate::watch::Watch;
 use gearmesh_bevel::{SlotSection, SolidOutline};
@@ -24,7 +24,7 @@ const SECTION_TURN_RAD: f64 = 0.06;
 const CHECKED: [usize; 2] = [13, 7];
 
 /// Writes the solid of a gear file.
-pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer, Failure> {
+pub(super) fn write(a: &ExportRequest, watch: &Watch<'_>) -> Result<Answer> {
     if a.result.extension().is_some_and(|e| e == "h5") {
         let shown = a.result.display();
         return Err(Failure::input(format!(
@@ -72,7 +72,7 @@ struct Solid {
 
 impl Solid {
     /// Of a cylindrical gear's file or a bevel gear's.
-    fn read(path: &Path, watch: &Watch<'_>) -> Result<Self, Failure> {
+    fn read(path: &Path, watch: &Watch<'_>) -> Result<Self> {
         match GearFile::read(path, watch)?.gear {
             AnyGear::Bevel(gear) => {
                 let outline = gear.solid_outline();

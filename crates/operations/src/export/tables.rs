@@ -2,7 +2,7 @@
 
 use super::ExportRequest;
 use crate::answer::Answer;
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::watch::Watch;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::write_streamed;
@@ -16,7 +16,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Writes the table that was asked for, or all in a .mat file.
-pub(super) fn write(a: &ExportRequest, ending: &str, watch: &Watch<'_>) -> Result<Answer, Failure> {
+pub(super) fn write(a: &ExportRequest, ending: &str, watch: &Watch<'_>) -> Result<Answer> {
     let opened = Opened::open(&a.result)?;
     let tables = opened.tables()?;
     let names: Vec<&str> = tables.iter().map(|table| &*table.name).collect();
@@ -71,10 +71,7 @@ pub(super) fn write(a: &ExportRequest, ending: &str, watch: &Watch<'_>) -> Resul
             names[1..].join(" ")
         ));
     }
-    Ok(Answer {
-        figures,
-        lines: Vec::new(),
-    })
+    Ok(figures.into())
 }
 
 /// Writes a table as functions over its axis; what has none is refused, and nothing written.
@@ -102,7 +99,7 @@ enum Opened {
 
 impl Opened {
     /// A result, or the folder of a study.
-    fn open(path: &Path) -> Result<Self, Failure> {
+    fn open(path: &Path) -> Result<Self> {
         if path.is_dir() || path.extension().is_some_and(|ending| ending == "csv") {
             let file = if path.is_dir() {
                 path.join("study.csv")
@@ -116,7 +113,7 @@ impl Opened {
     }
 
     /// All tables; the most wanted one first.
-    fn tables(&self) -> Result<Vec<Table<'_>>, Failure> {
+    fn tables(&self) -> Result<Vec<Table<'_>>> {
         match self {
             Self::Study(text, file) => match study_table(text) {
                 Ok(table) => Ok(vec![table]),

@@ -5,7 +5,7 @@
 //! of a held one. What is found picks the moment that is drawn; what is drawn is solved for all loads of that moment.
 
 use super::{Pressed, StressedBody, StressedGear};
-use crate::failure::Failure;
+use crate::failure::Result;
 use gearmesh_bevel::BevelGauge;
 use gearmesh_geometry::{Flank, GaugeDefinition, RootPosition};
 use gearmesh_recovery::PlacedForce;
@@ -32,11 +32,7 @@ pub struct RootSearch<'a> {
 
 impl<'a> RootSearch<'a> {
     /// Solves for the sides that carry loads.
-    pub fn new(
-        gear: &'a StressedGear,
-        sides: &[Flank],
-        progress: &dyn Progress,
-    ) -> Result<Self, Failure> {
+    pub fn new(gear: &'a StressedGear, sides: &[Flank], progress: &dyn Progress) -> Result<Self> {
         let mut readings = [Vec::new(), Vec::new()];
         for &side in sides {
             readings[side as usize] = match gear.critical_rows(side) {
@@ -51,7 +47,7 @@ impl<'a> RootSearch<'a> {
     }
 
     /// The largest strain of a root on the side that is pressed; of a fillet without the tangent the largest force on one tooth.
-    fn largest(&self, forces: &[PlacedForce]) -> Result<f64, Failure> {
+    fn largest(&self, forces: &[PlacedForce]) -> Result<f64> {
         let (teeth, loads) = (self.gear.teeth(), self.gear.grid.len());
         let on_grid = self.gear.grid_forces(forces)?;
         let mut largest = 0.0_f64;
@@ -79,7 +75,7 @@ impl<'a> RootSearch<'a> {
     }
 
     /// Of many sets of forces the one with the largest; none where there are no forces at all.
-    pub fn largest_of(&self, all: &[Pressed]) -> Result<Option<usize>, Failure> {
+    pub fn largest_of(&self, all: &[Pressed]) -> Result<Option<usize>> {
         let mut best = None;
         let mut most = 0.0;
         for (number, pressed) in all.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! One tooth of a stressed gear: the faces of its root, how it stands, gauges put on it, places in words.
 
 use super::{StressedBody, StressedGear};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use gearmesh_geometry::{Flank, ProfileCurve};
 use gearmesh_mesh::OutlineFace;
 use gearmesh_reduction::bevel::gauge::bevel_gauge_row;
@@ -123,7 +123,7 @@ impl StressedGear {
     }
 
     /// Faces below the flank on one side of a tooth: fillet and bottom of the space, as far as they belong to it.
-    pub fn root(&self, tooth: usize, side: Flank) -> Result<Vec<RootFace>, Failure> {
+    pub fn root(&self, tooth: usize, side: Flank) -> Result<Vec<RootFace>> {
         let faces = self.outline(tooth, side);
         let below: Vec<OutlineFace> = match &self.body {
             StressedBody::Cylindrical(gear, _) => {
@@ -209,11 +209,7 @@ impl StressedGear {
     }
 
     /// What all gauges of the gear would read on this tooth.
-    pub fn gauges_on(
-        &self,
-        tooth: usize,
-        displacement_m: &[f64],
-    ) -> Result<Vec<GaugeReading>, Failure> {
+    pub fn gauges_on(&self, tooth: usize, displacement_m: &[f64]) -> Result<Vec<GaugeReading>> {
         let mut rows = Vec::new();
         match &self.body {
             StressedBody::Cylindrical(gear, body) => {
