@@ -209,7 +209,7 @@ impl PairSession {
                 .filter_map(|(key, value)| Some((key, value.as_str()?)));
             let tags = tags.map(|(key, word)| (key.clone(), toml::Value::String(word.to_owned())));
             for (key, value) in tags.chain([(key.clone(), value)]) {
-                case.settings.push(setting(&key, value));
+                case.settings.push(Setting::of(&key, value));
             }
         }
         for key in &change.removed {
@@ -221,7 +221,7 @@ impl PairSession {
             if let Kind::PitchErrors(_) = field.kind {
                 // Other errors of the gear stay.
                 case.settings
-                    .push(setting(key, self.with_pitch_errors(key, None)));
+                    .push(Setting::of(key, self.with_pitch_errors(key, None)));
                 continue;
             }
             // A table that has lost the key that it needs goes as a whole.
@@ -258,14 +258,6 @@ impl PairSession {
             errors.push(toml::Value::Table(pitch.into_iter().collect()));
         }
         toml::Value::Array(errors)
-    }
-}
-
-fn setting(key: &str, value: toml::Value) -> Setting {
-    Setting {
-        parameter: key.to_owned(),
-        keys: vec![key.to_owned()],
-        value,
     }
 }
 

@@ -19,7 +19,7 @@ use crate::assets;
 use crate::beginning::{self, Edit, NewFiles};
 use crate::bevel::BevelModels;
 use crate::choice::Chosen;
-use crate::columns::{CurvesAsked, StretchAsked};
+use crate::columns::{ColumnsSession, CurvesAsked, StretchAsked};
 use crate::guard::{self, Address};
 use crate::job::Job;
 use crate::latest::Latest;
@@ -53,6 +53,9 @@ pub struct Studio {
 
 type Shared = State<Arc<Studio>>;
 
+/// What most requests are answered with.
+type Answered = Result<Json<Value>, Problem>;
+
 impl Studio {
     /// Shows what was opened.
     pub fn new(opened: Opened, stop: Arc<AtomicBool>) -> Self {
@@ -67,6 +70,27 @@ impl Studio {
 
     fn opened(&self) -> Arc<Opened> {
         Arc::clone(&self.opened.read().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Begins what takes longer, and says how far it is.
+    fn begin(
+        &self,
+        name: &str,
+        work: impl FnOnce(&Watch<'_>) -> Result<Value, Problem> + Send + 'static,
+    ) -> Json<Value> {
+        self.job.begin(name.to_owned(), work);
+        Json(self.job.progress())
+    }
+
+    /// What is found of the columns that are shown, off the loop that answers.
+    async fn of_columns(
+        &self,
+        find: impl FnOnce(&ColumnsSession) -> Result<Value, Problem> + Send + 'static,
+    ) -> Answered {
+        let opened = self.opened();
+        opened.columns()?;
+        let found = self.latest.run(move |_| find(opened.columns()?));
+        Ok(Json(found.await?))
     }
 
     fn open(&self, other: Opened) {
@@ -161,7 +185,7 @@ async fn session(State(studio): Shared) -> Json<Value> {
     Json(json!({"kind": studio.opened().kind(), "version": env!("CARGO_PKG_VERSION")}))
 }
 
-async fn pair(State(studio): Shared) -> Result<Json<Value>, Problem> {
+async fn pair(State(studio): Shared) -> Answered {
     Ok(Json(
         studio.opened().pair()?.description(&Change::default())?,
     ))
@@ -184,17 +208,16 @@ async fn toml(State(studio): Shared, Body(change): Body<Change>) -> Result<Strin
 }
 
 /// The keys and the shapes of changed gears; they may not be reduced yet.
-async fn gears(State(studio): Shared, Body(change): Body<Change>) -> Result<Json<Value>, Problem> {
+async fn gears(State(studio): Shared, Body(change): Body<Change>) -> Answered {
     Ok(Json(studio.opened().pair()?.description(&change)?))
 }
 
-async fn reduce(State(studio): Shared, Body(change): Body<Change>) -> Result<Json<Value>, Problem> {
+async fn reduce(State(studio): Shared, Body(change): Body<Change>) -> Answered {
     studio.opened().pair()?;
     let worker = Arc::clone(&studio);
     let name = format!("reduce {}", change.of_bodies());
     let work = move |watch: &Watch<'_>| worker.opened().pair()?.reduce(&change, watch);
-    studio.job.begin(name, work);
-    Ok(Json(studio.job.progress()))
+    Ok(studio.begin(&name, work))
 }
 
 async fn job(State(studio): Shared) -> Json<Value> {
@@ -206,26 +229,23 @@ async fn stop_job(State(studio): Shared) -> Json<Value> {
     Json(json!({}))
 }
 
-async fn columns(State(studio): Shared) -> Result<Json<Value>, Problem> {
+async fn columns(State(studio): Shared) -> Answered {
     Ok(Json(studio.opened().columns()?.description()))
 }
 
-async fn curves(
-    State(studio): Shared,
-    Body(asked): Body<CurvesAsked>,
-) -> Result<Json<Value>, Problem> {
+async fn curves(State(studio): Shared, Body(asked): Body<CurvesAsked>) -> Answered {
     studio.opened().columns()?;
     let worker = Arc::clone(&studio);
     let curves = (studio.latest).run(move |_| worker.opened().columns()?.curves(&asked));
     Ok(Json(curves.await?))
 }
 
-async fn scene(State(studio): Shared) -> Result<Json<Value>, Problem> {
+async fn scene(State(studio): Shared) -> Answered {
     Ok(Json(studio.opened().scene()?.description()))
 }
 
 /// Runs the scene, and opens its result.
-async fn run(State(studio): Shared) -> Result<Json<Value>, Problem> {
+async fn run(State(studio): Shared) -> Answered {
     let opened = studio.opened();
     opened.scene()?;
     let worker = Arc::clone(&studio);
@@ -234,16 +254,15 @@ async fn run(State(studio): Shared) -> Result<Json<Value>, Problem> {
         worker.open(Opened::named(&result)?);
         Ok(json!({}))
     };
-    studio.job.begin("run".to_owned(), work);
-    Ok(Json(studio.job.progress()))
+    Ok(studio.begin("run", work))
 }
 
-async fn folder(State(studio): Shared) -> Result<Json<Value>, Problem> {
+async fn folder(State(studio): Shared) -> Answered {
     Ok(Json(studio.opened().folder()?.description()))
 }
 
 /// Opens a file of the folder.
-async fn choose(State(studio): Shared, Body(chosen): Body<Chosen>) -> Result<Json<Value>, Problem> {
+async fn choose(State(studio): Shared, Body(chosen): Body<Chosen>) -> Answered {
     let path = studio.opened().folder()?.chosen(&chosen)?.to_owned();
     // Models and results may be long: off the loop that answers.
     let opened = tokio::task::spawn_blocking(move || Opened::named(&path)).await;
@@ -252,11 +271,11 @@ async fn choose(State(studio): Shared, Body(chosen): Body<Chosen>) -> Result<Jso
     Ok(Json(json!({})))
 }
 
-async fn modes(State(studio): Shared) -> Result<Json<Value>, Problem> {
+async fn modes(State(studio): Shared) -> Answered {
     Ok(Json(studio.opened().modes()?.description()))
 }
 
-async fn mode(State(studio): Shared, Body(asked): Body<ModeAsked>) -> Result<Json<Value>, Problem> {
+async fn mode(State(studio): Shared, Body(asked): Body<ModeAsked>) -> Answered {
     Ok(Json(studio.opened().modes()?.frames(&asked)?))
 }
 
@@ -274,56 +293,41 @@ async fn quit(State(studio): Shared) -> Json<Value> {
     Json(json!({}))
 }
 
-async fn waterfall(
-    State(studio): Shared,
-    Body(asked): Body<WaterfallAsked>,
-) -> Result<Json<Value>, Problem> {
-    let opened = studio.opened();
-    opened.columns()?;
-    let found = (studio.latest).run(move |_| opened.columns()?.waterfall(&asked));
-    Ok(Json(found.await?))
+async fn waterfall(State(studio): Shared, Body(asked): Body<WaterfallAsked>) -> Answered {
+    let find = move |columns: &ColumnsSession| columns.waterfall(&asked);
+    studio.of_columns(find).await
 }
 
-async fn planets(
-    State(studio): Shared,
-    Body(asked): Body<StretchAsked>,
-) -> Result<Json<Value>, Problem> {
-    let opened = studio.opened();
-    opened.columns()?;
-    let found = (studio.latest).run(move |_| opened.columns()?.planets(&asked));
-    Ok(Json(found.await?))
+async fn planets(State(studio): Shared, Body(asked): Body<StretchAsked>) -> Answered {
+    let find = move |columns: &ColumnsSession| columns.planets(&asked);
+    studio.of_columns(find).await
 }
 
-async fn moments(
-    State(studio): Shared,
-    Body(asked): Body<StretchAsked>,
-) -> Result<Json<Value>, Problem> {
+async fn moments(State(studio): Shared, Body(asked): Body<StretchAsked>) -> Answered {
     let opened = studio.opened();
     opened.columns()?;
     let name = format!("moments {asked:?}");
     let work = move |watch: &Watch<'_>| opened.columns()?.moments(&asked, watch);
-    studio.job.begin(name, work);
-    Ok(Json(studio.job.progress()))
+    Ok(studio.begin(&name, work))
 }
 
-async fn seek(State(studio): Shared, Body(seek): Body<Seek>) -> Result<Json<Value>, Problem> {
+async fn seek(State(studio): Shared, Body(seek): Body<Seek>) -> Answered {
     let opened = studio.opened();
     opened.pair()?;
     let work = move |watch: &Watch<'_>| opened.pair()?.seek(&seek, watch);
-    studio.job.begin("optimise".to_owned(), work);
-    Ok(Json(studio.job.progress()))
+    Ok(studio.begin("optimise", work))
 }
 
 async fn new(State(studio): Shared) -> Json<Value> {
     Json(beginning::kinds(studio.opened().begun()))
 }
 
-async fn edit(Body(edit): Body<Edit>) -> Result<Json<Value>, Problem> {
+async fn edit(Body(edit): Body<Edit>) -> Answered {
     Ok(Json(beginning::edited(&edit)?))
 }
 
 /// Bearings are computed while one types: off the loop that answers.
-async fn look(State(studio): Shared, Body(files): Body<NewFiles>) -> Result<Json<Value>, Problem> {
+async fn look(State(studio): Shared, Body(files): Body<NewFiles>) -> Answered {
     let worker = Arc::clone(&studio);
     let found = (studio.latest)
         .run(move |watch| beginning::looked_at(&files, &worker.bevel_models, &watch.stop));
@@ -339,8 +343,7 @@ async fn begin(State(studio): Shared, Body(files): Body<NewFiles>) -> Json<Value
         }
         Ok(result)
     };
-    studio.job.begin("begin".to_owned(), work);
-    Json(studio.job.progress())
+    studio.begin("begin", work)
 }
 
 /// Leaves what is shown for something new.
@@ -351,6 +354,5 @@ async fn start(State(studio): Shared) -> Json<Value> {
 
 async fn import(State(studio): Shared, Path(name): Path<String>, bytes: Bytes) -> Json<Value> {
     let work = move |watch: &Watch<'_>| beginning::imported(&name, &bytes, watch);
-    studio.job.begin("import".to_owned(), work);
-    Json(studio.job.progress())
+    studio.begin("import", work)
 }
