@@ -170,7 +170,8 @@ fn outline_points(gear: &GearDefinition, curve: &ProfileCurve, arcs_m: &[f64]) -
             let length = along[0].hypot(along[1]);
             (along.map(|v| v / length), length)
         };
-        let ((before, a), (after, b)) = (side(exact[i - 1], exact[i]), side(exact[i], exact[i + 1]));
+        let ((before, a), (after, b)) =
+            (side(exact[i - 1], exact[i]), side(exact[i], exact[i + 1]));
         for axis in 0..2 {
             let curvature = 2.0 * (after[axis] - before[axis]) / (a + b);
             points[i][axis] -= curvature * (a * a + b * b) / 24.0;

@@ -137,7 +137,10 @@ fn at_centres(faces: &[OutlineFace], along: [f64; 2], across: [f64; 2]) -> Vec<R
         strip.sort_by(|a, b| centre(a)[0].total_cmp(&centre(b)[0]));
         let centres: Vec<f64> = strip.iter().map(|face| centre(face)[0]).collect();
         let shares = curve_integral(&centres, along);
-        let covered = strip.into_iter().zip(shares).filter(|(_, share)| *share != 0.0);
+        let covered = strip
+            .into_iter()
+            .zip(shares)
+            .filter(|(_, share)| *share != 0.0);
         readings.extend(covered.map(|(face, share)| Reading {
             face,
             natural: face.shape.centre(),
@@ -219,7 +222,11 @@ fn curve_integral(x: &[f64], range: [f64; 2]) -> Vec<f64> {
         }
         let far = |a: usize, b: usize| (x[a] - x[b]).abs() >= NEAREST * (x[i + 1] - x[i]);
         let first = if i > 0 && far(i, i - 1) { i - 1 } else { i };
-        let end = if i + 1 < last && far(i + 1, i + 2) { i + 2 } else { i + 1 };
+        let end = if i + 1 < last && far(i + 1, i + 2) {
+            i + 2
+        } else {
+            i + 1
+        };
         // Two Gauss points integrate a cubic exactly.
         for sign in [-1.0, 1.0] {
             let s = 0.5 * (from + to) + sign * 0.5 * (to - from) / f64::sqrt(3.0);

@@ -2,10 +2,9 @@
 //! bearings carry what statics by hand say.
 
 use crate::common::{Desk, argument, gearmesh, succeeds};
-use crate::planetary_rexs::{FACE_MM, FIRST, INPUT, OUTPUT, SECOND, Stage, gearbox};
+use crate::planetary_rexs::{FIRST, INPUT, OUTPUT, SECOND, Stage, gearbox};
 use crate::shipped_gearboxes::coarse;
 use gearmesh_scene::system_run::SystemResult;
-use std::f64::consts::TAU;
 
 /// Bearings of the five shafts within 2 % of the larger one of their shaft by hand, those of suns and carriers within 2
 /// % of the tooth forces and the axial one of itself: planets push sun and carrier sideways by

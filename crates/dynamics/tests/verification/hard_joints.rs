@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 
 use gearmesh_dynamics::{
-    Body, DynamicsError, Joint, JointKind, Marker, Motion, Params, Simulation, System, TimeFunction,
+    Body, BodyId, DynamicsError, Joint, JointKind, Marker, Motion, Params, Simulation, System,
+    TimeFunction,
 };
 use nalgebra::Vector3;
 

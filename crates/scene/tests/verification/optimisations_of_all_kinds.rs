@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::optimise::{Optimisation, optimise};
 
-use crate::studies_of_all_kinds::{BEARING, fe_models, oscillator};
+use crate::studies_of_all_kinds::{BEARING, fe_models, numbers, oscillator, studied};
 
 /// More preload deflects less and presses more: the front of both goes from one bound to the other.
 #[test]

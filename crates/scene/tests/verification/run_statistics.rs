@@ -1,8 +1,8 @@
 //! What a run says of its columns: frequencies, spectra and peaks of all steps, statistics of the steady part.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use gearmesh_dynamics::{Interpolation, Params, System, Table, TimeFunction};
+use gearmesh_dynamics::{Params, System, TimeFunction};
 use gearmesh_scene::system::Start;
 use gearmesh_scene::system_run::*;
 

@@ -12,7 +12,6 @@ use gearmesh_bearings::{
 use gearmesh_bevel::{PairFile, tooth_contact};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::ModelShelf;
-use gearmesh_scene::optimise::{Optimisation, optimise};
 use gearmesh_scene::pair::BevelScene;
 use gearmesh_scene::study::{SelectedValue, Study, StudyOptions, StudyOutcome, run_study};
 
@@ -21,7 +20,7 @@ pub(crate) fn fe_models() -> PathBuf {
 }
 
 /// A study of a scene in `from`, with results in a folder of its own.
-fn studied(from: &Path, text: &str) -> Result<(StudyOutcome, String), String> {
+pub(crate) fn studied(from: &Path, text: &str) -> Result<(StudyOutcome, String), String> {
     let out = tempfile::tempdir().unwrap();
     let document = InputDocument::new("study.toml", format!("title = \"s\"\n{text}"));
     let study = Study::from_document(document, from).map_err(|e| e.to_string())?;
@@ -37,7 +36,7 @@ fn studied(from: &Path, text: &str) -> Result<(StudyOutcome, String), String> {
 }
 
 /// Numbers of a case, column by column.
-fn numbers(outcome: &StudyOutcome, case: usize) -> Vec<f64> {
+pub(crate) fn numbers(outcome: &StudyOutcome, case: usize) -> Vec<f64> {
     let figures = outcome.cases[case].figures.as_ref().unwrap();
     let number = |value: SelectedValue| match value {
         SelectedValue::Single(value) => value,
