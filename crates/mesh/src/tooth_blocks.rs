@@ -1,7 +1,7 @@
 //! One tooth with the ring below it, in blocks that follow its outline.
 //!
 //! ```text
-//!          T-T'----Tc----T'-T          L  four layers of elements along the whole outline
+//!          T-T'----Tc----T'-T          L  three layers of elements along the whole outline
 //!         / |             | \          coreT  inside of the tooth, above the cut
 //!        / L|    coreT    |L \         coreU  below it, down to the ring's inner circle
 //!       /  P'-----Pc-----P'   \        P  where the outline makes 45 degrees with the centre line

@@ -6,9 +6,9 @@ use crate::ring_radius::ring_radius_m;
 use gearmesh_geometry::{GearDefinition, ProfileCurve, RootPosition, ToothGeometry};
 use std::f64::consts::PI;
 
-/// Elements across the layer along the outline. Thinner ones at the surface make the root strain worse: a gauge reads
-/// displacements of the surface, and those are decided by the stiffness of the whole layer.
-const LAYERS: usize = 4;
+/// Elements across the layer along the outline, and their growth inwards.
+const LAYERS: usize = 3;
+const LAYER_GROWTH: f64 = 1.35;
 /// Thickness of that layer in fillet element lengths.
 const LAYER_THICKNESS: f64 = 2.6;
 /// The layer along the outline takes no more than this share of the ring.
@@ -50,17 +50,17 @@ impl HalfLines {
         let (arcs_m, cut_position) = outline_arcs(gear, curve);
         let last = arcs_m.len() - 1;
         let layer = Layer::new(gear);
-        let outline_points = outline_points(gear, curve, &arcs_m);
+        let outline_points: Vec<[f64; 2]> = arcs_m.iter().map(|&s| curve.point_at(s)).collect();
         let offset_points = layer.inner_edge(gear, curve, &arcs_m, cut_position);
 
         let mut points = Points(Vec::new());
         let outline: Vec<usize> = outline_points.iter().map(|&p| points.add(p)).collect();
         let offset: Vec<usize> = offset_points.iter().map(|&p| points.add(p)).collect();
+        let shares = layer_shares();
         let across = |points: &mut Points, i: usize| -> Vec<usize> {
             let (p, q) = (outline_points[i], offset_points[i]);
             let mut line = vec![outline[i]];
-            for k in 1..LAYERS {
-                let w = k as f64 / LAYERS as f64;
+            for &w in &shares {
                 let straight = [p[0] + w * (q[0] - p[0]), p[1] + w * (q[1] - p[1])];
                 let r = straight[0].hypot(straight[1]);
                 // The layer's edge on the tip land lies on the tip circle.
@@ -79,7 +79,7 @@ impl HalfLines {
         let at_tip = across(&mut points, last);
 
         // Pieces grow from those of the layer, so that the stress below the fillet is resolved beyond it.
-        let innermost = layer.thickness_m / LAYERS as f64;
+        let innermost = layer.thickness_m * (1.0 - shares[shares.len() - 1]);
         let growing = |length: f64, largest: f64, least: usize| {
             let size = |from_layer: f64| (innermost + GRADING * from_layer).min(largest);
             graded(0.0, length, size, Pieces::at_least(least))
@@ -154,32 +154,6 @@ fn outline_arcs(gear: &GearDefinition, curve: &ProfileCurve) -> (Vec<f64>, usize
     (arcs, cut_position)
 }
 
-/// Nodes of the outline. Sides of linear elements are chords: between nodes of the fillet they would fill a hollow by
-/// κ h²/12 on an average, h the length of a side, κ the curvature. Nodes moved as far into the tooth make polygon and
-/// fillet enclose the same area: −(p₊ − 2 p + p₋)/12 with equal sides.
-fn outline_points(gear: &GearDefinition, curve: &ProfileCurve, arcs_m: &[f64]) -> Vec<[f64; 2]> {
-    let exact: Vec<[f64; 2]> = arcs_m.iter().map(|&s| curve.point_at(s)).collect();
-    let mut points = exact.clone();
-    if gear.mesh.element.cell().is_quadratic() {
-        return points;
-    }
-    let on_fillet = |&i: &usize| arcs_m[i + 1] <= curve.flank_start_m();
-    for i in (1..exact.len() - 1).take_while(on_fillet) {
-        let side = |a: [f64; 2], b: [f64; 2]| {
-            let along = [b[0] - a[0], b[1] - a[1]];
-            let length = along[0].hypot(along[1]);
-            (along.map(|v| v / length), length)
-        };
-        let ((before, a), (after, b)) =
-            (side(exact[i - 1], exact[i]), side(exact[i], exact[i + 1]));
-        for axis in 0..2 {
-            let curvature = 2.0 * (after[axis] - before[axis]) / (a + b);
-            points[i][axis] -= curvature * (a * a + b * b) / 24.0;
-        }
-    }
-    points
-}
-
 /// The layer of elements along the outline.
 struct Layer {
     thickness_m: f64,
@@ -248,6 +222,14 @@ impl Layer {
         };
         (0..=last).map(inner).collect()
     }
+}
+
+/// Inner positions of the layers along the outline as shares of its thickness.
+fn layer_shares() -> Vec<f64> {
+    let total: f64 = (0..LAYERS).map(|k| LAYER_GROWTH.powi(k as i32)).sum();
+    (1..LAYERS)
+        .map(|k| (0..k).map(|j| LAYER_GROWTH.powi(j as i32)).sum::<f64>() / total)
+        .collect()
 }
 
 fn polar(r: f64, angle: f64) -> [f64; 2] {
