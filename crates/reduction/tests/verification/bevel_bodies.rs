@@ -110,8 +110,12 @@ fn fields_are_those_of_the_whole_and_gauges_read_them() {
     let read = dot(&row, &flat(&of_whole));
     assert!((read / stated - 1.0).abs() < 1e-9, "{read} {stated}");
 
-    // Faces under the gauge: all their nodes are in its row.
-    let weighed: HashSet<u32> = row.iter().map(|(dof, _)| (dof / 3) as u32).collect();
+    // Faces under the gauge: all their nodes have a tenth of the largest weight; those beside it have a fiftieth.
+    let largest = row.iter().fold(0.0, |most: f64, (_, w)| most.max(w.abs()));
+    let has_part = |(_, weight): &&(usize, f64)| weight.abs() > 0.1 * largest;
+    let weighed: HashSet<u32> = { row.iter().filter(has_part) }
+        .map(|(dof, _)| (dof / 3) as u32)
+        .collect();
     let under = |face: &&SkinFace| face.corners.iter().all(|n| weighed.contains(n));
     let own: Vec<SkinFace> = faces.iter().filter(under).cloned().collect();
     assert!(own.len() > 1);
