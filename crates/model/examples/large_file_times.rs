@@ -5,8 +5,11 @@
 
 use std::time::Instant;
 
-use gearmesh_model::synthetic::small_reduced_gear;
+#[path = "../../../tests/support/made_up_models.rs"]
+mod made_up_models;
+
 use gearmesh_model::{ReducedGear, read_reduced_gear, write_reduced_gear};
+use made_up_models::small_reduced_gear;
 
 fn main() {
     let megabytes: usize = std::env::args()

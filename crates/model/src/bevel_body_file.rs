@@ -187,7 +187,7 @@ fn check_near_field(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::synthetic::small_bevel_gear;
+    use crate::made_up_models::small_bevel_gear;
 
     #[test]
     fn every_wrong_figure_of_a_bevel_body_is_found() {
@@ -226,7 +226,7 @@ mod tests {
             assert!(message.contains(item), "{item}: {message}");
         }
         let mut wrong = gear;
-        wrong.near_field = crate::synthetic::small_reduced_gear().near_field;
+        wrong.near_field = crate::made_up_models::small_reduced_gear().near_field;
         assert!(wrong.validate().is_err());
     }
 }

@@ -19,6 +19,10 @@
 //!
 //! No other crate calls HDF5.
 
+// Made-up models of the tests name the crate as others do.
+#[cfg(test)]
+extern crate self as gearmesh_model;
+
 mod atomic_file;
 mod bevel_body;
 mod bevel_body_file;
@@ -34,6 +38,9 @@ mod data_tree_write;
 mod definition_record;
 mod file_error;
 mod hub_patterns;
+#[cfg(test)]
+#[path = "../../../tests/support/made_up_models.rs"]
+mod made_up_models;
 mod mesh_data;
 mod mesh_file;
 mod microgeometry_record;
@@ -57,8 +64,6 @@ mod sliding_bore;
 mod smooth_curve;
 mod staged_folder;
 mod stored_gear;
-#[doc(hidden)]
-pub mod synthetic;
 mod text_heap;
 mod timestamp;
 

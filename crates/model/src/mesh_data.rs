@@ -307,7 +307,7 @@ impl MeshData {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::synthetic::block_mesh;
+    use crate::made_up_models::block_mesh;
 
     #[test]
     fn a_block_is_sound_and_its_mirror_image_is_not() {

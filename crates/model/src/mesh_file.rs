@@ -167,7 +167,7 @@ fn take_fields(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::synthetic::block_mesh;
+    use crate::made_up_models::block_mesh;
 
     #[test]
     fn roundtrip_keeps_everything() {

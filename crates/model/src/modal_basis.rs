@@ -81,7 +81,7 @@ impl ReducedGear {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use crate::synthetic::small_reduced_gear;
+    use crate::made_up_models::small_reduced_gear;
 
     #[test]
     fn a_gear_without_modes_says_so() {

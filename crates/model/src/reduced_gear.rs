@@ -376,7 +376,7 @@ impl ReducedGear {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::synthetic::small_reduced_gear;
+    use crate::made_up_models::small_reduced_gear;
 
     /// Entry of the full matrix by its definition in [`small_reduced_gear`], without the storage scheme.
     fn entry(

@@ -289,9 +289,9 @@ fn check_near_field(near_field: &NearField, expected: usize) -> Result<(), Reduc
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::made_up_models::{small_crack, small_reduced_gear};
     use crate::modal_basis::ModalBasis;
     use crate::root_crack::RootCrack;
-    use crate::synthetic::{small_crack, small_reduced_gear};
     use gearmesh_geometry::Flank;
 
     fn near_field(gear: &mut ReducedGear) -> &mut NearField {

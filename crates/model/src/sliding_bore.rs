@@ -299,7 +299,7 @@ fn backward(factor: &[Vec<f64>], v: &mut [f64]) {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use crate::synthetic::{small_bored_gear, small_reduced_gear};
+    use crate::made_up_models::{small_bored_gear, small_reduced_gear};
 
     /// x of A x = b by Gauss-Jordan, A positive.
     fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {

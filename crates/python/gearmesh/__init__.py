@@ -28,7 +28,6 @@ from ._native import (
     strain,
     write_mesh,
 )
-from ._native import _write_synthetic_reduced as _write_synthetic_reduced
 from .bearing import Bearing
 from .bevel import BevelPair
 from .commands import (

@@ -55,7 +55,7 @@ mod native {
     #[pymodule_export]
     use crate::operating::operate;
     #[pymodule_export]
-    use crate::reduced::{_write_synthetic_reduced, read_reduced};
+    use crate::reduced::read_reduced;
     #[pymodule_export]
     use crate::reducing::reduce;
     #[pymodule_export]

@@ -141,10 +141,3 @@ fn shaped<T: Element>(
 ) -> PyResult<Bound<'_, PyArrayDyn<T>>> {
     PyArray1::from_vec(py, values).reshape(shape)
 }
-
-/// Writes a made-up reduced gear, for tests of programs that read such files.
-#[pyfunction]
-pub(crate) fn _write_synthetic_reduced(path: PathBuf) -> PyResult<()> {
-    gearmesh_model::write_reduced_gear(&path, &gearmesh_model::synthetic::small_reduced_gear())
-        .map_err(file_error)
-}

@@ -158,8 +158,8 @@ impl GaugeReader {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::made_up_models::small_reduced_gear;
     use gearmesh_contact::placed_slice::axial_shares;
-    use gearmesh_model::synthetic::small_reduced_gear;
 
     #[test]
     fn without_friction_the_methods_differ_by_the_submodels_strain() {

@@ -11,6 +11,9 @@
 
 mod gauge_reader;
 mod grid_forces;
+#[cfg(test)]
+#[path = "../../../tests/support/made_up_models.rs"]
+mod made_up_models;
 
 pub use gauge_reader::{GaugeArray, GaugeReader, LoadedSlice, Strain};
 pub use grid_forces::{GridLoadForce, PlacedForce, grid_forces, placed_forces};

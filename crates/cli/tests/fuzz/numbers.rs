@@ -3,12 +3,12 @@
 //! with the arrays that are there, so that no count can ask for more memory than the file has bytes.
 
 use crate::drilled_pair::{scene, scene_in_time, write_models};
-use crate::trees::{answered_mesh, answered_model, sealed, small_mesh};
-use gearmesh_geometry::input::InputDocument;
-use gearmesh_model::synthetic::{
+use crate::pair_common::made_up_models::{
     small_bevel_gear, small_bored_gear, small_crack, small_patterned_gear, small_reduced_gear,
     small_two_faced_gear,
 };
+use crate::trees::{answered_mesh, answered_model, sealed, small_mesh};
+use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{
     DataTree, FileFormat, MESH_FORMAT, REDUCED_GEAR_FORMAT, Values, write_mesh, write_reduced_gear,
 };

@@ -2,9 +2,9 @@
 //! were.
 
 use crate::common::{ends, program};
+use crate::pair_common::made_up_models::{small_crack, small_reduced_gear};
 use crate::{fuzz, mutation};
 use fastrand::Rng;
-use gearmesh_model::synthetic::{small_crack, small_reduced_gear};
 use gearmesh_model::{
     CellKind, DataTree, Field, MESH_FORMAT, MeshData, REDUCED_GEAR_FORMAT, Values, bytes_digest,
     read_mesh, read_reduced_gear, write_mesh, write_reduced_gear,

@@ -1,11 +1,14 @@
 //! Gear pairs and made-up reduced gears for the tests of contact.
 #![allow(clippy::unwrap_used, dead_code, missing_docs)]
 
+#[path = "../../../../tests/support/made_up_models.rs"]
+pub mod made_up_models;
+
 use gearmesh_contact::{ContactLines, ContactOptions, LocalContact, PathExtension, StaticContact};
 use gearmesh_geometry::definition::ToothDefinition;
 use gearmesh_geometry::{Flank, GearPair, Microgeometry, Misalignment, ToothGeometry};
-use gearmesh_model::synthetic::small_reduced_gear;
 use gearmesh_model::{FlankGrid, ReducedGear};
+use made_up_models::small_reduced_gear;
 
 /// A tooth of the standard rack.
 pub fn tooth(teeth: usize, profile_shift: f64, tip_chamfer_m: f64) -> ToothDefinition {

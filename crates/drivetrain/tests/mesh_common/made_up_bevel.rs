@@ -122,7 +122,7 @@ pub fn made_up_bevel(flanks: &BevelSlices, member: usize) -> ReducedGear {
             ..BevelBody::default()
         }),
         grid,
-        ..gearmesh_model::synthetic::small_bevel_gear()
+        ..super::pair_common::made_up_models::small_bevel_gear()
     }
 }
 

@@ -77,7 +77,7 @@ fn bodies_have_the_mass_of_their_parts() {
 /// From a model file: inertia brought from the reference point to the centre of mass, whose own Steiner part brings it back.
 #[test]
 fn bodies_come_from_the_model_file() {
-    let mut gear = gearmesh_model::synthetic::small_reduced_gear();
+    let mut gear = crate::mesh_common::pair_common::made_up_models::small_reduced_gear();
     let rigid = gear.rigid_body.as_mut().unwrap();
     rigid.reference_m = [0.0, 1e-3, -2e-3];
     rigid.centre_m = [2e-3, 0.0, 1e-3];

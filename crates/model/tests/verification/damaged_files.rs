@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use gearmesh_model::synthetic::{small_bevel_gear, small_reduced_gear};
+use crate::made_up_models::{small_bevel_gear, small_reduced_gear};
 use gearmesh_model::{
     DataArray, DataTree, FileError, FileFormat, REDUCED_GEAR_FORMAT, Values, read_reduced_gear,
     write_reduced_gear,

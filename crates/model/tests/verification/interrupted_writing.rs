@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use gearmesh_model::synthetic::small_reduced_gear;
+use crate::made_up_models::small_reduced_gear;
 use gearmesh_model::{
     Column, ColumnFile, DataTree, FileError, FileFormat, ReducedGear, RowLog, StoredGear,
     read_reduced_gear, write_columns, write_reduced_gear,

@@ -4,4 +4,6 @@
 mod damaged_files;
 mod definition_parts;
 mod interrupted_writing;
+#[path = "../../../../tests/support/made_up_models.rs"]
+mod made_up_models;
 mod reduced_gear_roundtrip;

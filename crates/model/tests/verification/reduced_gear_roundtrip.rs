@@ -1,6 +1,6 @@
 //! Whatever is written comes back equal, bit for bit.
 
-use gearmesh_model::synthetic::{
+use crate::made_up_models::{
     small_bevel_gear, small_crack, small_patterned_gear, small_reduced_gear,
 };
 use gearmesh_model::{

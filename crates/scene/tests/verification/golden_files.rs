@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use gearmesh_model::synthetic::{
+use crate::made_up_gears::pair_common::made_up_models::{
     small_bevel_gear, small_bored_gear, small_crack, small_patterned_gear, small_reduced_gear,
     small_two_faced_gear,
 };

@@ -1,20 +1,13 @@
-//! Small made-up objects for the tests of several crates and of the Python module. Not results of any computation.
+//! Small made-up objects for the tests of several crates. Not results of any computation.
+#![allow(dead_code, missing_docs)]
 
 use std::collections::BTreeMap;
 
-use crate::bevel_body::{BevelBody, BevelMember, BevelNearField, SpiralHand};
-use crate::bore_patterns::BorePatterns;
-use crate::hub_patterns::HubPatterns;
-use crate::mesh_data::{Field, MeshData};
-use crate::modal_basis::ModalBasis;
-use crate::near_field::NearField;
-use crate::reduced_gear::{FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
-use crate::rigid_body::{ReferencePoint, RigidBody};
-use crate::root_crack::RootCrack;
-use crate::shaft_faces::{FaceMass, ShaftFaces};
-use crate::stored_gear::StoredGear;
-use gearmesh_elements::CellKind;
-use gearmesh_geometry::Flank;
+use gearmesh_model::{
+    BevelBody, BevelMember, BevelNearField, BorePatterns, CellKind, FaceMass, Field, Flank,
+    FlankGrid, GaugeRows, HubPatterns, MeshData, ModalBasis, NearField, Provenance, ReducedGear,
+    ReductionChecks, ReferencePoint, RigidBody, RootCrack, ShaftFaces, SpiralHand, StoredGear,
+};
 use std::sync::Arc;
 
 /// The gear file of [`small_reduced_gear`].
