@@ -19,7 +19,7 @@ use crate::axial_spread::AxialSpread;
 use crate::nlcp::ldl::Ldl;
 use crate::placed_slice::ToothPlace;
 use crate::slice_compliance::loads_of_slices;
-use crate::slice_contact::SliceContact;
+use crate::slice_contact::{SliceContact, dot};
 
 /// How the slices of one mesh on a flank move with the radial motions of the bore.
 #[derive(Debug, Clone)]
@@ -255,8 +255,4 @@ impl BoreBending {
     pub fn gap_by(&self, contact: usize, values: &[f64]) -> f64 {
         dot(&self.rows[contact * self.count()..][..self.count()], values)
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -494,6 +494,7 @@ impl SliceContact {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// a·b.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
