@@ -278,13 +278,8 @@ impl<'a> ContactSearch<'a> {
 
     /// Whether a candidate lies near an end of a member.
     fn is_near(&self, of: &Candidate, member: usize, edge: EdgeKind) -> bool {
-        let [s, v] = of.places[member];
         let step = POINTS.map(|n| NEAR_END / (n - 1) as f64);
-        match edge {
-            EdgeKind::Tip => v > 1.0 - step[1],
-            EdgeKind::Toe => s < step[0],
-            EdgeKind::Heel => s > 1.0 - step[0],
-        }
+        lies_within(of.places[member], edge, step)
     }
 
     /// The contact with the largest lead of those of faces, and of edges and corners that are asked for.
@@ -389,19 +384,20 @@ impl<'a> ContactSearch<'a> {
             return ContactKind::LowerEnd { member };
         }
         let mut ends = (0..2).flat_map(|m: usize| EdgeKind::ALL.map(|edge| (m, edge)));
-        let at_end = |(m, edge): (usize, EdgeKind)| {
-            let [s, v] = best.places[m];
-            match edge {
-                EdgeKind::Tip => v > 1.0 - 1e-3,
-                EdgeKind::Toe => s < 1e-3,
-                EdgeKind::Heel => s > 1.0 - 1e-3,
-            }
-        };
-        let end = ends.find(|end| at_end(*end));
+        let end = ends.find(|(m, edge)| lies_within(best.places[*m], *edge, [1e-3; 2]));
         end.map_or(ContactKind::Flanks, |(member, edge)| ContactKind::Edge {
             member,
             edge,
         })
+    }
+}
+
+/// Whether a place s, v lies within such a distance of an end, along the face and up the flank.
+fn lies_within([s, v]: [f64; 2], edge: EdgeKind, distance: [f64; 2]) -> bool {
+    match edge {
+        EdgeKind::Tip => v > 1.0 - distance[1],
+        EdgeKind::Toe => s < distance[0],
+        EdgeKind::Heel => s > 1.0 - distance[0],
     }
 }
 
