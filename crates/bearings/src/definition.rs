@@ -276,6 +276,11 @@ pub enum Arrangement {
 }
 
 impl Arrangement {
+    /// Whether its rows carry axial loads each one way.
+    pub(crate) fn is_opposed(&self) -> bool {
+        matches!(self, Self::O { .. } | Self::X { .. })
+    }
+
     /// Place of each row along the axis and the sense of the axial force that its inner ring carries.
     #[must_use]
     pub fn rows(&self) -> Vec<(f64, f64)> {

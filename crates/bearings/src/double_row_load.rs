@@ -1,7 +1,8 @@
 //! The equivalent load of ISO 281 for two rows of angular contact, of tapered rollers or of barrels that carry axial
 //! loads both ways.
 
-use crate::definition::{Arrangement, BallBearingKind, BearingDefinition, BearingGeometry};
+use crate::definition::{BallBearingKind, BearingDefinition, BearingGeometry};
+use crate::ratings::outer_angle_rad;
 
 /// ISO 281, table 3, double-row bearings: α in degrees, Y₁ (X₁ = 1), X₂, Y₂, e.
 const ANGULAR_CONTACT: [[f64; 5]; 6] = [
@@ -19,10 +20,7 @@ pub(crate) fn equivalent_of_two_rows_n(
     definition: &BearingDefinition,
     (radial_n, axial_n): (f64, f64),
 ) -> Option<f64> {
-    if !matches!(
-        definition.arrangement,
-        Arrangement::O { .. } | Arrangement::X { .. }
-    ) {
+    if !definition.arrangement.is_opposed() {
         return None;
     }
     let [first, second_radial, second, limit] = match &definition.geometry {
@@ -30,13 +28,9 @@ pub(crate) fn equivalent_of_two_rows_n(
             factors(g.free_angle_rad.to_degrees())?
         }
         BearingGeometry::Ball(_) => return None,
+        BearingGeometry::Roller(g) if g.taper.is_none() && g.barrel.is_none() => return None,
         BearingGeometry::Roller(g) => {
-            let angle = match (g.taper, g.barrel) {
-                (Some(taper), _) => taper.contact_angle_rad,
-                (None, Some(barrel)) => barrel.contact_angle_rad,
-                (None, None) => return None,
-            };
-            let tangent = angle.tan();
+            let tangent = outer_angle_rad(g).tan();
             [0.45 / tangent, 0.67, 0.67 / tangent, 1.5 * tangent]
         }
     };

@@ -9,7 +9,9 @@
 //! by pure rolling; derived in docs/theory/rolling_bearings.md. BSF is the element's speed about its own axis seen from the cage: a
 //! fault on it meets a race twice a turn, at 2·BSF.
 
-use crate::definition::{BallBearingKind, BearingDefinition, BearingGeometry};
+use crate::build_rows::half_taper_rad;
+use crate::definition::{BearingDefinition, BearingGeometry};
+use crate::ratings::{nominal_angle_rad, outer_angle_rad};
 
 /// Frequencies in Hz, or in multiples of a ring's speed where that is 1 Hz.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,22 +49,13 @@ impl BearingDefinition {
                 elements: g.balls,
                 element_diameter_m: g.ball_diameter_m,
                 pitch_diameter_m: g.pitch_diameter_m,
-                contact_angle_rad: match g.kind {
-                    BallBearingKind::DeepGroove => 0.0,
-                    BallBearingKind::AngularContact
-                    | BallBearingKind::FourPoint { .. }
-                    | BallBearingKind::Thrust => g.free_angle_rad,
-                },
+                contact_angle_rad: nominal_angle_rad(g),
             },
             BearingGeometry::Roller(g) => RollingSizes {
                 elements: g.rollers,
                 element_diameter_m: g.diameter_m,
                 pitch_diameter_m: g.pitch_diameter_m,
-                contact_angle_rad: match (g.taper, g.barrel) {
-                    (Some(t), _) => t.contact_angle_rad - crate::build_rows::half_taper_rad(g),
-                    (None, Some(barrel)) => barrel.contact_angle_rad,
-                    (None, None) => 0.0,
-                },
+                contact_angle_rad: outer_angle_rad(g) - half_taper_rad(g),
             },
         }
     }

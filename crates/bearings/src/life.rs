@@ -206,7 +206,7 @@ const STEEP_ANGLES: [[f64; 4]; 6] = [
 ];
 
 /// Row of a table at `x` between its rows, held at its ends.
-fn between<const N: usize>(table: &[[f64; N]], x: f64) -> [f64; N] {
+pub(crate) fn between<const N: usize>(table: &[[f64; N]], x: f64) -> [f64; N] {
     let last = table.len() - 1;
     let upper = table.iter().position(|row| row[0] >= x).unwrap_or(last);
     let lower = upper.saturating_sub(1);

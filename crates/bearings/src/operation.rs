@@ -36,6 +36,15 @@ impl Operation {
         self.inner_rad_per_s != 0.0 || self.outer_rad_per_s != 0.0
     }
 
+    /// The same with rings that stand still.
+    pub(crate) fn at_rest(&self) -> Self {
+        Self {
+            inner_rad_per_s: 0.0,
+            outer_rad_per_s: 0.0,
+            ..*self
+        }
+    }
+
     /// Angle of a ball or roller, counted from 0, of so many that go round with the cage \[rad\].
     #[must_use]
     pub fn element_angle_rad(&self, first_rad: f64, number: usize, count: usize) -> f64 {

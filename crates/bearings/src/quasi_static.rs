@@ -55,6 +55,14 @@ impl Row {
         }
     }
 
+    /// A row of cylindrical or tapered rollers; none of other elements.
+    pub(crate) fn rollers(&self) -> Option<&RollerRow> {
+        match self {
+            Self::Roller(row) => Some(row),
+            Self::Ball(_) | Self::FourPoint(_) | Self::Barrel(_) => None,
+        }
+    }
+
     /// d_m/2 \[m\].
     #[must_use]
     pub fn pitch_radius_m(&self) -> f64 {
@@ -240,10 +248,7 @@ impl QuasiStaticBearing {
         &self,
         functions: impl Fn(f64) -> Vec<f64>,
     ) -> Result<BentRace, BearingError> {
-        let cylindrical = |row: &Row| match row {
-            Row::Roller(row) => row.rib.is_none(),
-            Row::Ball(_) | Row::FourPoint(_) | Row::Barrel(_) => false,
-        };
+        let cylindrical = |row: &Row| row.rollers().is_some_and(|row| row.rib.is_none());
         if !self.rows.iter().all(cylindrical) {
             return Err(BearingError::NotCarried(
                 "an elastic bore takes the rollers of a cylindrical roller bearing only; name the file of one, or take bore = \"sliding\" or \"bonded\"",
@@ -254,20 +259,16 @@ impl QuasiStaticBearing {
                 "a misaligned outer ring is a round one, which an elastic bore is not; remove that fault, or take bore = \"sliding\" or \"bonded\"",
             ));
         }
-        let of_rollers = |row: &'_ Row| match row {
-            Row::Roller(row) => Some(row.clone()),
-            Row::Ball(_) | Row::FourPoint(_) | Row::Barrel(_) => None,
-        };
-        let rows: Vec<RollerRow> = self.rows.iter().filter_map(of_rollers).collect();
+        let rows: Vec<RollerRow> = (self.rows.iter())
+            .filter_map(Row::rollers)
+            .cloned()
+            .collect();
         Ok(BentRace::new(&rows, functions))
     }
 
     /// How deep a roller at the worst angle overlaps both races that stand so, at most \[m\]; 0 of other elements.
     pub(crate) fn deepest_m(&self, pose: &RingPose) -> f64 {
-        let of_row = |row: &Row| {
-            let Row::Roller(row) = row else {
-                return 0.0;
-            };
+        let of_row = |row: &RollerRow| {
             let reach_m = row
                 .laminae
                 .iter()
@@ -278,7 +279,8 @@ impl QuasiStaticBearing {
             let (across, tilt) = (pose.centre_m.xy().norm(), pose.axis.xy().norm());
             (across + farthest_m * tilt - room_m).max(0.0)
         };
-        self.rows.iter().map(of_row).fold(0.0, f64::max)
+        let rows = self.rows.iter().filter_map(Row::rollers);
+        rows.map(of_row).fold(0.0, f64::max)
     }
 
     /// Complains about faults that only moving balls can have.

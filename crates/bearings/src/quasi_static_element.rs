@@ -9,7 +9,7 @@
 
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
 use gearmesh_dynamics::{BodyId, ElementFailure, MarkerPair, RelativeMotion};
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix6, Vector6};
 
 use crate::bent_race::BentRace;
 use crate::definition::BearingDefinition;
@@ -22,7 +22,7 @@ use crate::operation::{Control, Operation};
 use crate::quasi_static::{QuasiStaticBearing, Row, RowLoads};
 use crate::ring_channels::{RING_CHANNELS, race_loads, ring_channels, sample_ring};
 use crate::ring_load::RingLoad;
-use crate::ring_pose::RingPose;
+use crate::ring_pose::{RingPose, spin_rad_per_s};
 
 /// Damping beside the elastic bearing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -165,21 +165,16 @@ impl QuasiStaticElement {
     /// Angles of all rollers in the frame of the outer ring at a time, row after row \[rad\].
     pub fn roller_angles_rad(&self, time_s: f64) -> impl Iterator<Item = f64> + '_ {
         let operation = self.operation(time_s);
-        self.bearing.rows.iter().flat_map(move |row| {
-            let rollers = match row {
-                Row::Roller(row) => Some(row),
-                Row::Ball(_) | Row::FourPoint(_) | Row::Barrel(_) => None,
-            };
-            rollers.into_iter().flat_map(move |row| {
-                (0..row.rollers).map(move |roller| row.angle_rad(roller, &operation))
-            })
+        let rows = self.bearing.rows.iter().filter_map(Row::rollers);
+        rows.flat_map(move |row| {
+            (0..row.rollers).map(move |roller| row.angle_rad(roller, &operation))
         })
     }
 
     /// How deep a roller at the worst angle overlaps both races at a motion, were they round, at most \[m\].
     #[must_use]
     pub fn deepest_m(&self, view: &View<'_>) -> f64 {
-        self.bearing.deepest_m(&pose(&self.motion(view)))
+        self.bearing.deepest_m(&RingPose::from(&self.motion(view)))
     }
 
     /// Speed of the cage against the outer ring \[rad/s\].
@@ -199,7 +194,8 @@ impl QuasiStaticElement {
         if !goes_on {
             self.places.take_from(&self.kept_places);
         }
-        let (pose, operation) = (pose(&self.motion(view)), self.operation(view.time_s));
+        let pose = RingPose::from(&self.motion(view));
+        let operation = self.operation(view.time_s);
         let at = (&pose, &operation);
         (self.bearing).evaluate_bent(at, &mut self.places, self.bent.as_mut(), |_| {})
     }
@@ -299,10 +295,7 @@ impl QuasiStaticElement {
             (self.bodies[1], &self.pair.b),
             (self.bodies[0], &self.pair.a),
         ]
-        .map(|(body, marker)| {
-            let axis = marker.orientation() * Vector3::z();
-            view.body(body).angular_velocity_rad_per_s.dot(&axis)
-        })
+        .map(|(body, marker)| spin_rad_per_s(view.body(body), marker))
     }
 
     /// The operation at a time, from what was kept.
@@ -346,13 +339,6 @@ impl QuasiStaticElement {
     }
 }
 
-fn pose(motion: &RelativeMotion) -> RingPose {
-    RingPose {
-        centre_m: motion.displacement_m,
-        axis: motion.rotation.column(2).into(),
-    }
-}
-
 impl ForceElement for QuasiStaticElement {
     fn name(&self) -> &str {
         &self.name
@@ -386,7 +372,7 @@ impl ForceElement for QuasiStaticElement {
         self.kept_places.take_from(&self.places);
         if goes_on && self.rubbing.as_ref().is_some_and(|(_, acts)| *acts) {
             let operation = self.operation(view.time_s);
-            let found = self.friction(&pose(&self.motion(view)), &operation);
+            let found = self.friction(&RingPose::from(&self.motion(view)), &operation);
             self.kept.friction_nm = found.map_or(0.0, |friction| friction.total_nm());
             if self.friction_alone {
                 self.kept_places.take_from(&self.places);
@@ -457,7 +443,7 @@ impl ForceElement for QuasiStaticElement {
         let operation = self.operation(view.time_s);
         self.places.take_from(&self.kept_places);
         let (elements, mut number) = (self.element_loads, 0);
-        let (pose, bent) = (pose(&motion), self.bent.as_mut());
+        let (pose, bent) = (RingPose::from(&motion), self.bent.as_mut());
         let each = |element: ElementLoad| {
             if elements {
                 let at = RING_CHANNELS + 2 * number;

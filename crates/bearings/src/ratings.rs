@@ -73,16 +73,18 @@ pub fn ball_static_factor(gamma: f64) -> f64 {
 #[must_use]
 pub fn ball_row_dynamic_n(balls: usize, diameter_m: f64, pitch_m: f64, angle_rad: f64) -> f64 {
     let cosine = angle_rad.cos();
-    let d = diameter_m * 1e3;
-    let size = if d <= 25.4 {
-        d.powf(1.8)
-    } else {
-        3.647 * d.powf(1.4)
-    };
     1.3 * ball_dynamic_factor(diameter_m * cosine / pitch_m)
         * cosine.powf(0.7)
         * (balls as f64).powf(2.0 / 3.0)
-        * size
+        * ball_size_factor(diameter_m)
+}
+
+/// D^1.8, from 25.4 mm on 3.647 D^1.4, D in mm.
+pub(crate) fn ball_size_factor(diameter_m: f64) -> f64 {
+    match diameter_m * 1e3 {
+        d if d <= 25.4 => d.powf(1.8),
+        d => 3.647 * d.powf(1.4),
+    }
 }
 
 /// C₀ of one row of balls \[N\]: f₀ Z D² cos α.

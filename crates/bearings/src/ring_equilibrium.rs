@@ -101,11 +101,7 @@ impl QuasiStaticBearing {
                 "the load has an axial part, which cylindrical rollers do not carry in this model; set it to 0, another bearing carries it",
             ));
         }
-        let resting = Operation {
-            inner_rad_per_s: 0.0,
-            outer_rad_per_s: 0.0,
-            ..*operation
-        };
+        let resting = operation.at_rest();
         let start = self.first_guess(load);
         let pose = match self.iterate(start, load, &resting, (None, None, &mut 0)) {
             Ok(found) => found,

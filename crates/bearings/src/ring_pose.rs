@@ -1,5 +1,6 @@
 //! Where the inner ring stands against the outer one.
 
+use gearmesh_dynamics::{BodyMotion, Marker, RelativeMotion};
 use nalgebra::{Vector3, Vector5};
 
 /// Centre and axis of the inner ring, in the frame of the outer ring: z is its axis, the origin its middle.
@@ -20,6 +21,22 @@ impl Default for RingPose {
             axis: Vector3::z(),
         }
     }
+}
+
+impl From<&RelativeMotion> for RingPose {
+    /// Of marker B on the inner ring in the frame of marker A on the outer one.
+    fn from(motion: &RelativeMotion) -> Self {
+        Self {
+            centre_m: motion.displacement_m,
+            axis: motion.rotation.column(2).into(),
+        }
+    }
+}
+
+/// Speed of a ring about its own axis, z of a marker on its body \[rad/s\].
+pub(crate) fn spin_rad_per_s(body: &BodyMotion, marker: &Marker) -> f64 {
+    let axis = marker.orientation() * Vector3::z();
+    body.angular_velocity_rad_per_s.dot(&axis)
 }
 
 impl RingPose {

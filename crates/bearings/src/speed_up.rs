@@ -44,11 +44,7 @@ impl QuasiStaticBearing {
         operation: &Operation,
     ) -> Result<(RingPose, ElementPlaces), BearingError> {
         let mut loads = Vec::new();
-        let at_rest = Operation {
-            inner_rad_per_s: 0.0,
-            outer_rad_per_s: 0.0,
-            ..*operation
-        };
+        let at_rest = operation.at_rest();
         let mut unknown = ElementPlaces::unknown(&self.rows);
         self.evaluate_each(&rest, &at_rest, &mut unknown, |ball| loads.push(ball))?;
         let mut here = Stand {

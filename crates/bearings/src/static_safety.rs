@@ -13,7 +13,8 @@
 //!
 //! Moments, clearance and preload are not in it: largest pressures say what they do.
 
-use crate::definition::{Arrangement, BallBearingKind, BearingDefinition, BearingGeometry};
+use crate::definition::{BallBearingKind, BearingDefinition, BearingGeometry};
+use crate::life::between;
 use crate::ratings::{Ratings, nominal_angle_rad, outer_angle_rad};
 
 /// s₀ and what it is made of.
@@ -50,10 +51,7 @@ impl StaticSafety {
         ratings: &Ratings,
         force_n: [f64; 3],
     ) -> Option<Self> {
-        let opposed = matches!(
-            definition.arrangement,
-            Arrangement::O { .. } | Arrangement::X { .. }
-        );
+        let opposed = definition.arrangement.is_opposed();
         let inclined = |y: f64| if opposed { (1.0, 2.0 * y) } else { (0.5, y) };
         let (x, y) = match &definition.geometry {
             BearingGeometry::Ball(g) => match g.kind {
@@ -87,8 +85,5 @@ pub(crate) fn axial_factor(degrees: f64) -> Option<f64> {
     if !(first - BESIDE_DEG..=last + BESIDE_DEG).contains(&degrees) {
         return None;
     }
-    let within = degrees.clamp(first, last);
-    let pair = BY_ANGLE.windows(2).find(|pair| within <= pair[1][0])?;
-    let share = (within - pair[0][0]) / (pair[1][0] - pair[0][0]);
-    Some(pair[0][1] + share * (pair[1][1] - pair[0][1]))
+    Some(between(&BY_ANGLE, degrees)[1])
 }

@@ -272,11 +272,7 @@ impl Judged<'_> {
             force_n: self.force_n,
             tilt: TiltCondition::Held([tilt[3], tilt[4]]),
         };
-        let at_rest = Operation {
-            inner_rad_per_s: 0.0,
-            outer_rad_per_s: 0.0,
-            ..*self.operation
-        };
+        let at_rest = self.operation.at_rest();
         let resting = (self.bearing.equilibrium(&load, &at_rest))
             .and_then(|pose| self.bearing.loads(&pose, &at_rest));
         let Ok((_, resting)) = resting else {

@@ -23,7 +23,7 @@ use crate::faults::Side;
 use crate::operation::Operation;
 use crate::quasi_static::{QuasiStaticBearing, Row};
 use crate::ring_channels::{RING_CHANNELS, race_loads, ring_channels, sample_ring};
-use crate::ring_pose::RingPose;
+use crate::ring_pose::{RingPose, spin_rad_per_s};
 
 /// What a bearing's balls feel besides the elastic races. The default is nothing.
 #[derive(Debug, Clone, Default)]
@@ -243,17 +243,10 @@ impl ForceElement for DynamicBearing {
         let [a, b] = [self.pair.a.body, self.pair.b.body].map(|body| view.body(body));
         let motion = self.pair.motion(a, b);
         let axes = a.rotation * self.pair.a.orientation().matrix();
-        let [outer, inner] = [(a, &self.pair.a), (b, &self.pair.b)].map(|(body, marker)| {
-            let axis = marker.orientation() * Vector3::z();
-            body.angular_velocity_rad_per_s.dot(&axis)
-        });
-        let pose = RingPose {
-            centre_m: motion.displacement_m,
-            axis: motion.rotation.column(2).into(),
-        };
+        let pose = RingPose::from(&motion);
         let operation = Operation {
-            inner_rad_per_s: inner,
-            outer_rad_per_s: outer,
+            inner_rad_per_s: spin_rad_per_s(b, &self.pair.b),
+            outer_rad_per_s: spin_rad_per_s(a, &self.pair.a),
             ..Operation::default()
         };
         let origin = a.position_m + a.rotation * self.pair.a.position_m;
