@@ -13,7 +13,7 @@ use crate::pose::Vector6;
 pub type FlankErrors = Vec<Arc<dyn FlankError>>;
 
 /// Where two flanks cross the line of action. The slices of a spur pair share the one at mid-face; of helical teeth each slice has its own.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Section {
     /// Roll angles on gear 1 and gear 2 \[rad\]; continued beyond the ends of the path. Of a slice that is partly on the path that of the
     /// part's middle.
@@ -205,6 +205,13 @@ impl FlankContacts {
         self.sections.clear();
         self.contacts.clear();
         self.open_gap_m = None;
+    }
+
+    /// Gap \[m\] of ideal flanks of the first pair of teeth, or of flanks that are out of reach; none where no teeth face each
+    /// other.
+    pub(crate) fn ideal_gap_m(&self) -> Option<f64> {
+        let line = self.lines.first().map(|line| line.ideal_gap_m);
+        line.or(self.open_gap_m)
     }
 
     /// Adds the line of two teeth whose contacts, each with a section of its own, are those from `first` on.

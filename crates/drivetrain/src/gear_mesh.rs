@@ -209,11 +209,11 @@ impl GearMesh {
     /// centre distance and without axial displacement r_b2 θ₂ − r_b1 θ₁. None where no teeth face each other.
     #[must_use]
     pub fn transmission_error_m(&self) -> Option<f64> {
-        let gap_m = |side: &Side| {
-            let line = side.found.lines.first().map(|line| line.ideal_gap_m);
-            line.or(side.found.open_gap_m)
-        };
-        self.sides.iter().filter_map(gap_m).min_by(f64::total_cmp)
+        let gaps = self
+            .sides
+            .iter()
+            .filter_map(|side| side.found.ideal_gap_m());
+        gaps.min_by(f64::total_cmp)
     }
 
     /// The transmission error where gears stand beside the axes about which their bodies turn: that of ideal flanks on these axes, of the side
@@ -229,8 +229,7 @@ impl GearMesh {
         found: &mut FlankContacts,
     ) -> Result<Option<f64>, DrivetrainError> {
         let gap_m = |side: &Side| {
-            let line = side.found.lines.first().map(|line| line.ideal_gap_m);
-            let touching = line.or(side.found.open_gap_m);
+            let touching = side.found.ideal_gap_m();
             touching.or_else(|| self.kinematics.nearest_gap_m(side.flank))
         };
         let told = (self.sides.iter()).filter_map(|side| Some((side.flank, gap_m(side)?)));

@@ -418,12 +418,7 @@ impl MeshKinematics {
             share: frame.zone.width_m / width_m,
             share_gradient: rate * frame.displacement_gradient,
             stiffness: 1.0,
-            length_m: 0.0,
-            radius_m: 0.0,
-            radius_growth: [0.0; 2],
-            length_growth: [0.0; 2],
-            along_gradient: [Vector6::zeros(); 2],
-            contacts: (0, 0),
+            ..Section::default()
         }
     }
 

@@ -329,14 +329,11 @@ impl BevelMesh {
             touching_roll_rad: near.up,
             roll_gradient: near.up_gradient,
             share: 1.0,
-            share_gradient: Vector6::zeros(),
             stiffness: 1.0,
             length_m: self.layout.width_m(),
             radius_m: near.radius_m,
-            radius_growth: [0.0; 2],
-            length_growth: [0.0; 2],
-            along_gradient: [Vector6::zeros(); 2],
             contacts: (number, 1),
+            ..Section::default()
         });
         found.contacts.push(ToothContact {
             line: number,

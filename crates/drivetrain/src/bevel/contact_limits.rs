@@ -252,10 +252,6 @@ pub(crate) fn nearest(
     }
     let start = inside.map_or(foot.at, |found| found.at);
     let elsewhere: Cell<Option<Nearest>> = Cell::new(None);
-    let least = |a: Option<Nearest>, b: Option<Nearest>| match (a, b) {
-        (Some(a), Some(b)) => Some(if b.gap_m < a.gap_m { b } else { a }),
-        (a, b) => a.or(b),
-    };
     // Those that the contact of the surfaces has passed first, or, where none was found, those towards which the gap shrinks;
     // the others only where none of them holds.
     let passed = |limits: Limits| match (inside, limits.long, limits.end) {
@@ -275,7 +271,7 @@ pub(crate) fn nearest(
             .into_iter()
             .filter(|limits| passed(*limits) == now)
         {
-            found = least(found, limits.contact(bodies, start, &elsewhere));
+            found = nearer(found, limits.contact(bodies, start, &elsewhere));
         }
         if found.is_some() {
             break;
@@ -292,8 +288,16 @@ pub(crate) fn nearest(
     }
     let mut found = None;
     for limits in Limits::corners() {
-        found = least(found, limits.contact(bodies, start, &Cell::new(None)));
+        found = nearer(found, limits.contact(bodies, start, &Cell::new(None)));
     }
     let from = elsewhere.get().map_or(start, |from| from.at);
     found.ok_or(NoContact::Missed(from))
+}
+
+/// Of two contacts that of the smaller gap, the first where they are alike.
+pub(super) fn nearer(a: Option<Nearest>, b: Option<Nearest>) -> Option<Nearest> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.gap_m < a.gap_m { b } else { a }),
+        (a, b) => a.or(b),
+    }
 }

@@ -9,6 +9,7 @@ use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Vector3};
 
 use super::contact_limits::LongEdge;
+use super::nominal_contacts::small_turn;
 use super::pose_derivatives::PoseDerivatives;
 use super::section_points::{EDGES, edge_of, middle, nearest_on_section};
 use super::sliced_mesh::BevelSlices;
@@ -78,12 +79,7 @@ impl Searched {
     fn step(&mut self, pose: &Pose, size_m: f64, bent_m: f64) -> Option<Vector6> {
         let (displacement_m, rotation) = self.stood?;
         let turn = pose.rotation * rotation.transpose();
-        let theta = Vector3::new(
-            turn[(2, 1)] - turn[(1, 2)],
-            turn[(0, 2)] - turn[(2, 0)],
-            turn[(1, 0)] - turn[(0, 1)],
-        );
-        let (moved_m, turned) = (pose.displacement_m - displacement_m, 0.5 * theta);
+        let (moved_m, turned) = (pose.displacement_m - displacement_m, small_turn(&turn));
         self.moved_m += moved_m.norm() + size_m * turned.norm();
         self.stood = Some((pose.displacement_m, pose.rotation));
         // A turn by half a revolution has no skew part either.

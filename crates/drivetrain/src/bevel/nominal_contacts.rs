@@ -128,13 +128,7 @@ impl NominalContacts {
         rotation: &Matrix3<f64>,
     ) -> Option<Guess> {
         let entry = self.entries[number].as_ref()?;
-        let turn = rotation * entry.back;
-        let theta = Vector3::new(
-            turn[(2, 1)] - turn[(1, 2)],
-            turn[(0, 2)] - turn[(2, 0)],
-            turn[(1, 0)] - turn[(0, 1)],
-        );
-        let step = stacked(*displacement_m, 0.5 * theta);
+        let step = stacked(*displacement_m, small_turn(&(rotation * entry.back)));
         let by = entry.places * step;
         let at = [0, 1].map(|m: usize| {
             [0, 1].map(|k: usize| (entry.at[m][k] + by[2 * m + k]).clamp(0.0, 1.0))
@@ -166,4 +160,13 @@ impl NominalContacts {
         let others = std::iter::once_with(after).chain(std::iter::once_with(before));
         std::iter::once(here).chain(others).flatten()
     }
+}
+
+/// The vector of a small turn: its skew part.
+pub(super) fn small_turn(turn: &Matrix3<f64>) -> Vector3<f64> {
+    0.5 * Vector3::new(
+        turn[(2, 1)] - turn[(1, 2)],
+        turn[(0, 2)] - turn[(2, 0)],
+        turn[(1, 0)] - turn[(0, 1)],
+    )
 }

@@ -8,7 +8,7 @@ use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::bounding_spheres::BoundingSpheres;
-use super::contact_limits::{Limits, NoContact, nearest, nearest_from, nearest_within};
+use super::contact_limits::{Limits, NoContact, nearer, nearest, nearest_from, nearest_within};
 use super::nearest_points::{FREE, Nearest, Placed, solve};
 use super::nominal_contacts::{Guess, NominalContacts};
 use super::section_points::{edge_of, sections};
@@ -124,10 +124,7 @@ impl Side {
         let found = nominal.and_then(|guess| near(&self.nominal, guess));
         let rival = self.rivals.as_ref().zip(guesses.rival.as_ref());
         let rival = rival.and_then(|(table, guess)| near(table, guess));
-        let found = match (found, rival) {
-            (Some(a), Some(b)) => Some(if b.gap_m < a.gap_m { b } else { a }),
-            (a, b) => a.or(b),
-        };
+        let found = nearer(found, rival);
         let found = found.or_else(|| searched(bodies, &self.spheres, far_m));
         found.or_else(|| {
             let guess = nominal?;

@@ -291,16 +291,14 @@ impl NodeSurfaces {
             touching_roll_rad: up,
             roll_gradient: [Vector6::zeros(), walking(1)],
             share: 1.0,
-            share_gradient: Vector6::zeros(),
             stiffness: self
                 .reference_area_m2
                 .map_or(1.0, |area| node.area_m2 / area),
             length_m: self.layout.width_m(),
             radius_m: 1.0,
-            radius_growth: [0.0; 2],
-            length_growth: [0.0; 2],
             along_gradient: [Vector6::zeros(), walking(0)],
             contacts: (contact, 1),
+            ..Section::default()
         });
         found.contacts.push(ToothContact {
             line,
