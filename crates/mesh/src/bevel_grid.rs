@@ -4,7 +4,7 @@ use gearmesh_elements::CellKind;
 use gearmesh_geometry::Flank;
 
 use crate::bevel_level::Levels;
-use crate::face::FaceShape;
+use crate::elements::brick;
 
 /// Nodes of a section.
 #[derive(Debug, Clone, Copy)]
@@ -114,26 +114,15 @@ impl Grid {
     pub(crate) fn quads(&self) -> Vec<[[usize; 3]; 3]> {
         let p = self.order;
         let mut quads = Vec::new();
-        let mut push = |node: &dyn Fn(usize, usize) -> usize| {
-            let mut quad = [[0; 3]; 3];
-            for (a, row) in quad.iter_mut().enumerate() {
-                for (b, slot) in row.iter_mut().enumerate() {
-                    if a <= p && b <= p {
-                        *slot = node(a, b);
-                    }
-                }
-            }
-            quads.push(quad);
-        };
         // The tooth first: ξ up, η across. Then the ring: ξ across, η down.
         for row in (0..self.tooth).step_by(p) {
             for column in (0..self.across).step_by(p) {
-                push(&|a, b| self.tooth(row + a, column + b));
+                quads.push(grid_quad(p, |a, b| self.tooth(row + a, column + b)));
             }
         }
         for row in (0..self.ring).step_by(p) {
             for column in (0..self.columns).step_by(p) {
-                push(&|a, b| self.ring(row + b, column + a));
+                quads.push(grid_quad(p, |a, b| self.ring(row + b, column + a)));
             }
         }
         quads
@@ -172,31 +161,9 @@ pub(crate) fn corners_of(quad: &[[usize; 3]; 3], order: usize) -> [usize; 4] {
     [quad[0][0], quad[p][0], quad[p][p], quad[0][p]]
 }
 
-/// The face of a hexahedron over a step of the outline from node `k` and a layer from section `l`: its places.
-pub(crate) fn outline_face(
-    order: usize,
-    (k, l): (usize, usize),
-) -> (FaceShape, Vec<(usize, usize)>) {
-    let p = order;
-    let corners = [(k, l), (k + p, l), (k + p, l + p), (k, l + p)];
-    let middles = [(k + 1, l), (k + 2, l + 1), (k + 1, l + 2), (k, l + 1)];
-    match p {
-        1 => (FaceShape::Quad4, corners.to_vec()),
-        _ => (FaceShape::Quad8, [corners, middles].concat()),
-    }
-}
-
 /// Section nodes and sections of a hexahedron in VTK's order.
-pub(crate) fn hexahedron(
-    quad: &[[usize; 3]; 3],
-    order: usize,
-) -> impl Iterator<Item = (usize, usize)> {
-    let (p, corners) = (order, corners_of(quad, order));
+pub(crate) fn hexahedron(quad: &[[usize; 3]; 3], order: usize) -> Vec<(usize, usize)> {
     let middles = [quad[1][0], quad[2][1], quad[1][2], quad[0][1]];
-    let at = |nodes: [usize; 4], section: usize| nodes.map(|node| (node, section));
-    let mut all = [at(corners, 0), at(corners, p)].concat();
-    if p == 2 {
-        all.extend([at(middles, 0), at(middles, 2), at(corners, 1)].concat());
-    }
-    all.into_iter()
+    let middles = (order == 2).then_some(middles);
+    brick(corners_of(quad, order), middles, 0)
 }

@@ -13,7 +13,7 @@ use crate::bevel_twist::Torsion;
 use crate::grading::{Pieces, graded};
 use crate::mid_sides::{CurvedSides, MidSides};
 use crate::plane::{apart, lerp};
-use crate::plane_mesher::{PlaneProblem, Region, mesh_plane};
+use crate::plane_mesher::{PlaneProblem, Region, mesh_one};
 use crate::python::PythonEnvironment;
 
 /// Growth of element length per length along the lines, from the ring.
@@ -138,14 +138,7 @@ impl Meridian {
             }],
             largest: gear.mesh.body_m,
         };
-        let meshes = mesh_plane(&PythonEnvironment::find()?, &[problem])?;
-        let mut mesh =
-            meshes
-                .into_iter()
-                .next()
-                .ok_or(crate::plane_mesher::PlaneMeshError::Mismatch(
-                    "another number of meshes",
-                ))?;
+        let mut mesh = mesh_one(&PythonEnvironment::find()?, &problem)?;
         let corners = mesh.nodes.len();
         let mut ring: Vec<usize> = (ring_end..=ring_begin).rev().collect();
         let mut bore: Vec<usize> = (0..=at_bore).collect();

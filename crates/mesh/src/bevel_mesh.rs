@@ -10,11 +10,11 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 use crate::MeshError;
-use crate::bevel_grid::{Grid, cell_kind, corners_of, hexahedron, outline_face};
+use crate::bevel_grid::{Grid, cell_kind, corners_of, hexahedron};
 use crate::bevel_level::{Level, Levels};
 use crate::bevel_meridian::{BodyGrid, Meridian};
 use crate::elements::ElementList;
-use crate::face::OutlineFace;
+use crate::face::{OutlineFace, outline_face};
 use crate::quality::{self, QualityReport};
 
 const NONE: u32 = u32::MAX;
@@ -141,6 +141,7 @@ impl BevelMesh {
                 for first in (0..grid.sections - 1).step_by(order) {
                     elements.push(
                         hexahedron(quad, order)
+                            .into_iter()
                             .map(|(node, section)| self.node(tooth, node, first + section)),
                     );
                 }
@@ -149,6 +150,7 @@ impl BevelMesh {
                 for first in (0..grid.columns).step_by(order) {
                     elements.push(
                         hexahedron(quad, order)
+                            .into_iter()
                             .map(|(node, column)| self.body_node(tooth, node, first + column)),
                     );
                 }

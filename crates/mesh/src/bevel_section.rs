@@ -8,10 +8,10 @@ use gearmesh_geometry::{Element, Flank};
 use nalgebra::Vector3;
 
 use crate::MeshError;
-use crate::bevel_grid::{Grid, cell_kind, grid_quad, hexahedron, outline_face};
+use crate::bevel_grid::{Grid, cell_kind, grid_quad, hexahedron};
 use crate::bevel_level::{Level, Levels};
 use crate::elements::ElementList;
-use crate::face::OutlineFace;
+use crate::face::{OutlineFace, outline_face};
 
 /// Pieces of the outline from P to the flank, and from there to the tip.
 const PIECES: [usize; 2] = [16, 64];
@@ -130,8 +130,8 @@ impl BevelSection {
         for row in (0..rows - 1).step_by(p) {
             for column in (0..columns - 1).step_by(p) {
                 let quad = grid_quad(p, |a, b| section(row + a, column + b));
-                let hexahedron = hexahedron(&quad, p).map(|(n, level)| id(n, level));
-                of_quad.push(elements.push(hexahedron));
+                let places = hexahedron(&quad, p).into_iter();
+                of_quad.push(elements.push(places.map(|(n, level)| id(n, level))));
             }
         }
         let (k, own, opposite) = match side {

@@ -68,3 +68,24 @@ impl ElementList {
         &self.connectivity
     }
 }
+
+/// Nodes of a section and levels of the hexahedron above a quad from the level `low` on, in VTK's order; with nodes in
+/// the middle of the quad's sides that of a quadratic one, which reaches over two steps.
+pub(crate) fn brick(
+    corners: [usize; 4],
+    middles: Option<[usize; 4]>,
+    low: usize,
+) -> Vec<(usize, usize)> {
+    let at = |nodes: [usize; 4], level: usize| nodes.map(|node| (node, level));
+    match middles {
+        None => [at(corners, low), at(corners, low + 1)].concat(),
+        Some(middles) => [
+            at(corners, low),
+            at(corners, low + 2),
+            at(middles, low),
+            at(middles, low + 2),
+            at(corners, low + 1),
+        ]
+        .concat(),
+    }
+}

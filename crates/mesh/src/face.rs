@@ -180,6 +180,20 @@ impl OutlineFace {
     }
 }
 
+/// The face of a hexahedron over a step of the outline from node `k` and a layer from section `l`: its places.
+pub(crate) fn outline_face(
+    order: usize,
+    (k, l): (usize, usize),
+) -> (FaceShape, Vec<(usize, usize)>) {
+    let p = order;
+    let corners = [(k, l), (k + p, l), (k + p, l + p), (k, l + p)];
+    let middles = [(k + 1, l), (k + 2, l + 1), (k + 1, l + 2), (k, l + 1)];
+    match p {
+        1 => (FaceShape::Quad4, corners.to_vec()),
+        _ => (FaceShape::Quad8, [corners, middles].concat()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

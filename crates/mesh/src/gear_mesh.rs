@@ -5,7 +5,7 @@
 //! tetrahedra only the teeth are made of layers, each brick of them split (`tet_mesh.rs`); the body is a free mesh.
 
 use crate::MeshError;
-use crate::elements::ElementList;
+use crate::elements::{ElementList, brick};
 use crate::heights::Heights;
 use crate::layers::Layers;
 use crate::python::PythonEnvironment;
@@ -229,20 +229,7 @@ impl GearMesh {
 
 /// Section node and level of the nodes of a quad's element in a layer, VTK order.
 fn places(section: &Section, quad: usize, layer: usize) -> Vec<(usize, usize)> {
-    let corners = section.quads[quad];
-    let at = |nodes: [usize; 4], level: usize| nodes.map(|n| (n, level));
-    match section.mid_sides.get(quad) {
-        None => [at(corners, layer), at(corners, layer + 1)].concat(),
-        Some(&middles) => {
-            let (low, high) = (2 * layer, 2 * layer + 2);
-            [
-                at(corners, low),
-                at(corners, high),
-                at(middles, low),
-                at(middles, high),
-                at(corners, low + 1),
-            ]
-            .concat()
-        }
-    }
+    let middles = section.mid_sides.get(quad).copied();
+    let step = if middles.is_some() { 2 } else { 1 };
+    brick(section.quads[quad], middles, step * layer)
 }

@@ -1,6 +1,6 @@
 //! Sets of nodes and elements of a meshed gear: where it is held, its teeth, cells and bodies, faces along the outline.
 
-use crate::face::{FaceShape, OutlineFace};
+use crate::face::{OutlineFace, outline_face};
 use crate::gear_mesh::{GearMesh, SAME_RADIUS};
 use gearmesh_elements::CellKind;
 use gearmesh_geometry::{Blank, Flank, GearDefinition, ProfileCurve};
@@ -176,46 +176,29 @@ impl GearMesh {
             }
             let (a, b) = (map[cell.outline[start]], map[cell.outline[end]]);
             let quad = self.section.cell_first_quad[tooth] + cell.outline_quads[i];
-            // Section node, arc length and level of each node of the face.
             let middle = cell.outline_mid_sides.get(i).map(|&c| map[c]);
             for layer in 0..self.layers.count() {
                 let Some(element) = self.element(quad, layer) else {
                     continue;
                 };
-                let step = if middle.is_some() { 2 } else { 1 };
-                let (low, high) = (step * layer, step * (layer + 1));
                 if let (Some(m), CellKind::Tet10) = (middle, self.elements.shape()) {
                     faces.extend(self.split_faces([a, m, b], arcs, layer, element));
                     continue;
                 }
-                let mut places = vec![
-                    (a, arcs[0], low),
-                    (b, arcs[1], low),
-                    (b, arcs[1], high),
-                    (a, arcs[0], high),
-                ];
-                if let Some(m) = middle {
-                    let arc = 0.5 * (arcs[0] + arcs[1]);
-                    places.extend([
-                        (m, arc, low),
-                        (b, arcs[1], low + 1),
-                        (m, arc, high),
-                        (a, arcs[0], low + 1),
-                    ]);
-                }
+                let along = match middle {
+                    None => vec![(a, arcs[0]), (b, arcs[1])],
+                    Some(m) => vec![(a, arcs[0]), (m, 0.5 * (arcs[0] + arcs[1])), (b, arcs[1])],
+                };
+                let order = along.len() - 1;
+                let (shape, places) = outline_face(order, (0, order * layer));
                 faces.push(OutlineFace {
-                    shape: match middle {
-                        None => FaceShape::Quad4,
-                        Some(_) => FaceShape::Quad8,
-                    },
-                    nodes: places
-                        .iter()
-                        .filter_map(|&(n, _, level)| self.node(n, level))
+                    shape,
+                    nodes: (places.iter())
+                        .filter_map(|&(k, level)| self.node(along[k].0, level))
                         .collect(),
                     element,
-                    places_m: places
-                        .iter()
-                        .map(|&(_, arc, level)| [arc, self.levels_m[level]])
+                    places_m: (places.iter())
+                        .map(|&(k, level)| [along[k].1, self.levels_m[level]])
                         .collect(),
                 });
             }

@@ -3,7 +3,7 @@
 use crate::MeshError;
 use crate::body::{BodyLengths, BodyProblem, Span, body_problem};
 use crate::body_circles::{first_tooth, repeating_down_to_m};
-use crate::plane_mesher::{PlaneMesh, PlaneMeshError, mesh_plane};
+use crate::plane_mesher::{PlaneMesh, PlaneMeshError, mesh_one, mesh_plane};
 use crate::python::PythonEnvironment;
 use crate::ring_radius::ring_radius_m;
 use crate::tooth_blocks::ToothBlocks;
@@ -36,7 +36,6 @@ impl MeshedSpans {
         let (ring_m, pieces) = (ring_radius_m(gear), blocks.ring_pieces());
         let is_poor =
             |mesh: &PlaneMesh| mesh.smallest_scaled_jacobian() < gear.mesh.min_scaled_jacobian;
-        let mismatch = || PlaneMeshError::Mismatch("another number of meshes");
         let circles = repeating_down_to_m(gear);
         let mut circles = circles.into_iter();
         loop {
@@ -61,7 +60,7 @@ impl MeshedSpans {
             problems.extend(below_teeth.as_ref().map(|below| below.problem.clone()));
             let mut meshes = mesh_plane(python, &problems)?.into_iter();
             let (Some(cell_mesh), Some(mut body_mesh)) = (meshes.next(), meshes.next()) else {
-                return Err(mismatch().into());
+                return Err(PlaneMeshError::Mismatch("another number of meshes").into());
             };
             let below_teeth = below_teeth.zip(meshes.next());
             if let Some((_, mesh)) = &below_teeth {
@@ -70,8 +69,7 @@ impl MeshedSpans {
                 }
             } else if sectors > 1 && is_poor(&body_mesh) {
                 body = body_problem(gear, ring_size_m, &span, BodyLengths::WithinSector)?;
-                let mut meshes = mesh_plane(python, std::slice::from_ref(&body.problem))?;
-                body_mesh = meshes.pop().ok_or_else(mismatch)?;
+                body_mesh = mesh_one(python, &body.problem)?;
             }
             return Ok(Self {
                 cell_mesh,

@@ -139,6 +139,18 @@ pub fn mesh_plane(
         .collect()
 }
 
+/// Meshes one problem.
+///
+/// # Errors
+/// As [`mesh_plane`].
+pub fn mesh_one(
+    python: &PythonEnvironment,
+    problem: &PlaneProblem,
+) -> Result<PlaneMesh, PlaneMeshError> {
+    let mesh = mesh_plane(python, std::slice::from_ref(problem))?.pop();
+    mesh.ok_or(PlaneMeshError::Mismatch("another number of meshes"))
+}
+
 fn counter_clockwise(q: [usize; 4], nodes: &[[f64; 2]]) -> [usize; 4] {
     let p = q.map(|n| nodes[n]);
     let area =

@@ -5,7 +5,7 @@ use crate::body::BodyProblem;
 use crate::body_circles::first_tooth;
 use crate::crack_line::CrackLine;
 use crate::meshed_spans::MeshedSpans;
-use crate::plane_mesher::{PlaneMesh, PlaneMeshError, mesh_plane};
+use crate::plane_mesher::{PlaneMesh, mesh_one};
 use crate::python::PythonEnvironment;
 use crate::ring_radius::ring_radius_m;
 use crate::tooth_blocks::ToothBlocks;
@@ -85,9 +85,8 @@ impl Section {
         let cell_problem = ToothBlocks::new(gear);
         let shape = gear.mesh.element.cell();
         if shape == CellKind::Tet10 {
-            let mismatch = || PlaneMeshError::Mismatch("another number of meshes");
-            let mut meshes = mesh_plane(python, std::slice::from_ref(&cell_problem.problem))?;
-            let cell = cell_problem.finish(meshes.pop().ok_or_else(mismatch)?, shape);
+            let mesh = mesh_one(python, &cell_problem.problem)?;
+            let cell = cell_problem.finish(mesh, shape);
             return Ok(Self::of_teeth(cell, teeth, sectors, first_tooth(gear)?));
         }
         let ring_pieces = cell_problem.ring_pieces();
