@@ -301,21 +301,29 @@ impl ProfileCurve {
         let t = &self.tooth;
         let below_base =
             (t.root_radius_m * t.root_radius_m - t.base_radius_m * t.base_radius_m).max(0.0);
-        let mut best = t.tip_direction() * (t.base_radius_m * roll_rad - below_base.sqrt());
-        for w in self.samples.windows(2) {
-            let (a, b) = (mirrored(&w[0]), mirrored(&w[1]));
-            let e = [b[0] - a[0], b[1] - a[1]];
-            let det = n[1] * e[0] - n[0] * e[1];
-            if det.abs() < 1e-300 {
-                continue;
-            }
-            let d = [a[0] - p[0], a[1] - p[1]];
-            let along = (d[1] * e[0] - d[0] * e[1]) / det;
-            let within = (n[0] * d[1] - n[1] * d[0]) / det;
-            if along > 0.0 && (-1e-9..=1.0 + 1e-9).contains(&within) {
-                best = best.min(along);
-            }
-        }
-        best
+        let best = t.tip_direction() * (t.base_radius_m * roll_rad - below_base.sqrt());
+        let opposite: Vec<[f64; 2]> = self.samples.iter().map(mirrored).collect();
+        best.min(distance_to_line_m(p, n, &opposite))
     }
+}
+
+/// Distance \[m\] from a point along a unit vector to the nearest crossing of a line through points; infinite where it
+/// crosses none.
+pub fn distance_to_line_m(p: [f64; 2], n: [f64; 2], line: &[[f64; 2]]) -> f64 {
+    let mut best = f64::INFINITY;
+    for pair in line.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        let e = [b[0] - a[0], b[1] - a[1]];
+        let det = n[1] * e[0] - n[0] * e[1];
+        if det.abs() < 1e-300 {
+            continue;
+        }
+        let d = [a[0] - p[0], a[1] - p[1]];
+        let along = (d[1] * e[0] - d[0] * e[1]) / det;
+        let within = (n[0] * d[1] - n[1] * d[0]) / det;
+        if along > 0.0 && (-1e-9..=1.0 + 1e-9).contains(&within) {
+            best = best.min(along);
+        }
+    }
+    best
 }

@@ -203,14 +203,19 @@ fn forces(
         });
         let work = moved.transpose() * on_bore;
         stiffness.as_mut().subcols_mut(start, some).copy_from(&work);
-        pushed.extend((0..some).map(|q| {
-            let all = (0..forces.nrows()).map(|dof| (dof, -forces[(dof, q)]));
-            let free =
-                |&(dof, force): &(usize, f64)| force != 0.0 && body.dofs.free_of(dof).is_some();
-            all.filter(free).collect()
-        }));
+        pushed.extend(pushed_back(body, &forces));
     }
     Ok((stiffness, pushed))
+}
+
+/// Columns of forces turned round, where the body is free to follow them.
+pub(crate) fn pushed_back(body: &GearBody, forces: &Mat<f64>) -> Vec<SparseVector> {
+    let free = |&(dof, force): &(usize, f64)| force != 0.0 && body.dofs.free_of(dof).is_some();
+    let columns = (0..forces.ncols()).map(|q| {
+        let column = (0..forces.nrows()).map(|dof| (dof, -forces[(dof, q)]));
+        column.filter(free).collect()
+    });
+    columns.collect()
 }
 
 /// P on the nodes of the bore, Cartesian, three rows a node.

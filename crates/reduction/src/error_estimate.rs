@@ -33,7 +33,7 @@ use crate::flank_loads::{GridLoad, SparseVector, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::{GearBody, MeshedGear};
 use crate::repeated_mesh::RepeatedMesh;
-use crate::tooth_submodel::{Deformation, ToothSubmodel};
+use crate::tooth_submodel::ToothSubmodel;
 use crate::tooth_vectors::summed;
 use crate::toothed_mesh::ToothParts;
 use crate::{Progress, ReductionError, Within};
@@ -41,7 +41,7 @@ use gearmesh_bevel::BevelGear;
 use gearmesh_geometry::{Blank, Element, Flank, GearDefinition, MeshSettings};
 use gearmesh_mesh::BodyGrid;
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::{FlankGrid, GaugeRows, ReductionChecks};
+use gearmesh_model::{FlankGrid, GaugeRows, ReducedGear, ReductionChecks};
 
 /// Ratio of the element lengths.
 const COARSENING: f64 = 1.5;
@@ -150,22 +150,6 @@ fn by_station(grid: &FlankGrid, reading: impl Fn(usize) -> f64) -> Vec<f64> {
     (0..grid.roll_angles_rad.len()).map(of_line).collect()
 }
 
-/// A reduction that has just been made.
-pub struct Reduced<'a> {
-    /// Number of teeth.
-    pub teeth: usize,
-    /// Flank grid.
-    pub grid: &'a FlankGrid,
-    /// Flanks that carry loads; the estimate looks at the first.
-    pub flanks: &'a [Flank],
-    /// C_hub of sector 1's teeth.
-    pub c_hub: &'a [f64],
-    /// C_tooth.
-    pub c_tooth: &'a [f64],
-    /// Gauges.
-    pub gauges: &'a [GaugeRows],
-}
-
 /// What a mesh is asked: loads on one flank of tooth 0, and the teeth that have gauges.
 struct Asked<'a> {
     grid: &'a FlankGrid,
@@ -225,13 +209,7 @@ pub fn coarser_meshes(
         let rows = (coarse.gauges.iter())
             .map(|gauge| gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
             .collect::<Result<_, _>>()?;
-        mesh_figures(
-            &asked,
-            &body,
-            (&loads, rows),
-            Deformation::of(gear),
-            progress,
-        )
+        mesh_figures(&asked, &body, (&loads, rows), progress)
     })
 }
 
@@ -263,13 +241,7 @@ pub fn coarser_bevel_meshes(
             let rows = (coarse.gauges.iter())
                 .map(|gauge| bevel_gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
                 .collect::<Result<_, _>>()?;
-            mesh_figures(
-                &asked,
-                &body,
-                (&loads, rows),
-                Deformation::Spatial,
-                progress,
-            )
+            mesh_figures(&asked, &body, (&loads, rows), progress)
         },
     )
 }
@@ -295,10 +267,10 @@ fn each_mesh(
 }
 
 impl CoarserMeshes {
-    /// Estimates the errors of a reduction from what the coarser meshes differ by.
-    pub fn errors_of(self, reduced: &Reduced<'_>) -> ErrorEstimate {
+    /// Estimates the errors of a reduction on a flank grid from what the coarser meshes differ by.
+    pub fn errors_of(self, reduced: &ReducedGear, grid: &FlankGrid) -> ErrorEstimate {
         let mut meshes = self.figures;
-        meshes.insert(0, reduced_figures(reduced));
+        meshes.insert(0, reduced_figures(reduced, grid));
         let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let error = |(order, safety): (i32, f64), values: &dyn Fn(&Figures) -> Vec<f64>| -> f64 {
             let all: Vec<Vec<f64>> = meshes.iter().map(values).collect();
@@ -326,9 +298,9 @@ impl CoarserMeshes {
     }
 }
 
-/// The figures of the reduction.
-fn reduced_figures(reduced: &Reduced<'_>) -> Figures {
-    let (grid, count) = (reduced.grid, reduced.grid.len());
+/// The figures of the reduction; the estimate looks at the first of the flanks that carry loads.
+fn reduced_figures(reduced: &ReducedGear, grid: &FlankGrid) -> Figures {
+    let count = grid.len();
     let weights = line_load(grid, grid.roll_angles_rad.len() / 2);
     // Rows of C_hub are [tooth][flank of the response][load][response]; those of the first flank are asked for.
     let flanks = reduced.flanks.len();
@@ -355,12 +327,12 @@ fn mesh_figures<M: RepeatedMesh + ToothParts>(
     asked: &Asked<'_>,
     body: &GearBody<M>,
     (loads, gauge_rows): (&[GridLoad], Vec<SparseVector>),
-    deformation: Deformation,
     progress: &dyn Progress,
 ) -> Result<Figures, ReductionError> {
     progress.stage("solving");
     let (grid, count) = (asked.grid, asked.grid.len());
-    let submodel = ToothSubmodel::new(&body.model, &body.mesh, asked.side, loads, deformation)?;
+    let (model, mesh) = (&body.model, &body.mesh);
+    let submodel = ToothSubmodel::new(model, mesh, asked.side, loads, body.deformation)?;
     let weights = line_load(grid, grid.roll_angles_rad.len() / 2);
     let shares = weights.iter().flat_map(|&(load, share)| {
         let normal = &loads[load].normal;

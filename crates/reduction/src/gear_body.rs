@@ -12,9 +12,10 @@ use crate::whole_gear::WholeGear;
 use crate::{Progress, ReductionError};
 use faer::Mat;
 use gearmesh_fe::{DofMap, FeModel, Material};
-use gearmesh_geometry::{GearDefinition, Symmetry};
-use gearmesh_mesh::GearMesh;
+use gearmesh_geometry::definition::Material as GearMaterial;
+use gearmesh_geometry::{Element, GearDefinition, Symmetry};
 use gearmesh_mesh::python::PythonEnvironment;
+use gearmesh_mesh::{ElementList, GearMesh};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
@@ -46,11 +47,27 @@ pub(crate) enum Solver {
 /// # Errors
 /// [`ReductionError::Fe`] when an element is too distorted to be used, or the material is none.
 pub fn model_of(gear: &GearDefinition, mesh: &GearMesh) -> Result<FeModel, ReductionError> {
+    let (nodes, material) = (mesh.nodes.clone(), &gear.material);
+    solid_model(nodes, &mesh.elements, material, gear.mesh.element)
+}
+
+/// The finite element model of nodes and elements in a gear's material.
+///
+/// # Errors
+/// As [`model_of`].
+pub(crate) fn solid_model(
+    nodes: Vec<[f64; 3]>,
+    elements: &ElementList,
+    material: &GearMaterial,
+    element: Element,
+) -> Result<FeModel, ReductionError> {
+    let material = Material::new(material.young_pa, material.poisson)?;
+    let connectivity = elements.connectivity().to_vec();
     Ok(FeModel::from_connectivity(
-        mesh.nodes.clone(),
-        mesh.elements.connectivity().to_vec(),
-        Material::new(gear.material.young_pa, gear.material.poisson)?,
-        gear.mesh.element,
+        nodes,
+        connectivity,
+        material,
+        element,
     )?)
 }
 

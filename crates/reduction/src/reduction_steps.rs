@@ -2,7 +2,7 @@
 
 use crate::asked_gauges::AskedGauges;
 use crate::dynamics::{DynamicsRequest, dynamics};
-use crate::error_estimate::{CoarserMeshes, Reduced};
+use crate::error_estimate::CoarserMeshes;
 use crate::flank_compliance::{ROWS_BY_FIELDS, flank_compliance};
 use crate::flank_loads::{GridLoad, SparseVector};
 use crate::gear_body::GearBody;
@@ -100,15 +100,7 @@ impl<'a, M: RepeatedMesh + ToothParts> Reduction<'a, M> {
     /// The discretisation error from coarser meshes.
     pub fn estimate_errors(&mut self, grid: &FlankGrid, coarser: CoarserMeshes) {
         let model = &mut self.model;
-        let reduced = Reduced {
-            teeth: model.teeth,
-            flanks: &model.flanks,
-            grid,
-            c_hub: &model.c_hub,
-            c_tooth: &model.c_tooth,
-            gauges: &model.gauges,
-        };
-        let errors = coarser.errors_of(&reduced);
+        let errors = coarser.errors_of(model, grid);
         errors.state(&mut model.checks.further, &mut model.gauges);
     }
 

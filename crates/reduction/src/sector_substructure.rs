@@ -6,14 +6,13 @@ use crate::repeated_mesh::RepeatedMesh;
 use crate::sector_condensation::SectorCondensation;
 use crate::sector_stiffness::sector_stiffness;
 use crate::separating_circle::separating_circle;
-use crate::tooth_substructure::{ToothSubstructure, gather, sum_in_order};
+use crate::tooth_substructure::{ToothSubstructure, energy_of_images};
 use faer::sparse::SparseColMatRef;
 use faer::{Mat, MatRef};
 use gearmesh_fe::{
     CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation, StiffnessMatrix,
     SymbolicFactor, assemble_mass, assemble_stiffness,
 };
-use rayon::prelude::*;
 
 /// A node of the sector, told so that its image in every sector can be found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -227,16 +226,9 @@ impl SectorSubstructure {
 
     /// Σ over all sectors of XᵀKX of hub, web and rim without the tooth cells.
     pub fn energy_products(&self, frames: &CylindricalFrames, fields: &[Vec<f64>]) -> Mat<f64> {
-        let products = self
-            .images
-            .par_iter()
-            .map(|image| {
-                let nodes: Vec<u32> = self.body_nodes.iter().map(|&i| image[i]).collect();
-                let x = gather(frames, &nodes, fields);
-                x.transpose() * (self.body_stiffness.as_ref() * &x)
-            })
-            .collect();
-        sum_in_order(products, fields.len())
+        let of_body = |image: &Vec<u32>| self.body_nodes.iter().map(|&i| image[i]).collect();
+        let images: Vec<Vec<u32>> = self.images.iter().map(of_body).collect();
+        energy_of_images(&images, &self.body_stiffness, frames, fields)
     }
 }
 

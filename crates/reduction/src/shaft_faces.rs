@@ -18,6 +18,7 @@
 //!
 //! Kept is the front face against the back one: the rest follows. Theory: docs/theory/reduction.md, "Two faces".
 
+use crate::bore_patterns::pushed_back;
 use crate::flank_loads::{GridLoad, SparseVector, directions};
 use crate::gear_body::GearBody;
 use crate::tooth_vectors::on_all_teeth;
@@ -194,14 +195,7 @@ fn constrained(
 ) -> Result<Mat<f64>, ReductionError> {
     let held = motions.clone();
     let forces = stiffness_product(&body.model, held.as_ref())?;
-    let loads: Vec<SparseVector> = (0..held.ncols())
-        .map(|q| {
-            let column = (0..forces.nrows()).map(|dof| (dof, -forces[(dof, q)]));
-            let free =
-                |&(dof, force): &(usize, f64)| force != 0.0 && body.dofs.free_of(dof).is_some();
-            column.filter(free).collect()
-        })
-        .collect();
+    let loads = pushed_back(body, &forces);
     body.solve_each(&loads.iter().collect::<Vec<_>>(), progress, |q, field| {
         for (dof, value) in field.iter().enumerate() {
             motions[(dof, q)] += value;

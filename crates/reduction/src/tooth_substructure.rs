@@ -133,20 +133,26 @@ impl ToothSubstructure {
 
     /// Σ over the given teeth of XᵀKX for fields over the whole mesh, in Cartesian components.
     pub fn energy_products(&self, frames: &CylindricalFrames, fields: &[Vec<f64>]) -> Mat<f64> {
-        let products = self
-            .images
-            .par_iter()
-            .map(|nodes| {
-                let x = gather(frames, nodes, fields);
-                x.transpose() * (self.stiffness.as_ref() * &x)
-            })
-            .collect();
-        sum_in_order(products, fields.len())
+        energy_of_images(&self.images, &self.stiffness, frames, fields)
     }
 }
 
+/// Σ of XᵀKX over all images of a part, given by their nodes.
+pub(crate) fn energy_of_images(
+    images: &[Vec<u32>],
+    stiffness: &SparseMatrix,
+    frames: &CylindricalFrames,
+    fields: &[Vec<f64>],
+) -> Mat<f64> {
+    let of_image = |nodes: &Vec<u32>| {
+        let x = gather(frames, nodes, fields);
+        x.transpose() * (stiffness.as_ref() * &x)
+    };
+    sum_in_order(images.par_iter().map(of_image).collect(), fields.len())
+}
+
 /// Sum of square matrices in their order: the same to the last bit, however many threads have made them.
-pub(crate) fn sum_in_order(products: Vec<Mat<f64>>, size: usize) -> Mat<f64> {
+fn sum_in_order(products: Vec<Mat<f64>>, size: usize) -> Mat<f64> {
     (products.into_iter()).fold(Mat::zeros(size, size), |sum, product| sum + product)
 }
 
@@ -171,7 +177,7 @@ pub(crate) fn add_turned(
 }
 
 /// Fields over the whole mesh at some nodes, in cylindrical components: 3·nodes × fields.
-pub(crate) fn gather(frames: &CylindricalFrames, nodes: &[u32], fields: &[Vec<f64>]) -> Mat<f64> {
+fn gather(frames: &CylindricalFrames, nodes: &[u32], fields: &[Vec<f64>]) -> Mat<f64> {
     let mut x = Mat::zeros(3 * nodes.len(), fields.len());
     for (column, field) in fields.iter().enumerate() {
         for (i, node) in nodes.iter().map(|&n| n as usize).enumerate() {

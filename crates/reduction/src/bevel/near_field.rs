@@ -6,8 +6,9 @@
 
 use faer::Mat;
 use gearmesh_bevel::{BevelGear, FlankPatch};
-use gearmesh_fe::{Factor, FeModel, Material, assemble_stiffness};
+use gearmesh_fe::{Factor, Material, assemble_stiffness};
 use gearmesh_geometry::Flank;
+use gearmesh_geometry::profile_curve::distance_to_line_m;
 use gearmesh_mesh::BevelSection;
 use gearmesh_mesh::contact_section::{ContactGrading, ContactSection, ToothEdges};
 use gearmesh_model::{BevelNearField, FlankGrid, SmoothCurve};
@@ -18,6 +19,7 @@ use crate::ReductionError;
 use crate::contact_problem::{ContactProblem, LoadedProfile};
 use crate::face_overlap::overlap_points;
 use crate::flank_loads::overlapping;
+use crate::gear_body::solid_model;
 use crate::near_field::{HALF_WIDTH_IN_MODULES, contact_at, edge_distances_m, grading};
 use crate::tooth_submodel::Deformation;
 
@@ -81,20 +83,7 @@ impl SectionProfile {
         let (p, n) = (self.loaded.at(arc)[0], self.normal(arc));
         let mut line = vec![self.root[0], self.root[1]];
         line.extend(&self.opposite.points);
-        let mut best = f64::INFINITY;
-        for pair in line.windows(2) {
-            let e = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
-            let d = [pair[0][0] - p[0], pair[0][1] - p[1]];
-            let det = n[1] * e[0] - n[0] * e[1];
-            if det.abs() < 1e-300 {
-                continue;
-            }
-            let along = (d[1] * e[0] - d[0] * e[1]) / det;
-            let within = (n[0] * d[1] - n[1] * d[0]) / det;
-            if along > 0.0 && (-1e-9..=1.0 + 1e-9).contains(&within) {
-                best = best.min(along);
-            }
-        }
+        let best = distance_to_line_m(p, n, &line);
         if best.is_finite() {
             best
         } else {
@@ -259,12 +248,8 @@ fn mesh_compliance(
     // Plane strain does not know the thickness; one about as thick as the elements are long keeps them compact.
     let thickness = gear.mesh.flank_m;
     let layer = section.layer(side, thickness);
-    let model = FeModel::from_connectivity(
-        layer.nodes,
-        layer.elements.connectivity().to_vec(),
-        Material::new(gear.material.young_pa, gear.material.poisson)?,
-        gear.mesh.element,
-    )?;
+    let (material, element) = (&gear.material, gear.mesh.element);
+    let model = solid_model(layer.nodes, &layer.elements, material, element)?;
     let us = &grid.roll_angles_rad;
     let stations = us.len();
     let [x, y] = section.axes.map(Vector3::from);

@@ -1,7 +1,7 @@
 //! From a bevel gear's definition to its reduced model.
 
 use gearmesh_bevel::{BevelError, BevelGear, FlankPatch, Hand};
-use gearmesh_fe::{FeModel, Material};
+use gearmesh_fe::FeModel;
 use gearmesh_geometry::Flank;
 use gearmesh_mesh::{BevelMesh, BodyGrid, MeshError};
 use gearmesh_model::{BevelBody, BevelMember, FlankGrid, ReducedGear, SpiralHand, StoredGear};
@@ -13,6 +13,7 @@ use super::near_field::{opposite_distances_m, section_fields};
 use crate::asked_gauges::AskedGauges;
 use crate::dynamics::DynamicsRequest;
 use crate::error_estimate::coarser_bevel_meshes;
+use crate::gear_body::solid_model;
 use crate::reduce::ReductionOptions;
 use crate::reduction_steps::Reduction;
 use crate::stages::Stages;
@@ -75,12 +76,8 @@ fn held(
 /// # Errors
 /// [`ReductionError::Fe`] when an element is too distorted to be used.
 pub fn bevel_model(gear: &BevelGear, mesh: &BevelMesh) -> Result<FeModel, ReductionError> {
-    Ok(FeModel::from_connectivity(
-        mesh.nodes.clone(),
-        mesh.elements.connectivity().to_vec(),
-        Material::new(gear.material.young_pa, gear.material.poisson)?,
-        gear.mesh.element,
-    )?)
+    let (nodes, material) = (mesh.nodes.clone(), &gear.material);
+    solid_model(nodes, &mesh.elements, material, gear.mesh.element)
 }
 
 /// Reduces a bevel gear to its compliance at the flanks. The finite element model is handed back for pictures.
