@@ -65,6 +65,7 @@ pub mod ring_equilibrium;
 pub mod ring_load;
 pub mod ring_pose;
 mod roller_equilibrium;
+mod roller_forces;
 pub mod roller_row;
 mod shoulder;
 mod speed_up;

@@ -11,7 +11,7 @@ use crate::line_contact::LineContact;
 use crate::operation::Operation;
 use crate::ring_load::RingLoad;
 use crate::ring_pose::RingPose;
-use crate::roller_equilibrium::Roller;
+use crate::roller_forces::Roller;
 
 /// Outer races that bend, the number of the row and that of its first roller; none where they are round.
 pub(crate) type BentRow<'a> = Option<(&'a mut BentRace, (usize, usize))>;
