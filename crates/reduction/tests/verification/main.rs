@@ -12,6 +12,7 @@ mod computed;
 mod cut_into_shaft;
 mod cut_with_stubs;
 mod cyclic_symmetry;
+mod free_gear;
 mod hard_bodies;
 mod helical;
 mod hub_patterns;

@@ -2,10 +2,6 @@
 
 use crate::small_gears::{COARSE, QUADRATIC};
 use faer::{Mat, Side};
-use gearmesh_fe::{
-    DofMap, Factor, ModeSettings, RigidGroup, assemble_mass, assemble_stiffness, natural_modes,
-    shifted_stiffness,
-};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{Flank, GearDefinition, ModeRange};
 use gearmesh_mesh::python::PythonEnvironment;
@@ -14,7 +10,6 @@ use gearmesh_reduction::flank_loads::{dot, flank_grid, flank_loads};
 use gearmesh_reduction::{
     GearBody, GearMode, GearModes, ReductionError, ReductionOptions, Silent, reduce,
 };
-use std::f64::consts::TAU;
 
 const SMALL: &str = r#"
 name = "small"
@@ -46,7 +41,7 @@ width_mm = 4.0
 const SOLID: &str = "[blank]\nkind = \"solid\"\nbore_diameter_mm = 20.0\n";
 
 /// The web is off the middle: no plane of symmetry keeps bending and torsion apart.
-const THIN_RIM: &str = "[blank]
+pub(crate) const THIN_RIM: &str = "[blank]
 kind = \"thin-rim\"
 bore_diameter_mm = 14.0
 hub_diameter_mm = 20.0
@@ -55,7 +50,7 @@ web_thickness_mm = 3.0
 web_offset_mm = 2.0
 ";
 
-const SLOTS: &str = "slots = { count = 3, inner_radius_mm = 12.0, outer_radius_mm = 17.0, width_deg = 60.0, phase_deg = 60.0, corner_radius_mm = 1.5 }\n";
+pub(crate) const SLOTS: &str = "slots = { count = 3, inner_radius_mm = 12.0, outer_radius_mm = 17.0, width_deg = 60.0, phase_deg = 60.0, corner_radius_mm = 1.5 }\n";
 
 fn gear(blank: &str, reduction: &str, tables: &str) -> GearDefinition {
     gear_like(SMALL, blank, reduction, tables)
@@ -102,7 +97,7 @@ fn groups(modes: &GearModes, readings: &[Vec<f64>]) -> Vec<Mat<f64>> {
 const LENGTHS: &str = "flank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 4.0\naxial_mm = 6.0\n";
 
 /// [`SMALL`] on another mesh.
-fn on_mesh(mesh: &str) -> String {
+pub(crate) fn on_mesh(mesh: &str) -> String {
     assert!(SMALL.contains(LENGTHS));
     SMALL.replace(LENGTHS, mesh)
 }
@@ -208,7 +203,11 @@ fn reduced(blank: &str, tables: &str) -> (GearDefinition, ReducedGear, GearBody)
     reduced_like(SMALL, blank, tables)
 }
 
-fn reduced_like(small: &str, blank: &str, tables: &str) -> (GearDefinition, ReducedGear, GearBody) {
+pub(crate) fn reduced_like(
+    small: &str,
+    blank: &str,
+    tables: &str,
+) -> (GearDefinition, ReducedGear, GearBody) {
     let gear = gear_like(small, blank, "", tables);
     let options = ReductionOptions {
         estimate_error: false,
@@ -261,7 +260,7 @@ fn volume_integrals(body: &GearBody) -> [f64; 10] {
     sums
 }
 
-const ON_A_POINT: &str = "[hub]\nsupport = \"reference-point\"\n";
+pub(crate) const ON_A_POINT: &str = "[hub]\nsupport = \"reference-point\"\n";
 
 #[test]
 fn mass_and_inertia_are_the_volume_integrals_of_the_mesh() {
@@ -411,89 +410,6 @@ fn the_residual_flexibility_is_positive_and_shrinks_with_each_mode() {
     }
     let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     assert!(norm(&rest) < norm(&full.gauges[0].adjoint));
-}
-
-/// Free gear on its reference point, by finite elements with a rigid group: ω² of rigid and elastic modes.
-fn free_gear(body: &GearBody, count: usize) -> Vec<f64> {
-    let nodes: Vec<usize> = body.mesh.bore().into_iter().map(|n| n as usize).collect();
-    let group = RigidGroup {
-        nodes,
-        reference_m: [0.0; 3],
-        fixed: [false; 6],
-    };
-    let dofs = DofMap::with_rigid_groups(body.model.nodes(), &[], &[group]).unwrap();
-    let k = assemble_stiffness(&body.model, &dofs).unwrap();
-    let m = assemble_mass(&body.model, &dofs, 7850.0).unwrap();
-    let settings = ModeSettings {
-        shift_rad2_per_s2: (TAU * 5e3).powi(2),
-        ..ModeSettings::new(6 + count)
-    };
-    let shifted = shifted_stiffness(&k, &m, settings.shift_rad2_per_s2).unwrap();
-    let factor = Factor::of_model(&body.model, &dofs, &shifted).unwrap();
-    natural_modes(&k, &m, &factor, &settings)
-        .unwrap()
-        .omega_squared
-}
-
-/// The same from the model file: six rigid motions and the first `count` modes, coupled by ΦᵀMR.
-fn free_craig_bampton(model: &ReducedGear, count: usize) -> Vec<f64> {
-    let basis = model.modes.as_ref().unwrap();
-    let rigid = model.rigid_body.as_ref().unwrap().mass_matrix();
-    let size = 6 + count;
-    let m = Mat::from_fn(size, size, |i, j| match (i < 6, j < 6) {
-        (true, true) => rigid[i][j],
-        (true, false) => basis.coupling[6 * (j - 6) + i],
-        (false, true) => basis.coupling[6 * (i - 6) + j],
-        (false, false) => f64::from(u8::from(i == j)),
-    });
-    // M = L Lᵀ: the ordinary problem L⁻¹ K L⁻ᵀ.
-    let l = m.llt(Side::Lower).unwrap().L().to_owned();
-    let mut half = Mat::from_fn(size, size, |i, j| {
-        if i == j && i >= 6 {
-            basis.omega_squared[i - 6]
-        } else {
-            0.0
-        }
-    });
-    let solve = faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-    solve(l.as_ref(), half.as_mut(), faer::Par::Seq);
-    let mut whole = half.transpose().to_owned();
-    solve(l.as_ref(), whole.as_mut(), faer::Par::Seq);
-    whole.self_adjoint_eigenvalues(Side::Lower).unwrap()
-}
-
-#[test]
-fn the_free_gear_on_its_reference_point_comes_back_from_the_basis() {
-    let tables = format!("{ON_A_POINT}[modes]\ncount = 48\n");
-    let blank = format!("{THIN_RIM}{SLOTS}");
-    let (_, model, body) = reduced_like(&on_mesh(COARSE), &blank, &tables);
-    let elastic = 6;
-    let exact = free_gear(&body, elastic);
-    for (k, square) in exact.iter().enumerate() {
-        assert_eq!(square.abs() < 1e-6 * exact[6], k < 6, "{exact:?}");
-    }
-    let mut errors: Vec<Vec<f64>> = Vec::new();
-    for count in [6, 18, 48] {
-        let found = free_craig_bampton(&model, count);
-        assert!(
-            found[..6].iter().all(|w| w.abs() < 1e-6 * exact[6]),
-            "{found:?}"
-        );
-        let error = (6..6 + elastic).map(|k| (found[k] / exact[k]).sqrt() - 1.0);
-        errors.push(error.collect());
-    }
-    for k in 0..elastic {
-        // A subspace: from above, and never farther away with more modes.
-        assert!(errors.iter().all(|e| e[k] > -1e-9), "{errors:?}");
-        assert!(errors[1][k] <= errors[0][k] + 1e-12 && errors[2][k] <= errors[1][k] + 1e-12);
-        assert!(errors[2][k] < 5e-3, "{errors:?}");
-    }
-    // Six modes know the lowest ones only; 48 bring the worst of the first six from beyond recognition to 0.4 %, the
-    // pair that the hub's inertia changes least to 1e-6.
-    assert!(
-        errors[0][5] > 0.1 && errors[2][0] < 1e-5 && errors[2][3] < 1e-5,
-        "{errors:?}"
-    );
 }
 
 #[test]
