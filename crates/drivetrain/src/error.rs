@@ -334,8 +334,8 @@ impl DrivetrainError {
         })
     }
 
-    /// Refuses edges \[m\] of a flank's parts, along the face and up the flank, of which one is not positive or leaves fewer
-    /// parts than `least`, or with which there are not few enough of them.
+    /// Refuses edges \[m\] of a flank's parts, along the face and up the flank, of which one is not positive or leaves
+    /// fewer parts than `least`, or with which there are not few enough of them.
     pub(crate) fn check_edges(
         owner: &'static str,
         [along, up]: [f64; 2],

@@ -207,8 +207,8 @@ impl FlankContacts {
         self.open_gap_m = None;
     }
 
-    /// Gap \[m\] of ideal flanks of the first pair of teeth, or of flanks that are out of reach; none where no teeth face each
-    /// other.
+    /// Gap \[m\] of ideal flanks of the first pair of teeth, or of flanks that are out of reach; none where no teeth
+    /// face each other.
     pub(crate) fn ideal_gap_m(&self) -> Option<f64> {
         let line = self.lines.first().map(|line| line.ideal_gap_m);
         line.or(self.open_gap_m)

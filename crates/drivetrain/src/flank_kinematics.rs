@@ -139,9 +139,10 @@ pub trait FlankKinematics: Send {
         })
     }
 
-    /// The contacts are those that [`Self::contacts`] found last on this side, as in all that follows. The tangent along
-    /// the profile, and that at right angles to it of families whose flanks slide along the teeth as well: friction then
-    /// acts against the sliding in the tangent plane. With derivatives where they are asked for.
+    /// Tangents along which the flanks slide in a contact: along the profile, and at right angles to it for families
+    /// whose flanks slide along the teeth as well; friction then acts against the sliding in the tangent plane. With
+    /// derivatives where they are asked for. The contacts are those that [`Self::contacts`] found last on this side,
+    /// as in all that follows.
     fn sliding(
         &self,
         found: &FlankContacts,
@@ -150,9 +151,9 @@ pub trait FlankKinematics: Send {
         derivatives: bool,
     ) -> [Option<Tangent>; 2];
 
-    /// The tangents of [`Self::sliding`] as the flanks of gear 1 and gear 2 see them, `[gear][tangent]`: along the profile
-    /// towards the tip, and along the tooth as the loads of a reduced gear count it. None of families that slide along the
-    /// profile only, whose tangent is that of [`Self::hand`].
+    /// The tangents of [`Self::sliding`] as the flanks of gear 1 and gear 2 see them, `[gear][tangent]`: along the
+    /// profile towards the tip, and along the tooth as the loads of a reduced gear count it. None of families that
+    /// slide along the profile only, whose tangent is that of [`Self::hand`].
     fn tangents_on_flanks(&self, _contact: usize, _side: Flank) -> Option<[[[f64; 2]; 2]; 2]> {
         None
     }

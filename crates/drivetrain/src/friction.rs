@@ -114,8 +114,8 @@ pub(crate) struct Drag {
 }
 
 impl Friction {
-    /// Against the sliding along one tangent, or in the plane of two at right angles, with what vibration of the gears adds
-    /// to the sliding along each \[m/s\].
+    /// Against the sliding along one tangent, or in the plane of two at right angles, with what vibration of the gears
+    /// adds to the sliding along each \[m/s\].
     pub(crate) fn along(
         &self,
         tangents: &[Option<Tangent>; 2],

@@ -7,8 +7,8 @@
 //!
 //! *Linear elements*: their strain is accurate at the centres of the faces only. It is taken there, and a curve goes
 //! through the centres of each layer of elements, along the profile, and through the layers, across it. The gauge reads
-//! the mean of these curves: one that covers a part of a face should not read its centre, and at the peak of the strain,
-//! where gauges are placed, straight lines between the centres lie below it.
+//! the mean of these curves: one that covers a part of a face should not read its centre, and at the peak of the
+//! strain, where gauges are placed, straight lines between the centres lie below it.
 
 use crate::ReductionError;
 use crate::face_overlap::overlap_points;
@@ -207,8 +207,8 @@ pub(crate) fn strain_weights(
         .collect())
 }
 
-/// Weights w with ∫ f ds = Σ w_i f(x_i) over `range` for the curve f through the points x: between two of them the cubic
-/// through these and their neighbours, constant beyond the first and last of them. A neighbour nearer than
+/// Weights w with ∫ f ds = Σ w_i f(x_i) over `range` for the curve f through the points x: between two of them the
+/// cubic through these and their neighbours, constant beyond the first and last of them. A neighbour nearer than
 /// [`NEAREST`] of the piece is left out, so that small differences do not grow.
 fn curve_integral(x: &[f64], range: [f64; 2]) -> Vec<f64> {
     let mut weights = vec![0.0; x.len()];

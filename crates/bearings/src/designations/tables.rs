@@ -8,7 +8,8 @@
 /// Degrees, minutes, seconds.
 pub(super) type Angle = (u8, u8, u8);
 
-/// Bore in mm, outside diameter, a width for each series of the table (0: not listed), contact angle of tapered bearings.
+/// Bore in mm, outside diameter, a width for each series of the table (0: not listed), contact angle of tapered
+/// bearings.
 pub(super) type Size = (u16, f64, &'static [f64], Angle);
 
 /// No tapered bearing is listed.

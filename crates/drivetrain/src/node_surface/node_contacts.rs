@@ -199,8 +199,9 @@ impl NodeSurfaces {
             }
             from = centre.patch;
         }
-        // Within a radius R of a node the gap is not less than g − R s − ½ κ R², s how far its normals are from opposite
-        // and κ the sum of the curvatures: blocks farther open than touching nodes and the nearest are passed over.
+        // Within a radius R of a node the gap is not less than g − R s − ½ κ R², s how far its normals are from
+        // opposite and κ the sum of the curvatures: blocks farther open than touching nodes and the nearest are passed
+        // over.
         let curvature = own.curvature_per_m + mate.curvature_per_m;
         let mut reach_m = f64::INFINITY;
         let least_m = |block: &Block, foot: &Foot| {

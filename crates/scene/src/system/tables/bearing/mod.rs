@@ -34,8 +34,8 @@ pub struct BearingTable {
     /// Axis; the z axis of `body_2` where not given.
     pub axis: Option<[f64; 3]>,
     /// What lies between the outer ring and `body_1`; nothing where not given. The outer ring becomes a body, called
-    /// `BEARING/ring`, on a stiffness, called `BEARING/housing`. Either the diagonals or the 6×6 matrices; order x, y, z,
-    /// rotations about x, y, z, with z along the bearing's axis.
+    /// `BEARING/ring`, on a stiffness, called `BEARING/housing`. Either the diagonals or the 6×6 matrices; order x, y,
+    /// z, rotations about x, y, z, with z along the bearing's axis.
     pub housing: Option<HousingTable>,
     /// Model.
     pub model: BearingModel,
