@@ -72,7 +72,7 @@ fn root_strain(gear: &ReducedGear, roll_rad: f64, line_load_n_per_m: f64) -> f64
 }
 
 /// Loads farther out are within a fillet's radius of the gauge. It feels how the hat functions of nine roll stations
-/// spread them: 0.7 % of its strain, and 1.1 % of the mesh are 1.8 %.
+/// spread them: 0.7 % of its strain, and 0.8 % of the mesh are 1.5 %.
 const LOWEST_MM: f64 = 91.0;
 
 /// Largest errors over rims and radii.
@@ -156,18 +156,19 @@ fn a_ring_deflects_as_an_independent_program_says() {
     }
 }
 
-/// Elements that are shorter in the fillets alone: half the default length leaves a quarter of the root strain's error
-/// (second order; a third is allowed), whatever the length along the flank. Elements below the fillet grow from those
-/// along it; where they did not, the error grew from 0.6 to 8 %.
+/// Elements that are shorter in the fillets alone: from the default length to its half the root strain changes four
+/// times as much as from there to a quarter (second order; three times is allowed, 3.5 found), whatever the length along
+/// the flank; what is left, 0.15 %, is not of the fillets. Elements below the fillet grow from those along it; where they
+/// did not, the error grew from 0.6 to 8 %.
 #[test]
 fn shorter_elements_in_the_fillets_are_enough_for_the_root_strain_of_a_ring() {
     let default = worst("", false);
     let shorter = worst("fillet_mm = 0.075\n", true);
+    let shortest = worst("fillet_mm = 0.0375\n", false);
+    let strains = [default.strain, shorter.strain, shortest.strain];
     assert!(
-        shorter.strain < default.strain / 3.0,
-        "{} {}",
-        shorter.strain,
-        default.strain
+        strains[0] - strains[1] > 3.0 * (strains[1] - strains[2]) && strains[2] < 0.002,
+        "{strains:?}"
     );
     assert!(
         shorter.strain_over_stated < 1.0,
