@@ -265,7 +265,7 @@ def reduced(tmp_path_factory):
     path = tmp_path_factory.mktemp("reduced") / "gear.h5"
     mesh = dict(flank_mm=2.0, fillet_mm=1.0, body_mm=6.0, axial_mm=5.0)
     gauge = dict(name="root", tooth=0, side="right", length_mm=1.0, width_mm=5.0)
-    numbers = dict(reduction=dict(slices=3, roll_stations=4), mesh=mesh, gauge=[gauge])
+    numbers = dict(reduction=dict(slices=3, roll_stations=4, flanks=["right", "left"]), mesh=mesh, gauge=[gauge])
     gear = gearmesh.Gear("g", teeth=23, module_mm=3, face_width_mm=20, bore_diameter_mm=25, material=gearmesh.STEEL, **numbers)
     gear.reduce(path, error_estimate=False, progress=False)
     return path
@@ -305,8 +305,9 @@ def test_read_reduced_agrees_with_h5py(reduced_file):
         assert stages == [(stored[f"{k}/name"].asstr()[()], stored[f"{k}/value"][()]) for k in range(len(stored))]
         checks = {check["name"].asstr()[()]: check["value"][()] for check in file["checks"].values()}
         assert gear["checks"] == checks and len(checks) > 1
-    # Flanks, teeth, flanks; four stations by three slices with a point at each end and in each middle.
-    assert gear["c_hub"].shape == (2, 1, 23, 2, 28, 28)
+    # One tooth that stands for all, its flanks, teeth, their flanks; four stations by three slices with a point at each end
+    # and in each middle.
+    assert gear["c_hub"].shape == (1, 2, 23, 2, 28, 28)
     assert gear["flanks"] == ["right", "left"]
     assert stages[0][0] == "mesh" and all(seconds >= 0.0 for _, seconds in stages)
 
