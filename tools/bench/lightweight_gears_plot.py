@@ -27,24 +27,28 @@ class Result:
             self.torques = [round(float(t)) for t in file["torque_Nm"][:]]
             self.even = np.degrees(file["angle_rad"][:])
             count = file["between/count"][:]
-            ends = np.concatenate([[0], np.cumsum(count)]).astype(int)
-            self.between = [np.degrees(file["between/angle_rad"][a:b]) for a, b in zip(ends, ends[1:])]
-            self.curves = {"te": self._curves(1e6, file["te_m"], file["between/te_m"], ends)}
+            self.ends = np.concatenate([[0], np.cumsum(count)]).astype(int)
+            self.between = np.degrees(file["between/angle_rad"][:])
+            self.curves = {"te": self._curves(1e6, file["te_m"], file["between/te_m"])}
             for gauge in file["gauges"].values():
                 name = gauge["name"][()].decode()
                 for method in (1, 2):
                     own = (gauge[f"method_{method}"], gauge[f"between_method_{method}"])
-                    self.curves[name, method] = self._curves(1e6, *own, ends)
+                    self.curves[name, method] = self._curves(1e6, *own)
 
-    def _curves(self, factor, even, between, ends):
-        even = even[:].reshape(len(self.torques), -1)
-        return [factor * np.concatenate([e, between[a:b]]) for e, a, b in zip(even, ends, ends[1:])]
+    def _curves(self, factor, even, between):
+        """Angles and values of each torque. Positions between the even ones may have values in many periods of the mesh."""
+        between = between[:].reshape(len(self.between), -1)
+        periods = 360 / between.shape[1] * np.arange(between.shape[1])  # the run has one revolution
+        curves = []
+        for values, a, b in zip(even[:].reshape(len(self.torques), -1), self.ends, self.ends[1:]):
+            angle = np.concatenate([self.even, np.add.outer(self.between[a:b], periods).ravel()])
+            order = np.argsort(angle, kind="stable")
+            curves.append((angle[order], factor * np.concatenate([values, between[a:b].ravel()])[order]))
+        return curves
 
     def curve(self, key, torque: int) -> tuple[np.ndarray, np.ndarray]:
-        k = self.torques.index(torque)
-        angle = np.concatenate([self.even, self.between[k]])
-        order = np.argsort(angle, kind="stable")
-        return angle[order], self.curves[key][k][order]
+        return self.curves[key][self.torques.index(torque)]
 
 
 def record(folder: Path, head: str) -> tuple[np.ndarray, np.ndarray]:
