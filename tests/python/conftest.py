@@ -1,4 +1,4 @@
-"""The browser of the tests of pages: one for the tests of a file, whose pages are closed after each test; and a pair."""
+"""The browser of the tests of pages: one a file, whose pages are closed after each test; and a pair."""
 
 import os
 

@@ -305,8 +305,8 @@ def test_read_reduced_agrees_with_h5py(reduced_file):
         assert stages == [(stored[f"{k}/name"].asstr()[()], stored[f"{k}/value"][()]) for k in range(len(stored))]
         checks = {check["name"].asstr()[()]: check["value"][()] for check in file["checks"].values()}
         assert gear["checks"] == checks and len(checks) > 1
-    # One tooth that stands for all, its flanks, teeth, their flanks; four stations by three slices with a point at each end
-    # and in each middle.
+    # One tooth that represents all, its flanks, teeth, their flanks; four stations by three slices, each with a point at its
+    # ends and one in its middle.
     assert gear["c_hub"].shape == (1, 2, 23, 2, 28, 28)
     assert gear["flanks"] == ["right", "left"]
     assert stages[0][0] == "mesh" and all(seconds >= 0.0 for _, seconds in stages)

@@ -1,4 +1,4 @@
-"""The page of `gearmesh studio` in a real browser: pairs. Its server without one: crates/cli/tests/scene_commands/studio.rs."""
+"""Pairs on the page of `gearmesh studio` in a real browser. Its server: crates/cli/tests/scene_commands/studio.rs."""
 
 import re
 from pathlib import Path

@@ -37,7 +37,7 @@ class Result:
                     self.curves[name, method] = self._curves(1e6, *own)
 
     def _curves(self, factor, even, between):
-        """Angles and values of each torque. Positions between the even ones may have values in many periods of the mesh."""
+        """Angles and values of each torque. Positions between the even ones have values in each period of the mesh."""
         between = between[:].reshape(len(self.between), -1)
         periods = 360 / between.shape[1] * np.arange(between.shape[1])  # the run has one revolution
         curves = []

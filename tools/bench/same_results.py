@@ -1,4 +1,4 @@
-"""Runs every shipped scene with two programs and compares all numbers of the results: same_results.py OLD NEW [NAME ...].
+"""Runs every shipped scene with two programs and compares all numbers: same_results.py OLD NEW [NAME ...].
 
 For changes that must not change anything: OLD and NEW are `gearmesh` before and after. Models are reduced by OLD on coarse
 meshes and read by both; runs in time have a twentieth of their time. Names of scenes choose some of them. A line a scene:

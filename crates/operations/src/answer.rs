@@ -12,7 +12,7 @@ pub struct Answer {
 }
 
 impl From<Value> for Answer {
-    /// Figures of which people are told nothing more.
+    /// Figures alone: nothing more is printed for people.
     fn from(figures: Value) -> Self {
         let lines = Vec::new();
         Self { figures, lines }

@@ -48,7 +48,7 @@ pub enum RexsError {
         /// The second one.
         second: String,
     },
-    /// Components that contain each other, or whose places are told by each other.
+    /// Components that contain each other, or whose places follow from each other.
     #[error("{what} go round in a circle: {chain}")]
     Cycle {
         /// What goes round.

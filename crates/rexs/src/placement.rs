@@ -72,7 +72,7 @@ pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
 /// The frame of a component; none where it has no support vector.
 ///
 /// # Errors
-/// [`RexsError::Cycle`] for components whose places are told by each other, those of [`Part`].
+/// [`RexsError::Cycle`] for components whose places follow from each other, those of [`Part`].
 pub fn frame(component: Part<'_>) -> Result<Option<Frame>> {
     let source = component.source;
     let mut chain: Vec<(Part<'_>, Frame)> = Vec::new();

@@ -14,54 +14,55 @@ const KINDS: [(&str, &str, &str); 3] = [
 ];
 
 /// Attributes that were renamed, version by version: part of the type's name, old name, new name.
-const ATTRIBUTES: &str = "
-Version 1.1:
-rolling_bearing_with name                                     catalogue_designation
-rolling_bearing_with dynamic_capacity                         radial_dynamic_load_rating
-rolling_bearing_with static_capacity                          radial_static_load_rating
-rolling_bearing_with axial_backlash                           operating_axial_bearing_clearance
-rolling_bearing_with radial_backlash                          operating_radial_bearing_clearance
-rolling_bearing_with minimum_bearing_clearance                minimum_radial_bearing_clearance
-rolling_bearing_with maximum_bearing_clearance                maximum_radial_bearing_clearance
-rolling_bearing_with minimum_outer_diameter                   minimum_bearing_outer_diameter
-rolling_bearing_with maximum_outer_diameter                   maximum_bearing_outer_diameter
-rolling_bearing_with minimum_pin_diameter                     minimum_shaft_diameter
-rolling_bearing_with maximum_pin_diameter                     maximum_shaft_diameter
-rolling_bearing_with minimum_bore_diameter                    minimum_casing_bore_diameter
-rolling_bearing_with maximum_bore_diameter                    maximum_casing_bore_diameter
-rolling_bearing_with decisive_housing_outer_diameter          casing_outer_diameter
-rolling_bearing_with decisive_pin_diameter                    shaft_inner_diameter
-rolling_bearing_with clearance_class                          radial_clearance_class
-rolling_bearing_with boring_tolerance_class                   casing_bore_tolerance_class
-rolling_bearing_with pin_tolerance_class                      shaft_tolerance_class
-bearing              initial_load                             preload_force
-bearing              initial_load_shift                       preload_distance
-rolling_bearing_row  significant_width_inner                  significant_contact_length_inner_ring
-rolling_bearing_row  significant_width_outer                  significant_contact_length_outer_ring
-rolling_bearing_row  running_path_radius_of_inner_ring        raceway_radius_of_inner_ring
-rolling_bearing_row  running_path_radius_of_outer_ring        raceway_radius_of_outer_ring
-rolling_element      roller_shell_radius                      roller_crowning_radius
-gear                 din_3967_deviation_tolerance_series      tooth_thickness_deviation_tolerance_series_din_3967_1978
-stage                din_3964_center_distance_tolerance_field center_distance_tolerance_field_din_3964_1980
-Version 1.3:
-gear_unit            load_duration                            operating_time
-gear_unit            load_duration_fraction                   operating_time_fraction
-gear_unit            custom_load_duration_fraction            operating_time_fraction
-Version 1.5:
-gear                 normal_tooth_thickness_at_pitch_diameter normal_tooth_thickness_at_reference_diameter
-Version 2.0.0:
-rolling_bearing_row  reference_diameter                       reference_diameter_rolling_bearing
-tool                 tip_radius                               tip_corner_radius_reference_profile
-tool                 tip_radius_factor                        tip_corner_radius_factor_reference_profile
-bevel_gear           basic_addendum_coefficient               basic_crown_gear_addendum_factor
-bevel_gear           basic_dedendum_coefficient               basic_crown_gear_dedendum_factor
-bevel_stage          generated_pressure_angle_drive           generated_pressure_angle_on_drive_side
-bevel_stage          generated_pressure_angle_coast           generated_pressure_angle_on_coast_side
-bevel_stage          nominal_design_pressure_angle_drive      nominal_design_pressure_angle_on_drive_side
-bevel_stage          nominal_design_pressure_angle_coast      nominal_design_pressure_angle_on_coast_side
-bevel_stage          effective_pressure_angle_drive           effective_pressure_angle_on_drive_side
-bevel_stage          effective_pressure_angle_coast           effective_pressure_angle_on_coast_side
-";
+#[rustfmt::skip] // a table, a row a line
+const ATTRIBUTES: [[&str; 3]; 42] = [
+    // Version 1.1.
+    ["rolling_bearing_with", "name", "catalogue_designation"],
+    ["rolling_bearing_with", "dynamic_capacity", "radial_dynamic_load_rating"],
+    ["rolling_bearing_with", "static_capacity", "radial_static_load_rating"],
+    ["rolling_bearing_with", "axial_backlash", "operating_axial_bearing_clearance"],
+    ["rolling_bearing_with", "radial_backlash", "operating_radial_bearing_clearance"],
+    ["rolling_bearing_with", "minimum_bearing_clearance", "minimum_radial_bearing_clearance"],
+    ["rolling_bearing_with", "maximum_bearing_clearance", "maximum_radial_bearing_clearance"],
+    ["rolling_bearing_with", "minimum_outer_diameter", "minimum_bearing_outer_diameter"],
+    ["rolling_bearing_with", "maximum_outer_diameter", "maximum_bearing_outer_diameter"],
+    ["rolling_bearing_with", "minimum_pin_diameter", "minimum_shaft_diameter"],
+    ["rolling_bearing_with", "maximum_pin_diameter", "maximum_shaft_diameter"],
+    ["rolling_bearing_with", "minimum_bore_diameter", "minimum_casing_bore_diameter"],
+    ["rolling_bearing_with", "maximum_bore_diameter", "maximum_casing_bore_diameter"],
+    ["rolling_bearing_with", "decisive_housing_outer_diameter", "casing_outer_diameter"],
+    ["rolling_bearing_with", "decisive_pin_diameter", "shaft_inner_diameter"],
+    ["rolling_bearing_with", "clearance_class", "radial_clearance_class"],
+    ["rolling_bearing_with", "boring_tolerance_class", "casing_bore_tolerance_class"],
+    ["rolling_bearing_with", "pin_tolerance_class", "shaft_tolerance_class"],
+    ["bearing", "initial_load", "preload_force"],
+    ["bearing", "initial_load_shift", "preload_distance"],
+    ["rolling_bearing_row", "significant_width_inner", "significant_contact_length_inner_ring"],
+    ["rolling_bearing_row", "significant_width_outer", "significant_contact_length_outer_ring"],
+    ["rolling_bearing_row", "running_path_radius_of_inner_ring", "raceway_radius_of_inner_ring"],
+    ["rolling_bearing_row", "running_path_radius_of_outer_ring", "raceway_radius_of_outer_ring"],
+    ["rolling_element", "roller_shell_radius", "roller_crowning_radius"],
+    ["gear", "din_3967_deviation_tolerance_series", "tooth_thickness_deviation_tolerance_series_din_3967_1978"],
+    ["stage", "din_3964_center_distance_tolerance_field", "center_distance_tolerance_field_din_3964_1980"],
+    // Version 1.3.
+    ["gear_unit", "load_duration", "operating_time"],
+    ["gear_unit", "load_duration_fraction", "operating_time_fraction"],
+    ["gear_unit", "custom_load_duration_fraction", "operating_time_fraction"],
+    // Version 1.5.
+    ["gear", "normal_tooth_thickness_at_pitch_diameter", "normal_tooth_thickness_at_reference_diameter"],
+    // Version 2.0.0.
+    ["rolling_bearing_row", "reference_diameter", "reference_diameter_rolling_bearing"],
+    ["tool", "tip_radius", "tip_corner_radius_reference_profile"],
+    ["tool", "tip_radius_factor", "tip_corner_radius_factor_reference_profile"],
+    ["bevel_gear", "basic_addendum_coefficient", "basic_crown_gear_addendum_factor"],
+    ["bevel_gear", "basic_dedendum_coefficient", "basic_crown_gear_dedendum_factor"],
+    ["bevel_stage", "generated_pressure_angle_drive", "generated_pressure_angle_on_drive_side"],
+    ["bevel_stage", "generated_pressure_angle_coast", "generated_pressure_angle_on_coast_side"],
+    ["bevel_stage", "nominal_design_pressure_angle_drive", "nominal_design_pressure_angle_on_drive_side"],
+    ["bevel_stage", "nominal_design_pressure_angle_coast", "nominal_design_pressure_angle_on_coast_side"],
+    ["bevel_stage", "effective_pressure_angle_drive", "effective_pressure_angle_on_drive_side"],
+    ["bevel_stage", "effective_pressure_angle_coast", "effective_pressure_angle_on_coast_side"],
+];
 
 /// Versions with a published schema.
 const PUBLISHED: [&str; 9] = [
@@ -128,11 +129,7 @@ fn rename(component: &mut Component) {
     if let Some((_, new, _)) = KINDS.iter().find(|(old, ..)| *old == component.kind) {
         (*new).clone_into(&mut component.kind);
     }
-    for row in ATTRIBUTES.lines() {
-        let mut words = row.split_whitespace();
-        let (Some(kind), Some(old), Some(new)) = (words.next(), words.next(), words.next()) else {
-            continue;
-        };
+    for [kind, old, new] in ATTRIBUTES {
         if !component.kind.contains(kind)
             || component.attribute(old).is_none()
             || component.attribute(new).is_some()

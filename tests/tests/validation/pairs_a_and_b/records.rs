@@ -9,8 +9,8 @@ use gearmesh_scene::SceneResult;
 const RECORD_POINTS: usize = 48;
 
 /// Root strain of the demo's gears on default lengths, all below their record, 0.9 to 1.22 % found. Refining one length
-/// of gear 2 at a time, the fillets have 0.5 %, the layers along the axis 0.25 % and the flank 0.2 %, 0.14 % of these by
-/// a reading of gauges that is finer now; quadratic elements leave 0.15 %.
+/// of gear 2 at a time, the fillets have 0.5 %, the layers along the axis 0.25 % and the flank 0.2 %, 0.14 % of these
+/// by a reading of gauges that is finer now; quadratic elements leave 0.15 %.
 const STRAIN_WITHIN: f64 = 0.0125;
 
 /// Error of gear 3's deflection: the program states 0.46 %. Half the length in the body adds 0.5 %, which
