@@ -3,12 +3,12 @@
 //! The strain of a surface point is that of the element behind it, rotated to the direction of the profile
 //! (*Transmission Error and Strain Analysis of Lightweight Gears*, section 4.4; seed 004 in docs/sources.md).
 //!
-//! *Quadratic elements*: its mean over what the faces have in common with the gauge.
+//! *Linear bricks in layers*: what is accurate is the displacement of their nodes. On each plane between two layers the
+//! edges of the faces are a chain along the profile, whose elongations from node to node add up to a curve; the gauge
+//! reads the elongation between its ends, and the mean over its width of a curve through the planes. The strain at the
+//! centre of a face is the mean of its piece and of two planes, which lies below the peak where gauges are placed.
 //!
-//! *Linear elements*: their strain is accurate at the centres of the faces only. It is taken there, and a curve goes
-//! through the centres of each layer of elements, along the profile, and through the layers, across it. The gauge reads
-//! the mean of these curves: one that covers a part of a face should not read its centre, and at the peak of the
-//! strain, where gauges are placed, straight lines between the centres lie below it.
+//! *Other elements*: the mean of their own strain over what the faces have in common with the gauge.
 
 use crate::ReductionError;
 use crate::face_overlap::overlap_points;
@@ -16,14 +16,14 @@ use crate::flank_loads::SparseVector;
 use crate::toothed_mesh::ToothedMesh;
 use gearmesh_fe::{ElementFormulas, FeModel};
 use gearmesh_geometry::{GaugeDefinition, GearDefinition, ProfileCurve, RootPosition};
-use gearmesh_mesh::OutlineFace;
+use gearmesh_mesh::{FaceShape, OutlineFace};
 use gearmesh_model::GaugeRows;
 use std::collections::BTreeMap;
 
 /// So much of a piece of the curve a neighbour's piece must be long to have a say in it.
 const NEAREST: f64 = 0.25;
-/// Layers whose edges differ by less are one \[m\].
-const SAME_LAYER_M: f64 = 1e-9;
+/// Places of nodes are one within this share of a face: the last digits of a mesh that is read back.
+const SAME_PLACE: f64 = 0.01;
 
 /// A point of a face and its share of the gauge's area.
 pub(crate) struct Reading<'a> {
@@ -96,10 +96,10 @@ pub(crate) fn readings(
     along: [f64; 2],
     across: [f64; 2],
 ) -> Vec<Reading<'_>> {
-    if faces.iter().any(|face| face.shape.is_quadratic()) {
-        everywhere(faces, along, across)
-    } else {
-        at_centres(faces, along, across)
+    let pieces: Option<Vec<[Piece<'_>; 2]>> = faces.iter().map(pieces_of).collect();
+    match pieces {
+        Some(pieces) if !pieces.is_empty() => of_layers(pieces.into_flattened(), along, across),
+        _ => everywhere(faces, along, across),
     }
 }
 
@@ -118,34 +118,68 @@ fn everywhere(faces: &[OutlineFace], along: [f64; 2], across: [f64; 2]) -> Vec<R
         .collect()
 }
 
-/// Centres of faces, weighted by the integral of the curve through them along the profile and across it.
-fn at_centres(faces: &[OutlineFace], along: [f64; 2], across: [f64; 2]) -> Vec<Reading<'_>> {
-    let same = |a: [f64; 2], b: [f64; 2]| (0..2).all(|k| (a[k] - b[k]).abs() < SAME_LAYER_M);
-    let centre = |face: &OutlineFace| face.place_m(face.shape.centre())[0];
-    let mut layers: Vec<[f64; 2]> = faces.iter().map(|face| face.range_m(1)).collect();
-    layers.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    layers.dedup_by(|a, b| same(*a, *b));
-    let middles: Vec<f64> = layers.iter().map(|z| 0.5 * (z[0] + z[1])).collect();
-    let mut readings = Vec::new();
-    for (layer, width) in layers.into_iter().zip(curve_integral(&middles, across)) {
-        if width == 0.0 {
-            continue;
-        }
-        let mut strip: Vec<&OutlineFace> = { faces.iter() }
-            .filter(|face| same(face.range_m(1), layer))
-            .collect();
-        strip.sort_by(|a, b| centre(a)[0].total_cmp(&centre(b)[0]));
-        let centres: Vec<f64> = strip.iter().map(|face| centre(face)[0]).collect();
-        let shares = curve_integral(&centres, along);
-        let covered = strip
-            .into_iter()
-            .zip(shares)
-            .filter(|(_, share)| *share != 0.0);
-        readings.extend(covered.map(|(face, share)| Reading {
+/// An edge of a face along the profile: a piece of a chain on a plane between two layers.
+struct Piece<'a> {
+    face: &'a OutlineFace,
+    /// Its middle on the face.
+    natural: [f64; 2],
+    /// Its ends along the profile, and its place across it \[m\].
+    arcs_m: [f64; 2],
+    z_m: f64,
+    /// Tolerance of places, a share of the face's size along the profile and across it \[m\].
+    same_m: [f64; 2],
+}
+
+/// The two edges of a linear quadrilateral that run along the profile, on one plane each; none of another face.
+fn pieces_of(face: &OutlineFace) -> Option<[Piece<'_>; 2]> {
+    if face.shape != FaceShape::Quad4 {
+        return None;
+    }
+    let [length_m, height_m] = [0, 1].map(|axis| {
+        let [low, high] = face.range_m(axis);
+        high - low
+    });
+    let edge = |k: usize| {
+        let [a, b] = [k, (k + 1) % 4].map(|corner| face.places_m[corner]);
+        ((b[1] - a[1]).abs() <= SAME_PLACE * height_m).then(|| Piece {
             face,
-            natural: face.shape.centre(),
-            area_m2: width * share,
-        }));
+            natural: face.shape.edge_middle(k),
+            arcs_m: [a[0].min(b[0]), a[0].max(b[0])],
+            z_m: 0.5 * (a[1] + b[1]),
+            same_m: [SAME_PLACE * length_m, SAME_PLACE * height_m],
+        })
+    };
+    let opposite = |k: usize| Some([edge(k)?, edge(k + 2)?]);
+    opposite(0).or_else(|| opposite(1))
+}
+
+/// Middles of edges: plane by plane the elongation of the chain under the gauge, and the integral of the curve through
+/// the planes. Faces on both sides of an edge have half of its share each.
+fn of_layers(mut pieces: Vec<Piece<'_>>, along: [f64; 2], across: [f64; 2]) -> Vec<Reading<'_>> {
+    let same = |axis: usize, [p, q]: [&Piece<'_>; 2]| {
+        let [a, b] = [p, q].map(|piece| [piece.arcs_m[0], piece.z_m][axis]);
+        (a - b).abs() <= p.same_m[axis].min(q.same_m[axis])
+    };
+    pieces.sort_by(|a, b| a.z_m.total_cmp(&b.z_m));
+    let planes: Vec<&mut [Piece<'_>]> = pieces.chunk_by_mut(|p, q| same(1, [p, q])).collect();
+    let places: Vec<f64> = planes.iter().map(|plane| plane[0].z_m).collect();
+    let mut readings = Vec::new();
+    for (plane, width) in planes.into_iter().zip(curve_integral(&places, across)) {
+        plane.sort_by(|a, b| a.arcs_m[0].total_cmp(&b.arcs_m[0]));
+        let chain: Vec<&[Piece<'_>]> = plane.chunk_by(|p, q| same(0, [p, q])).collect();
+        let knots = chain.iter().map(|edge| edge[0].arcs_m[0]);
+        let end = chain.last().map(|edge| edge[0].arcs_m[1]);
+        let knots: Vec<f64> = knots.chain(end).collect();
+        for (edge, share) in chain.iter().zip(elongation(&knots, along)) {
+            let area_m2 = width * share / edge.len() as f64;
+            if area_m2 != 0.0 {
+                readings.extend(edge.iter().map(|piece| Reading {
+                    face: piece.face,
+                    natural: piece.natural,
+                    area_m2,
+                }));
+            }
+        }
     }
     readings
 }
@@ -207,33 +241,59 @@ pub(crate) fn strain_weights(
         .collect())
 }
 
-/// Weights w with ∫ f ds = Σ w_i f(x_i) over `range` for the curve f through the points x: between two of them the
-/// cubic through these and their neighbours, constant beyond the first and last of them. A neighbour nearer than
-/// [`NEAREST`] of the piece is left out, so that small differences do not grow.
+/// The cubic through the two points around a place and their neighbours, as weights of the points. A neighbour nearer
+/// than [`NEAREST`] of the piece is left out, so that small differences do not grow.
+fn cubic(x: &[f64], s: f64) -> impl Iterator<Item = (usize, f64)> {
+    let last = x.len() - 1;
+    let i = x.partition_point(|&knot| knot <= s).clamp(1, last) - 1;
+    let far = |a: usize, b: usize| (x[a] - x[b]).abs() >= NEAREST * (x[i + 1] - x[i]);
+    let first = if i > 0 && far(i, i - 1) { i - 1 } else { i };
+    let end = if i + 1 < last && far(i + 1, i + 2) {
+        i + 2
+    } else {
+        i + 1
+    };
+    (first..=end).map(move |j| {
+        let others = (first..=end).filter(|&k| k != j);
+        (j, others.map(|k| (s - x[k]) / (x[j] - x[k])).product())
+    })
+}
+
+/// Weights w with ∫ f ds = Σ w_i f(x_i) over `range` for the curve of cubics through the points x, constant beyond the
+/// first and last of them.
 fn curve_integral(x: &[f64], range: [f64; 2]) -> Vec<f64> {
     let mut weights = vec![0.0; x.len()];
     let last = x.len() - 1;
     weights[0] += (range[1].min(x[0]) - range[0]).max(0.0);
     weights[last] += (range[1] - range[0].max(x[last])).max(0.0);
-    for i in 0..last {
-        let (from, to) = (range[0].max(x[i]), range[1].min(x[i + 1]));
+    for piece in x.windows(2) {
+        let (from, to) = (range[0].max(piece[0]), range[1].min(piece[1]));
         if to <= from {
             continue;
         }
-        let far = |a: usize, b: usize| (x[a] - x[b]).abs() >= NEAREST * (x[i + 1] - x[i]);
-        let first = if i > 0 && far(i, i - 1) { i - 1 } else { i };
-        let end = if i + 1 < last && far(i + 1, i + 2) {
-            i + 2
-        } else {
-            i + 1
-        };
         // Two Gauss points integrate a cubic exactly.
         for sign in [-1.0, 1.0] {
             let s = 0.5 * (from + to) + sign * 0.5 * (to - from) / f64::sqrt(3.0);
-            for j in first..=end {
-                let others = (first..=end).filter(|&k| k != j);
-                let share: f64 = others.map(|k| (s - x[k]) / (x[j] - x[k])).product();
+            for (j, share) in cubic(x, s) {
                 weights[j] += 0.5 * (to - from) * share;
+            }
+        }
+    }
+    weights
+}
+
+/// Weights w with ∫ ε ds = Σ w_i ε_i over `range`, from the mean strains ε_i of the pieces between the points x: the
+/// elongation up to a point is Σ h_i ε_i, and between points the curve of cubics through these; the strain is constant
+/// beyond the first and last of them.
+fn elongation(x: &[f64], range: [f64; 2]) -> Vec<f64> {
+    let last = x.len() - 1;
+    let mut weights = vec![0.0; last];
+    weights[0] += (range[1].min(x[0]) - range[0]).max(0.0);
+    weights[last - 1] += (range[1] - range[0].max(x[last])).max(0.0);
+    for (sign, end) in [(-1.0, range[0]), (1.0, range[1])] {
+        for (j, share) in cubic(x, end.clamp(x[0], x[last])) {
+            for i in 0..j {
+                weights[i] += sign * share * (x[i + 1] - x[i]);
             }
         }
     }
@@ -242,7 +302,7 @@ fn curve_integral(x: &[f64], range: [f64; 2]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::curve_integral;
+    use super::{curve_integral, elongation};
 
     /// ∫ f ds over a range, from values at the points.
     fn integral(x: &[f64], range: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
@@ -272,5 +332,22 @@ mod tests {
     fn near_neighbours_are_left_out() {
         let weights = curve_integral(&[-0.1, 0.0, 5.0, 5.1], [0.0, 5.0]);
         assert_eq!(weights, [0.0, 2.5, 2.5, 0.0]);
+    }
+
+    /// From exact means of pieces the elongation of a strain that is a parabola, and from few pieces what they allow.
+    #[test]
+    fn elongations_of_parabolas_are_exact() {
+        let x = [0.0, 1.0, 2.5, 3.0, 5.0, 6.0];
+        let stem = |s: f64| 2.0 * s - 0.35 * s * s + 0.1 * s.powi(3);
+        let mean = |p: &[f64]| (stem(p[1]) - stem(p[0])) / (p[1] - p[0]);
+        for range in [[1.2, 1.7], [1.0, 2.7], [2.6, 5.0], [1.0, 5.0]] {
+            let weights = elongation(&x, range).into_iter();
+            let found: f64 = weights.zip(x.windows(2)).map(|(w, p)| w * mean(p)).sum();
+            let exact = stem(range[1]) - stem(range[0]);
+            assert!((found - exact).abs() < 1e-13, "{range:?}: {found} {exact}");
+        }
+        assert_eq!(elongation(&[0.0, 1.0], [-1.0, 3.0]), [4.0]);
+        let sums = elongation(&x, [0.3, 5.7]).iter().sum::<f64>();
+        assert!((sums - 5.4).abs() < 1e-13, "{sums}");
     }
 }
