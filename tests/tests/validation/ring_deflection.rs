@@ -9,6 +9,7 @@ use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{Flank, ReducedGear};
 use gearmesh_reduction::{ReductionOptions, Silent, reduce};
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// Six lugs of the thin ring, the first around tooth 0.
 const LUGS: &str = "[blank.lugs]\ncount = 6\nwidth_deg = 10.0\n";
@@ -72,30 +73,31 @@ fn root_strain(gear: &ReducedGear, roll_rad: f64, line_load_n_per_m: f64) -> f64
 }
 
 /// Loads farther out are within a fillet's radius of the gauge. It feels how the hat functions of nine roll stations
-/// spread them: 0.7 % of its strain, and 0.8 % of the mesh are 1.5 %.
+/// spread them: 0.7 to 1 % of its strain, and 0.6 % of the mesh are 1.4 %.
 const LOWEST_MM: f64 = 91.0;
 
-/// Largest errors over rims and radii.
+/// Errors over rims and radii.
 #[derive(Default)]
-struct Worst {
-    /// Of the own tooth.
+struct Found {
+    /// Largest of the own tooth.
     own: f64,
-    /// Of the teeth beside it, over the largest deflection of those.
+    /// Largest of the teeth beside it, over the largest deflection of those.
     beside: f64,
-    /// Of the root strain under the two outer loads, and the same over the error that the reduction states.
-    strain: f64,
-    strain_over_stated: f64,
-    /// Of the root strain under the load nearest to the root.
+    /// Of the root strain under each of the outer loads, with its sign.
+    strains: Vec<f64>,
+    /// The error of each that the reduction states.
+    stated: Vec<f64>,
+    /// Largest of the root strain under the loads nearest to the root.
     strain_of_lowest: f64,
 }
 
-fn worst(mesh: &str, estimate_error: bool) -> Worst {
-    let mut worst = Worst::default();
+fn found(mesh: &str, estimate_error: bool) -> Found {
+    let mut found = Found::default();
     let rows = reference();
     for outer_mm in [rows[0][0], rows[rows.len() - 1][0]] {
         let gear = reduced(outer_mm, mesh, estimate_error);
         let of_rim: Vec<&[f64; 6]> = rows.iter().filter(|r| r[0] == outer_mm).collect();
-        let largest = of_rim.iter().fold(0.0f64, |most, r| most.max(r[3].abs()));
+        let most_beside = of_rim.iter().fold(0.0f64, |most, r| most.max(r[3].abs()));
         for &&[_, radius_mm, own_um, after_um, before_um, strain] in &of_rim {
             let load = FlankLoad {
                 tooth: 0,
@@ -112,7 +114,7 @@ fn worst(mesh: &str, estimate_error: bool) -> Worst {
                 1e6 * (global + own)
             };
             let own = at(0) / own_um - 1.0;
-            let beside = [(1, after_um), (59, before_um)].map(|(k, um)| (at(k) - um) / largest);
+            let beside = [(1, after_um), (59, before_um)].map(|(k, um)| (at(k) - um) / most_beside);
             let roll = involute::roll_angle_rad(radius_mm * 1e-3, gear.base_radius_m);
             let strain = 1e6 * root_strain(&gear, roll, 1e5) / strain - 1.0;
             let stated = gear.gauges[0].error_estimate_relative;
@@ -124,17 +126,28 @@ fn worst(mesh: &str, estimate_error: bool) -> Worst {
                 100.0 * strain,
                 100.0 * stated
             );
-            worst.own = worst.own.max(own.abs());
-            worst.beside = worst.beside.max(beside[0].abs()).max(beside[1].abs());
+            found.own = found.own.max(own.abs());
+            found.beside = found.beside.max(beside[0].abs()).max(beside[1].abs());
             if radius_mm > LOWEST_MM {
-                worst.strain_of_lowest = worst.strain_of_lowest.max(strain.abs());
+                found.strain_of_lowest = found.strain_of_lowest.max(strain.abs());
                 continue;
             }
-            worst.strain = worst.strain.max(strain.abs());
-            worst.strain_over_stated = worst.strain_over_stated.max(strain.abs() / stated);
+            found.strains.push(strain);
+            found.stated.push(stated);
         }
     }
-    worst
+    found
+}
+
+/// The largest of some errors by its amount.
+fn largest(errors: &[f64]) -> f64 {
+    errors.iter().fold(0.0, |most: f64, e| most.max(e.abs()))
+}
+
+/// The default mesh, which two tests look at, with its stated errors.
+fn on_default_mesh() -> &'static Found {
+    static FOUND: OnceLock<Found> = OnceLock::new();
+    FOUND.get_or_init(|| found("", true))
 }
 
 /// The own tooth as that of the external gear of `plane_strain_deflection`: 1 % on the default mesh, whose elements along
@@ -142,46 +155,41 @@ fn worst(mesh: &str, estimate_error: bool) -> Worst {
 /// reduction states. Teeth beside are not bounded here: they deflect by 1 to 10 % of the loaded one.
 #[test]
 fn a_ring_deflects_as_an_independent_program_says() {
-    let default = worst("", true);
+    let default = on_default_mesh();
     assert!(default.own < 0.01, "{}", default.own);
-    assert!(
-        default.strain_over_stated < 1.0,
-        "{}",
-        default.strain_over_stated
-    );
-    let finer = worst("flank_mm = 0.6\n", false);
+    let mut both = default.strains.iter().zip(&default.stated);
+    assert!(both.all(|(strain, stated)| strain.abs() < *stated));
+    let finer = found("flank_mm = 0.6\n", false);
     assert!(finer.own < 0.007, "{}", finer.own);
-    for found in [default, finer] {
+    for found in [default, &finer] {
         assert!(found.strain_of_lowest < 0.02, "{}", found.strain_of_lowest);
     }
 }
 
 /// Elements that are shorter in the fillets alone: from the default length to its half the root strain changes four
-/// times as much as from there to a quarter (second order; three times is allowed, 3.5 found), whatever the length
-/// along the flank; what is left, 0.15 %, is not of the fillets. Elements below the fillet grow from those along it;
-/// where they did not, the error grew from 0.6 to 8 %.
+/// times as much as from there to a quarter (second order; three times is allowed, 3.3 to 3.5 found), whatever the
+/// length along the flank. What is left, 0.15 %, is not of the fillets: stations spread the loads. Without it the half
+/// length is within what it states. Elements below the fillet grow from those along it; where they did not, the error
+/// grew from 0.6 to 8 %.
 #[test]
 fn shorter_elements_in_the_fillets_are_enough_for_the_root_strain_of_a_ring() {
-    let default = worst("", false);
-    let shorter = worst("fillet_mm = 0.075\n", true);
-    let shortest = worst("fillet_mm = 0.0375\n", false);
-    let strains = [default.strain, shorter.strain, shortest.strain];
-    assert!(
-        strains[0] - strains[1] > 3.0 * (strains[1] - strains[2]) && strains[2] < 0.002,
-        "{strains:?}"
-    );
-    assert!(
-        shorter.strain_over_stated < 1.0,
-        "{}",
-        shorter.strain_over_stated
-    );
+    let default = on_default_mesh();
+    let shorter = found("fillet_mm = 0.075\n", true);
+    let shortest = found("fillet_mm = 0.0375\n", false);
+    for k in 0..default.strains.len() {
+        let [first, second, third] = [default, &shorter, &shortest].map(|found| found.strains[k]);
+        let (change, next) = (second - first, third - second);
+        assert!(change > 3.0 * next && next > 0.0, "{change} {next}");
+        assert!(third.abs() < 0.002, "{third}");
+        assert!(next < shorter.stated[k], "{next} {}", shorter.stated[k]);
+    }
 }
 
 /// Quadratic elements: 0.1 %, and 0.05 % that the record's own mesh leaves; root strain 1 %.
 #[test]
 fn quadratic_elements_of_a_ring_agree() {
-    let found = worst("element = \"hex20\"\n", false);
-    let (own, beside, strain) = (found.own, found.beside, found.strain);
+    let found = found("element = \"hex20\"\n", false);
+    let (own, beside, strain) = (found.own, found.beside, largest(&found.strains));
     assert!(own < 0.0015 && beside < 0.0015, "{own} {beside}");
     assert!(strain < 0.01, "{strain}");
 }
