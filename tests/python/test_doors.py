@@ -5,7 +5,9 @@ from __future__ import annotations
 import csv
 import math
 import pathlib
+import shutil
 
+import h5py
 import numpy as np
 import pytest
 
@@ -31,18 +33,15 @@ def cylindrical(family: str, folder: pathlib.Path) -> gm.Scene:
 
 def bevel(folder: pathlib.Path) -> gm.Scene:
     """Seed 001's pair with coarse bodies."""
-    scene = gm.Scene("fe_models/bevel_20_20_loaded.toml").tables
-    free = {key: table for key, table in scene.items() if key != "load"}
-    gm.Scene(scene).but({"load.slices": 9}).write(folder / "bevel_20_20.toml")
-    (folder / "bevel_20_20.toml").write_text(gm.toml_text.to_toml(free), encoding="utf-8")
+    shutil.copy("fe_models/bevel_20_20.toml", folder)
     models = []
     for member in ("pinion", "gear"):
         text = pathlib.Path(f"fe_models/bevel_{member}_20_20.toml").read_text(encoding="utf-8")
         file = folder / f"{member}.toml"
-        file.write_text(text + "\n[mesh]\nflank_mm = 2.0\nfillet_mm = 0.8\nbody_mm = 5.0\naxial_mm = 3.0\n", encoding="utf-8")
+        file.write_text(text + "\n[mesh]\nflank_mm = 2.0\nfillet_mm = 0.8\nbody_mm = 5.0\nalong_mm = 1.0\n", encoding="utf-8")
         models.append(str(gm.reduce(file, folder / f"{member}.h5", error_estimate=False, progress=False).path))
     load = dict(torques_Nm=[50.0, 150.0], positions_per_pitch=4, models=models)
-    return gm.Scene({**free, "load": load, "gauges": {"gear_1": ["root"], "gear_2": ["root"]}})
+    return gm.Scene({**gm.Scene("fe_models/bevel_20_20_loaded.toml").tables, "load": load})
 
 
 @pytest.fixture(scope="module", params=["spur", "helical", "bevel"])
@@ -66,7 +65,7 @@ def test_figures_are_the_same_at_all_doors(pair):
     torques = result.tables()["torques"]
     shared = set(torques) & set(rows[0])
     assert set(name for name, _ in STUDIED.values()) <= shared
-    assert len(shared) > 20, shared
+    assert len(shared) > 12, shared
     for name in shared:
         assert equal([row[name] for row in rows], torques[name]), name
 
@@ -87,12 +86,12 @@ def test_figures_are_the_same_at_all_doors(pair):
         missing = [text for row in texts for text in row if text not in html]
         assert not missing and len(heads) > 5, (page, missing)
 
-    study = dict(title="as it is", scene=scene, columns=list(STUDIED), parameter=[dict(name="width", keys=["mesh.friction"], values=[0.0])])
-    del study["parameter"][0]
-    study["parameter"].append(dict(name="title", keys=["title"], values=["as it is"]))
+    study = dict(title="as it is", scene=scene, columns=list(STUDIED), parameter=[dict(name="title", keys=["title"], values=["as it is"])])
     found = gm.study(study, folder / "study", progress=False)
+    # The scene as it stands comes first, then the case with another title.
+    assert len(found.rows) == 2 * len(rows)
     for column, (name, factor) in STUDIED.items():
-        assert [float(row[column]) for row in found.rows] == [factor * value for value in torques[name]], column
+        assert [float(row[column]) for row in found.rows] == 2 * [factor * value for value in torques[name]], column
 
 
 def test_strain_is_recovered_alike(pair):
@@ -100,17 +99,28 @@ def test_strain_is_recovered_alike(pair):
     gm.program("run", file, "-o", folder / "pair.h5")
     by_program = gm.program("recover", folder / "pair.h5", "-o", folder / "strain.h5")
     in_memory = result.recover(folder / "in_memory.h5")
-    assert in_memory == by_program
-    assert len(by_program["gauges"]) == 2
+    assert {**in_memory, "seconds": 0.0} == {**by_program, "seconds": 0.0}
+
+    def curves(name):
+        with h5py.File(folder / name) as file:
+            found = {}
+            file.visititems(lambda key, item: found.update({key: item[()]}) if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" else None)
+            return found
+
+    ours, theirs = curves("in_memory.h5"), curves("strain.h5")
+    assert ours.keys() == theirs.keys() and len(ours) > 2
+    for key, values in ours.items():
+        assert np.array_equal(values, theirs[key], equal_nan=True) or "seconds" in key, key
 
 
 def test_it_is_compared_alike(pair):
     _, file, result, folder = pair
     gm.program("run", file, "-o", folder / "pair.h5")
-    teeth = 20 if "bevel" in result.title.lower() else 23
+    teeth = 20 if "bevel" in result.title else 23
     pitch, angles = 2 * math.pi / teeth, result["angle_rad"]
-    turns = np.concatenate([angles + k * pitch for k in range(teeth)])
-    columns = [np.degrees(turns), *(1e6 * np.tile(te, teeth) for te in result["te_m"])]
+    in_pitch = round(pitch / (angles[1] - angles[0]))
+    turns = np.concatenate([angles[:in_pitch] + k * pitch for k in range(teeth)])
+    columns = [np.degrees(turns), *(1e6 * np.tile(te[:in_pitch], teeth) for te in result["te_m"])]
     head = "angle [deg],te_um_50Nm [um],te_um_150Nm [um]"
     np.savetxt(folder / "te.csv", np.column_stack(columns), delimiter=",", header=head, comments="", fmt="%.17g")
     gm.program("record", folder / "te.csv", "-o", folder / "record", "--title", "itself", "--source", "gearmesh", "--angle-origin", "pitch point")

@@ -145,7 +145,7 @@ fn motions_that_the_nodes_do_not_tell_apart_are_refused() {
 /// freedom that carry nothing. The gauge reads the same by its row and in the field that the motions make, to rounding;
 /// what both miss of the whole model is what the harmonics left out would add. Each doubling leaves less than a third
 /// of that; the eighth harmonic of exp(4 cos φ) is 1e-3 of the first one, the teeth's own forces on the bore fall as
-/// slowly as the rim is thin.
+/// slowly as the rim is thin. Along the axis there are as many motions as planes of nodes: with two, 5 % stay.
 #[test]
 fn a_bore_under_pressure_strains_gauges_as_the_whole_model_has_it() {
     let mut gear = gear(
@@ -237,7 +237,7 @@ fn a_bore_under_pressure_strains_gauges_as_the_whole_model_has_it() {
         let mut gear = gear.clone();
         gear.reduction.bore = Some(BoreMotions {
             harmonics,
-            along: 2,
+            along: 3,
         });
         let (model, body) = reduced(&gear, false);
         let patterns = model.bore.as_ref().unwrap();
