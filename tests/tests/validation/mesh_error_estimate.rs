@@ -123,10 +123,36 @@ fn check_against(name: &str, gear: &str, mesh: &str, of_quadratic: &str) {
     }
 }
 
+const PLANE: &str = "[tooth]\nteeth = 50\nmodule_mm = 3.0\nface_width_mm = 10.0\n[blank]\nkind = \"solid\"\nbore_diameter_mm = 60.0\n";
+
 #[test]
 fn stated_errors_cover_the_true_ones_in_plane_strain() {
-    let gear = "[tooth]\nteeth = 50\nmodule_mm = 3.0\nface_width_mm = 10.0\n[blank]\nkind = \"solid\"\nbore_diameter_mm = 60.0\n";
-    check("plane strain", gear, "plane_strain = true\n");
+    check("plane strain", PLANE, "plane_strain = true\n");
+}
+
+/// Strain of gauges on meshes whose lengths fall by 1.5: changes from each to the next fall as with second order, for
+/// which the estimate takes them (1.6 at least).
+#[test]
+fn gauges_converge_with_second_order() {
+    const FACTOR: f64 = 1.5;
+    let meshes = [1.5, 1.0, 0.67, 0.44].map(|factor: f64| {
+        let [flank, fillet, body] = [0.9, 0.15, 3.6].map(|length| factor * length);
+        let lengths = format!(
+            "plane_strain = true\nflank_mm = {flank}\nfillet_mm = {fillet}\nbody_mm = {body}\n"
+        );
+        figures(&reduced(&text(PLANE, &lengths, ""), false))
+    });
+    let stations = (meshes[0].len() - TEETH) / 2;
+    for (k, side) in ["tension", "compression"].iter().enumerate() {
+        let of = |mesh: usize| &meshes[mesh][TEETH + k * stations..][..stations];
+        let changes = [0, 1, 2].map(|mesh| relative_error(of(mesh), of(mesh + 1)));
+        let to_last = [0, 1, 2].map(|mesh| relative_error(of(mesh), of(3)));
+        println!("{side}: {changes:.4?}, to the last {to_last:.4?}");
+        for pair in changes.windows(2) {
+            let order = (pair[0] / pair[1]).ln() / FACTOR.ln();
+            assert!(order > 1.6, "{side}: {order} {changes:?}");
+        }
+    }
 }
 
 #[test]
