@@ -2,8 +2,6 @@
 //!
 //! An element is given by its natural gradients ∂N_i/∂(ξ, η, ζ); the rest is the same for all.
 
-use nalgebra::Vector3;
-
 use crate::error::ElementError;
 use crate::material::LameParameters;
 use crate::quadrature::WeightedPoint;
@@ -59,9 +57,9 @@ fn cofactors(
             }
         }
     }
-    let [a, b, c] = rows.map(Vector3::from);
-    let cofactors = [b.cross(&c), c.cross(&a), a.cross(&b)];
-    let determinant = a.dot(&cofactors[0]);
+    let [a, b, c] = rows;
+    let cofactors = [cross(b, c), cross(c, a), cross(a, b)];
+    let determinant: f64 = (0..3).map(|j| a[j] * cofactors[0][j]).sum();
     // Written so that NaN fails too.
     if !(determinant > 0.0 && determinant.is_finite()) {
         return Err(ElementError::JacobianNotPositive {
@@ -69,7 +67,7 @@ fn cofactors(
             determinant_m3: determinant,
         });
     }
-    Ok((determinant, cofactors.map(Into::into)))
+    Ok((determinant, cofactors))
 }
 
 /// det ∂x/∂ξ (m³) at a natural point, from coordinates (m) and ∂N_i/∂(ξ, η, ζ) there.
@@ -88,6 +86,14 @@ pub(crate) fn determinant(
         });
     }
     Ok(cofactors(coordinates, natural_gradients, natural)?.0)
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }
 
 /// Gradients of the shape functions at one point of an element.
