@@ -61,7 +61,7 @@ const SIZES: [[f64; 2]; 4] = [[3.2, 5.0], [2.2, 2.2], [1.4, 1.4], [1.0, 1.0]];
 /// Default lengths: key, share of the module, share of the face width.
 const LENGTHS: [(&str, f64, f64); 4] = [
     ("flank_mm", 0.3, 0.0),
-    ("fillet_mm", 0.08, 0.0),
+    ("fillet_mm", 0.05, 0.0),
     ("body_mm", 1.2, 0.0),
     ("axial_mm", 0.0, 0.1),
 ];
@@ -464,7 +464,7 @@ mod tests {
         // Module 2.6 mm, face width 23 mm.
         assert_eq!(
             mesh,
-            "flank_mm = 1.5600\nfillet_mm = 0.4160\nbody_mm = 6.2400\naxial_mm = 11.5000\n"
+            "flank_mm = 1.5600\nfillet_mm = 0.2600\nbody_mm = 6.2400\naxial_mm = 11.5000\n"
         );
     }
 
