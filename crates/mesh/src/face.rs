@@ -66,15 +66,9 @@ impl FaceShape {
         }
     }
 
-    /// Natural coordinates of the middle of edge k, between corners k and k + 1.
-    pub fn edge_middle(self, k: usize) -> [f64; 2] {
-        let count = self.corner_count();
-        let corner = |k: usize| match count {
-            3 => [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]][k],
-            _ => QUAD_NODES[k],
-        };
-        let [a, b] = [corner(k), corner((k + 1) % count)];
-        [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
+    /// Natural coordinates of the middle of a quadrilateral's edge, that between corners k and k + 1.
+    pub const fn quad_edge_middle(k: usize) -> [f64; 2] {
+        QUAD_NODES[4 + k]
     }
 
     /// Shape functions at a natural point with their natural derivatives, one row \[N, ∂N/∂ξ, ∂N/∂η\] per node.

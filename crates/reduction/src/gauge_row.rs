@@ -143,7 +143,7 @@ fn pieces_of(face: &OutlineFace) -> Option<[Piece<'_>; 2]> {
         let [a, b] = [k, (k + 1) % 4].map(|corner| face.places_m[corner]);
         ((b[1] - a[1]).abs() <= SAME_PLACE * height_m).then(|| Piece {
             face,
-            natural: face.shape.edge_middle(k),
+            natural: FaceShape::quad_edge_middle(k),
             arcs_m: [a[0].min(b[0]), a[0].max(b[0])],
             z_m: 0.5 * (a[1] + b[1]),
             same_m: [SAME_PLACE * length_m, SAME_PLACE * height_m],
@@ -259,8 +259,8 @@ fn cubic(x: &[f64], s: f64) -> impl Iterator<Item = (usize, f64)> {
     })
 }
 
-/// Weights w with ∫ f ds = Σ w_i f(x_i) over `range` for the curve of cubics through the points x, constant beyond the
-/// first and last of them.
+/// Weights w with ∫ f ds = Σ w_i f(x_i) over `range` for the curve of cubics through the points x, constant beyond
+/// the first and last of them.
 fn curve_integral(x: &[f64], range: [f64; 2]) -> Vec<f64> {
     let mut weights = vec![0.0; x.len()];
     let last = x.len() - 1;
@@ -282,9 +282,9 @@ fn curve_integral(x: &[f64], range: [f64; 2]) -> Vec<f64> {
     weights
 }
 
-/// Weights w with ∫ ε ds = Σ w_i ε_i over `range`, from the mean strains ε_i of the pieces between the points x: the
-/// elongation up to a point is Σ h_i ε_i, and between points the curve of cubics through these; the strain is constant
-/// beyond the first and last of them.
+/// Weights w with ∫ ε ds = Σ w_i ε_i over `range`, from the mean strains ε_i of the pieces between the points x. The
+/// elongation up to a point is Σ h_i ε_i; between points it is the curve of cubics through these. The strain is
+/// constant beyond the first and last of them.
 fn elongation(x: &[f64], range: [f64; 2]) -> Vec<f64> {
     let last = x.len() - 1;
     let mut weights = vec![0.0; last];
@@ -302,7 +302,51 @@ fn elongation(x: &[f64], range: [f64; 2]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{curve_integral, elongation};
+    use super::{curve_integral, elongation, readings};
+    use gearmesh_mesh::{FaceShape, OutlineFace};
+
+    /// Faces along the profile in two layers, their nodes moved by a share of a face.
+    fn faces(moved: f64) -> Vec<OutlineFace> {
+        let arcs = [0.0, 1.0, 2.5, 3.5, 5.0];
+        let place = |k: usize, l: usize| {
+            let noise = moved * ((7 * k + 3 * l) as f64).sin();
+            [arcs[k] + noise, 2.0 * l as f64 + noise]
+        };
+        let grid = (0..4).flat_map(|k| (0..2).map(move |l| (k, l)));
+        grid.map(|(k, l)| OutlineFace {
+            shape: FaceShape::Quad4,
+            nodes: vec![0; 4],
+            element: 0,
+            places_m: vec![
+                place(k, l),
+                place(k + 1, l),
+                place(k + 1, l + 1),
+                place(k, l + 1),
+            ],
+        })
+        .collect()
+    }
+
+    /// Faces in layers are read at the middles of their edges, also where the last digits of a mesh that is read back
+    /// move nodes; faces that lie otherwise all over. Each reading stands for its share of the gauge.
+    #[test]
+    fn faces_in_layers_are_read_on_their_edges() {
+        let ([along, across], area) = ([[1.2, 2.8], [0.5, 3.0]], 1.6 * 2.5);
+        for (moved, on_edges) in [(0.0, true), (1e-3, true), (0.1, false)] {
+            let faces = faces(moved);
+            let found = readings(&faces, along, across);
+            let sum: f64 = found.iter().map(|reading| reading.area_m2).sum();
+            assert!((sum / area - 1.0).abs() < 1e-12, "{moved}: {sum}");
+            let edges = found
+                .iter()
+                .filter(|reading| reading.natural.contains(&0.0));
+            assert_eq!(edges.count() == found.len(), on_edges, "{moved}");
+            if on_edges {
+                // Four pieces in each layer, whose edges lie on two planes.
+                assert_eq!(found.len(), 4 * 2 * 2, "{moved}");
+            }
+        }
+    }
 
     /// ∫ f ds over a range, from values at the points.
     fn integral(x: &[f64], range: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {

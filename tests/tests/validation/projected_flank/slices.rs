@@ -150,8 +150,8 @@ fn slices_deflect_alike_and_converge_with_the_stations() {
     assert!(nine.between.abs() < 3e-4 && seventeen.between.abs() < 3e-4);
 }
 
-/// A thin rim on a web with slots, in quadratic elements, whose faces are parabolas; both ways load one mesh, whose body
-/// may be coarse.
+/// A thin rim on a web with slots, in quadratic elements, whose faces are parabolas. Both ways load one mesh, whose
+/// body may be coarse.
 #[test]
 fn slices_of_a_slotted_wheel_deflect_alike() {
     let mesh = "element = \"hex20\"\nbody_mm = 6.0\naxial_mm = 5.0\n";
