@@ -1,4 +1,5 @@
-//! The command line. Each argument is described once, here or in the files of this folder; help follows from it.
+//! Arguments of the commands. Each is described once, here or in the files of this folder, or in the request of its operation; help
+//! follows from it.
 
 mod bearing;
 mod machine;
@@ -17,92 +18,9 @@ pub use signal::{
 };
 pub use studio::StudioArguments;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use gearmesh_operations::accuracy::AccuracyRequest;
-use gearmesh_operations::bevel_pair::BevelRequest;
-use gearmesh_operations::compare::CompareRequest;
-use gearmesh_operations::compliance::ComplianceRequest;
-use gearmesh_operations::export::ExportRequest;
+use clap::{Args, ValueEnum};
 use gearmesh_operations::file_words::positive;
-use gearmesh_operations::import::ImportRequest;
-use gearmesh_operations::mesh::MeshRequest;
-use gearmesh_operations::modes::ModesRequest;
-use gearmesh_operations::optimise::OptimiseRequest;
-use gearmesh_operations::recover::RecoverRequest;
-use gearmesh_operations::report::ReportRequest;
-use gearmesh_operations::tca::TcaRequest;
 use std::path::PathBuf;
-
-/// Gear mesh stiffness from finite elements, once; contact and root strain from then on in microseconds.
-#[derive(Debug, Parser)]
-#[command(name = "gearmesh", version, max_term_width = 100)]
-pub struct Arguments {
-    /// What to do.
-    #[command(subcommand)]
-    pub command: Command,
-}
-
-/// The commands.
-#[derive(Debug, Subcommand)]
-pub enum Command {
-    /// Mesh a gear and write it for other programs: ParaView, gmsh, Abaqus, CalculiX, Nastran
-    Mesh(Printed<MeshRequest>),
-    /// Reduce a gear to its compliance at the flanks (the offline stage)
-    Reduce(ReduceArguments),
-    /// Find the natural frequencies and mode shapes of a gear, held at its bore
-    Modes(Printed<ModesRequest>),
-    /// Print the deflection along a flank under a line load
-    Compliance(Printed<ComplianceRequest>),
-    /// Say what a scene will compute
-    Plan(PlanArguments),
-    /// Run a scene
-    Run(RunArguments),
-    /// Recover the strain of all gauges from a result, and whole fields on request
-    Recover(Printed<RecoverRequest>),
-    /// Compare a result with a reference record
-    Compare(Printed<CompareRequest>),
-    /// Write a report page
-    Report(Printed<ReportRequest>),
-    /// Export a result as a table (CSV, Parquet, MATLAB, universal file) or as moving gears (ParaView), a gear as STEP
-    Export(Printed<ExportRequest>),
-    /// Make a reference record of measured curves: CSV with units, or a universal file
-    Record(RecordArguments),
-    /// Open a gear pair or a result in the browser: change the pair, see its curves and flanks at once
-    Studio(StudioArguments),
-    /// Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
-    Signal(SignalArguments),
-    /// Check a gear file, bearing file, scene, study, S-N table, record, model or result
-    Check(CheckArguments),
-    /// Run a scene again and again with some of its keys changed
-    Study(StudyArguments),
-    /// Say what accuracy costs in time, for columns of a scene: error against time of every knob
-    Accuracy(Printed<AccuracyRequest>),
-    /// Seek the relief, crowning or other keys that make the objectives of a gear pair least
-    Optimise(Printed<OptimiseRequest>),
-    /// Find where a rolling bearing comes to rest under a load: load on every ball or roller, pressures, stiffness,
-    /// life
-    Bearing(BearingArguments),
-    /// Print the frequencies of a rolling bearing: cage, ball or roller, passing of the races
-    BearingFrequencies(BearingFrequenciesArguments),
-    /// Print blank, machine settings and checks of a bevel pair
-    Bevel(Printed<BevelRequest>),
-    /// Analyse the tooth contact of a bevel pair: path, transmission error, ellipses, ease-off, edges
-    Tca(Printed<TcaRequest>),
-    /// Import a gearbox from a REXS file: gear files, scenes, bearing files, a list of what was taken and what not
-    Import(Printed<ImportRequest>),
-    /// Print the JSON Schema of scene, study, gear, bearing or bevel files
-    Schema(SchemaArguments),
-    /// Write commented files to start from: a gear, a pair, a gearbox, a bevel pair
-    Init(InitArguments),
-    /// Say what this machine lacks: Python with gmsh and meshio, memory, other programs
-    Doctor(DoctorArguments),
-    /// Print the completions of a shell
-    Completions(CompletionsArguments),
-    /// Write the manual pages
-    Man(ManArguments),
-    /// Make gear pairs A and B from definition to report
-    Demo(DemoArguments),
-}
 
 /// The request of an operation, and how its answer is printed.
 #[derive(Debug, Args)]

@@ -5,11 +5,10 @@ mod arguments;
 mod commands;
 mod console;
 mod interrupt;
-mod overwriting;
 mod progress_lines;
 
-use arguments::{Arguments, Command};
 use clap::Parser;
+use commands::Arguments;
 use gearmesh_operations::{Failure, Fault};
 use std::process::ExitCode;
 
@@ -21,37 +20,7 @@ fn main() -> ExitCode {
     gearmesh_fe::split_alike();
     let sound = gearmesh_geometry::input::demand_threads().map_err(Failure::from);
     let sound = sound.and_then(|()| interrupt::install());
-    let sound = sound.and_then(|()| overwriting::refuse(&arguments.command));
-    let outcome = sound.and_then(|()| match &arguments.command {
-        Command::Mesh(a) => commands::mesh::run(a),
-        Command::Reduce(a) => commands::reduce::run(a),
-        Command::Modes(a) => commands::modes::run(a),
-        Command::Compliance(a) => commands::compliance::run(a),
-        Command::Plan(a) => commands::plan(a),
-        Command::Run(a) => commands::run::run(a),
-        Command::Recover(a) => commands::recover::run(a),
-        Command::Compare(a) => commands::compare::run(a),
-        Command::Export(a) => commands::export(a),
-        Command::Record(a) => commands::record::run(a),
-        Command::Report(a) => commands::report(a),
-        Command::Studio(a) => commands::studio::run(a),
-        Command::Signal(a) => commands::signal::run(a),
-        Command::Check(a) => commands::check::run(a),
-        Command::Accuracy(a) => commands::accuracy::run(a),
-        Command::Study(a) => commands::study::run(a),
-        Command::Optimise(a) => commands::optimise::run(a),
-        Command::Schema(a) => commands::schema::run(a),
-        Command::Bearing(a) => commands::bearing::run(a),
-        Command::BearingFrequencies(a) => commands::bearing_frequencies::run(a),
-        Command::Bevel(a) => commands::bevel(a),
-        Command::Tca(a) => commands::tca(a),
-        Command::Import(a) => commands::import::run(a),
-        Command::Init(a) => commands::init::run(a),
-        Command::Doctor(a) => commands::doctor::run(a),
-        Command::Completions(a) => commands::completions::completions(a),
-        Command::Man(a) => commands::completions::man(a),
-        Command::Demo(a) => commands::demo::run(a),
-    });
+    let outcome = sound.and_then(|()| arguments.command.run());
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

@@ -15,7 +15,7 @@ use gearmesh_bearings::{
     BearingError, BearingWarning, Control, ElementLoad, FrictionTorque, Life, Operation,
     QuasiStaticBearing, Ratings, RingLoad, RingPose, StaticSafety,
 };
-use gearmesh_operations::{Failure, output_name};
+use gearmesh_operations::{Failure, output_name, overwriting};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -62,6 +62,7 @@ pub(super) struct Answer<'a> {
 /// Runs the command.
 pub fn run(a: &BearingArguments) -> Result<(), Failure> {
     if let Some(path) = &a.report {
+        overwriting::refuse(vec![a.bearing.clone()], std::slice::from_ref(path))?;
         output_name::demand_report(path)?;
     }
     let found = read(&a.bearing)?;

@@ -1,6 +1,7 @@
 //! `gearmesh completions` and `gearmesh man`: made from the arguments, so that they never lag behind.
 
-use crate::arguments::{Arguments, CompletionsArguments, ManArguments};
+use super::Arguments;
+use crate::arguments::{CompletionsArguments, ManArguments};
 use crate::console;
 use clap::CommandFactory;
 use gearmesh_model::write_bytes;

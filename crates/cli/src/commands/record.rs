@@ -4,7 +4,7 @@ use crate::arguments::RecordArguments;
 use crate::console;
 use gearmesh_geometry::input::{MOST_TEXT_BYTES, read_bytes};
 use gearmesh_model::{write_folder, write_text};
-use gearmesh_operations::{Failure, output_name, uff};
+use gearmesh_operations::{Failure, output_name, overwriting, uff};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_report::measured::{
     Channel, MeasuredError, RecordFiles, RecordRequest, csv_channels, decoded, record_files,
@@ -14,6 +14,10 @@ use std::path::Path;
 
 /// Runs the command.
 pub fn run(a: &RecordArguments) -> Result<(), Failure> {
+    if let Some(folder) = &a.output {
+        let files = ["record.toml", "data.csv"].map(|name| folder.join(name));
+        overwriting::refuse(vec![a.measured.clone()], &files)?;
+    }
     let channels = channels_of(a)?;
     let Some(folder) = &a.output else {
         list(&channels, a.json);

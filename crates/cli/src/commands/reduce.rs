@@ -4,10 +4,11 @@ use crate::arguments::ReduceArguments;
 use crate::console;
 use gearmesh_operations::gear_file::GearFile;
 use gearmesh_operations::reduce::{Reduction, figures, reduce_to, summary};
-use gearmesh_operations::{Failure, output_name};
+use gearmesh_operations::{Failure, output_name, overwriting};
 
 /// Runs the command.
 pub fn run(a: &ReduceArguments) -> Result<(), Failure> {
+    overwriting::refuse(vec![a.gear.clone()], std::slice::from_ref(&a.output))?;
     output_name::demand_hdf5(&a.output)?;
     let watch = console::watch();
     let gear = GearFile::read(&a.gear, &watch)?;

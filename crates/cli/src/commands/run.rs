@@ -5,13 +5,14 @@ use crate::{console, interrupt};
 use gearmesh_operations::accuracy::AccuracyRequest;
 use gearmesh_operations::run::{Ran, RunHow, run as run_scene};
 use gearmesh_operations::run_within::{self, run_within};
-use gearmesh_operations::{Failure, output_name};
+use gearmesh_operations::{Failure, output_name, overwriting};
 use gearmesh_scene::SceneFile;
 use gearmesh_scene::accuracy::Chosen;
 use std::time::Duration;
 
 /// Runs the command.
 pub fn run(a: &RunArguments) -> Result<(), Failure> {
+    overwriting::refuse(vec![a.scene.clone()], std::slice::from_ref(&a.output))?;
     output_name::demand_hdf5(&a.output)?;
     let how = RunHow {
         output: Some(&a.output),

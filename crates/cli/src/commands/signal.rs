@@ -8,7 +8,7 @@ use crate::arguments::{AbscissaArguments, SignalAnalysis, SignalArguments};
 use crate::console;
 use bearing_lines::BearingLines;
 use gearmesh_model::Column;
-use gearmesh_operations::Failure;
+use gearmesh_operations::{Failure, overwriting};
 use gearmesh_report::column_width;
 use gearmesh_report::page::{Axis, MapChart};
 use gearmesh_signal::statistics::{crest_factor, kurtosis, mean, peak_to_peak, rms};
@@ -24,6 +24,9 @@ use std::path::Path;
 
 /// Runs the command.
 pub fn run(a: &SignalArguments) -> Result<(), Failure> {
+    if let Some(series) = a.analysis.series() {
+        overwriting::refuse(vec![series.result.clone()], series.output.as_slice())?;
+    }
     match &a.analysis {
         SignalAnalysis::Columns { result, json } => columns(result, *json),
         SignalAnalysis::Statistics { series } => {
