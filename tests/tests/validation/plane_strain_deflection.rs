@@ -25,12 +25,12 @@ fn reference() -> Vec<(f64, [f64; 2])> {
         .collect()
 }
 
-/// The gear of the reference, in plane strain.
+/// The gear of the reference, in plane strain; fillets of 0.1 modules, for no strain is read.
 fn reduced(element: &str, flank_mm: f64) -> ReducedGear {
     let text = format!(
         "name = \"plane\"\n[tooth]\nteeth = 50\nmodule_mm = 3.0\nface_width_mm = 10.0\n[blank]\nkind = \"solid\"\n\
          bore_diameter_mm = 60.0\n[material]\nyoung_GPa = 206.0\npoisson = 0.3\n[mesh]\nplane_strain = true\n\
-         element = \"{element}\"\nflank_mm = {flank_mm}\n[reduction]\nflanks = [\"right\"]\n"
+         element = \"{element}\"\nflank_mm = {flank_mm}\nfillet_mm = 0.3\n[reduction]\nflanks = [\"right\"]\n"
     );
     let gear = GearDefinition::from_document(&InputDocument::new("plane.toml", text)).unwrap();
     let options = ReductionOptions {
