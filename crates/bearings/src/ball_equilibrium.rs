@@ -8,6 +8,7 @@
 //! docs/theory/rolling_bearings.md.
 
 mod race_control;
+mod whole_row;
 
 use nalgebra::{Matrix2, Matrix2x6, Matrix3, Matrix3x2, Matrix3x6, Vector2, Vector3};
 
@@ -15,8 +16,7 @@ use crate::axial_plane::{AxialPlane, FromRing};
 use crate::ball_kinematics::{BallInMotion, BallMotion, ContactAngles, RaceControl};
 use crate::ball_row::{BallRow, Groove};
 use crate::element_load::ElementLoad;
-use crate::element_place::ElementPlace;
-use crate::element_search::NO_FORCE_N;
+use crate::element_search::{ElementPlace, NO_FORCE_N};
 use crate::error::BearingError;
 use crate::operation::Operation;
 use crate::ring_load::{RingLoad, by_ring};

@@ -1,54 +1,12 @@
-//! A row of balls between two grooves.
+//! A row of balls between two grooves, and what is wrong with it.
 
-use nalgebra::Vector3;
-
-use crate::axial_plane::AxialPlane;
-use crate::ball_equilibrium::Ball;
-use crate::element_load::ElementLoad;
-use crate::element_place::ElementPlace;
 use crate::error::BearingError;
-use crate::faults::{RowFaults, Side};
+use crate::faults::missing_element::missing;
+use crate::faults::row_faults::SpalledBall;
+use crate::faults::{Fault, RowFaults, Side};
 use crate::operation::Operation;
-use crate::point_contact::PointContact;
-use crate::ring_load::RingLoad;
-use crate::ring_pose::RingPose;
 
-/// A groove.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Groove {
-    /// R, radius of the circle of the groove's centres \[m\].
-    pub centre_radius_m: f64,
-    /// Its place along the ring's axis \[m\].
-    pub centre_z_m: f64,
-    /// r − D/2 \[m\].
-    pub arm_m: f64,
-    /// Contact with a ball.
-    pub contact: PointContact,
-    /// Direction (cosine, sine of a contact angle) in the middle of the half of the torus that is there.
-    pub faces: (f64, f64),
-}
-
-impl Groove {
-    /// Whether the half of the torus that is there has a contact at the angle with this cosine and sine.
-    #[inline]
-    pub(crate) fn reaches(&self, cosine: f64, sine: f64) -> bool {
-        self.faces.0 * cosine + self.faces.1 * sine > 0.0
-    }
-
-    /// From the nearer rim, the end of the half of the torus that is there, to a ball's centre that lies (out, up) from
-    /// the groove's centre: (out, up, distance) \[m\].
-    #[inline]
-    pub(crate) fn rim_to_centre(
-        &self,
-        (out, up): (f64, f64),
-        ball_radius_m: f64,
-    ) -> (f64, f64, f64) {
-        let across = self.faces.0 * up - self.faces.1 * out;
-        let end = (self.arm_m + ball_radius_m) * across.signum();
-        let (out, up) = (out + self.faces.1 * end, up - self.faces.0 * end);
-        (out, up, (out * out + up * up).sqrt().max(f64::MIN_POSITIVE))
-    }
-}
+pub use crate::groove::Groove;
 
 /// A row of balls.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,52 +67,77 @@ impl BallRow {
             ),
         }
     }
+}
 
-    /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at
-    /// its place, which it leaves where it ends.
+impl RowFaults {
+    /// Those of a row among the faults of a bearing; none where all of them are without depth.
     ///
     /// # Errors
-    /// [`BearingError::NoBallEquilibrium`], [`BearingError::PulledOut`].
-    pub(crate) fn add(
-        &self,
-        pose: &RingPose,
-        operation: &Operation,
-        places: &mut [ElementPlace],
-        ring: &mut RingLoad,
-        mut each: impl FnMut(ElementLoad),
-    ) -> Result<(), BearingError> {
-        let (step_sine, step_cosine) = (std::f64::consts::TAU / self.balls as f64).sin_cos();
-        let (mut sine, mut cosine) = self.angle_rad(0, operation).sin_cos();
-        for (number, place) in places.iter_mut().enumerate() {
-            let e_r = Vector3::new(cosine, sine, 0.0);
-            (sine, cosine) = (
-                sine * step_cosine + cosine * step_sine,
-                cosine * step_cosine - sine * step_sine,
-            );
-            if !self.has(number) {
-                each(ElementLoad::absent(self.angle_rad(number, operation)));
-                continue;
+    /// [`BearingError::Parameter`] for a ball that the row does not have, [`BearingError::NotCarried`] where too few
+    /// are left.
+    pub(crate) fn of(
+        faults: &[Fault],
+        number: usize,
+        row: &BallRow,
+    ) -> Result<Option<Box<Self>>, BearingError> {
+        let mut found = Self {
+            missing: missing(faults, number, row.balls)?,
+            ..Self::default()
+        };
+        let exists = |ball: usize| {
+            let what = "the number of a ball that has a fault, from 1,";
+            let allowed = "at most the number of balls of the row";
+            BearingError::require(what, (ball + 1) as f64, ball < row.balls, allowed)
+        };
+        for fault in faults {
+            match *fault {
+                Fault::RaceSpall {
+                    side,
+                    row: at,
+                    spall,
+                } if at == number => {
+                    let angle_and_pitch = (row.free_angle_rad, row.pitch_radius_m);
+                    let placed = spall.on(row.groove(side), row.ball_diameter_m, angle_and_pitch);
+                    if placed.reached_m > 0.0 {
+                        found.race_mut(side).spalls.push(placed);
+                    }
+                }
+                Fault::BallSpall {
+                    row: at,
+                    ball,
+                    spall,
+                } if at == number => {
+                    exists(ball)?;
+                    let [outer, inner] = [Side::Outer, Side::Inner].map(|s| row.groove(s));
+                    if spall.depth_m > 0.0 {
+                        found.spalled.push(SpalledBall {
+                            ball,
+                            spall,
+                            outer: spall.on(outer, row.ball_diameter_m),
+                            inner: spall.on(inner, row.ball_diameter_m),
+                        });
+                    }
+                }
+                Fault::Waviness {
+                    side,
+                    row: at,
+                    waves,
+                } if at == number && (waves.radial_m != 0.0 || waves.axial_m != 0.0) => {
+                    found.race_mut(side).waves.push(waves);
+                }
+                Fault::OffSizeBall {
+                    row: at,
+                    ball,
+                    size,
+                } if at == number => {
+                    exists(ball)?;
+                    if size.oversize_m != 0.0 {
+                        found.sizes.push((ball, size));
+                    }
+                }
+                _ => {}
             }
-            let faulty = self.faults.as_ref().map(|faults| {
-                let angle = self.angle_rad(number, operation);
-                let angles = (angle, angle - operation.inner_angle_rad);
-                faults.grooves_under(self, number, angles)
-            });
-            let [outer, inner] = match &faulty {
-                None => [&self.outer, &self.inner],
-                Some([outer, inner]) => [outer, inner],
-            };
-            let ball = Ball {
-                row: self,
-                inner,
-                outer,
-                pose,
-                operation,
-                plane: AxialPlane { e_r },
-                number,
-            };
-            each(ball.add(place, ring)?);
         }
-        Ok(())
+        Ok((!found.is_empty()).then(|| Box::new(found)))
     }
 }

@@ -1,5 +1,5 @@
 //! The equilibrium of one barrel roller between groove and sphere, lamina by lamina, in the axial plane of the inner
-//! ring.
+//! ring, and what all of a row do to that ring.
 //!
 //! Three unknowns: the place (r, z) of its middle and the tilt φ from r towards z. Each lamina is a circle about the
 //! roller's axis: its outermost point meets the sphere, its innermost the groove. Forces have a potential, whose least
@@ -10,9 +10,11 @@ use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
 
 use crate::barrel_row::BarrelRow;
 use crate::element_load::ElementLoad;
-use crate::element_place::ElementPlace;
-use crate::element_search::{Balance, ElementSearch, NO_FORCE_N, Unbalanced};
+use crate::element_search::{Balance, ElementPlace, ElementSearch, NO_FORCE_N, Unbalanced};
 use crate::error::BearingError;
+use crate::operation::Operation;
+use crate::ring_load::RingLoad;
+use crate::ring_pose::RingPose;
 
 /// One roller at its angle.
 pub(crate) struct Barrel<'a> {
@@ -205,5 +207,83 @@ impl Barrel<'_> {
             .solve(&state.by_place.transpose())
             .map_or_else(Matrix3::zeros, |follows| state.by_place * follows);
         Ok((load, state.pressed, state.by_sphere + followed))
+    }
+}
+
+/// The least turn that takes the axis z to the ring's axis a, and how the ring's frame turns with a rotation of the
+/// ring about fixed axes: by W δφ, W = P − a (e_z P)/(1 + a_z), P = 1 − a aᵀ.
+fn least_turn(a: &Vector3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
+    let share = 1.0 / (1.0 + a.z);
+    let turn = Matrix3::new(
+        1.0 - a.x * a.x * share,
+        -a.x * a.y * share,
+        a.x,
+        -a.x * a.y * share,
+        1.0 - a.y * a.y * share,
+        a.y,
+        -a.x,
+        -a.y,
+        a.z,
+    );
+    let across = Matrix3::identity() - a * a.transpose();
+    let by_turn = across - a * (across.row(2) * share);
+    (turn, by_turn)
+}
+
+impl BarrelRow {
+    /// Adds what the row does to the ring, and hands every roller's load to `each`. The search of each roller begins at
+    /// its place in the inner ring's axes, which it leaves where it ends.
+    ///
+    /// # Errors
+    /// [`BearingError::NoRollerEquilibrium`].
+    pub(crate) fn add(
+        &self,
+        pose: &RingPose,
+        operation: &Operation,
+        places: &mut [ElementPlace],
+        ring: &mut RingLoad,
+        mut each: impl FnMut(ElementLoad),
+        mut each_lamina: impl FnMut(f64, f64),
+    ) -> Result<(), BearingError> {
+        let (turn, by_turn) = least_turn(&pose.axis);
+        let sphere = -(turn.tr_mul(&pose.centre_m));
+        let ratio = 0.5 * self.diameter_m * self.across.0 / self.pitch_radius_m;
+        let (inner, outer) = (operation.inner_rad_per_s, operation.outer_rad_per_s);
+        let orbit = 0.5 * (inner * (1.0 - ratio) + outer * (1.0 + ratio));
+        let (mut force, mut by_sphere) = (Vector3::zeros(), Matrix3::zeros());
+        for (number, place) in places.iter_mut().enumerate() {
+            let angle_rad = operation.element_angle_rad(self.first_angle_rad, number, self.rollers);
+            let (sine, cosine) = angle_rad.sin_cos();
+            let axes = Matrix3::new(cosine, -sine, 0.0, sine, cosine, 0.0, 0.0, 0.0, 1.0);
+            let barrel = Barrel {
+                row: self,
+                sphere: axes.tr_mul(&sphere),
+                number,
+                angle_rad,
+            };
+            let (mut load, pressed, change) = barrel.rest(place, &mut each_lamina)?;
+            force += axes * pressed;
+            by_sphere += axes * change * axes.transpose();
+            load.orbit_rad_per_s = orbit;
+            each(load);
+        }
+        // What the rollers press the sphere with they press the ring with the other way, through the sphere's middle.
+        let force: Vector3<f64> = -(turn * force);
+        let stiffness = turn * by_sphere * turn.transpose();
+        let (arm, hold) = (pose.centre_m.cross_matrix(), force.cross_matrix());
+        let by_rotation = (stiffness * arm - hold) * by_turn;
+        let mut part = ring.load.fixed_rows_mut::<3>(0);
+        part += force;
+        let mut part = ring.load.fixed_rows_mut::<3>(3);
+        part -= pose.centre_m.cross(&force);
+        let mut block = ring.tangent.fixed_view_mut::<3, 3>(0, 0);
+        block += stiffness;
+        let mut block = ring.tangent.fixed_view_mut::<3, 3>(0, 3);
+        block += by_rotation;
+        let mut block = ring.tangent.fixed_view_mut::<3, 3>(3, 0);
+        block += hold - arm * stiffness;
+        let mut block = ring.tangent.fixed_view_mut::<3, 3>(3, 3);
+        block -= arm * by_rotation;
+        Ok(())
     }
 }

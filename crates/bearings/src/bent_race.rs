@@ -38,6 +38,9 @@ pub struct BentRace {
     pub stored_j: f64,
 }
 
+/// Outer races that bend, the number of the row and that of its first roller; none where they are round.
+pub(crate) type BentRow<'a> = Option<(&'a mut BentRace, (usize, usize))>;
+
 /// One roller's part.
 pub(crate) struct BentAtRoller<'a> {
     along: usize,

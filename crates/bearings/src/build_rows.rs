@@ -12,6 +12,7 @@ use crate::four_point_row::{Arc, FourPointRow};
 use crate::line_contact::LineContact;
 use crate::point_contact::{PointContact, contact_modulus_pa};
 use crate::roller_row::{Lamina, Race, Rib, RollerRow};
+use crate::row::Row;
 
 /// E* between elements and rings \[Pa\].
 pub(crate) fn modulus_pa(definition: &BearingDefinition) -> f64 {
@@ -300,8 +301,7 @@ pub(crate) fn barrel_row(
 }
 
 /// The rows of a bearing, not yet preloaded.
-pub(crate) fn rows(definition: &BearingDefinition) -> Vec<crate::quasi_static::Row> {
-    use crate::quasi_static::Row;
+pub(crate) fn rows(definition: &BearingDefinition) -> Vec<Row> {
     let places = definition.arrangement.rows();
     let make = |place: (f64, f64)| match &definition.geometry {
         BearingGeometry::Ball(g) if matches!(g.kind, BallBearingKind::FourPoint { .. }) => {

@@ -24,6 +24,17 @@ pub enum CatalogueType {
     SphericalRoller,
 }
 
+/// Usual designs of today: assumptions, with the scatters beside them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct UsualShares {
+    /// D/(D_a − d), and its scatter.
+    pub diameter: (f64, f64),
+    /// L/B, and its scatter.
+    pub length: (f64, f64),
+    /// Elements over the most that go in.
+    pub number: f64,
+}
+
 impl CatalogueType {
     /// The word of the file.
     #[must_use]
@@ -68,6 +79,25 @@ impl CatalogueType {
             }
             Self::TaperedRoller => Some([5.0, 45.0]),
             Self::SphericalRoller => Some([3.0, 45.0]),
+        }
+    }
+
+    /// Sizes and number of the elements that it usually has.
+    pub(crate) fn usual(self) -> UsualShares {
+        let (diameter, length, number) = match self {
+            Self::DeepGroove => ((0.3, 0.08), (1.0, 1.0), 0.97),
+            Self::AngularContact | Self::AngularContactDoubleRow | Self::FourPoint => {
+                ((0.3, 0.08), (1.0, 1.0), 0.88)
+            }
+            Self::ThrustBall => ((0.36, 0.12), (1.0, 1.0), 0.93),
+            Self::CylindricalRoller => ((0.275, 0.08), (0.64, 0.12), 0.93),
+            Self::TaperedRoller => ((0.24, 0.1), (0.62, 0.15), 0.92),
+            Self::SphericalRoller => ((0.25, 0.1), (0.36, 0.1), 0.92),
+        };
+        UsualShares {
+            diameter,
+            length,
+            number,
         }
     }
 }

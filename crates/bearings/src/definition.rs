@@ -1,8 +1,11 @@
 //! What a bearing is: sizes, materials, arrangement, in SI units.
 
+pub(crate) mod friction_factors;
+pub(crate) mod seats;
+
 use crate::faults::Fault;
-use crate::fit::Fit;
-use crate::friction::Friction;
+use friction_factors::Friction;
+use seats::Fit;
 
 /// A bearing.
 #[derive(Debug, Clone, PartialEq)]

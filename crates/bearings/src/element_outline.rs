@@ -1,6 +1,6 @@
 //! Size and place of a row's balls or rollers without load: what a picture of the bearing needs.
 
-use crate::quasi_static::Row;
+use crate::row::Row;
 
 /// A ball or roller of a row, and the circle that its middle goes round on.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,10 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::quasi_static::Row;
-
-/// Place of a ball (r, z, 0) or roller (r, z, tilt) at which it carries load \[m, rad\]; none for a loose one, whose place is not determined.
-pub(crate) type ElementPlace = Option<Vector3<f64>>;
+use crate::element_search::ElementPlace;
+use crate::row::Row;
 
 /// Places of all elements of a bearing, row after row.
 ///

@@ -10,7 +10,8 @@
 use std::f64::consts::PI;
 
 use crate::catalogue::{CatalogueLine, CatalogueType};
-use crate::estimate::ratings_of;
+use crate::ratings;
+use crate::thrust_ratings::{thrust_ball_dynamic_n, thrust_ball_static_n};
 
 /// Largest share of D_a − d that an element takes: rings of a twentieth are left on either side.
 const MOST_OF_SECTION: f64 = 0.45;
@@ -44,6 +45,35 @@ pub(crate) fn most_elements(kind: CatalogueType, diameter_m: f64, pitch_m: f64) 
         CatalogueType::CylindricalRoller
         | CatalogueType::TaperedRoller
         | CatalogueType::SphericalRoller => 2.0 * PI / (1.08 * each),
+    }
+}
+
+/// C and C₀ of a bearing with so many elements of this diameter and length \[N\].
+pub(crate) fn ratings_of(line: &CatalogueLine, count: usize, size: (f64, f64)) -> [f64; 2] {
+    let (pitch, angle, rows) = (
+        line.pitch_m(),
+        line.contact_angle_rad,
+        line.kind.rows() as f64,
+    );
+    if line.kind.has_rollers() {
+        let made = match line.kind {
+            CatalogueType::SphericalRoller => ratings::BARREL_SHARE,
+            _ => 1.0,
+        };
+        [
+            made * ratings::roller_row_dynamic_n(count, size, pitch, angle) * rows.powf(7.0 / 9.0),
+            ratings::roller_row_static_n(count, size, pitch, angle) * rows,
+        ]
+    } else if line.kind == CatalogueType::ThrustBall {
+        [
+            thrust_ball_dynamic_n(count, size.0, pitch),
+            thrust_ball_static_n(count, size.0),
+        ]
+    } else {
+        [
+            ratings::ball_row_dynamic_n(count, size.0, pitch, angle) * rows.powf(0.7),
+            ratings::ball_row_static_n(count, size.0, pitch, angle) * rows,
+        ]
     }
 }
 

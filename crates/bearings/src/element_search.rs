@@ -1,7 +1,7 @@
 //! The search of a ball's or roller's place between its races: Newton's method, whose steps are turned towards the
 //! unbalanced force and shortened where they do not lessen it (Levenberg and Marquardt).
 
-use nalgebra::{Const, DimMin, SMatrix, SVector};
+use nalgebra::{Const, DimMin, SMatrix, SVector, Vector3};
 
 /// Forces that count as none \[N\].
 pub(crate) const NO_FORCE_N: f64 = 1e-9;
@@ -14,6 +14,10 @@ const TIGHT: f64 = 1e-13;
 
 /// Share of all forces that may be left where no step lessens it: rounding.
 const LOOSE: f64 = 1e-9;
+
+/// Place of a ball (r, z, 0) or roller (r, z, tilt) at which it carries load \[m, rad\]; none for a loose one, whose
+/// place is not determined.
+pub(crate) type ElementPlace = Option<Vector3<f64>>;
 
 /// What an element feels at a place.
 pub(crate) struct Balance<const N: usize> {

@@ -8,10 +8,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::catalogue::{CatalogueLine, CatalogueType};
-use crate::element_room::{ElementRoom, most_elements};
-use crate::ratings;
-use crate::thrust_ratings::{thrust_ball_dynamic_n, thrust_ball_static_n};
+use crate::catalogue::CatalogueLine;
+use crate::element_room::{ElementRoom, most_elements, ratings_of};
 
 /// Scatter of makers' C about ISO 281 and of C₀ about ISO 76, in logarithms.
 const SCATTER_DYNAMIC: f64 = 0.06;
@@ -22,37 +20,6 @@ const SCATTER_NUMBER: f64 = 0.08;
 
 /// Misfits beyond so many standard deviations are reported.
 const POOR: f64 = 2.0;
-
-/// Usual designs of today: assumptions, with the scatters beside them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct UsualShares {
-    /// D/(D_a − d), and its scatter.
-    pub diameter: (f64, f64),
-    /// L/B, and its scatter.
-    pub length: (f64, f64),
-    /// Elements over the most that go in.
-    pub number: f64,
-}
-
-impl CatalogueType {
-    pub(crate) fn usual(self) -> UsualShares {
-        let (diameter, length, number) = match self {
-            Self::DeepGroove => ((0.3, 0.08), (1.0, 1.0), 0.97),
-            Self::AngularContact | Self::AngularContactDoubleRow | Self::FourPoint => {
-                ((0.3, 0.08), (1.0, 1.0), 0.88)
-            }
-            Self::ThrustBall => ((0.36, 0.12), (1.0, 1.0), 0.93),
-            Self::CylindricalRoller => ((0.275, 0.08), (0.64, 0.12), 0.93),
-            Self::TaperedRoller => ((0.24, 0.1), (0.62, 0.15), 0.92),
-            Self::SphericalRoller => ((0.25, 0.1), (0.36, 0.1), 0.92),
-        };
-        UsualShares {
-            diameter,
-            length,
-            number,
-        }
-    }
-}
 
 /// An estimate of what is inside.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,35 +49,6 @@ pub struct Estimate {
     /// Where the line fits no usual design well: by how much each of its figures is missed, and which sizes they ask
     /// for.
     pub poor_fit: Option<String>,
-}
-
-/// C and C₀ of a bearing with so many elements of this diameter and length \[N\].
-pub(crate) fn ratings_of(line: &CatalogueLine, count: usize, size: (f64, f64)) -> [f64; 2] {
-    let (pitch, angle, rows) = (
-        line.pitch_m(),
-        line.contact_angle_rad,
-        line.kind.rows() as f64,
-    );
-    if line.kind.has_rollers() {
-        let made = match line.kind {
-            CatalogueType::SphericalRoller => ratings::BARREL_SHARE,
-            _ => 1.0,
-        };
-        [
-            made * ratings::roller_row_dynamic_n(count, size, pitch, angle) * rows.powf(7.0 / 9.0),
-            ratings::roller_row_static_n(count, size, pitch, angle) * rows,
-        ]
-    } else if line.kind == CatalogueType::ThrustBall {
-        [
-            thrust_ball_dynamic_n(count, size.0, pitch),
-            thrust_ball_static_n(count, size.0),
-        ]
-    } else {
-        [
-            ratings::ball_row_dynamic_n(count, size.0, pitch, angle) * rows.powf(0.7),
-            ratings::ball_row_static_n(count, size.0, pitch, angle) * rows,
-        ]
-    }
 }
 
 /// Best sizes for one number of elements.

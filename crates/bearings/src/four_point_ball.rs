@@ -1,5 +1,5 @@
-//! The equilibrium of one ball between the four arcs of a four-point contact bearing, and what it does to the inner
-//! ring.
+//! The equilibrium of one ball between the four arcs of a four-point contact bearing, and what it and all of its row do
+//! to the inner ring.
 //!
 //! The ball stays in its axial plane and has two unknowns there. Every arc presses it as one groove of
 //! `ball_equilibrium.rs` does, or not at all. The centrifugal force is that of rolling at the nominal angle: with three
@@ -10,10 +10,10 @@ use nalgebra::{Matrix2, Matrix2x6, Matrix3, Vector2, Vector3};
 
 use crate::axial_plane::AxialPlane;
 use crate::element_load::{ElementLoad, OtherSide};
-use crate::element_place::ElementPlace;
-use crate::element_search::{Balance, ElementSearch, NO_FORCE_N, Unbalanced};
+use crate::element_search::{Balance, ElementPlace, ElementSearch, NO_FORCE_N, Unbalanced};
 use crate::error::BearingError;
 use crate::four_point_row::{Arc, FourPointRow};
+use crate::operation::Operation;
 use crate::ring_load::{RingLoad, by_ring};
 use crate::ring_pose::RingPose;
 
@@ -222,6 +222,42 @@ impl FourPointBall<'_> {
             centrifugal_n: self.centrifugal_n,
             ..ElementLoad::default()
         }
+    }
+}
+
+impl FourPointRow {
+    /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at its
+    /// place, which it leaves where it ends.
+    ///
+    /// # Errors
+    /// [`BearingError::NoBallEquilibrium`].
+    pub(crate) fn add(
+        &self,
+        pose: &RingPose,
+        operation: &Operation,
+        places: &mut [ElementPlace],
+        ring: &mut RingLoad,
+        mut each: impl FnMut(ElementLoad),
+    ) -> Result<(), BearingError> {
+        let orbit = self.orbit_rad_per_s(operation);
+        for (number, place) in places.iter_mut().enumerate() {
+            let angle_rad = self.angle_rad(number, operation);
+            let (sine, cosine) = angle_rad.sin_cos();
+            let ball = FourPointBall {
+                row: self,
+                pose,
+                plane: AxialPlane {
+                    e_r: Vector3::new(cosine, sine, 0.0),
+                },
+                number,
+                centrifugal_n: self.ball_mass_kg * self.pitch_radius_m * orbit * orbit,
+            };
+            let mut load = ball.add(place, ring)?;
+            load.angle_rad = angle_rad;
+            load.orbit_rad_per_s = orbit;
+            each(load);
+        }
+        Ok(())
     }
 }
 

@@ -4,17 +4,8 @@
 //! that a ball that just touches all four arcs does so at the angle α. Arcs end where they meet, in the middle plane.
 //! docs/theory/rolling_bearings.md.
 
-use nalgebra::Vector3;
-
-use crate::axial_plane::AxialPlane;
-use crate::ball_row::Groove;
-use crate::element_load::ElementLoad;
-use crate::element_place::ElementPlace;
-use crate::error::BearingError;
-use crate::four_point_ball::FourPointBall;
+use crate::groove::Groove;
 use crate::operation::Operation;
-use crate::ring_load::RingLoad;
-use crate::ring_pose::RingPose;
 
 /// One arc of a ring's groove.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,39 +63,5 @@ impl FourPointRow {
         let gamma = 0.5 * self.ball_diameter_m * self.free_angle_rad.cos() / self.pitch_radius_m;
         0.5 * (operation.inner_rad_per_s * (1.0 - gamma)
             + operation.outer_rad_per_s * (1.0 + gamma))
-    }
-
-    /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at its
-    /// place, which it leaves where it ends.
-    ///
-    /// # Errors
-    /// [`BearingError::NoBallEquilibrium`].
-    pub(crate) fn add(
-        &self,
-        pose: &RingPose,
-        operation: &Operation,
-        places: &mut [ElementPlace],
-        ring: &mut RingLoad,
-        mut each: impl FnMut(ElementLoad),
-    ) -> Result<(), BearingError> {
-        let orbit = self.orbit_rad_per_s(operation);
-        for (number, place) in places.iter_mut().enumerate() {
-            let angle_rad = self.angle_rad(number, operation);
-            let (sine, cosine) = angle_rad.sin_cos();
-            let ball = FourPointBall {
-                row: self,
-                pose,
-                plane: AxialPlane {
-                    e_r: Vector3::new(cosine, sine, 0.0),
-                },
-                number,
-                centrifugal_n: self.ball_mass_kg * self.pitch_radius_m * orbit * orbit,
-            };
-            let mut load = ball.add(place, ring)?;
-            load.angle_rad = angle_rad;
-            load.orbit_rad_per_s = orbit;
-            each(load);
-        }
-        Ok(())
     }
 }

@@ -7,7 +7,7 @@ use crate::definition::{
     StatedRatings,
 };
 use crate::point_contact::{PointContact, contact_modulus_pa};
-use crate::thrust_ratings::{thrust_ball_dynamic_n, thrust_ball_static_n};
+use crate::thrust_ratings::{ball_size_factor, thrust_ball_dynamic_n, thrust_ball_static_n};
 
 /// Ratings of a bearing as a whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,14 +77,6 @@ pub fn ball_row_dynamic_n(balls: usize, diameter_m: f64, pitch_m: f64, angle_rad
         * cosine.powf(0.7)
         * (balls as f64).powf(2.0 / 3.0)
         * ball_size_factor(diameter_m)
-}
-
-/// D^1.8, from 25.4 mm on 3.647 D^1.4, D in mm.
-pub(crate) fn ball_size_factor(diameter_m: f64) -> f64 {
-    match diameter_m * 1e3 {
-        d if d <= 25.4 => d.powf(1.8),
-        d => 3.647 * d.powf(1.4),
-    }
 }
 
 /// C₀ of one row of balls \[N\]: f₀ Z D² cos α.

@@ -1,16 +1,19 @@
-//! The equilibrium of one roller under the forces of `roller_forces.rs`, and what it does to both rings.
+//! The equilibrium of one roller under the forces of `roller_forces.rs`, and what it and all of its row do to both
+//! rings.
 
 use nalgebra::{Matrix3, Matrix3x6, Matrix6x3, Vector2, Vector3};
 
-use crate::bent_race::{BentAtRoller, LaminaOnRace};
+use crate::axial_plane::AxialPlane;
+use crate::bent_race::{BentAtRoller, BentRow, LaminaOnRace};
 use crate::element_load::ElementLoad;
-use crate::element_place::ElementPlace;
-use crate::element_search::{ElementSearch, NO_FORCE_N};
+use crate::element_search::{ElementPlace, ElementSearch, NO_FORCE_N};
 use crate::error::BearingError;
 use crate::line_contact::LineContact;
+use crate::operation::Operation;
 use crate::ring_load::{RingLoad, by_ring};
+use crate::ring_pose::RingPose;
 use crate::roller_forces::{Roller, RollerState};
-use crate::roller_row::Lamina;
+use crate::roller_row::{Lamina, RollerRow};
 
 /// Share of its weight, which is left out, that a roller may have left over where the search does not end, as on one
 /// that nothing but a slow turn throws between race and rib.
@@ -215,7 +218,7 @@ impl Roller<'_> {
         let centrifugal_n = row.mass_kg * row.pitch_radius_m * self.orbit * self.orbit;
         let thrown_j = centrifugal_n * (place[0] - row.pitch_radius_m);
         *bent.stored_j += inner_j + outer_j - thrown_j + self.gyroscopic_nm() * place[2];
-        debug_assert!(state.rib_load == 0.0);
+        assert!(state.rib_load == 0.0);
     }
 
     /// Returns how force and moment on the ring change with the roller's place.
@@ -297,5 +300,68 @@ impl Roller<'_> {
             spin_rad_per_s: self.spin,
             ..ElementLoad::default()
         }
+    }
+}
+
+impl RollerRow {
+    /// Speed of the cage and of a roller about its axis \[rad/s\], by pure rolling at the rollers' middle.
+    fn speeds(&self, operation: &Operation) -> (f64, f64) {
+        // Both contacts lie at the distance D/2 from the roller's axis, across it.
+        let across = 0.5 * self.diameter_m * self.axis.1.abs();
+        let (inner, outer) = (self.pitch_radius_m - across, self.pitch_radius_m + across);
+        let (w_i, w_o) = (operation.inner_rad_per_s, operation.outer_rad_per_s);
+        let orbit = (w_i * inner + w_o * outer) / (2.0 * self.pitch_radius_m);
+        (orbit, (w_i - orbit) * inner / (0.5 * self.diameter_m))
+    }
+
+    /// Adds what the row does to the ring, and hands every roller's load to `each`. The search of each roller begins
+    /// at its place, which it leaves where it ends.
+    ///
+    /// # Errors
+    /// [`BearingError::NoRollerEquilibrium`].
+    pub(crate) fn add(
+        &self,
+        pose: &RingPose,
+        operation: &Operation,
+        places: &mut [ElementPlace],
+        (ring, mut bent): (&mut RingLoad, BentRow<'_>),
+        mut each: impl FnMut(ElementLoad),
+        mut each_lamina: impl FnMut(f64, f64),
+    ) -> Result<(), BearingError> {
+        let (orbit, spin) = self.speeds(operation);
+        for (number, start) in places.iter_mut().enumerate() {
+            let angle = self.angle_rad(number, operation);
+            if self.missing.contains(&number) {
+                self.laminae.iter().for_each(|_| each_lamina(0.0, 0.0));
+                each(ElementLoad::absent(angle));
+                continue;
+            }
+            let (sine, cosine) = angle.sin_cos();
+            let roller = Roller {
+                row: self,
+                pose,
+                plane: AxialPlane {
+                    e_r: Vector3::new(cosine, sine, 0.0),
+                },
+                number,
+                orbit,
+                spin,
+                race_moved_m: &[],
+            };
+            let mut load = match &mut bent {
+                None => roller.add(start, (ring, None), &mut each_lamina)?,
+                Some((race, (row, first))) => {
+                    let (race_moved_m, part) = race.of_roller(*row, *first + number);
+                    let roller = Roller {
+                        race_moved_m,
+                        ..roller
+                    };
+                    roller.add(start, (ring, Some(part)), &mut each_lamina)?
+                }
+            };
+            load.angle_rad = angle;
+            each(load);
+        }
+        Ok(())
     }
 }

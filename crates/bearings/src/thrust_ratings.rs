@@ -10,13 +10,20 @@
 //! Lengths in mm and forces in N inside.
 
 use crate::point_contact::{PointContact, contact_modulus_pa};
-use crate::ratings::ball_size_factor;
 
 /// C_a of a row of balls between washers \[N\].
 #[must_use]
 pub fn thrust_ball_dynamic_n(balls: usize, diameter_m: f64, pitch_m: f64) -> f64 {
     let size = ball_size_factor(diameter_m);
     1.3 * thrust_ball_dynamic_factor(diameter_m / pitch_m) * (balls as f64).powf(2.0 / 3.0) * size
+}
+
+/// D^1.8, from 25.4 mm on 3.647 D^1.4, D in mm.
+pub(crate) fn ball_size_factor(diameter_m: f64) -> f64 {
+    match diameter_m * 1e3 {
+        d if d <= 25.4 => d.powf(1.8),
+        d => 3.647 * d.powf(1.4),
+    }
 }
 
 /// f_c of ISO 281 for thrust ball bearings of 90°, from D/d_m.

@@ -1,8 +1,8 @@
 //! What lies between the equal steps of a contact analysis: the turns at which the next pair of teeth takes over, where
 //! the gear stays behind most, and the smooth extremes of the pair that leads.
 
-use crate::contact_path::{ContactKind, PairContacts};
-use crate::contact_point::Touch;
+use crate::contact_path::PairContacts;
+use crate::contact_point::{ContactKind, Touch};
 use crate::contact_search::ContactSearch;
 
 /// Halvings of a step for a change of pairs: beyond them rounding decides.

@@ -155,7 +155,12 @@ impl MemberBlank {
 
     /// Unit vectors at a point: along the pitch cone towards the heel, and away from the cone.
     pub fn directions(&self, r: &Vector3<f64>) -> [Vector3<f64>; 2] {
-        crate::flank::cone_directions(self, r)
+        let radial = Vector3::new(r.x, r.y, 0.0).normalize();
+        let (sin, cos) = self.pitch_angle_rad.sin_cos();
+        [
+            radial * sin + Vector3::z() * cos,
+            radial * cos - Vector3::z() * sin,
+        ]
     }
 
     /// z along the axis and radius from it \[m\] of a place along the pitch cone and a height above it: the inverse of

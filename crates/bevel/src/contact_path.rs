@@ -2,59 +2,12 @@
 
 use crate::assembly::{Assembly, AssemblyError};
 use crate::blank::PairBlank;
-use crate::contact_point::{EdgeKind, Mesh, Touch};
+use crate::contact_point::{Mesh, Touch};
 use crate::contact_search::ContactSearch;
 use crate::error::BevelError;
 use crate::flank::Flank;
 
-/// What touches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ContactKind {
-    /// Both flanks inside their limits.
-    Flanks,
-    /// An edge of a member, 0 the pinion, on the other's flank.
-    Edge {
-        /// Member with the edge.
-        member: usize,
-        /// Edge.
-        edge: EdgeKind,
-    },
-    /// The end of a member's tip edge on the other's flank.
-    Corner {
-        /// Member with the corner.
-        member: usize,
-        /// Toe or heel.
-        end: EdgeKind,
-    },
-    /// An edge across an edge.
-    Crossing {
-        /// Edge of the pinion.
-        pinion: EdgeKind,
-        /// Edge of the gear.
-        gear: EdgeKind,
-    },
-    /// Where a member's flank ends above its fillet: the mate reaches into the fillet.
-    LowerEnd {
-        /// Member with the fillet.
-        member: usize,
-    },
-}
-
-impl ContactKind {
-    /// In words.
-    pub fn words(self) -> String {
-        let name = |member: usize| ["pinion", "gear"][member];
-        match self {
-            Self::Flanks => "flanks".to_owned(),
-            Self::Edge { member, edge } => format!("{} {}", name(member), edge.word()),
-            Self::Corner { member, end } => format!("{} tip at {}", name(member), end.word()),
-            Self::Crossing { pinion, gear } => {
-                format!("pinion {} across gear {}", pinion.word(), gear.word())
-            }
-            Self::LowerEnd { member } => format!("{} fillet", name(member)),
-        }
-    }
-}
+pub use crate::contact_point::ContactKind;
 
 /// Contacts of one tooth pair.
 #[derive(Debug, Clone, PartialEq)]

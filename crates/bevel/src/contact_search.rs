@@ -11,8 +11,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::Vector3;
 
 use crate::azimuth_surface::{AzimuthSurface, SectionFrame};
-use crate::contact_path::ContactKind;
-use crate::contact_point::{EdgeKind, EdgeLine, Mesh, Touch};
+use crate::contact_point::{ContactKind, EdgeKind, EdgeLine, Mesh, Touch};
 use crate::cut_surface::SurfacePoint;
 use crate::error::BevelError;
 use crate::flank::{Flank, Located};

@@ -8,10 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::blank::MemberBlank;
 use crate::error::BevelError;
-use crate::flank::Flank;
+use crate::flank::{Flank, spiral_angle_rad};
 use crate::hand::FlankSide;
 use crate::settings::{MachineSettings, Tool};
-use crate::tooth::spiral_angle_rad;
 
 /// Which thickness the teeth have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]

@@ -168,7 +168,7 @@ impl Flank {
     /// the cone with the pitch angle), and
     /// up the profile towards the tip.
     pub fn directions(&self, p: &SurfacePoint) -> [Vector3<f64>; 2] {
-        let [generator, up] = cone_directions(&self.blank, &p.r);
+        let [generator, up] = self.blank.directions(&p.r);
         let along = p.n.cross(&up).normalize();
         let along = along * along.dot(&generator).signum();
         let profile = p.n.cross(&along);
@@ -406,14 +406,19 @@ impl Flank {
     }
 }
 
-/// Unit vectors at a point along the pitch cone's generator, towards the heel, and away from the cone.
-pub(crate) fn cone_directions(blank: &MemberBlank, r: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let radial = Vector3::new(r.x, r.y, 0.0).normalize();
-    let (sin, cos) = blank.pitch_angle_rad.sin_cos();
-    [
-        radial * sin + Vector3::z() * cos,
-        radial * cos - Vector3::z() * sin,
-    ]
+/// Spiral angle at a point: that of the flank's trace on the cone through it, against the cone's generator; positive
+/// for a right hand \[rad\].
+pub fn spiral_angle_rad(flank: &Flank, located: &Located) -> f64 {
+    let [generator, up] = flank.blank.directions(&located.point.r);
+    let [trace, _] = flank.directions(&located.point);
+    let around = generator.cross(&up);
+    trace.dot(&around).atan2(trace.dot(&generator))
+}
+
+/// Normal pressure angle at a point: of the normal against the cone through it \[rad\].
+pub fn pressure_angle_rad(flank: &Flank, located: &Located) -> f64 {
+    let [_, up] = flank.blank.directions(&located.point.r);
+    (-located.point.n.dot(&up)).clamp(-1.0, 1.0).asin()
 }
 
 /// Stands until the mean point is known.

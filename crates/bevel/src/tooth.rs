@@ -5,10 +5,12 @@ use std::f64::consts::TAU;
 use crate::blank::MemberBlank;
 use crate::cut_thickness::{ThicknessFrom, ToothThickness, cut_thickness_m, is_one_operation};
 use crate::error::BevelError;
-use crate::flank::{Flank, Located, cone_directions};
+use crate::flank::{Flank, Located};
 use crate::grid_surface::GridSurface;
 use crate::hand::FlankSide;
 use crate::settings::MachineSettings;
+
+pub use crate::flank::{pressure_angle_rad, spiral_angle_rad};
 
 /// A tooth: its concave and its convex flank, as far apart at the mean point as both are cut, or as the blank says.
 #[derive(Debug, Clone, PartialEq)]
@@ -238,21 +240,6 @@ impl Tooth {
 
 fn along(blank: &MemberBlank, i: usize) -> f64 {
     blank.inner_cone_m() + blank.face_width_m * i as f64 / (ALONG - 1) as f64
-}
-
-/// Spiral angle at a point: that of the flank's trace on the cone through it, against the cone's generator; positive
-/// for a right hand \[rad\].
-pub fn spiral_angle_rad(flank: &Flank, located: &Located) -> f64 {
-    let [generator, up] = cone_directions(&flank.blank, &located.point.r);
-    let [trace, _] = flank.directions(&located.point);
-    let around = generator.cross(&up);
-    trace.dot(&around).atan2(trace.dot(&generator))
-}
-
-/// Normal pressure angle at a point: of the normal against the cone through it \[rad\].
-pub fn pressure_angle_rad(flank: &Flank, located: &Located) -> f64 {
-    let [_, up] = cone_directions(&flank.blank, &located.point.r);
-    (-located.point.n.dot(&up)).clamp(-1.0, 1.0).asin()
 }
 
 fn check_envelope(flank: &Flank) -> Result<(), BevelError> {

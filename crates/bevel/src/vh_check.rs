@@ -5,8 +5,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::assembly::{Assembly, AssemblyError};
 use crate::blank::PairBlank;
-use crate::contact_path::ContactKind;
-use crate::contact_point::{Mesh, Touch};
+use crate::contact_point::{ContactKind, Mesh, Touch};
 use crate::flank::{Flank, Located};
 use crate::hand::FlankSide;
 use crate::pair_design::PairDesign;

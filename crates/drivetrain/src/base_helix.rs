@@ -15,9 +15,8 @@ use gearmesh_geometry::{BaseCircles, ToothGeometry};
 use nalgebra::Vector3;
 
 use crate::mesh_frame::{MeshFrame, turn_of_spin_gradient};
-use crate::pose::Vector6;
-use crate::slice_plane::{Matrix6, SlicePlane, on_turn};
-use crate::tooth_zero::ToothZero;
+use crate::pose::{Vector6, on_turn};
+use crate::slice_plane::{Matrix6, SlicePlane, ToothZero};
 
 /// The helix of a pair; β_b is gear 1's, positive for a right hand. The gears have opposite hands, a ring and the gear inside it equal ones.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -15,8 +15,8 @@ use gearmesh_dynamics::Iterate;
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::FlankContacts;
 use crate::models::hybrid::ReducedTeeth;
+use crate::models::teeth_model::{TeethLoads, TeethModel};
 use crate::step::step;
-use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// Kind and amount of damping.
 #[derive(Debug, Clone, Copy, PartialEq)]

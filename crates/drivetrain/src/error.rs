@@ -3,8 +3,6 @@
 use gearmesh_contact::ContactError;
 use gearmesh_geometry::Flank;
 
-use crate::tooth_overlap::turning;
-
 /// Error of this crate.
 #[derive(Debug, thiserror::Error)]
 pub enum DrivetrainError {
@@ -396,4 +394,12 @@ pub(crate) fn not_negative(
         "zero or positive, and finite",
     );
     DrivetrainError::require(owner, (what, found), is_allowed, allowed)
+}
+
+/// Which way loads have to turn both gears for flanks of one side to be pressed together.
+fn turning(side: Flank) -> &'static str {
+    match side {
+        Flank::Right => "clockwise (torques negative about z)",
+        Flank::Left => "counter-clockwise (torques positive about z)",
+    }
 }

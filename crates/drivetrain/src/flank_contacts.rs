@@ -6,7 +6,6 @@ use std::sync::Arc;
 use gearmesh_contact::{ContactPatch, FlankPlace, PatchBalance};
 
 use crate::flank_error::FlankError;
-use crate::flank_modes::dot;
 use crate::pose::Vector6;
 
 /// Deviations of one gear's flanks.
@@ -238,19 +237,6 @@ impl FlankContacts {
             }
         }
         Some(first)
-    }
-
-    /// How fast vibration slides gear 2's flank over gear 1's along one of the tangents at a contact \[m/s\]; zero without friction.
-    #[must_use]
-    pub fn sliding_by_vibration_m_per_s(
-        &self,
-        (contact, tangent): (usize, usize),
-        modal_rates: &[&[f64]; 2],
-    ) -> f64 {
-        let of_gears = self.modal.iter().zip(modal_rates);
-        of_gears
-            .map(|(modal, rates)| dot(modal.sliding(contact, tangent), rates))
-            .sum()
     }
 
     /// How deep flanks overlap at most \[m\], along their normal; zero where none do.

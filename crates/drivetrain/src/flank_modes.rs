@@ -242,6 +242,21 @@ impl FlankModes {
     }
 }
 
+impl FlankContacts {
+    /// How fast vibration slides gear 2's flank over gear 1's along one of the tangents at a contact \[m/s\]; zero without friction.
+    #[must_use]
+    pub fn sliding_by_vibration_m_per_s(
+        &self,
+        (contact, tangent): (usize, usize),
+        modal_rates: &[&[f64]; 2],
+    ) -> f64 {
+        let of_gears = self.modal.iter().zip(modal_rates);
+        of_gears
+            .map(|(modal, rates)| dot(modal.sliding(contact, tangent), rates))
+            .sum()
+    }
+}
+
 /// Slices that share a force.
 #[derive(Clone, Copy)]
 enum AlongTooth {

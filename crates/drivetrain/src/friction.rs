@@ -21,8 +21,8 @@ use nalgebra::Vector3;
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_kinematics::Tangent;
 use crate::mesh_frame::MeshFrame;
-use crate::pose::Vector6;
-use crate::slice_plane::{Matrix6, SlicePlane, stacked};
+use crate::pose::{Vector6, stacked};
+use crate::slice_plane::{Matrix6, SlicePlane};
 use crate::step::step;
 
 /// Coefficients and transition speeds.

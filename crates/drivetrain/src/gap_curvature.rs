@@ -2,8 +2,8 @@
 
 use gearmesh_geometry::Flank;
 
-use crate::mesh_frame::PoseGeometry;
 use crate::mesh_kinematics::MeshKinematics;
+use crate::pose_geometry::PoseGeometry;
 use crate::slice_plane::{Matrix6, SidePlanes};
 
 impl MeshKinematics {

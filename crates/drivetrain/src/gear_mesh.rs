@@ -20,24 +20,13 @@ use crate::flank_modes::{FlankModes, ModalMotion};
 use crate::friction::Friction;
 use crate::involute_mesh::InvoluteMesh;
 use crate::mesh_kinematics::MeshKinematics;
-pub use crate::mesh_load::MeshLoad;
+pub use crate::mesh_load::{MeshEffort, MeshLoad};
 use crate::modal_loads::ModalLoads;
+use crate::models::teeth_model::{TeethLoads, TeethModel};
 use crate::pose::{Pose, Vector6};
 use crate::side_assembly::{Assembly, FlankFriction, Parts};
-use crate::teeth_model::{TeethLoads, TeethModel};
 
 mod coupled_side;
-
-/// How often each part of a mesh was computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct MeshEffort {
-    /// Poses.
-    pub poses: u64,
-    /// Evaluations of a model, one for each side that has teeth facing each other.
-    pub models: u64,
-    /// Contacts whose friction was computed.
-    pub friction: u64,
-}
 
 struct Side {
     flank: Flank,

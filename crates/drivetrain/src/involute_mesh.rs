@@ -7,9 +7,9 @@ use crate::error::DrivetrainError;
 use crate::flank_contacts::FlankContacts;
 use crate::flank_kinematics::{FlankKinematics, Tangent};
 use crate::friction::SlidingAt;
-use crate::mesh_frame::PoseGeometry;
 use crate::mesh_kinematics::MeshKinematics;
 use crate::pose::Pose;
+use crate::pose_geometry::PoseGeometry;
 use crate::slice_plane::{Matrix6, SidePlanes};
 
 /// Involute kinematics, the last pose and the slice planes of both sides there.

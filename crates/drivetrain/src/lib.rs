@@ -6,9 +6,9 @@
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
-//! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs`; `mesh_frame.rs`, `slice_plane.rs`, `base_helix.rs`, `path_ends.rs`; what is found: `flank_contacts.rs` |
+//! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs`; `mesh_frame.rs`, `slice_plane.rs`, `pose_geometry.rs`, `base_helix.rs`, `path_ends.rs`; what is found: `flank_contacts.rs` |
 //! | what a mesh asks of a family of flanks | [`FlankKinematics`] | `flank_kinematics.rs`; involute gears: `involute_mesh.rs`; bevel gears: [`BevelMesh`], `bevel/` |
-//! | what resists | the models | `teeth_model.rs`, `models/` |
+//! | what resists | the models | `models/` |
 //! | what simple models take from a pair's own static curve | [`PairCurve`] | `pair_curve.rs`, `roll_harmonics.rs` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
 //! | teeth that are apart, or overlap | `nearest_flanks.rs`, `tooth_overlap.rs` |
@@ -55,6 +55,7 @@ mod pair_channels;
 pub mod pair_curve;
 pub mod path_ends;
 pub mod pose;
+mod pose_geometry;
 pub mod posed_flanks;
 pub mod ring_foundation;
 pub mod roll_harmonics;
@@ -62,10 +63,8 @@ mod side_assembly;
 pub mod slice_plane;
 pub mod step;
 pub mod strain_gauges;
-pub mod teeth_model;
 pub mod tooth_compliance;
 pub mod tooth_overlap;
-mod tooth_zero;
 
 pub use bevel::{BevelAtRest, BevelMesh, BevelSlices, FacetKind, FacetSize, PlaceAtRest};
 pub use coupled_meshes::{CoupledMeshes, CoupledPart, FoundTogether, GearOnRollers, MeshToCouple};
@@ -87,6 +86,7 @@ pub use models::hybrid::ReducedTeeth;
 pub use models::impact::{Impact, PowerStiffness};
 pub use models::iso6336::{MeshSpring, SingleStiffness};
 pub use models::kinematic::kinematic_mesh;
+pub use models::teeth_model::{self, TeethLoads, TeethModel};
 pub use node_surface::{
     DigitalFlank, NodeSurfaces, PatchSize, ReferenceApproach, line_contact_area_m2,
     point_contact_area_m2,
@@ -98,5 +98,4 @@ pub use pose::Pose;
 pub use posed_flanks::PosedFlanks;
 pub use side_assembly::FlankFriction;
 pub use strain_gauges::{ModalPart, StrainGauges};
-pub use teeth_model::{TeethLoads, TeethModel};
 pub use tooth_compliance::{BeamTooth, RootCrack};

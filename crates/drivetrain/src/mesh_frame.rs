@@ -12,17 +12,11 @@
 //! halfway between the mid-faces. Exchanging the gears changes the signs of u, f, D′ and D, and nothing else: what follows from this
 //! frame does not know which gear is the first.
 
-use std::f64::consts::TAU;
-
 use gearmesh_contact::ContactZone;
-use gearmesh_contact::SliceLayout;
-use gearmesh_contact::contact_zone::slice_place;
 use gearmesh_geometry::BaseCircles;
 use nalgebra::{Matrix3, Vector3};
 
-use crate::error::DrivetrainError;
-use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{CentreLine, stacked};
+use crate::pose::{Pose, Vector6, stacked};
 
 /// The frame at a pose; all vectors in gear 1's axes.
 #[derive(Debug, Clone, Copy)]
@@ -136,57 +130,6 @@ pub(crate) struct ZoneSection {
     pub gradient: Vector6,
     /// ∂(s + F/2).
     pub plane_gradient: Vector6,
-}
-
-/// Slice planes at a pose, what both sides of the teeth share. Reused from call to call.
-#[derive(Debug, Clone, Default)]
-pub struct PoseGeometry {
-    pub(crate) slices: Vec<CentreLine>,
-    pub(crate) middle: Option<CentreLine>,
-    pub(crate) frame: Option<MeshFrame>,
-}
-
-impl PoseGeometry {
-    /// The slice that lies in the middle of the zone, where there is one.
-    pub(crate) fn middle_slice(&self) -> Option<usize> {
-        let slices = self.slices.len();
-        (slices % 2 == 1).then_some(slices / 2)
-    }
-
-    /// Takes the slices of a layout at a pose; none where the faces no longer overlap.
-    ///
-    /// # Errors
-    /// [`DrivetrainError::CentreDistance`].
-    pub(crate) fn locate(
-        &mut self,
-        circles: BaseCircles,
-        layout: &SliceLayout,
-        pose: &Pose,
-    ) -> Result<(), DrivetrainError> {
-        self.slices.clear();
-        self.middle = None;
-        let frame = &*(self.frame).insert(MeshFrame::new(circles, layout.face_widths_m, pose));
-        let middle = CentreLine::new(frame, frame.section(0.0))?;
-        self.middle = Some(middle);
-        if frame.zone.width_m
-            <= layout.reference.width_m * gearmesh_contact::slice_part::LEAST_SHARE
-        {
-            return Ok(());
-        }
-        for slice in 0..layout.slices {
-            let place = slice_place(slice, layout.slices);
-            let mut line = if place == 0.0 {
-                middle
-            } else {
-                CentreLine::new(frame, frame.section(place))?
-            };
-            // Where gear 1 has turned by half a turn, those of some slices would be π, of others −π, and teeth that are counted in the middle would
-            // be a whole turn off.
-            line.polar_rad += TAU * ((middle.polar_rad - line.polar_rad) / TAU).round();
-            self.slices.push(line);
-        }
-        Ok(())
-    }
 }
 
 /// ∂t/∂ϑ at parallel axes, −½ e_z ×.

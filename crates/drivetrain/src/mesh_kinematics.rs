@@ -32,11 +32,11 @@ use crate::flank_contacts::{
     AlongTeeth, FlankContacts, FlankErrors, Section, TeethLine, ToothContact,
 };
 use crate::flank_error::FlankPoint;
-use crate::mesh_frame::{MeshFrame, PoseGeometry};
+use crate::mesh_frame::MeshFrame;
 use crate::path_ends::{PathEnds, TipEdges, part_on_path};
 use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{SidePlanes, SlicePlane, line_of_action};
-use crate::tooth_zero::ToothZero;
+use crate::pose_geometry::PoseGeometry;
+use crate::slice_plane::{SidePlanes, SlicePlane, ToothZero, line_of_action};
 
 /// Largest angle between the axes \[rad\] for which slices in parallel planes are taken as the truth: neglected terms are of the order
 /// of its square, 1e-4 of the lengths. The static scene has the same limit.

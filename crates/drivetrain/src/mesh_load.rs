@@ -1,4 +1,4 @@
-//! What a mesh does at a pose: load, tangents, energy.
+//! What a mesh does at a pose: load, tangents, energy; and how often it was computed.
 
 use gearmesh_dynamics::Power;
 
@@ -30,4 +30,15 @@ impl Default for MeshLoad {
             friction_w: 0.0,
         }
     }
+}
+
+/// How often each part of a mesh was computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct MeshEffort {
+    /// Poses.
+    pub poses: u64,
+    /// Evaluations of a model, one for each side that has teeth facing each other.
+    pub models: u64,
+    /// Contacts whose friction was computed.
+    pub friction: u64,
 }

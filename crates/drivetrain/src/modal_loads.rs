@@ -14,8 +14,8 @@
 use crate::flank_contacts::FlankContacts;
 use crate::flank_modes::add_scaled;
 use crate::friction::Drag;
+use crate::models::teeth_model::TeethLoads;
 use crate::pose::Vector6;
-use crate::teeth_model::TeethLoads;
 
 /// Modal forces and the parts of the tangents that have to do with modes; gear 1's modes first, then gear 2's.
 #[derive(Debug, Clone, Default)]

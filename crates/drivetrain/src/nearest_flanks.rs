@@ -14,10 +14,9 @@ use std::f64::consts::TAU;
 use gearmesh_geometry::Flank;
 
 use crate::gear_mesh::GearMesh;
-use crate::mesh_frame::PoseGeometry;
 use crate::mesh_kinematics::MeshKinematics;
-use crate::slice_plane::{CentreLine, SlicePlane};
-use crate::tooth_zero::ToothZero;
+use crate::pose_geometry::PoseGeometry;
+use crate::slice_plane::{CentreLine, SlicePlane, ToothZero};
 
 impl MeshKinematics {
     /// Base pitch \[m\], in the transverse plane.

@@ -6,6 +6,16 @@ use nalgebra::{Matrix3, SVector, Vector3};
 /// Six numbers on the relative motion: translation, then rotation, both along gear 1's axes.
 pub type Vector6 = SVector<f64, 6>;
 
+/// Two vectors one above the other.
+pub(crate) fn stacked(upper: Vector3<f64>, lower: Vector3<f64>) -> Vector6 {
+    Vector6::new(upper[0], upper[1], upper[2], lower[0], lower[1], lower[2])
+}
+
+/// A vector on the rotation alone.
+pub(crate) fn on_turn(lower: Vector3<f64>) -> Vector6 {
+    stacked(Vector3::zeros(), lower)
+}
+
 /// Place and motion of gear 2's frame in gear 1's. Each frame has its z along the gear's axis, its origin at mid-face and tooth 0
 /// centred on +x; the two z point the same way.
 ///

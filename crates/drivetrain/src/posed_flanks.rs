@@ -17,8 +17,7 @@ use nalgebra::Vector3;
 
 use crate::flank_contacts::FlankContacts;
 use crate::flank_kinematics::FlankKinematics;
-use crate::pose::Pose;
-use crate::slice_plane::{on_turn, stacked};
+use crate::pose::{Pose, on_turn, stacked};
 
 /// Flanks of a mesh and the poses at which they stand.
 pub struct PosedFlanks<K, P> {

@@ -5,11 +5,10 @@ use gearmesh_geometry::Flank;
 use crate::flank_contacts::FlankContacts;
 use crate::flank_kinematics::FlankKinematics;
 use crate::friction::{Drag, Friction};
-use crate::gear_mesh::MeshEffort;
-use crate::mesh_load::MeshLoad;
+use crate::mesh_load::{MeshEffort, MeshLoad};
 use crate::modal_loads::{ContactChange, ModalLoads};
+use crate::models::teeth_model::TeethLoads;
 use crate::pose::Vector6;
-use crate::teeth_model::TeethLoads;
 
 /// Friction of one contact for a normal force of one newton.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -11,8 +11,11 @@ use nalgebra::{SMatrix, Vector3};
 
 use crate::error::DrivetrainError;
 use crate::mesh_frame::{MeshFrame, ZoneSection, turn_of_spin_gradient};
-use crate::pose::Vector6;
-use crate::tooth_zero::ToothZero;
+use crate::pose::{Vector6, on_turn, stacked};
+
+mod tooth_zero;
+
+pub(crate) use tooth_zero::ToothZero;
 
 /// 6×6 matrix on the increments of a pose.
 pub type Matrix6 = SMatrix<f64, 6, 6>;
@@ -76,16 +79,6 @@ pub(crate) fn line_of_action(
         found_mm: distance_m * 1e3,
         smallest_mm: circles.sum_m().abs() * 1e3,
     })
-}
-
-/// Two vectors one above the other.
-pub(crate) fn stacked(upper: Vector3<f64>, lower: Vector3<f64>) -> Vector6 {
-    Vector6::new(upper[0], upper[1], upper[2], lower[0], lower[1], lower[2])
-}
-
-/// A vector on the rotation alone.
-pub(crate) fn on_turn(lower: Vector3<f64>) -> Vector6 {
-    stacked(Vector3::zeros(), lower)
 }
 
 impl CentreLine {

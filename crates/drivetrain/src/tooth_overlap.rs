@@ -69,11 +69,3 @@ impl GearMesh {
         }
     }
 }
-
-/// Which way loads have to turn both gears for flanks of one side to be pressed together.
-pub(crate) fn turning(side: Flank) -> &'static str {
-    match side {
-        Flank::Right => "clockwise (torques negative about z)",
-        Flank::Left => "counter-clockwise (torques positive about z)",
-    }
-}

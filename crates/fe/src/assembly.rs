@@ -9,18 +9,13 @@
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use rayon::prelude::*;
 
+use crate::compressed_columns::{SparseMatrix, StiffnessMatrix};
 use crate::constraints::DofMap;
 use crate::element_matrix::ElementMatrix;
 use crate::error::FeError;
 use crate::graph::NodeGraph;
 use crate::model::FeModel;
 use crate::reference_points::add_reference_points;
-
-/// A full symmetric matrix, compressed columns, rows ascending, over the free degrees of freedom.
-pub type SparseMatrix = SparseColMat<usize, f64>;
-
-/// Stiffness (N/m) over the free degrees of freedom.
-pub type StiffnessMatrix = SparseMatrix;
 
 /// Stiffness K (free x free, N/m) of a model under constraints.
 ///

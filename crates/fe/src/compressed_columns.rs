@@ -1,9 +1,14 @@
-//! The assembled matrices as sprs sees them: products, sums, slices and Matrix Market files for whoever takes them
-//! further.
+//! The assembled matrices, by compressed columns; and as sprs sees them: products, sums, slices and Matrix Market files
+//! for whoever takes them further.
 
+use faer::sparse::SparseColMat;
 use sprs::CsMatView;
 
-use crate::assembly::SparseMatrix;
+/// A full symmetric matrix, compressed columns, rows ascending, over the free degrees of freedom.
+pub type SparseMatrix = SparseColMat<usize, f64>;
+
+/// Stiffness (N/m) over the free degrees of freedom.
+pub type StiffnessMatrix = SparseMatrix;
 
 /// A view of K or M by compressed columns; nothing is copied.
 ///

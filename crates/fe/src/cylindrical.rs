@@ -3,7 +3,7 @@
 //! In these components a part and its image under a turn about z have the same stiffness matrix, entry by entry, and a
 //! field that turns with the part is the same list of numbers. Cyclic symmetry then needs no rotation matrices.
 
-use crate::assembly::StiffnessMatrix;
+use crate::compressed_columns::StiffnessMatrix;
 
 /// The frames of some nodes: (cos φ, sin φ) of their polar angles.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,6 +3,7 @@
 //! Degrees of freedom of an element: 3 i + a is the displacement of node i along axis a (x, y, z).
 
 use gearmesh_elements::Element;
+use std::sync::LazyLock;
 
 use crate::element_matrix::ElementMatrix;
 use crate::error::ElementError;
@@ -10,11 +11,8 @@ use crate::isoparametric::{determinant, point_gradients, stiffness};
 use crate::material::Material;
 use crate::quadrature::{GAUSS_2, GAUSS_3, TET_8, TET_14, WEDGE_6, WEDGE_18, WeightedPoint};
 use crate::shape_table::ShapeTable;
-use crate::stiffness_block::strain_columns;
+use crate::stiffness_block::{StrainOperator, compatible_strain_operator};
 use crate::{hex8, hex8_incompatible, hex20, tet10, wedge6, wedge15};
-
-/// Strain per nodal displacement (1/m): rows xx, yy, zz, xy, yz, xz with engineering shear, `operator[row][3 i + a]`.
-pub type StrainOperator = [Vec<f64>; 6];
 
 /// Evaluates an expression with the module that has the shape functions of an element.
 macro_rules! with_shape {
@@ -241,7 +239,60 @@ impl ElementFormulas for Element {
         coordinates: &[[f64; 3]],
         density_kg_per_m3: f64,
     ) -> Result<ElementMatrix, ElementError> {
-        crate::mass::mass_of(self, coordinates, density_kg_per_m3)
+        let n = self.node_count();
+        let mut scalar = vec![0.0; n * n];
+        for found in ShapeTable::of_mass(self).volumes(coordinates) {
+            let (volume, shape) = found?;
+            for i in 0..n {
+                let share = density_kg_per_m3 * volume * shape[i];
+                for j in i..n {
+                    scalar[i * n + j] += share * shape[j];
+                }
+            }
+        }
+        Ok(ElementMatrix::from_upper(3 * n, |i, j| {
+            if i % 3 == j % 3 {
+                scalar[i / 3 * n + j / 3]
+            } else {
+                0.0
+            }
+        }))
+    }
+}
+
+/// Of the points of the mass, [`ElementFormulas::mass_points`], by kind.
+static OF_MASS: LazyLock<[ShapeTable; Element::ALL.len()]> = LazyLock::new(|| {
+    Element::ALL.map(|kind| ShapeTable::of_kind(kind, kind.mass_points().to_vec()))
+});
+
+/// Of the points where a Jacobian must be positive, [`ElementFormulas::check_shape`], by kind.
+static OF_CHECK: LazyLock<[ShapeTable; Element::ALL.len()]> = LazyLock::new(|| {
+    Element::ALL.map(|kind| {
+        let gauss = kind.integration_points().iter().map(|(point, _)| *point);
+        let others = kind.natural_nodes().iter().copied().chain([kind.centre()]);
+        let points = gauss.chain(others).map(|point| (point, 0.0));
+        ShapeTable::of_kind(kind, points.collect())
+    })
+});
+
+impl ShapeTable {
+    /// The table of a kind at natural points with these weights.
+    fn of_kind(kind: Element, points: Vec<([f64; 3], f64)>) -> Self {
+        Self::new(
+            points,
+            |at| kind.shape_functions(at),
+            |at| kind.natural_gradients(at),
+        )
+    }
+
+    /// The points of the mass of a kind.
+    pub fn of_mass(kind: Element) -> &'static Self {
+        &OF_MASS[kind as usize]
+    }
+
+    /// The points where the Jacobian of a kind must be positive.
+    pub fn of_check(kind: Element) -> &'static Self {
+        &OF_CHECK[kind as usize]
     }
 }
 
@@ -255,13 +306,33 @@ pub(crate) fn nodes<const N: usize>(
     })
 }
 
-/// Strain operator of the displacement Σ N_i d_i from the gradients of its shape functions.
-pub(crate) fn compatible_strain_operator(gradients: &[[f64; 3]]) -> StrainOperator {
-    let mut b = std::array::from_fn(|_| Vec::with_capacity(3 * gradients.len()));
-    for gradient in gradients {
-        for (row, columns) in b.iter_mut().zip(strain_columns(*gradient)) {
-            row.extend(columns);
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// The mass of the trilinear brick of volume V: ρV/27 at a node with itself, half as much for each step along an
+    /// edge (Hughes 1987, section 7.3).
+    #[test]
+    fn mass_of_a_brick_in_closed_form() {
+        let element = Element::Hex8;
+        let coordinates: Vec<_> = element
+            .natural_nodes()
+            .iter()
+            .map(|c| [0.5 * c[0], 1.0 * c[1], 1.5 * c[2]])
+            .collect();
+        let m = element.mass(&coordinates, 27.0 / 6.0).unwrap();
+        for i in 0..24 {
+            for j in 0..24 {
+                let (a, b) = (coordinates[i / 3], coordinates[j / 3]);
+                let steps = (0..3).filter(|k| a[*k] != b[*k]).count();
+                let expected = if i % 3 == j % 3 {
+                    0.5_f64.powi(steps as i32)
+                } else {
+                    0.0
+                };
+                assert!((m[(i, j)] - expected).abs() < 1e-14, "{i} {j}");
+            }
         }
     }
-    b
 }

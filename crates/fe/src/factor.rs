@@ -16,7 +16,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::{Conj, MatMut, Par, Side, Spec};
 use rayon::prelude::*;
 
-use crate::assembly::StiffnessMatrix;
+use crate::compressed_columns::StiffnessMatrix;
 use crate::constraints::DofMap;
 use crate::error::FeError;
 use crate::factor_time::expected_seconds;

@@ -25,14 +25,15 @@
 
 use nalgebra::SMatrix;
 
-use crate::element::{StrainOperator, compatible_strain_operator};
 use crate::element_matrix::ElementMatrix;
 use crate::error::ElementError;
 use crate::hex8::{HexCoordinates, natural_gradients};
 use crate::isoparametric::{Jacobian, point_gradients};
 use crate::material::LameParameters;
 use crate::quadrature::GAUSS_2;
-use crate::stiffness_block::{BlockStiffness, add_point_stiffness, strain_columns};
+use crate::stiffness_block::{
+    BlockStiffness, StrainOperator, add_point_stiffness, compatible_strain_operator, strain_columns,
+};
 
 /// Rows per mode amplitude (3 modes x 3 directions), columns per nodal displacement.
 type ModeMatrix = SMatrix<f64, 9, 24>;

@@ -4,7 +4,7 @@
 use faer::prelude::ReborrowMut;
 use faer::{Mat, Scale, Side};
 
-use crate::modes::ModeProblem;
+use crate::mode_problem::ModeProblem;
 
 /// A remainder below this part of the vector is rounding: the basis holds the whole of it already.
 const SMALLEST_REMAINDER: f64 = 1e-12;

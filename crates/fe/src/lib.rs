@@ -102,6 +102,7 @@ mod isoparametric;
 mod lanczos_basis;
 mod mass;
 mod material;
+mod mode_problem;
 mod model;
 mod modes;
 mod ordering;
@@ -122,15 +123,13 @@ mod tet10;
 mod wedge15;
 mod wedge6;
 
-pub use assembly::{
-    SparseMatrix, StiffnessMatrix, assemble_stiffness, assemble_stiffness_with_graph,
-};
-pub use compressed_columns::compressed_columns;
+pub use assembly::{assemble_stiffness, assemble_stiffness_with_graph};
+pub use compressed_columns::{SparseMatrix, StiffnessMatrix, compressed_columns};
 pub use constraints::DofMap;
 pub use cyclic::CyclicInterface;
 pub use cylindrical::CylindricalFrames;
 pub use doubled_nodes::{DoubledNodes, JumpFactor};
-pub use element::{ElementFormulas, StrainOperator};
+pub use element::ElementFormulas;
 pub use element_matrix::ElementMatrix;
 pub use error::{ElementError, FeError};
 pub use factor::{Factor, FactorInfo, SymbolicFactor};
@@ -139,10 +138,10 @@ pub use graph::NodeGraph;
 pub use hex8::CORNERS;
 pub use mass::{assemble_mass, mass_moments, mass_product, stiffness_product};
 pub use material::{LameParameters, Material, von_mises};
+pub use mode_problem::{ModeProblem, numbers_without_pattern};
 pub use model::{ElementBlock, FeModel};
 pub use modes::{
-    ModeProblem, ModeSettings, NaturalModes, WantedModes, natural_modes, numbers_without_pattern,
-    search_modes, shifted_stiffness,
+    ModeSettings, NaturalModes, WantedModes, natural_modes, search_modes, shifted_stiffness,
 };
 pub use ordering::DofOrdering;
 pub use parts::{PARTS, split_alike};
@@ -152,5 +151,6 @@ pub use rigid_group::{RigidGroup, rigid_motions};
 pub use ring::{PartLoads, Ring};
 pub use ring_condensation::RingCondensation;
 pub use static_condensation::{CondensedLoads, StaticCondensation};
+pub use stiffness_block::StrainOperator;
 pub use structured::StructuredMesh;
 pub use symmetric_product::SymmetricRows;

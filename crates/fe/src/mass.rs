@@ -7,41 +7,15 @@
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
-use crate::assembly::{SparseMatrix, assemble};
+use crate::assembly::assemble;
+use crate::compressed_columns::SparseMatrix;
 use crate::constraints::DofMap;
 use crate::element::ElementFormulas;
 use crate::element_matrix::ElementMatrix;
-use crate::error::{ElementError, FeError};
+use crate::error::FeError;
 use crate::graph::NodeGraph;
 use crate::model::FeModel;
 use crate::shape_table::ShapeTable;
-use gearmesh_elements::Element;
-
-/// Mass of one element, [`ElementFormulas::mass`].
-pub(crate) fn mass_of(
-    element: Element,
-    coordinates: &[[f64; 3]],
-    density_kg_per_m3: f64,
-) -> Result<ElementMatrix, ElementError> {
-    let n = element.node_count();
-    let mut scalar = vec![0.0; n * n];
-    for found in ShapeTable::of_mass(element).volumes(coordinates) {
-        let (volume, shape) = found?;
-        for i in 0..n {
-            let share = density_kg_per_m3 * volume * shape[i];
-            for j in i..n {
-                scalar[i * n + j] += share * shape[j];
-            }
-        }
-    }
-    Ok(ElementMatrix::from_upper(3 * n, |i, j| {
-        if i % 3 == j % 3 {
-            scalar[i / 3 * n + j / 3]
-        } else {
-            0.0
-        }
-    }))
-}
 
 /// Mass matrix M (free x free, kg) of a model of one density (kg/m³) under constraints.
 ///
@@ -176,36 +150,5 @@ fn check_density(density_kg_per_m3: f64) -> Result<(), FeError> {
         Ok(())
     } else {
         Err(FeError::DensityOutOfRange { density_kg_per_m3 })
-    }
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-
-    /// The mass of the trilinear brick of volume V: ρV/27 at a node with itself, half as much for each step along an
-    /// edge (Hughes 1987, section 7.3).
-    #[test]
-    fn mass_of_a_brick_in_closed_form() {
-        let element = Element::Hex8;
-        let coordinates: Vec<_> = element
-            .natural_nodes()
-            .iter()
-            .map(|c| [0.5 * c[0], 1.0 * c[1], 1.5 * c[2]])
-            .collect();
-        let m = element.mass(&coordinates, 27.0 / 6.0).unwrap();
-        for i in 0..24 {
-            for j in 0..24 {
-                let (a, b) = (coordinates[i / 3], coordinates[j / 3]);
-                let steps = (0..3).filter(|k| a[*k] != b[*k]).count();
-                let expected = if i % 3 == j % 3 {
-                    0.5_f64.powi(steps as i32)
-                } else {
-                    0.0
-                };
-                assert!((m[(i, j)] - expected).abs() < 1e-14, "{i} {j}");
-            }
-        }
     }
 }

@@ -2,10 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::element::{ElementFormulas, StrainOperator};
+use crate::element::ElementFormulas;
 use crate::element_matrix::ElementMatrix;
 use crate::error::FeError;
 use crate::material::Material;
+use crate::stiffness_block::StrainOperator;
 use gearmesh_elements::Element;
 
 /// Elements of one kind.

@@ -10,7 +10,7 @@ use std::sync::{Mutex, PoisonError};
 
 use metis_sys as metis;
 
-use crate::assembly::StiffnessMatrix;
+use crate::compressed_columns::StiffnessMatrix;
 use crate::constraints::DofMap;
 use crate::error::FeError;
 use crate::graph::NodeGraph;

@@ -6,7 +6,7 @@
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use rayon::prelude::*;
 
-use crate::assembly::SparseMatrix;
+use crate::compressed_columns::SparseMatrix;
 use crate::constraints::DofMap;
 use crate::element_matrix::ElementMatrix;
 use crate::error::FeError;

@@ -1,9 +1,5 @@
 //! Shape functions and their gradients at the fixed points of a kind of element, made once for all its elements.
 
-use gearmesh_elements::Element;
-use std::sync::LazyLock;
-
-use crate::element::ElementFormulas;
 use crate::error::ElementError;
 use crate::isoparametric::determinant;
 
@@ -17,38 +13,19 @@ pub(crate) struct ShapeTable {
     gradients: Vec<Vec<[f64; 3]>>,
 }
 
-/// Of the points of the mass, [`ElementFormulas::mass_points`], by kind.
-static OF_MASS: LazyLock<[ShapeTable; Element::ALL.len()]> =
-    LazyLock::new(|| Element::ALL.map(|kind| ShapeTable::new(kind, kind.mass_points().to_vec())));
-
-/// Of the points where a Jacobian must be positive, [`ElementFormulas::check_shape`], by kind.
-static OF_CHECK: LazyLock<[ShapeTable; Element::ALL.len()]> = LazyLock::new(|| {
-    Element::ALL.map(|kind| {
-        let gauss = kind.integration_points().iter().map(|(point, _)| *point);
-        let others = kind.natural_nodes().iter().copied().chain([kind.centre()]);
-        let points = gauss.chain(others).map(|point| (point, 0.0));
-        ShapeTable::new(kind, points.collect())
-    })
-});
-
 impl ShapeTable {
-    fn new(kind: Element, points: Vec<([f64; 3], f64)>) -> Self {
+    /// N_i and ∂N_i/∂(ξ, η, ζ) at natural points with these weights.
+    pub fn new(
+        points: Vec<([f64; 3], f64)>,
+        shape_functions: impl Fn([f64; 3]) -> Vec<f64>,
+        natural_gradients: impl Fn([f64; 3]) -> Vec<[f64; 3]>,
+    ) -> Self {
         let at = points.iter().map(|(point, _)| *point);
         Self {
-            shapes: at.clone().map(|at| kind.shape_functions(at)).collect(),
-            gradients: at.map(|at| kind.natural_gradients(at)).collect(),
+            shapes: at.clone().map(shape_functions).collect(),
+            gradients: at.map(natural_gradients).collect(),
             points,
         }
-    }
-
-    /// The points of the mass of a kind.
-    pub fn of_mass(kind: Element) -> &'static Self {
-        &OF_MASS[kind as usize]
-    }
-
-    /// The points where the Jacobian of a kind must be positive.
-    pub fn of_check(kind: Element) -> &'static Self {
-        &OF_CHECK[kind as usize]
     }
 
     /// Of each point the volume (m³) that it stands for, weight × Jacobian determinant, and the shape functions there.

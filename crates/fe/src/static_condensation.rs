@@ -17,7 +17,7 @@
 //!
 //! Source: R. J. Guyan, *Reduction of stiffness and mass matrices*, AIAA J. 3 (1965) 380; the block form of Cholesky.
 
-use crate::assembly::StiffnessMatrix;
+use crate::compressed_columns::StiffnessMatrix;
 use crate::error::FeError;
 use crate::factor::{Factor, FactorInfo, SymbolicFactor};
 use crate::ordering::DofOrdering;

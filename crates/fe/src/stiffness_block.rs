@@ -1,4 +1,5 @@
-//! Stiffness of a set of scalar functions times three directions, as 3x3 blocks, for isotropic material.
+//! Stiffness, as 3x3 blocks for isotropic material, and strain operator of a set of scalar functions times three
+//! directions.
 //!
 //! For the vector functions N_i e_a and N_j e_b, with gradients g_i and g_j, the integrand of the stiffness is
 //!
@@ -9,6 +10,9 @@
 //! which is Bᵀ D B written out for σ = λ tr(ε) I + 2 μ ε, at a fifth of the operations.
 
 use crate::material::LameParameters;
+
+/// Strain per nodal displacement (1/m): rows xx, yy, zz, xy, yz, xz with engineering shear, `operator[row][3 i + a]`.
+pub type StrainOperator = [Vec<f64>; 6];
 
 /// Stiffness over M scalar functions: the block of functions i and j is `blocks[i][j]` (3x3, N/m).
 pub(crate) struct BlockStiffness<const M: usize> {
@@ -71,6 +75,17 @@ pub(crate) fn strain_columns(g: [f64; 3]) -> [[f64; 3]; 6] {
         [0.0, g[2], g[1]],
         [g[2], 0.0, g[0]],
     ]
+}
+
+/// Strain operator of the displacement Σ N_i d_i from the gradients of its shape functions.
+pub(crate) fn compatible_strain_operator(gradients: &[[f64; 3]]) -> StrainOperator {
+    let mut b = std::array::from_fn(|_| Vec::with_capacity(3 * gradients.len()));
+    for gradient in gradients {
+        for (row, columns) in b.iter_mut().zip(strain_columns(*gradient)) {
+            row.extend(columns);
+        }
+    }
+    b
 }
 
 #[cfg(test)]

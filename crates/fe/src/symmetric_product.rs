@@ -8,8 +8,7 @@ use faer::{Mat, MatRef};
 use rayon::prelude::*;
 use sprs::CsMatI;
 
-use crate::assembly::SparseMatrix;
-use crate::compressed_columns::compressed_columns;
+use crate::compressed_columns::{SparseMatrix, compressed_columns};
 
 /// Columns that are summed together: they fill the vector registers.
 const WIDTH: usize = 8;

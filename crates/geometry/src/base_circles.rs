@@ -12,7 +12,7 @@
 //!
 //! Roll angles are positive. Derivation: docs/theory/involute_flanks.md.
 
-use crate::definition::Flank;
+use crate::flank::Flank;
 use crate::tooth::ToothGeometry;
 
 /// The base circles of gear 1 and gear 2.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-use crate::definition::Flank;
+use crate::flank::Flank;
 use std::f64::consts::TAU;
 
 /// The body below the teeth. Held at the bore, at the end faces of the shaft that it is cut into, or at the outside of a

@@ -1,7 +1,7 @@
 //! Deviations of the flanks from the ideal involute: material removed, tooth by tooth. The kinds other than the
 //! microgeometry are in the drivetrain crate, `errors/`.
 
-use crate::definition::Flank;
+use crate::flank::Flank;
 
 /// A point of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]

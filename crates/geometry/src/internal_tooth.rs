@@ -5,13 +5,13 @@
 //! docs/theory/internal_teeth.md.
 
 use crate::bisection::halved;
-use crate::definition::{InternalRoot, PinionCutter, ToothDefinition};
 use crate::fillet::Fillet;
 use crate::fillet::full_round::FullRound;
 use crate::fillet::pinion_cutter::CutterTrochoid;
 use crate::involute;
 use crate::tip_sweep::{RollingPinion, deepest};
 use crate::tooth::{ToothGeometry, transverse_pressure_angle_rad};
+use crate::tooth_definition::{InternalRoot, PinionCutter, ToothDefinition};
 use crate::tooth_error::GeometryError;
 use std::f64::consts::{FRAC_PI_2, PI};
 

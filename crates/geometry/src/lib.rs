@@ -8,7 +8,7 @@
 //! | step | type | file |
 //! | --- | --- | --- |
 //! | read a gear file (TOML, units in the keys) | [`GearDefinition`] | `gear_file.rs`, `gear_file/`, `definition.rs`, `blank.rs` |
-//! | tool, involute and fillet of one tooth | [`ToothGeometry`] | `tooth.rs`, `internal_tooth.rs`, `fillet/` |
+//! | tool, involute and fillet of one tooth | [`ToothGeometry`] | `tooth.rs`, `cut_tooth.rs`, `internal_tooth.rs`, `fillet/` |
 //! | that tooth's outline by arc length | [`ProfileCurve`] | `profile_curve.rs` |
 //! | the body's axial contour with fillets | [`body_outline`] | `body_outline.rs` |
 //! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs`, `microgeometry/` |
@@ -25,9 +25,11 @@ pub mod base_circles;
 mod bisection;
 pub mod blank;
 pub mod body_outline;
+mod cut_tooth;
 pub mod definition;
 pub mod elliptic;
 pub mod fillet;
+mod flank;
 pub mod flank_error;
 pub mod gear_file;
 pub mod input;
@@ -41,6 +43,7 @@ pub mod profile_curve;
 mod tip_in_fillet;
 mod tip_sweep;
 pub mod tooth;
+mod tooth_definition;
 pub mod tooth_error;
 
 pub use base_circles::BaseCircles;

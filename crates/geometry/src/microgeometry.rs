@@ -18,7 +18,7 @@ pub use lead::{EndRelief, FaceEnds};
 pub use profile::{ProfileCrowning, ProfileRelief, ReliefShape, RootRelief, TipRelief};
 pub use topography::{Topography, TopographyError};
 
-use crate::definition::Flank;
+use crate::flank::Flank;
 use crate::flank_error::{FlankError, FlankPoint, Removed};
 
 /// All modifications of the flanks of one hand of a gear, the same on all teeth.

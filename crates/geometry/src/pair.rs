@@ -1,7 +1,7 @@
 //! Two gears at a centre distance: working pressure angle, path of contact, backlash, sliding, interference.
 
 use crate::base_circles::BaseCircles;
-use crate::definition::Flank;
+use crate::flank::Flank;
 use crate::involute;
 use crate::pair_error::PairError;
 use crate::tip_in_fillet;

@@ -1,12 +1,8 @@
 //! What a reduced bevel gear has besides what every reduced gear has: which member of which pair it is, its flank at the
 //! stations, and its near field, which changes along the tooth.
 
-use gearmesh_geometry::Flank;
-
 use crate::near_field::{ContactCurve, EdgeDistance};
 use crate::record::Named;
-use crate::reduced_gear::ReducedGear;
-use crate::reduced_gear_error::ReducedGearError;
 
 /// A member of a bevel pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -123,31 +119,5 @@ impl BevelNearField {
     pub fn mesh_block(&self, flank_index: usize, section: usize, stations: usize) -> &[f64] {
         let size = stations * stations;
         &self.mesh_m2_per_n[(flank_index * self.sections_m.len() + section) * size..][..size]
-    }
-}
-
-impl ReducedGear {
-    /// Refuses a bevel gear where flanks are taken to be involutes.
-    ///
-    /// # Errors
-    /// [`ReducedGearError::BevelGear`].
-    pub fn demand_cylindrical(&self) -> Result<(), ReducedGearError> {
-        match self.bevel {
-            None => Ok(()),
-            Some(_) => Err(ReducedGearError::BevelGear {
-                gear: self.name.clone(),
-            }),
-        }
-    }
-
-    /// Point of a flank of tooth 0 at a load's place (m) and the unit normal into the material there; none of a cylindrical gear.
-    ///
-    /// # Panics
-    /// If the hand carries no loads or there is no such load.
-    pub fn bevel_point(&self, flank: Flank, load: usize) -> Option<[[f64; 3]; 2]> {
-        let bevel = self.bevel.as_ref()?;
-        let first = 3 * (self.carrying(flank) * self.grid.len() + load);
-        let at = |values: &[f64]| [0, 1, 2].map(|axis| values[first + axis]);
-        Some([at(&bevel.points_m), at(&bevel.normals)])
     }
 }

@@ -2,13 +2,14 @@
 
 use crate::bevel_body::{BevelBody, BevelNearField};
 use crate::file_error::FileError;
+use crate::near_field::calibration_fields;
 use crate::quantity_check::{
     check_array, check_calibration, check_stations, in_range, out_of_range, positive, smallest,
 };
 use crate::record::{Fields, OPEN};
 use crate::reduced_gear::ReducedGear;
+use crate::reduced_gear_axes::Sizes;
 use crate::reduced_gear_error::ReducedGearError;
-use crate::reduced_gear_file::{Sizes, calibration_fields};
 
 const BEVEL_FRAME: &str = "bevel gear: right-handed, origin in the pitch apex, z the axis towards the heel, middle of tooth 0 on +x at the mean point";
 const NORMAL: &str = "inward normal of the flank in the section, positive into the material";

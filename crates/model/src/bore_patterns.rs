@@ -15,10 +15,8 @@
 use crate::file_error::FileError;
 use crate::quantity_check::{check_array, out_of_range};
 use crate::record::Fields;
-use crate::reduced_gear::ReducedGear;
+use crate::reduced_gear_axes::{GEAR_FRAME, LOAD};
 use crate::reduced_gear_error::ReducedGearError;
-use crate::reduced_gear_file::{GEAR_FRAME, LOAD};
-use std::f64::consts::TAU;
 
 /// Components of the motion of a bore.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -177,6 +175,27 @@ impl BorePatterns {
         f.in_frame(GEAR_FRAME)
             .numbers("gauges", &mut self.gauges, &axes, "1/m", what)
     }
+
+    /// Ranges, and lengths of all arrays. `loads`: those of all flanks of the teeth of a sector.
+    pub(crate) fn check(&self, loads: usize, gauges: usize) -> Result<(), ReducedGearError> {
+        if !(2..=3).contains(&self.components) {
+            return Err(out_of_range("bore.components", self.components, "2 or 3"));
+        }
+        let [back, front] = self.ends_m;
+        let is_long = self.radius_m > 0.0 && self.radius_m.is_finite() && back < front;
+        if !is_long || self.harmonics < 1 || self.along + 1 < self.components {
+            let found = format!(
+                "radius {} m, ends {back} and {front} m, {} harmonics, {} polynomials",
+                self.radius_m, self.harmonics, self.along
+            );
+            return Err(out_of_range("bore", found, "a bore of some length"));
+        }
+        let m = self.count();
+        check_array("bore.stiffness", &self.stiffness, m * m, "motions squared")?;
+        let formula = "teeth of a sector * flanks * loads * motions";
+        check_array("bore.flank", &self.flank, loads * m, formula)?;
+        check_array("bore.gauges", &self.gauges, gauges * m, "gauges * motions")
+    }
 }
 
 /// A wave around the bore at a polar angle: 1, cos φ, sin φ, cos 2φ …
@@ -204,48 +223,4 @@ pub(crate) fn legendre(x: f64, count: usize) -> Vec<f64> {
     }
     all.truncate(count);
     all
-}
-
-impl ReducedGear {
-    /// s of the loads of a flank, `[load][motion]`; none where motions of the bore were not asked for.
-    ///
-    /// # Panics
-    /// If the tooth does not exist or the hand carries no loads.
-    #[must_use]
-    pub fn bore_rows(&self, tooth: usize, flank: gearmesh_geometry::Flank) -> Option<Vec<f64>> {
-        let bore = self.bore.as_ref()?;
-        assert!(tooth < self.teeth, "tooth {tooth} of {}", self.teeth);
-        let (own, size) = (self.teeth_per_sector(), self.grid.len() * bore.count());
-        let start = ((tooth % own) * self.flanks.len() + self.carrying(flank)) * size;
-        let mut rows = bore.flank[start..start + size].to_vec();
-        let turned = (tooth / own) as f64 * TAU / self.sectors as f64;
-        bore.turn(&mut rows, turned);
-        Some(rows)
-    }
-
-    /// Lengths of all arrays of the motions of the bore.
-    pub(crate) fn check_bore(&self) -> Result<(), ReducedGearError> {
-        let Some(bore) = &self.bore else {
-            return Ok(());
-        };
-        if !(2..=3).contains(&bore.components) {
-            return Err(out_of_range("bore.components", bore.components, "2 or 3"));
-        }
-        let [back, front] = bore.ends_m;
-        let is_long = bore.radius_m > 0.0 && bore.radius_m.is_finite() && back < front;
-        if !is_long || bore.harmonics < 1 || bore.along + 1 < bore.components {
-            let found = format!(
-                "radius {} m, ends {back} and {front} m, {} harmonics, {} polynomials",
-                bore.radius_m, bore.harmonics, bore.along
-            );
-            return Err(out_of_range("bore", found, "a bore of some length"));
-        }
-        let (m, own) = (bore.count(), self.teeth_per_sector());
-        let loads = own * self.flanks.len() * self.grid.len();
-        check_array("bore.stiffness", &bore.stiffness, m * m, "motions squared")?;
-        let formula = "teeth of a sector * flanks * loads * motions";
-        check_array("bore.flank", &bore.flank, loads * m, formula)?;
-        let gauges = self.gauges.len() * m;
-        check_array("bore.gauges", &bore.gauges, gauges, "gauges * motions")
-    }
 }

@@ -12,7 +12,6 @@
 use crate::file_error::FileError;
 use crate::quantity_check::{check_array, out_of_range};
 use crate::record::{Fields, OPEN};
-use crate::reduced_gear::ReducedGear;
 use crate::reduced_gear_error::ReducedGearError;
 use std::sync::Arc;
 
@@ -37,18 +36,20 @@ impl HubPatterns {
         [loads * loads, loads.saturating_mul(self.count), body]
     }
 
-    /// Whether the arrays are as long as a gear's teeth and loads want them.
+    /// Whether the arrays are as long as a gear wants them. `sizes`: sectors, teeth, loads of a tooth.
     ///
     /// # Errors
     /// [`ReducedGearError::OutOfRange`] for a body that repeats, [`ReducedGearError::WrongLength`],
     /// [`ReducedGearError::NotFinite`].
-    pub(crate) fn check(&self, gear: &ReducedGear) -> Result<(), ReducedGearError> {
-        if gear.sectors != 1 {
+    pub(crate) fn check(
+        &self,
+        [sectors, teeth, loads]: [usize; 3],
+    ) -> Result<(), ReducedGearError> {
+        if sectors != 1 {
             let item = "the sectors of a body whose C_hub is kept by patterns";
-            return Err(out_of_range(item, gear.sectors, "1"));
+            return Err(out_of_range(item, sectors, "1"));
         }
-        let loads = gear.flanks.len() * gear.grid.len();
-        let [own_tooth, shares, body] = self.lengths(loads, gear.teeth);
+        let [own_tooth, shares, body] = self.lengths(loads, teeth);
         let square = "(flanks * loads) squared";
         check_array("own_tooth of C_hub", &self.own_tooth, own_tooth, square)?;
         let product = "flanks * loads * patterns";

@@ -10,10 +10,6 @@
 //! and the deflection at the flanks is NᵀR r + NᵀΦ η + (C − NᵀΦ Ω⁻² ΦᵀN) f: what the modes left out deflect
 //! statically is the residual flexibility. Nothing is counted twice.
 
-use crate::reduced_gear::ReducedGear;
-use crate::reduced_gear_error::ReducedGearError;
-use gearmesh_geometry::Flank;
-
 /// Natural modes with the bore held, modal mass 1, lowest first.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ModalBasis {
@@ -43,51 +39,5 @@ impl ModalBasis {
     pub fn frequencies_hz(&self) -> Vec<f64> {
         let hz = |w: &f64| w.sqrt() / std::f64::consts::TAU;
         self.omega_squared.iter().map(hz).collect()
-    }
-}
-
-impl ReducedGear {
-    /// The modal basis.
-    ///
-    /// # Errors
-    /// [`ReducedGearError::NoModes`] for a gear that was reduced without.
-    pub fn modal_basis(&self) -> Result<&ModalBasis, ReducedGearError> {
-        self.modes
-            .as_ref()
-            .ok_or_else(|| ReducedGearError::NoModes {
-                gear: self.name.clone(),
-            })
-    }
-
-    /// NᵀΦ of one mode on one flank (kg^-½), `[load][component]`.
-    ///
-    /// # Errors
-    /// [`ReducedGearError::NoModes`].
-    ///
-    /// # Panics
-    /// If the mode or tooth does not exist or the hand carries no loads.
-    pub fn mode_at_flank(
-        &self,
-        mode: usize,
-        tooth: usize,
-        flank: Flank,
-    ) -> Result<&[f64], ReducedGearError> {
-        let (hands, size) = (self.flanks.len(), 3 * self.grid.len());
-        let place = (mode * self.teeth + tooth) * hands + self.carrying(flank);
-        Ok(&self.modal_basis()?.flank[place * size..(place + 1) * size])
-    }
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use crate::made_up_models::small_reduced_gear;
-
-    #[test]
-    fn a_gear_without_modes_says_so() {
-        let mut gear = small_reduced_gear();
-        gear.modes = None;
-        let message = gear.modal_basis().unwrap_err().to_string();
-        assert!(message.contains("[modes]"), "{message}");
     }
 }

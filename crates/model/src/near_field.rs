@@ -1,5 +1,7 @@
 //! What a plane-strain problem says about the near field of a load on a tooth: the calibration of the local term.
 
+use crate::file_error::FileError;
+use crate::record::Fields;
 use crate::smooth_curve::SmoothCurve;
 
 /// Deflection of the contact centre under a Hertz pressure, and of the model's own mesh under its own hats, both in
@@ -126,6 +128,20 @@ impl ContactCurve {
         };
         (value, slope * moves)
     }
+}
+
+/// What near fields of all gears have.
+pub(crate) fn calibration_fields(
+    f: &mut Fields<'_>,
+    [half_width_m, element_m]: [&mut f64; 2],
+    residual: &mut f64,
+) -> Result<(), FileError> {
+    let what = "half width of the calibrating Hertz pressure";
+    f.number("half_width", half_width_m, "m", what)?;
+    let what = "element length at the load of the finer mesh behind the contact compliance";
+    f.number("element", element_m, "m", what)?;
+    let what = "largest relative step from that mesh to the extrapolated contact compliance";
+    f.number("residual", residual, "1", what)
 }
 
 #[cfg(test)]

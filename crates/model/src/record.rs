@@ -4,6 +4,7 @@
 //! The parts are visited in the order of the list. A length that an array leaves [`OPEN`] is taken from the file; the
 //! arrays after it state it as known, so that all lengths are checked against the first that has them.
 
+mod axes;
 mod groups;
 
 use std::path::Path;
@@ -11,7 +12,7 @@ use std::path::Path;
 use crate::data_tree::{DataTree, Values};
 use crate::data_tree_file::wrong_type;
 use crate::file_error::FileError;
-use crate::record_axes::{array, form, shape};
+use axes::{array, form, shape};
 
 /// Length of an axis that the array itself decides.
 pub const OPEN: usize = usize::MAX;

@@ -1,5 +1,6 @@
 //! Checks that a reduced gear does not contradict itself.
 
+use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
 use crate::quantity_check::{
     check_array, check_calibration, check_error, check_finite, check_stations, in_range,
@@ -22,7 +23,7 @@ impl ReducedGear {
         let expected = match &self.hub_patterns {
             None => own * flanks * teeth * flanks * loads * loads,
             Some(patterns) => {
-                patterns.check(self)?;
+                patterns.check([self.sectors, teeth, flanks * loads])?;
                 0
             }
         };
@@ -56,8 +57,15 @@ impl ReducedGear {
         }
         self.check_gauges()?;
         self.check_dynamics()?;
-        self.check_crack().and(self.check_shaft_faces())?;
-        self.check_bore()?;
+        self.check_crack()?;
+        let gauges = self.gauges.len();
+        if let Some(faces) = &self.shaft_faces {
+            let modes = self.modes.as_ref().map_or(0, ModalBasis::count);
+            faces.check([teeth * flanks * loads, gauges, modes])?;
+        }
+        if let Some(bore) = &self.bore {
+            bore.check(own * flanks * loads, gauges)?;
+        }
         self.check_bevel()?;
         let times = self
             .provenance
@@ -290,7 +298,6 @@ fn check_near_field(near_field: &NearField, expected: usize) -> Result<(), Reduc
 mod tests {
     use super::*;
     use crate::made_up_models::{small_crack, small_reduced_gear};
-    use crate::modal_basis::ModalBasis;
     use crate::root_crack::RootCrack;
     use gearmesh_geometry::Flank;
 

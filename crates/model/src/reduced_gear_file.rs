@@ -6,9 +6,10 @@ use crate::bevel_body_file::bevel_fields;
 use crate::data_tree::{DataTree, FileFormat};
 use crate::file_error::FileError;
 use crate::modal_basis::ModalBasis;
-use crate::near_field::NearField;
+use crate::near_field::{NearField, calibration_fields};
 use crate::record::{Fields, OPEN, Record, read_record, write_record};
 use crate::reduced_gear::{GaugeRows, Provenance, ReducedGear};
+use crate::reduced_gear_axes::{FLANK_COMPONENTS, GEAR_FRAME, LOAD, MOTION, Sizes};
 use crate::rigid_body::{ReferencePoint, RigidBody};
 use crate::root_crack::RootCrack;
 use crate::shaft_faces_file::shaft_faces_fields;
@@ -25,12 +26,7 @@ pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {
 /// The first version that holds what the gear file says, besides its text.
 const TYPED_DEFINITION: u32 = 5;
 
-pub(crate) const GEAR_FRAME: &str = "gear: right-handed, z the axis, zero at mid-face, tooth 0 centred on +x, teeth counter-clockwise";
 const NORMAL: &str = "inward normal of the flank at each point, positive into the material";
-pub(crate) const FLANK_COMPONENTS: &str =
-    "flank: inward normal, profile tangential towards the tip, axial +z";
-pub(crate) const LOAD: &str = "load: roll station, axial station";
-pub(crate) const MOTION: &str = "motion: x, y, z, rotations about x, y, z";
 
 /// Writes a reduced gear, atomically.
 ///
@@ -59,18 +55,6 @@ fn check(path: &Path, gear: &ReducedGear) -> Result<(), FileError> {
         path: path.to_owned(),
         source,
     })
-}
-
-/// Lengths that the arrays have in common.
-#[derive(Clone, Copy)]
-pub(crate) struct Sizes {
-    pub teeth: usize,
-    pub hands: usize,
-    /// Up the flank and along it.
-    pub stations: usize,
-    pub along: usize,
-    pub loads: usize,
-    pub gauges: usize,
 }
 
 impl Record for ReducedGear {
@@ -221,20 +205,6 @@ impl ReducedGear {
         }
         Ok(())
     }
-}
-
-/// What near fields of all gears have.
-pub(crate) fn calibration_fields(
-    f: &mut Fields<'_>,
-    [half_width_m, element_m]: [&mut f64; 2],
-    residual: &mut f64,
-) -> Result<(), FileError> {
-    let what = "half width of the calibrating Hertz pressure";
-    f.number("half_width", half_width_m, "m", what)?;
-    let what = "element length at the load of the finer mesh behind the contact compliance";
-    f.number("element", element_m, "m", what)?;
-    let what = "largest relative step from that mesh to the extrapolated contact compliance";
-    f.number("residual", residual, "1", what)
 }
 
 fn near_field_fields(

@@ -6,7 +6,6 @@
 //!
 //! Loads on the other side of the teeth press the crack shut: for them the gear is sound.
 
-use crate::reduced_gear::ReducedGear;
 use gearmesh_geometry::Flank;
 
 /// A crack and its rows φ.
@@ -44,12 +43,5 @@ impl RootCrack {
             self.depth_m * 1e3,
             self.angle_rad.to_degrees()
         )
-    }
-}
-
-impl ReducedGear {
-    /// The crack, where loads on this hand of flank open it.
-    pub fn crack_for(&self, flank: Flank) -> Option<&RootCrack> {
-        self.crack.as_ref().filter(|crack| crack.side == flank)
     }
 }

@@ -12,9 +12,7 @@
 //! The rest follows from balance: the 12 × 12 stiffness between the faces has the six rigid motions as its null space.
 //! Theory: docs/theory/reduction.md, "Two faces".
 
-use crate::modal_basis::ModalBasis;
 use crate::quantity_check::check_array;
-use crate::reduced_gear::ReducedGear;
 use crate::reduced_gear_error::ReducedGearError;
 
 /// The front face against the back one. Motions: x, y, z, rotations about x, y, z of the front face's centre.
@@ -43,26 +41,21 @@ pub struct FaceMass {
     pub modes: Vec<f64>,
 }
 
-impl ReducedGear {
-    /// Lengths of all arrays of the shaft's faces.
-    pub(crate) fn check_shaft_faces(&self) -> Result<(), ReducedGearError> {
-        let Some(faces) = &self.shaft_faces else {
-            return Ok(());
-        };
-        let loads = self.teeth * self.flanks.len() * self.grid.len() * 3;
-        let modes = self.modes.as_ref().map_or(0, ModalBasis::count);
+impl ShaftFaces {
+    /// Lengths of all arrays. `sizes`: loads on the flanks of all teeth, gauges, natural modes.
+    pub(crate) fn check(&self, [loads, gauges, modes]: [usize; 3]) -> Result<(), ReducedGearError> {
         let mut arrays = vec![
-            ("front_m", &faces.front_m[..], 3, "3"),
-            ("stiffness", &faces.stiffness, 36, "6 * 6"),
+            ("front_m", &self.front_m[..], 3, "3"),
+            ("stiffness", &self.stiffness, 36, "6 * 6"),
             (
                 "flank",
-                &faces.flank,
-                6 * loads,
+                &self.flank,
+                3 * 6 * loads,
                 "teeth * flanks * loads * 3 * 6",
             ),
-            ("gauges", &faces.gauges, 6 * self.gauges.len(), "gauges * 6"),
+            ("gauges", &self.gauges, 6 * gauges, "gauges * 6"),
         ];
-        if let Some(mass) = &faces.mass {
+        if let Some(mass) = &self.mass {
             arrays.extend([
                 ("mass.mass", &mass.mass[..], 36, "6 * 6"),
                 ("mass.coupling", &mass.coupling, 36, "6 * 6"),

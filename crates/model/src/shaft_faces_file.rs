@@ -2,7 +2,7 @@
 
 use crate::file_error::FileError;
 use crate::record::Fields;
-use crate::reduced_gear_file::{FLANK_COMPONENTS, GEAR_FRAME, LOAD, MOTION};
+use crate::reduced_gear_axes::{FLANK_COMPONENTS, GEAR_FRAME, LOAD, MOTION};
 use crate::shaft_faces::{FaceMass, ShaftFaces};
 
 /// `sizes`: teeth, flanks and loads; gauges; natural modes.

@@ -212,7 +212,7 @@ impl ReducedGear {
                 number / (self.teeth * flanks),
                 number % (self.teeth * flanks),
             );
-            debug_assert!(load < own * flanks);
+            assert!(load < own * flanks);
             let pressed = half(load).chunks_exact(n);
             for (row, a) in block.chunks_exact_mut(loads).zip(pressed) {
                 for (value, b) in row.iter_mut().zip(half(response).chunks_exact(n)) {

@@ -9,9 +9,9 @@ use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::ReducedGear;
 use gearmesh_scene::ModelShelf;
-use gearmesh_scene::pair::{PairWatch, load_from, run_watched};
+use gearmesh_scene::pair::{PairWatch, run_watched};
 use gearmesh_scene::study::{BaseScene, Case, MadeFile, MadeFiles, Setting, Subject, VaryError};
-use gearmesh_scene::{LoadedScene, Scene, SceneResult, named_files, renamed_files};
+use gearmesh_scene::{LoadedScene, Scene, SceneResult, load_from, named_files, renamed_files};
 
 use crate::failure::{Failure, Result};
 use crate::gear_file::{AnyGear, GearFile};

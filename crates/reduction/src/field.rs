@@ -10,8 +10,8 @@ use gearmesh_mesh::BevelMesh;
 use gearmesh_model::ReducedGear;
 use std::collections::BTreeMap;
 
+use crate::bevel::body::flank_patch;
 use crate::bevel::loads::{bevel_grid, bevel_loads};
-use crate::bevel::reduce::flank_patch;
 use crate::bore_patterns::moved_body;
 use crate::flank_loads::{GridLoad, SparseVector, flank_grid, flank_loads};
 use crate::gear_body::GearBody;

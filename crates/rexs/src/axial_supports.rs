@@ -3,10 +3,10 @@
 
 use crate::bearing::{AxialSupport, Bearing};
 use crate::bevel_loads::BevelLoad;
+use crate::gearbox::Train;
 use crate::ledger::About;
 use crate::shaft::Shaft;
 use crate::source::Source;
-use crate::train::Train;
 use std::collections::BTreeMap;
 
 /// What pushes shafts along their z axes.

@@ -1,10 +1,10 @@
 //! Backlash of a pair of gears: teeth that jam by rounding become thinner.
 
 use crate::by_number::ByNumber;
-use crate::gear::Gear;
+use crate::cylindrical::Gear;
+use crate::gearbox::SeatedGear;
 use crate::ledger::About;
 use crate::source::Source;
-use crate::train::SeatedGear;
 
 /// Backlash below this, in modules, is none: rounding decides whether the teeth fit.
 const LEAST_BACKLASH: f64 = 1e-3;

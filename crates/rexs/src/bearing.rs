@@ -1,8 +1,8 @@
 //! Bearings: springs in the scene, files for those with a catalogue.
 
 use crate::error::Result;
-use crate::in_time::{DAMPING_S, Running};
 use crate::ledger::About;
+use crate::running::{DAMPING_S, Running};
 use crate::source::Part;
 use crate::text::{number, quoted};
 use crate::units::{KN, MM, N_PER_M, NMM_PER_RAD, UM};

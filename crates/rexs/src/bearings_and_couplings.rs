@@ -2,13 +2,14 @@
 
 use crate::bearing::Bearing;
 use crate::error::Result;
+use crate::gearbox::Train;
 use crate::ledger::About;
 use crate::loose_gears;
-use crate::placement::{Frame, frame};
+use crate::placement::frame;
 use crate::power_flow::Link;
 use crate::source::{Part, Source};
 use crate::text::{Names, file_stem};
-use crate::train::Train;
+use crate::vectors::Frame;
 use crate::{bearing, coupling, loads};
 
 /// Reads bearings and couplings, and the brakes among them.

@@ -10,7 +10,7 @@
 //! Winter: Maschinenelemente, volume 3, forces of bevel gears; ISO 10300-1 has the same shares). The mate feels the opposite at the same point.
 
 use crate::bevel::BevelStage;
-use crate::placement::{add, cross, dot, unit};
+use crate::vectors::{add, cross, dot, unit};
 
 /// A straight line in space.
 #[derive(Debug, Clone, Copy)]

@@ -1,11 +1,11 @@
 //! What the gears of bevel stages put on their shafts: forces and moments at the stations where they stand.
 
 use crate::bevel_force::{Line, MeanForce, mean_force};
+use crate::gearbox::{BevelSeat, TorqueSeat, Train};
 use crate::ledger::About;
-use crate::placement::{add, cross, dot};
 use crate::source::Source;
 use crate::text::{number, numbers, quoted};
-use crate::train::{BevelSeat, TorqueSeat, Train};
+use crate::vectors::{add, cross, dot};
 
 /// Force and moment of one gear on its shaft, world axes. The torque about the axis is not in it.
 #[derive(Debug, Clone)]

@@ -1,12 +1,13 @@
 //! What drives and loads a scene: the spring that holds each train, torques and forces.
 
 use crate::by_number::grouped;
-use crate::in_time::{Running, driven_body};
+use crate::gearbox::Train;
+use crate::in_time::driven_body;
 use crate::ledger::About;
-use crate::placement::Frame;
+use crate::running::Running;
 use crate::source::Source;
 use crate::text::{number, numbers, quoted};
-use crate::train::Train;
+use crate::vectors::Frame;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// A torque on a shaft about z, at a place along u.

@@ -1,12 +1,12 @@
 //! The bodies of gears in the scene. Most sit on a station of their shaft; one that turns loose has a place of its own, and so has a
 //! second gear at the place of another one, to which it is fixed.
 
+use crate::gearbox::{SeatedGear, Train};
 use crate::ledger::About;
-use crate::placement::Frame;
 use crate::shaft::Shaft;
 use crate::source::Source;
 use crate::text::{numbers, quoted};
-use crate::train::{SeatedGear, Train};
+use crate::vectors::Frame;
 
 /// What a gear is fixed to, where it does not sit on a station of its shaft.
 enum Place<'a> {

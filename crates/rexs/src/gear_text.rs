@@ -1,6 +1,6 @@
 //! The text of gear files.
 
-use crate::gear::Gear;
+use crate::cylindrical::Gear;
 use crate::text::{comment, number, numbers, quoted};
 
 /// Text of the file of a gear.

@@ -5,10 +5,10 @@ use crate::container::{Unpacked, unpack};
 use crate::effort;
 use crate::error::{Result, RexsError};
 use crate::gear_text::gear_file;
-use crate::in_time::Running;
 use crate::ledger::{About, Ledger};
 use crate::mesh_model::Meshes;
 use crate::model::{Component, LoadCase, Model};
+use crate::running::Running;
 use crate::scene_text::scene;
 use crate::sheet::Sheet;
 use crate::source::{Part, Source};
@@ -400,7 +400,7 @@ fn unit_values(
                     .number(&format!("direction_vector_gravity_{axis}"), ONE)?
                     .unwrap_or(0.0);
             }
-            match crate::placement::unit(direction) {
+            match crate::vectors::unit(direction) {
                 Some(direction) => gravity = Some(direction.map(|x| size * x)),
                 None => unit.leave_out(About::Lost, "gravity without a direction"),
             }

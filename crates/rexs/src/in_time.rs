@@ -1,22 +1,10 @@
 //! What a scene needs to run in time: steps that follow the teeth, damping, and a driven body in place of what holds a
 //! train at rest.
 
+use crate::gearbox::Train;
+pub use crate::running::{DAMPING_S, Running};
 use crate::text::{number, numbers, quoted};
-use crate::train::Train;
 
-/// Whether scenes stand at rest under their loads or run in time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Running {
-    /// Equilibria.
-    #[default]
-    AtRest,
-    /// Driven at the speeds of the file.
-    InTime,
-}
-
-/// Damping over stiffness of shafts, bearings, meshes and drives \[s\], of which files say nothing: 0.3 % of the
-/// critical one at 1 kHz.
-pub const DAMPING_S: f64 = 1e-6;
 /// Steps in a period of the fastest mesh: the solver asks for ten at least.
 const STEPS_A_PERIOD: f64 = 20.0;
 /// The same of planetary sets: planets swing between sun and ring much faster than their teeth come, and lose them in

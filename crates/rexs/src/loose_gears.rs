@@ -4,9 +4,9 @@
 
 use crate::bearing::{self, AxialSupport, Bearing};
 use crate::coupling;
+use crate::gearbox::Train;
 use crate::ledger::About;
 use crate::source::{Part, Source};
-use crate::train::Train;
 
 /// Where a gear sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

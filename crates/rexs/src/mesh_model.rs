@@ -1,6 +1,6 @@
 //! The model of the gear meshes of an imported scene.
 
-use crate::in_time::{DAMPING_S, Running};
+use crate::running::{DAMPING_S, Running};
 use crate::text::number;
 
 /// What the gear meshes of a scene are computed with.

@@ -1,29 +1,14 @@
 //! Flank modifications: reliefs, crownings, slopes, twist, topography.
 
+use crate::cylindrical::Gear;
+pub use crate::cylindrical::Microgeometry;
 use crate::error::Result;
-use crate::gear::Gear;
+use crate::gearbox::Train;
 use crate::ledger::About;
 use crate::source::{Part, Source};
 use crate::text::{number, numbers};
-use crate::train::Train;
 use crate::units::MM;
 use std::collections::HashSet;
-
-/// Keys of `[microgeometry]` and their values, of left and right flanks.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Microgeometry {
-    /// Left flanks.
-    pub left: Vec<(String, String)>,
-    /// Right flanks.
-    pub right: Vec<(String, String)>,
-}
-
-impl Microgeometry {
-    /// Nothing is modified.
-    pub fn is_empty(&self) -> bool {
-        self.left.is_empty() && self.right.is_empty()
-    }
-}
 
 /// Micrometres in a millimetre.
 const UM_PER_MM: f64 = 1e3;

@@ -2,45 +2,20 @@
 //! shaft, planets on their bearings.
 
 use crate::bearing::{AxialSupport, Bearing, RIGID_TILT};
-use crate::gear::Gear;
-use crate::in_time::Running;
+use crate::cylindrical::Gear;
+pub use crate::gearbox::PlanetarySet;
+use crate::gearbox::Train;
 use crate::ledger::About;
 use crate::mesh_model::{Meshes, mesh_model};
-use crate::placement::{Frame, add, dot, frame};
-use crate::planetary::Parts;
+use crate::placement::frame;
+use crate::planetary_parts::Parts;
 use crate::power_flow::Link;
+use crate::running::Running;
 use crate::source::{Part, Source};
 use crate::text::{number, numbers, quoted};
-use crate::train::Train;
 use crate::units::MM;
+use crate::vectors::{Frame, add, dot};
 use std::f64::consts::TAU;
-
-/// A planetary stage of the scene.
-#[derive(Debug, Clone)]
-pub struct PlanetarySet {
-    /// Name in the scene.
-    pub name: String,
-    /// Places of sun, first planet and ring in [`Train::gears`].
-    pub sun: usize,
-    /// The first planet, for all.
-    pub planet: usize,
-    /// The other planets.
-    pub others: Vec<usize>,
-    /// The ring; on no shaft where it stands.
-    pub ring: usize,
-    /// Distance of the planets from the axis \[mm\].
-    pub distance_mm: f64,
-    /// Angles of the planets in the axes of the set \[°\].
-    pub angles_deg: Vec<f64>,
-    /// Shafts of the carrier, and the place of the set along u \[mm\]; none of a carrier that stands.
-    pub carriers: Vec<(i64, f64)>,
-    /// Bearings of a planet with their places along the axis from the middle of its face \[mm\].
-    pub bearings: Vec<(f64, Bearing)>,
-    /// Its link in the flow of power, whose first side is the sun where that turns.
-    pub link: usize,
-    /// Those of its gears on no shaft of the scene whose own shafts point against its axis.
-    pub against_u: Vec<usize>,
-}
 
 /// Reads the set of a stage; `standing` is the member that does not turn, 0 for the sun, 1 the ring, 2 the carrier.
 ///

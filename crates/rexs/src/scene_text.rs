@@ -6,14 +6,15 @@ use crate::by_number::{grouped, topmost};
 use crate::drive_text::{Held, drive};
 use crate::error::{Result, RexsError};
 use crate::gear_bodies::gear_bodies;
-use crate::in_time::{DAMPING_S, Running, run_tables};
+use crate::gearbox::{SeatedGear, Train};
+use crate::in_time::run_tables;
 use crate::mesh_model::{Meshes, mesh_model};
-use crate::placement::Frame;
 use crate::planetary_set;
+use crate::running::{DAMPING_S, Running};
 use crate::shaft::Shaft;
 use crate::source::Source;
 use crate::text::{comment, number, numbers, quoted};
-use crate::train::{SeatedGear, Train};
+use crate::vectors::Frame;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Text of the scene, and what holds its trains.

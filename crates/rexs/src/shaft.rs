@@ -1,7 +1,7 @@
 //! Shafts: what stands where along them.
 
 use crate::material::Material;
-use crate::placement::Frame;
+use crate::vectors::Frame;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 

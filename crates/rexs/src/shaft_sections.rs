@@ -3,10 +3,10 @@
 use crate::error::Result;
 use crate::ledger::About;
 use crate::material::material;
-use crate::placement::Frame;
 use crate::shaft::{MOST_RPM, SAME_MM, Section, Shaft};
 use crate::source::Part;
 use crate::units::{MM, RPM};
+use crate::vectors::Frame;
 
 /// Pieces of a taper.
 const TAPER_PIECES: usize = 3;

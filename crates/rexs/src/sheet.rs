@@ -2,7 +2,7 @@
 //! For whoever runs the scene and compares.
 
 use crate::drive_text::Held;
-use crate::train::Train;
+use crate::gearbox::Train;
 use std::collections::HashMap;
 
 /// A place where power goes in or out.

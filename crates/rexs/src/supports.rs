@@ -3,9 +3,9 @@
 
 use crate::bearing::{self, AxialSupport, Bearing};
 use crate::coupling::RIGID;
+use crate::gearbox::Train;
 use crate::ledger::About;
 use crate::source::Source;
-use crate::train::Train;
 use std::collections::{HashMap, HashSet};
 
 /// No component: the ground.

@@ -1,7 +1,7 @@
 //! How much thinner than without backlash teeth are: DIN 3967 codes such as `c25`, or allowances of span.
 
+use crate::cylindrical::Gear;
 use crate::error::Result;
-use crate::gear::Gear;
 use crate::ledger::About;
 use crate::source::Part;
 use crate::units::{MM, UM};

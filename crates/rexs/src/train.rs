@@ -1,21 +1,20 @@
-//! The gearbox of a model: shafts with what stands on them, stages, and how the power flows.
+//! Reads the gearbox of a model: shafts, gears, stages, what stands between parts, loads.
 
-use crate::bearing::Bearing;
 use crate::bearings_and_couplings::bearings_and_couplings;
-use crate::bevel::{self, BevelStage};
-use crate::by_number::{ByNumber, Numbered, grouped};
-use crate::coupling::{self, Coupling};
+use crate::bevel;
+use crate::coupling;
+use crate::cylindrical::Gear;
 use crate::error::{Result, RexsError};
-use crate::gear::{self, Gear};
+use crate::gear;
+pub use crate::gearbox::{BevelSeat, Mesh, SeatedGear, TorqueSeat, Train};
 use crate::ledger::About;
-use crate::loads::{self, AddedMass, Load};
+use crate::loads;
 use crate::loose_gears::{self, Seat};
 use crate::microgeometry;
 use crate::placement::frame;
 use crate::planetary;
-use crate::planetary_set::{self, PlanetarySet};
-use crate::power_flow::{Flow, Link};
-use crate::shaft::Shaft;
+use crate::planetary_set;
+use crate::power_flow::Link;
 use crate::shaft_sections;
 use crate::source::{Part, Source};
 use crate::structure::Stage;
@@ -25,150 +24,7 @@ use crate::train_finish::{finish_gears, finish_shafts, point_shafts_one_way};
 use crate::train_places::{place_shafts, settle_middles};
 use crate::train_power::power;
 use crate::units::MM;
-use std::collections::{BTreeMap, HashMap};
-
-/// A gear on its shaft.
-#[derive(Debug, Clone)]
-pub struct SeatedGear {
-    /// The gear.
-    pub gear: Gear,
-    /// Shaft: component.
-    pub shaft: i64,
-    /// Middle of the face along u \[mm\].
-    pub mid_mm: f64,
-}
-
-impl Numbered for SeatedGear {
-    fn id(&self) -> i64 {
-        self.gear.id
-    }
-}
-
-impl Numbered for Shaft {
-    fn id(&self) -> i64 {
-        self.id
-    }
-}
-
-/// A cylindrical stage.
-#[derive(Debug, Clone)]
-pub struct Mesh {
-    /// The stage: component.
-    pub stage: i64,
-    /// Name in the scene.
-    pub name: String,
-    /// Places of the two gears in [`Train::gears`].
-    pub gears: [usize; 2],
-    /// Its link in the flow of power.
-    pub link: usize,
-}
-
-/// A bevel gear, which passes its torque on.
-#[derive(Debug, Clone)]
-pub struct BevelSeat {
-    /// The gear: component.
-    pub gear: i64,
-    /// Where its torque passes.
-    pub seat: TorqueSeat,
-    /// What the stage says; none where it says too little.
-    pub stage: Option<BevelStage>,
-}
-
-/// Where a torque passes from a shaft to a link that the scene has no mesh of.
-#[derive(Debug, Clone)]
-pub struct TorqueSeat {
-    /// Shaft: component.
-    pub shaft: i64,
-    /// Place along u \[mm\].
-    pub u_mm: f64,
-    /// Its link, and which side of it.
-    pub link: (usize, usize),
-    /// Name.
-    pub name: String,
-}
-
-/// A gearbox in one load case.
-#[derive(Debug, Default)]
-pub struct Train {
-    /// Shafts.
-    pub shafts: ByNumber<Shaft>,
-    /// Gears.
-    pub gears: ByNumber<SeatedGear>,
-    /// Stages.
-    pub meshes: Vec<Mesh>,
-    /// Bevel gears.
-    pub bevels: Vec<BevelSeat>,
-    /// Planetary stages of the scene.
-    pub sets: Vec<PlanetarySet>,
-    /// Members of planetary stages that the scene does not have.
-    pub planetary: Vec<TorqueSeat>,
-    /// Bearings between shafts of planets and their pins, by either of these.
-    pub of_planets: BTreeMap<i64, Vec<Bearing>>,
-    /// Bearings.
-    pub bearings: Vec<Bearing>,
-    /// Couplings.
-    pub couplings: Vec<Coupling>,
-    /// Loads.
-    pub loads: Vec<Load>,
-    /// Additional masses.
-    pub masses: Vec<AddedMass>,
-    /// Links of the flow of power: meshes, couplings, bevel stages.
-    pub links: Vec<Link>,
-    /// Speeds and torques about z.
-    pub flow: Flow,
-}
-
-impl Train {
-    /// A shaft.
-    pub fn shaft(&self, id: i64) -> Option<&Shaft> {
-        self.shafts.place(id).map(|place| &self.shafts[place])
-    }
-
-    /// A gear.
-    pub fn gear(&self, id: i64) -> Option<&SeatedGear> {
-        self.gears.place(id).map(|place| &self.gears[place])
-    }
-
-    /// Members of bevel and planetary stages, which pass torques on without a mesh of the scene.
-    pub fn torque_seats(&self) -> impl Iterator<Item = &TorqueSeat> {
-        let bevels = self.bevels.iter().map(|b| &b.seat);
-        bevels.chain(&self.planetary)
-    }
-
-    /// Places of the gears of each shaft.
-    pub fn gears_of(&self) -> HashMap<i64, Vec<usize>> {
-        let all = self.gears.iter().enumerate();
-        grouped(all.map(|(i, seated)| (seated.shaft, i)))
-    }
-
-    /// Places of the bearings at each shaft; once of one with the same shaft on both sides.
-    pub fn bearings_of(&self) -> HashMap<i64, Vec<usize>> {
-        let all = self.bearings.iter().enumerate();
-        grouped(all.flat_map(|(i, bearing)| {
-            let [a, b] = bearing.sides;
-            let second = (b != a).then_some((b, i));
-            [(a, i)].into_iter().chain(second)
-        }))
-    }
-
-    /// Each gear of each mesh: its place and that of the mesh.
-    pub fn meshes_of_gears(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let all = self.meshes.iter().enumerate();
-        all.flat_map(|(i, mesh)| mesh.gears.map(|gear| (gear, i)))
-    }
-
-    /// The first shaft of the train that shares a relation with a component.
-    pub fn shaft_at(&self, part: Part<'_>) -> Option<i64> {
-        let mut shafts = part.partners(&["shaft"]).into_iter();
-        shafts.find(|&id| self.shaft(id).is_some())
-    }
-
-    /// A shaft, to be changed.
-    pub fn shaft_mut(&mut self, id: i64) -> Option<&mut Shaft> {
-        let place = self.shafts.place(id)?;
-        self.shafts.get_mut(place)
-    }
-}
+use std::collections::HashMap;
 
 /// Reads the gearbox.
 ///

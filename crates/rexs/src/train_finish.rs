@@ -2,13 +2,13 @@
 
 use crate::backlash;
 use crate::by_number::grouped;
+use crate::gearbox::{Mesh, SeatedGear, Train};
 use crate::ledger::About;
-use crate::placement::{Frame, dot};
 use crate::shaft::Shaft;
 use crate::shaft_sections::demand_sections;
 use crate::source::Source;
-use crate::train::{Mesh, SeatedGear, Train};
 use crate::units::MM;
+use crate::vectors::{Frame, dot};
 use std::collections::{HashMap, HashSet};
 
 /// Directions that differ by an angle whose cosine is less than this from 1 are one line.

@@ -2,11 +2,12 @@
 
 use crate::by_number::grouped;
 use crate::error::Result;
+use crate::gearbox::Train;
 use crate::ledger::About;
-use crate::placement::{Frame, add, frame};
+use crate::placement::frame;
 use crate::source::{Part, Source};
-use crate::train::Train;
 use crate::units::{DEG, MM};
+use crate::vectors::{Frame, add};
 use std::collections::{BTreeMap, HashMap, VecDeque};
 
 /// Places of shafts without vectors, from those of their mates: centre distance and angle of the stage.

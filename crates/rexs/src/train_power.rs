@@ -1,11 +1,11 @@
 //! Speeds and torques of a gearbox by its ratios, and what the file has to be told of them.
 
+use crate::gearbox::Train;
 use crate::ledger::About;
 use crate::loads::Load;
 use crate::power_flow::{ASSUMED_RPM, Flow, TorqueOn, flow};
 use crate::shaft::{MOST_RPM, Shaft};
 use crate::source::{Part, Source};
-use crate::train::Train;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Speeds and torques by the ratios.

@@ -17,11 +17,14 @@
 
 pub mod accuracy;
 mod former_forms;
+mod gear_tables;
+mod megabytes;
 mod microgeometry_words;
 mod model_shelf;
 mod named_files;
 pub mod optimise;
 pub mod pair;
+mod pair_load;
 pub mod periods;
 pub mod rating;
 mod result_file;
@@ -35,7 +38,8 @@ pub use model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 pub use named_files::{named_files, named_files_and_theirs, renamed_files};
 pub use pair::{
     ContactPlaces, LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries,
-    load, load_from, run,
+    run,
 };
+pub use pair_load::{load, load_from};
 pub use result_file::ResultFile;
 pub use scene_file::{InputKind, SceneFile};

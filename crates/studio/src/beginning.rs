@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{write_bytes, write_text};
 use gearmesh_operations::import::{ImportRequest, import};
 use gearmesh_operations::new_files::{self, KINDS, NewKind, Texts};
 use gearmesh_operations::{Scratch, Watch};
+use gearmesh_scene::{named_files, renamed_files};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -52,6 +54,29 @@ pub fn kinds(begun: Option<&NewFiles>) -> Value {
         "kinds": kinds.collect::<Vec<_>>(),
         "folder": place().display().to_string(),
         "begun": begun.map(|begun| json!({"kind": begun.kind, "files": begun.files})),
+    })
+}
+
+/// A bevel pair from its file, with whole paths: something begun already.
+///
+/// # Errors
+/// [`Problem`] for a file that is no bevel pair.
+pub fn bevel_pair(path: &Path) -> Result<NewFiles, Problem> {
+    let kind = new_files::kind("bevel-pair")?;
+    let document = InputDocument::read(path)?;
+    let folder = std::path::absolute(path.parent().unwrap_or(Path::new("")));
+    let files = named_files(&document.text, &folder.unwrap_or_default());
+    let whole = |(name, file): (String, PathBuf)| (name, file.display().to_string());
+    let names: BTreeMap<String, String> = files.into_iter().map(whole).collect();
+    // Comments are lost with the names; a text that names no file stays as it is.
+    let text = match names.is_empty() {
+        true => document.text,
+        false => renamed_files(&document.text, &names).map_err(Problem::Input)?,
+    };
+    let name = kind.files[0].name.to_owned();
+    Ok(NewFiles {
+        kind: kind.name.to_owned(),
+        files: Texts::from([(name, text)]),
     })
 }
 

@@ -1,13 +1,12 @@
 //! Bevel pairs: looked at while their text changes, and run into a folder.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_operations::new_files::{self, Texts};
+use gearmesh_operations::new_files;
 use gearmesh_operations::report::{ReportRequest, report};
 use gearmesh_operations::run::{RunHow, run_bevel};
 use gearmesh_operations::tca::{TcaRequest, tca};
@@ -15,10 +14,9 @@ use gearmesh_operations::{Failure, Watch};
 use gearmesh_report::pair_in_space::bevel_pair;
 use gearmesh_scene::pair::{BevelScene, SceneResult};
 use gearmesh_scene::study::RestFigures;
-use gearmesh_scene::{ModelShelf, named_files, renamed_files};
+use gearmesh_scene::ModelShelf;
 use serde_json::{Value, json};
 
-use crate::beginning::NewFiles;
 use crate::problem::Problem;
 
 /// The models of the pair that is looked at again and again, read once until a file of them changes.
@@ -135,28 +133,5 @@ fn load_curves(scene: &BevelScene, result: &SceneResult) -> Value {
         "unloaded_um": of_pitch(&result.unloaded_m, 1e6),
         "pressure_largest_MPa": largest_mpa.collect::<Vec<_>>(),
         "in_space": bevel_pair(scene, result),
-    })
-}
-
-/// A bevel pair from its file, with whole paths: something begun already.
-///
-/// # Errors
-/// [`Problem`] for a file that is no bevel pair.
-pub fn begun(path: &Path) -> Result<NewFiles, Problem> {
-    let kind = new_files::kind("bevel-pair")?;
-    let document = InputDocument::read(path)?;
-    let folder = std::path::absolute(path.parent().unwrap_or(Path::new("")));
-    let files = named_files(&document.text, &folder.unwrap_or_default());
-    let whole = |(name, file): (String, PathBuf)| (name, file.display().to_string());
-    let names: BTreeMap<String, String> = files.into_iter().map(whole).collect();
-    // Comments are lost with the names; a text that names no file stays as it is.
-    let text = match names.is_empty() {
-        true => document.text,
-        false => renamed_files(&document.text, &names).map_err(Problem::Input)?,
-    };
-    let name = kind.files[0].name.to_owned();
-    Ok(NewFiles {
-        kind: kind.name.to_owned(),
-        files: Texts::from([(name, text)]),
     })
 }

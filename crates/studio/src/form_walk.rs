@@ -5,7 +5,7 @@ use gearmesh_operations::schema::followed;
 use gearmesh_report::words_and_unit;
 use serde_json::{Map, Value};
 
-use crate::form::{Field, Gears, Kind, Word, pitch_errors};
+use crate::form_field::{Field, Gears, Kind, Word, pitch_errors};
 use crate::form_reach::{Shape, allowed, reach, suited};
 
 /// Amounts that need a second key, and that key.

@@ -7,6 +7,7 @@ mod bevel;
 mod choice;
 mod columns;
 mod form;
+mod form_field;
 mod form_reach;
 mod form_walk;
 mod guard;

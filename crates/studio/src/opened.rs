@@ -5,8 +5,7 @@ use std::path::Path;
 use gearmesh_scene::system_run::ResultKind;
 use gearmesh_scene::{ResultFile, SceneFile};
 
-use crate::beginning::NewFiles;
-use crate::bevel;
+use crate::beginning::{self, NewFiles};
 use crate::choice::{FolderSession, SceneSession};
 use crate::columns::ColumnsSession;
 use crate::modes::ModesSession;
@@ -58,7 +57,7 @@ impl Opened {
         }
         match SceneFile::read(path)? {
             SceneFile::Pair(_) => Ok(Self::Pair(Box::new(PairSession::read(path)?))),
-            SceneFile::Bevel(_) => Ok(Self::New(Some(Box::new(bevel::begun(path)?)))),
+            SceneFile::Bevel(_) => Ok(Self::New(Some(Box::new(beginning::bevel_pair(path)?)))),
             SceneFile::System(scene) => Ok(Self::Scene(Box::new(SceneSession::new(path, *scene)))),
         }
     }

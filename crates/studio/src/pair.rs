@@ -15,7 +15,8 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::answer::PairAnswer;
-use crate::form::{Field, Form, Gears, Kind, pitch_errors};
+use crate::form::Form;
+use crate::form_field::{Field, Gears, Kind, pitch_errors};
 use crate::problem::Problem;
 
 /// Bytes of forces, pressures and places that a page can show; results beyond belong into a file.

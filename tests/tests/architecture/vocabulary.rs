@@ -17,24 +17,15 @@ fn the_dynamics_crate_knows_no_gear() {
     assert_knows_no_gear(&rust_files("crates/dynamics/src"));
 }
 
-/// In these crates modules use each other in one direction: whoever reads a file needs those that it names, and those do
-/// not need it.
-const WITHOUT_CIRCLES: [&str; 9] = [
-    "cli",
-    "contact",
-    "dynamics",
-    "mesh",
-    "operations",
-    "python",
-    "rating",
-    "report",
-    "signal",
-];
-
+/// Modules of a crate use each other in one direction: whoever reads a file needs those that it names, and those do not
+/// need it.
 #[test]
 fn modules_form_no_circle() {
-    let circles = WITHOUT_CIRCLES.map(|name| (name, circle(name)));
-    let found: Vec<_> = circles.iter().filter(|(_, c)| !c.is_empty()).collect();
+    let crates = std::fs::read_dir(root().join("crates")).unwrap();
+    let names = crates.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let circles: Vec<_> = names.map(|name| (circle(&name), name)).collect();
+    assert!(circles.len() > 18, "{}", circles.len());
+    let found: Vec<_> = circles.iter().filter(|(c, _)| !c.is_empty()).collect();
     assert!(
         found.is_empty(),
         "these modules use each other in a circle (or wait for one): {found:?}"
@@ -60,7 +51,7 @@ fn circle(name: &str) -> BTreeMap<String, BTreeSet<String>> {
         own.extend(used_modules(&code.join("\n")));
         own.remove(&module);
     }
-    assert!(uses.len() > 3, "{folder}: {uses:?}");
+    assert!(uses.len() > 1, "{folder}: {uses:?}");
     let modules: BTreeSet<String> = uses.keys().cloned().collect();
     // Items of the crate's root are no modules.
     for used in uses.values_mut() {

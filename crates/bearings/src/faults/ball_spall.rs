@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 use super::race_spall::curvatures_per_m;
 use super::smooth_edge::{SmoothEdge, entry_m, reached_m};
-use crate::ball_row::{BallRow, Groove};
+use crate::groove::Groove;
 
 /// A spall on a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,11 +36,11 @@ impl BallSpall {
         Vector3::new(cosine * level, sine * level, up)
     }
 
-    pub(crate) fn on(&self, row: &BallRow, groove: &Groove) -> PlacedPatch {
-        let [along, across] = curvatures_per_m(row, groove);
+    pub(crate) fn on(&self, groove: &Groove, ball_diameter_m: f64) -> PlacedPatch {
+        let [along, across] = curvatures_per_m(groove, ball_diameter_m);
         let reached = reached_m(self.depth_m, self.diameter_m, along.min(across));
         PlacedPatch {
-            ball_radius_m: 0.5 * row.ball_diameter_m,
+            ball_radius_m: 0.5 * ball_diameter_m,
             reached_m: reached,
             edge: SmoothEdge {
                 half_m: 0.5 * self.diameter_m,

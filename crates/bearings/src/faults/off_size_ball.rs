@@ -2,7 +2,7 @@
 //!
 //! Its approach to both races grows by half of what it is larger; its mass grows with the cube. The stiffness of its contacts is kept: it changes by a share of about ΔD/D.
 
-use crate::ball_row::Groove;
+use crate::groove::Groove;
 
 /// A ball of another size.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,7 +11,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::smooth_edge::{SmoothEdge, entry_m, reached_m};
-use crate::ball_row::{BallRow, Groove};
+use crate::groove::Groove;
 
 /// A spall on a race.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,23 +68,28 @@ pub(crate) struct PlacedSpall {
 }
 
 /// Sums of the curvatures of ball and groove along the way of the balls and across it \[1/m\].
-pub(crate) fn curvatures_per_m(row: &BallRow, groove: &Groove) -> [f64; 2] {
-    let ball = 2.0 / row.ball_diameter_m;
-    let across = ball - 1.0 / (groove.arm_m + 0.5 * row.ball_diameter_m);
+pub(crate) fn curvatures_per_m(groove: &Groove, ball_diameter_m: f64) -> [f64; 2] {
+    let ball = 2.0 / ball_diameter_m;
+    let across = ball - 1.0 / (groove.arm_m + 0.5 * ball_diameter_m);
     [groove.contact.curvature_sum_per_m - across, across]
 }
 
 impl RaceSpall {
-    pub(crate) fn on(&self, row: &BallRow, groove: &Groove) -> PlacedSpall {
-        let [along, across] = curvatures_per_m(row, groove);
+    pub(crate) fn on(
+        &self,
+        groove: &Groove,
+        ball_diameter_m: f64,
+        (free_angle_rad, pitch_radius_m): (f64, f64),
+    ) -> PlacedSpall {
+        let [along, across] = curvatures_per_m(groove, ball_diameter_m);
         let mut reached = reached_m(self.depth_m, self.length_m, along);
         if let Some(width) = self.width_m {
             reached = reached_m(reached, width, across);
         }
-        let contact_angle_rad = self.contact_angle_rad.unwrap_or(row.free_angle_rad);
+        let contact_angle_rad = self.contact_angle_rad.unwrap_or(free_angle_rad);
         // The inner groove's surface lies inwards of its centre, the outer one's outwards.
-        let outwards = (row.pitch_radius_m - groove.centre_radius_m).signum();
-        let groove_m = groove.arm_m + 0.5 * row.ball_diameter_m;
+        let outwards = (pitch_radius_m - groove.centre_radius_m).signum();
+        let groove_m = groove.arm_m + 0.5 * ball_diameter_m;
         PlacedSpall {
             angle_rad: self.angle_rad,
             contact_angle_rad,

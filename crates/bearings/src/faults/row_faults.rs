@@ -1,18 +1,16 @@
 //! All faults of a row of balls, and what they do to its grooves.
 
 use super::ball_spall::PlacedPatch;
-use super::missing_element::missing;
 use super::race_spall::{Depth, PlacedSpall};
 use super::waviness::Displaced;
-use super::{BallSpall, Fault, OffSizeBall, Side, Waviness};
-use crate::ball_row::{BallRow, Groove};
-use crate::error::BearingError;
+use super::{BallSpall, OffSizeBall, Side, Waviness};
+use crate::groove::Groove;
 
 /// Faults of a race.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RaceFaults {
-    waves: Vec<Waviness>,
-    spalls: Vec<PlacedSpall>,
+    pub(crate) waves: Vec<Waviness>,
+    pub(crate) spalls: Vec<PlacedSpall>,
 }
 
 impl RaceFaults {
@@ -54,8 +52,8 @@ pub(crate) struct SpalledBall {
     /// Number in its row, from 0.
     pub ball: usize,
     pub spall: BallSpall,
-    outer: PlacedPatch,
-    inner: PlacedPatch,
+    pub outer: PlacedPatch,
+    pub inner: PlacedPatch,
 }
 
 impl SpalledBall {
@@ -71,91 +69,24 @@ impl SpalledBall {
 /// Faults of a row of balls.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RowFaults {
-    inner: RaceFaults,
-    outer: RaceFaults,
-    sizes: Vec<(usize, OffSizeBall)>,
-    spalled: Vec<SpalledBall>,
+    pub(crate) inner: RaceFaults,
+    pub(crate) outer: RaceFaults,
+    pub(crate) sizes: Vec<(usize, OffSizeBall)>,
+    pub(crate) spalled: Vec<SpalledBall>,
     /// Balls that are not there, in rising order.
-    missing: Vec<usize>,
+    pub(crate) missing: Vec<usize>,
 }
 
 impl RowFaults {
-    /// Those of a row among the faults of a bearing; none where all of them are without depth.
-    ///
-    /// # Errors
-    /// [`BearingError::Parameter`] for a ball that the row does not have, [`BearingError::NotCarried`] where too few
-    /// are left.
-    pub(crate) fn of(
-        faults: &[Fault],
-        number: usize,
-        row: &BallRow,
-    ) -> Result<Option<Box<Self>>, BearingError> {
-        let mut found = Self {
-            missing: missing(faults, number, row.balls)?,
-            ..Self::default()
-        };
-        let exists = |ball: usize| {
-            let what = "the number of a ball that has a fault, from 1,";
-            let allowed = "at most the number of balls of the row";
-            BearingError::require(what, (ball + 1) as f64, ball < row.balls, allowed)
-        };
-        for fault in faults {
-            match *fault {
-                Fault::RaceSpall {
-                    side,
-                    row: at,
-                    spall,
-                } if at == number => {
-                    let placed = spall.on(row, row.groove(side));
-                    if placed.reached_m > 0.0 {
-                        found.race_mut(side).spalls.push(placed);
-                    }
-                }
-                Fault::BallSpall {
-                    row: at,
-                    ball,
-                    spall,
-                } if at == number => {
-                    exists(ball)?;
-                    let [outer, inner] = [Side::Outer, Side::Inner].map(|s| row.groove(s));
-                    if spall.depth_m > 0.0 {
-                        found.spalled.push(SpalledBall {
-                            ball,
-                            spall,
-                            outer: spall.on(row, outer),
-                            inner: spall.on(row, inner),
-                        });
-                    }
-                }
-                Fault::Waviness {
-                    side,
-                    row: at,
-                    waves,
-                } if at == number && (waves.radial_m != 0.0 || waves.axial_m != 0.0) => {
-                    found.race_mut(side).waves.push(waves);
-                }
-                Fault::OffSizeBall {
-                    row: at,
-                    ball,
-                    size,
-                } if at == number => {
-                    exists(ball)?;
-                    if size.oversize_m != 0.0 {
-                        found.sizes.push((ball, size));
-                    }
-                }
-                _ => {}
-            }
-        }
-        let none = found.inner.is_empty()
-            && found.outer.is_empty()
-            && found.sizes.is_empty()
-            && found.spalled.is_empty()
-            && found.missing.is_empty();
-        Ok((!none).then(|| Box::new(found)))
+    pub(crate) fn is_empty(&self) -> bool {
+        self.inner.is_empty()
+            && self.outer.is_empty()
+            && self.sizes.is_empty()
+            && self.spalled.is_empty()
+            && self.missing.is_empty()
     }
 
-    fn race_mut(&mut self, side: Side) -> &mut RaceFaults {
+    pub(crate) fn race_mut(&mut self, side: Side) -> &mut RaceFaults {
         match side {
             Side::Inner => &mut self.inner,
             Side::Outer => &mut self.outer,
@@ -196,14 +127,15 @@ impl RowFaults {
         own
     }
 
-    /// The grooves under a ball that keeps to its axial plane, at its angles in the axes of the outer and of the inner ring.
+    /// The grooves, outer and inner, under a ball that keeps to its axial plane, at its angles in the axes of the outer
+    /// and of the inner ring.
     pub(crate) fn grooves_under(
         &self,
-        row: &BallRow,
+        grooves: [&Groove; 2],
         ball: usize,
         (psi_outer, psi_inner): (f64, f64),
     ) -> [Groove; 2] {
-        let mut grooves = [&row.outer, &row.inner].map(|groove| self.groove_for(ball, groove));
+        let mut grooves = grooves.map(|groove| self.groove_for(ball, groove));
         self.outer.apply(psi_outer, &mut grooves[0]);
         self.inner.apply(psi_inner, &mut grooves[1]);
         grooves

@@ -22,11 +22,17 @@ use series::{Form, Series, open};
 use std::f64::consts::TAU;
 use std::path::Path;
 
+/// The result that is read is never the file that is written.
+fn refuse_overwriting(analysis: &SignalAnalysis) -> Result<(), Failure> {
+    match analysis.series() {
+        None => Ok(()),
+        Some(of) => overwriting::refuse(vec![of.result.clone()], of.output.as_slice()),
+    }
+}
+
 /// Runs the command.
 pub fn run(a: &SignalArguments) -> Result<(), Failure> {
-    if let Some(series) = a.analysis.series() {
-        overwriting::refuse(vec![series.result.clone()], series.output.as_slice())?;
-    }
+    refuse_overwriting(&a.analysis)?;
     match &a.analysis {
         SignalAnalysis::Columns { result, json } => columns(result, *json),
         SignalAnalysis::Statistics { series } => {

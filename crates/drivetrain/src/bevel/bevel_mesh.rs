@@ -23,8 +23,8 @@ use super::touch::Touch;
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, Section, ToothContact};
 use crate::flank_kinematics::{ContactPatch, FlankKinematics, Tangent};
-use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{Matrix6, on_turn};
+use crate::pose::{Pose, Vector6, on_turn};
+use crate::slice_plane::Matrix6;
 
 /// So do those that stand open by this share of a pitch more than the nearest ones.
 const NEAR: f64 = 0.03;

@@ -21,8 +21,8 @@ use super::hertz_stiffness::{bounded, local_measure};
 use super::nearest_points::{Nearest, Placed};
 use super::pose_derivatives::PoseDerivatives;
 use crate::error::DrivetrainError;
-use crate::pose::Vector6;
-use crate::slice_plane::{Matrix6, stacked};
+use crate::pose::{Vector6, stacked};
+use crate::slice_plane::Matrix6;
 
 /// Most facets of a flank: 50 MB.
 const MOST_FACETS: f64 = 2e5;

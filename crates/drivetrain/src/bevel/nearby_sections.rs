@@ -15,8 +15,7 @@ use super::section_points::{EDGES, edge_of, middle, nearest_on_section};
 use super::sliced_mesh::BevelSlices;
 use super::tooth_side::placed;
 use crate::flank_contacts::{FlankContacts, TeethLine};
-use crate::pose::{Pose, Vector6};
-use crate::slice_plane::stacked;
+use crate::pose::{Pose, Vector6, stacked};
 
 /// How far gear 2 may have moved \[m\]. A search looks so much farther that no section comes within reach that was out of it.
 pub(super) const NEARBY_M: f64 = 2e-6;

@@ -15,8 +15,7 @@ use nalgebra::{Matrix3, Matrix4x6, Vector3};
 use super::contact_limits::Limits;
 use super::nearest_points::Nearest;
 use super::pose_derivatives::{PoseDerivatives, gradient};
-use crate::pose::Vector6;
-use crate::slice_plane::stacked;
+use crate::pose::{Vector6, stacked};
 
 /// Entries a pitch of the pinion.
 const PER_PITCH: usize = 24;

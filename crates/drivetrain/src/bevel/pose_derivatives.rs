@@ -14,8 +14,7 @@ use nalgebra::{Matrix3x6, Matrix4x6, Matrix6, Vector3};
 
 use super::nearest_points::{Kind, Nearest, equations, kind};
 use crate::flank_kinematics::Tangent;
-use crate::pose::Vector6;
-use crate::slice_plane::stacked;
+use crate::pose::{Vector6, stacked};
 
 /// A vector and its derivatives by the increments of the pose.
 #[derive(Debug, Clone, Copy)]

@@ -7,8 +7,8 @@ use crate::error::DrivetrainError;
 use crate::flank_contacts::ToothContact;
 use crate::flank_modes::ModalMotion;
 use crate::models::hybrid::{OUT_OF_REACH, ReducedTeeth};
+use crate::models::teeth_model::TeethModel;
 use crate::pose::{Pose, Vector6};
-use crate::teeth_model::TeethModel;
 
 /// A side whose forces are found with those of other meshes.
 pub(crate) struct CoupledSide<'a> {

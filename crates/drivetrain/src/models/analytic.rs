@@ -23,7 +23,7 @@ use gearmesh_geometry::Material;
 
 use crate::error::DrivetrainError;
 use crate::flank_contacts::FlankContacts;
-use crate::teeth_model::{TeethLoads, TeethModel};
+use crate::models::teeth_model::{TeethLoads, TeethModel};
 use crate::tooth_compliance::{BeamTooth, RootCrack, ToothCompliance};
 
 /// Compliance of the Hertz contact of two teeth over the width \[m/N\]; for equal materials 4(1 − ν²)/(πEb).

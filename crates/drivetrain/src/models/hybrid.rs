@@ -24,8 +24,8 @@ use gearmesh_model::ReducedGear;
 
 use crate::error::{DrivetrainError, positive};
 use crate::flank_contacts::FlankContacts;
+use crate::models::teeth_model::{TeethLoads, TeethModel};
 use crate::pose::Vector6;
-use crate::teeth_model::{TeethLoads, TeethModel};
 
 mod joint;
 

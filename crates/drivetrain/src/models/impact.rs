@@ -7,8 +7,8 @@
 
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::FlankContacts;
+use crate::models::teeth_model::{TeethLoads, TeethModel};
 use crate::step::step;
-use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// A contact stiffness with its exponent.
 #[derive(Debug, Clone, Copy, PartialEq)]

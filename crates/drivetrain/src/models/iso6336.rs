@@ -14,9 +14,9 @@
 
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::{FlankContacts, Section};
+use crate::models::teeth_model::{TeethLoads, TeethModel};
 use crate::pair_curve::PairCurve;
 use crate::roll_harmonics::RollHarmonics;
-use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// What the single stiffness of ISO 6336-1 depends on. Gear 1 is the pinion.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,3 +5,4 @@ pub mod hybrid;
 pub mod impact;
 pub mod iso6336;
 pub mod kinematic;
+pub mod teeth_model;

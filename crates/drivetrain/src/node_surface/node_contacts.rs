@@ -25,8 +25,8 @@ use super::patch_foot::Foot;
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, Section, ToothContact};
 use crate::flank_kinematics::{FlankKinematics, Tangent};
-use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{Matrix6, stacked};
+use crate::pose::{Pose, Vector6, stacked};
+use crate::slice_plane::Matrix6;
 
 /// Flanks this far apart, or deeper in each other, over the pitch, are those of other teeth.
 const OTHER_TEETH: f64 = 0.3;

@@ -16,7 +16,7 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// [`InputError`] for faces side by side and for slices that the models do not resolve.
-pub(super) fn slice_layout(
+pub(crate) fn slice_layout(
     scene: &Scene,
     models: &[Arc<ReducedGear>; 2],
 ) -> Result<SliceLayout, InputError> {

@@ -13,7 +13,6 @@ use gearmesh_geometry::{GearDefinition, GearPair, InputError, Misalignment};
 use super::bevel_result::BevelFigures;
 use super::result::SceneResult;
 use super::scene_file::Scene;
-use crate::system::StageSummary;
 
 /// Width over which the faces overlap \[m\].
 fn overlap_width_m(gears: [&GearDefinition; 2], scene: &Scene) -> f64 {
@@ -86,18 +85,6 @@ impl SceneResult {
             return Ok(bevel.face_widths_m[0].min(bevel.face_widths_m[1]));
         }
         Ok(overlap_width_m(self.definitions()?, &self.scene()?))
-    }
-
-    /// The stage at a glance: what follows from teeth and centre distance; none of bevel pairs.
-    ///
-    /// # Errors
-    /// As of [`Self::overlap_width_m`].
-    pub fn stage(&self) -> Result<Option<StageSummary>, InputError> {
-        let Some(pair) = self.gear_pair()? else {
-            return Ok(None);
-        };
-        let (gears, width_m) = (self.definitions()?, self.overlap_width_m()?);
-        Ok(Some(StageSummary::new(&pair, gears, width_m)))
     }
 
     /// The pair on its flanks, its axes parallel; none of bevel pairs.

@@ -9,9 +9,9 @@ use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
 
 use super::scene_file::Scene;
+use crate::gear_tables::UM;
+use crate::gear_tables::seat::EccentricityTable;
 use crate::microgeometry_words::microgeometry_words;
-use crate::system::tables::UM;
-use crate::system::tables::gear_mesh::EccentricityTable;
 
 /// Largest tilt of a gear on its body, as of misaligned axes.
 const LARGEST_TILT_MRAD: f64 = 10.0;
@@ -40,7 +40,7 @@ impl Scene {
 ///
 /// # Errors
 /// [`InputError`] at the key, or in a file.
-pub(super) fn deviations(
+pub(crate) fn deviations(
     scene: &Scene,
     gears: [&GearDefinition; 2],
 ) -> Result<FlankDeviations, InputError> {
@@ -60,7 +60,7 @@ pub(super) fn deviations(
 ///
 /// # Errors
 /// [`InputError`] for an offset that leaves no line of action, or a tilt that is not small.
-pub(super) fn runout(scene: &Scene, pair: &GearPair) -> Result<Option<Runout>, InputError> {
+pub(crate) fn runout(scene: &Scene, pair: &GearPair) -> Result<Option<Runout>, InputError> {
     let tables = scene.eccentricity.map(Option::unwrap_or_default);
     if scene.eccentricity.iter().all(Option::is_none) {
         return Ok(None);

@@ -1,11 +1,12 @@
 //! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks,
 //! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it,
-//! `taken_misalignment.rs` takes the axes from a gearbox's result, `run.rs` computes, position by position
+//! `taken_misalignment.rs` names the gearbox's result that has the axes, `run.rs` computes, position by position
 //! (`all_positions.rs`, `position.rs`, `between_positions.rs`), `figures.rs` makes the figures of a torque of it,
 //! `figure_table.rs` says how all doors show them, `contacts.rs` says where the teeth touch, `coverage.rs` says how
 //! much of each period that sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs` judges, `bevel.rs` puts
 //! bevel pairs at rest, `bevel_result.rs` says what their results have besides, `bevel_in_space.rs` where they stand
-//! for pictures, `warnings.rs` tells where the model's assumptions are strained.
+//! for pictures, `warnings.rs` tells where the model's assumptions are strained. `pair_load/` reads what a scene
+//! names.
 
 mod all_positions;
 mod between_positions;
@@ -13,11 +14,11 @@ pub mod bevel;
 mod bevel_in_space;
 pub mod bevel_result;
 mod contact_places;
-mod contacts;
+pub(crate) mod contacts;
 mod coverage;
 pub mod figure_table;
 mod figures;
-mod flank_effects;
+pub(crate) mod flank_effects;
 pub mod plan;
 mod position;
 pub mod rating;
@@ -36,7 +37,5 @@ pub use figures::{FigureErrors, PairFigures};
 pub use plan::Plan;
 pub use result::{SceneResult, StrainSeries};
 pub use result_record::RESULT_FORMAT;
-pub use run::{
-    LoadedScene, PairWatch, RunError, demand_gears_that_fit, load, load_from, run, run_watched,
-};
+pub use run::{LoadedScene, PairWatch, RunError, demand_gears_that_fit, run, run_watched};
 pub use scene_file::Scene;

@@ -2,7 +2,7 @@
 
 use super::rating::PairRating;
 use super::run::LoadedScene;
-use crate::system_run::megabytes;
+use crate::megabytes::megabytes;
 use gearmesh_geometry::Misalignment;
 
 /// Size and effects of a scene.

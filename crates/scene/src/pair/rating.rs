@@ -38,7 +38,7 @@ enum PairRule {
 }
 
 /// The scene's parts that ratings are made of.
-pub(super) struct RatedPair<'a> {
+pub(crate) struct RatedPair<'a> {
     pub scene: &'a Scene,
     pub pair: &'a GearPair,
     pub gears: [&'a GearDefinition; 2],

@@ -2,11 +2,11 @@
 
 use super::taken_misalignment::MisalignmentFrom;
 use crate::former_forms::PAIR;
+use crate::gear_tables::flank_errors::FlankErrorTable;
+use crate::gear_tables::friction::PairFrictionTable;
+use crate::gear_tables::path_word::PathWord;
+use crate::gear_tables::seat::{BoreHold, EccentricityTable};
 use crate::rating::RatingTable;
-use crate::system::tables::body::BoreHold;
-use crate::system::tables::flank_errors::FlankErrorTable;
-use crate::system::tables::friction::PairFrictionTable;
-use crate::system::tables::gear_mesh::{EccentricityTable, PathWord};
 use gearmesh_contact::{ContactOptions, LocalContact};
 use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{Bounded, Count, End, InputDocument, Positive, Within};

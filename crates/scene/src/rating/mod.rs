@@ -7,6 +7,7 @@
 //! | what is made of a stress history | [`FatigueJob`] | `fatigue_job.rs` |
 //! | what is made of the largest force | [`nominal_figures`] | `nominal_figures.rs` |
 //! | what is made of a bearing's loads | [`BearingLifeJob`] | `bearing_life.rs` |
+//! | what is made of columns of a run | `RatingRule` | `rule.rs` |
 //! | what came out, in memory and in result files | [`RatingResult`] | `result.rs` |
 //!
 //! Where histories and forces come from is said by each kind of scene: `system/assembly/ratings.rs` and
@@ -17,6 +18,7 @@ mod bearing_life;
 mod fatigue_job;
 mod nominal_figures;
 mod result;
+pub(crate) mod rule;
 mod sn_table_file;
 pub mod table;
 

@@ -2,7 +2,7 @@
 
 use gearmesh_model::{Fields, FileError, Record};
 
-use crate::system::RatingRule;
+use super::rule::RatingRule;
 
 /// A figure of a rating.
 #[derive(Debug, Clone, Copy, PartialEq)]

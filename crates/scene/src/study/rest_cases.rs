@@ -19,7 +19,8 @@ use super::subject::Subject;
 use crate::model_shelf::ModelShelf;
 use crate::named_files_and_theirs;
 use crate::pair::warnings::{ColumnPressure, yielding};
-use crate::pair::{LoadedScene, RunError, Scene, load_from, run};
+use crate::pair::{LoadedScene, RunError, Scene, run};
+use crate::pair_load::load_from;
 
 /// Digits of the digest in a file's name.
 const NAME_DIGITS: usize = 16;

@@ -5,11 +5,10 @@ use std::sync::Arc;
 use gearmesh_drivetrain::FoundTogether;
 use gearmesh_dynamics::{BodyId, System};
 use gearmesh_model::ReducedGear;
-use gearmesh_rating::NominalRating;
 
 use super::assembly::{PlacedCage, TangentSeat};
 use super::stage_summary::StageSummary;
-use crate::rating::{BearingLifeJob, FatigueJob};
+pub use crate::rating::rule::RatingRule;
 
 /// A system that is ready to run.
 pub struct BuiltSystem {
@@ -165,17 +164,6 @@ pub struct RatingJob {
     pub turn_column: Option<String>,
     /// What is made of them.
     pub rule: RatingRule,
-}
-
-/// What is made of the columns of a rating.
-#[derive(Debug, Clone, PartialEq)]
-pub enum RatingRule {
-    /// Cycles and damage of the sum of the columns, strain in µε.
-    Fatigue(FatigueJob),
-    /// Nominal stresses under the largest value of the columns, forces in N.
-    Nominal(Box<NominalRating>),
-    /// Life of a bearing under the loads of the columns.
-    BearingLife(Box<BearingLifeJob>),
 }
 
 /// An effect that a scene may name.

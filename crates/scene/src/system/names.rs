@@ -1,4 +1,4 @@
-//! Names of a scene's parts: what a name may be, and names that the scene does not know.
+//! Names of a scene's parts: what a name may be, names that the scene does not know, and names of columns.
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, nearest};
@@ -58,6 +58,21 @@ fn name_problem(name: &str) -> Option<String> {
     Some(format!(
         "found {found}; names become parts of columns: allowed are 1 to {LONGEST} characters without / and line breaks, but not . and .."
     ))
+}
+
+/// A name as part of a column's name: `/` would make a group.
+pub(crate) fn plain(name: &str) -> String {
+    name.replace('/', "_")
+}
+
+/// Name of the column of a force element's channel.
+pub(crate) fn element_column(element: &str, channel: &str) -> String {
+    format!("elements/{}/{channel}", plain(element))
+}
+
+/// Name of the column of a body's channel.
+pub(crate) fn body_column(body: &str, channel: &str) -> String {
+    format!("bodies/{}/{channel}", plain(body))
 }
 
 /// What to say of a name that is not among the known ones: the nearest, and all of them.

@@ -1,11 +1,12 @@
 //! A stage of cylindrical gears at a glance: what follows from its teeth, its centre distance and its speed at the
 //! start.
 
-use gearmesh_geometry::{GearDefinition, GearPair};
+use gearmesh_geometry::{GearDefinition, GearPair, InputError};
 use gearmesh_model::{Fields, FileError, Record};
 use serde::Serialize;
 
 use super::iso_stiffness::{N_PER_MM_UM, REFERENCE_LINE_LOAD_N_PER_M, iso_stiffness};
+use crate::pair::SceneResult;
 
 /// Figures of a stage, whatever the model of its mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -113,5 +114,19 @@ impl StageSummary {
             self.mesh_stiffness_n_per_m2 / N_PER_MM_UM,
             100.0 * self.largest_sliding
         )
+    }
+}
+
+impl SceneResult {
+    /// The stage at a glance: what follows from teeth and centre distance; none of bevel pairs.
+    ///
+    /// # Errors
+    /// As of [`Self::overlap_width_m`].
+    pub fn stage(&self) -> Result<Option<StageSummary>, InputError> {
+        let Some(pair) = self.gear_pair()? else {
+            return Ok(None);
+        };
+        let (gears, width_m) = (self.definitions()?, self.overlap_width_m()?);
+        Ok(Some(StageSummary::new(&pair, gears, width_m)))
     }
 }

@@ -13,11 +13,12 @@ use std::sync::atomic::Ordering;
 use super::error::SystemRunError;
 use super::in_time::begin;
 use super::job::{Advance, EigenJob, EigenPoint, MeshRecord, Outcome, RunHead, RunOptions};
-use super::recorder::{element_column, joint_moments};
+use super::recorder::joint_moments;
 use super::result::EigenResult;
 use super::result_kind::ResultKind;
 use super::result_record::Contents;
 use super::stages::StageLoad;
+use crate::system::names::element_column;
 
 /// Runs all operating points. It is not resumed: an unfinished one begins anew.
 pub(super) fn run_eigen(

@@ -253,7 +253,7 @@ impl<'a> Tape<'a> {
             // Rounding must not move a sample out of its window.
             let now = state.time_s + 1e-9 * run.interval_s;
             while let Some(open) = run.windows.get(*closed).filter(|open| now >= open.to_s) {
-                debug_assert!(open.from_s < open.to_s);
+                assert!(open.from_s < open.to_s);
                 close(window, figures);
                 *closed += 1;
             }

@@ -15,10 +15,10 @@ use gearmesh_model::FileError;
 use nalgebra::Vector3;
 
 use super::job::MeshRecord;
-use super::recorder::{body_column, element_column};
 use super::result::SystemResult;
 use super::result_kind::ResultKind;
 use crate::system::line_of_centres_rad_per_s;
+use crate::system::names::{body_column, element_column};
 
 /// Share of a revolution by which rows and start-up may miss a whole one.
 const ROUNDING: f64 = 1e-6;

@@ -63,11 +63,8 @@ pub use mesh_misalignment::MeshAxes;
 pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;
-pub use recorded_columns::{
-    MOST_RESULT_BYTES, ResultSize, demand_result_size, megabytes, recorded_columns,
-};
+pub use recorded_columns::{MOST_RESULT_BYTES, ResultSize, demand_result_size, recorded_columns};
 pub use recorder::{Course, Moment, Recorder, Selection};
-pub(crate) use recorder::{body_column, element_column};
 pub use result::{EigenResult, FOLDED_SHARE, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
 pub use result_kind::ResultKind;
 pub use run_record::RunRecord;
@@ -76,6 +73,8 @@ pub use set_modes::{SetMode, SetModeKind};
 pub use speed_plan::{SpeedPlan, Window};
 pub use stages::{StageLine, StageLoad, StageRow, StageTable};
 pub use summary::{ColumnSummary, foremost};
+
+pub use crate::megabytes::megabytes;
 
 /// Runs a job and writes its result.
 ///

@@ -9,6 +9,7 @@ use gearmesh_model::Column;
 use super::job::{RunJob, RunKind};
 use super::recorder::{Course, Recorder, time};
 use super::{in_time, static_series};
+use crate::megabytes::megabytes;
 use crate::system::{Run, SystemScene};
 
 /// The columns of a job's rows; of natural frequencies none.
@@ -99,14 +100,4 @@ pub fn demand_result_size(
             megabytes(bytes)
         ),
     ))
-}
-
-/// A size as people read it: `0.3 MB`, `1.4 GB`.
-#[must_use]
-pub fn megabytes(bytes: f64) -> String {
-    if bytes < 1e9 {
-        format!("{:.1} MB", 1e-6 * bytes)
-    } else {
-        format!("{:.1} GB", 1e-9 * bytes)
-    }
 }

@@ -14,6 +14,7 @@ use nalgebra::UnitQuaternion;
 
 use super::counted_angles::{CountedAngles, body_angles};
 use super::error::SystemRunError;
+use crate::system::names::{element_column, plain};
 
 /// What is recorded besides the time.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -100,21 +101,6 @@ pub struct Recorder {
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
-
-/// A name as part of a column's name: `/` would make a group.
-fn plain(name: &str) -> String {
-    name.replace('/', "_")
-}
-
-/// Name of the column of a force element's channel.
-pub(crate) fn element_column(element: &str, channel: &str) -> String {
-    format!("elements/{}/{channel}", plain(element))
-}
-
-/// Name of the column of a body's channel.
-pub(crate) fn body_column(body: &str, channel: &str) -> String {
-    format!("bodies/{}/{channel}", plain(body))
-}
 
 /// The first column of rows in time.
 pub(super) fn time() -> Column {

@@ -13,10 +13,10 @@
 use gearmesh_model::FileError;
 
 use super::column_statistics::Figures;
-use super::recorder::{body_column, element_column};
 use super::result::SystemResult;
 use super::result_kind::ResultKind;
 use super::stages::Span;
+use crate::system::names::{body_column, element_column};
 use crate::system::planetary::PlanetarySet;
 
 const AXES: [&str; 3] = ["x", "y", "z"];

@@ -12,13 +12,13 @@ use gearmesh_model::{Column, FileError};
 
 use super::column_statistics::Figures;
 use super::job::MeshRecord;
-use super::recorder::{body_column, element_column};
 use super::result::SystemResult;
 use super::result_kind::ResultKind;
 use super::run_record::RunRecord;
 use super::summary::without_rounding;
 use crate::pair::warnings::{ColumnPressure, yielding, yielding_in_words};
 use crate::rating::RatingResult;
+use crate::system::names::{body_column, element_column};
 
 /// N/(mm·µm) in SI, N/m².
 const N_PER_MM_UM: f64 = 1e9;

@@ -89,9 +89,15 @@ fn strain(it: &SeriesComparison, gauge: &str, stated: f64) {
         "{gauge}, {} N m: {off}",
         it.torque_nm
     );
+    // Not more than both state, and ours states no more than three times what is found.
     assert!(
         off.abs() <= stated + unknown,
         "{gauge}, {} N m: {off}",
+        it.torque_nm
+    );
+    assert!(
+        stated <= 3.0 * off.abs(),
+        "{gauge}, {} N m: {stated} stated, {off}",
         it.torque_nm
     );
 }

@@ -4,7 +4,7 @@ use gearmesh_contact::slice_contact::SliceContact;
 
 use super::{NOWHERE, ReducedTeeth};
 use crate::flank_contacts::FlankContacts;
-use crate::teeth_model::TeethLoads;
+use crate::models::teeth_model::TeethLoads;
 
 /// What the solution of several meshes together says of one side.
 #[derive(Debug, Clone, Default)]

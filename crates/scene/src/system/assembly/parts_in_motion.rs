@@ -10,9 +10,9 @@ use super::bearings::housing;
 use super::bearings::placed_bearing::PlacedBearing;
 use super::bodies::{Bodies, Frame, Seat};
 use super::shafts::PlacedShaft;
+use crate::system::names::{body_column, element_column};
 use crate::system::scene::SystemScene;
 use crate::system::tables::bearing::{BearingModel, BearingTable};
-use crate::system_run::{body_column, element_column};
 
 /// Where a ring begins and ends from the pitch circle, as shares of a ball's diameter: for a picture, files state
 /// neither.

@@ -16,12 +16,11 @@ use crate::rating::{
     nominal_method, rim_m,
 };
 use crate::system::built::{BuiltGauge, RatingJob, RatingRule};
-use crate::system::names;
+use crate::system::names::{self, body_column, element_column};
 use crate::system::scene::SystemScene;
 use crate::system::tables::bearing::BearingModel;
 use crate::system::tables::mesh_model::MeshKind;
 use crate::system::tables::run::Run;
-use crate::system_run::{body_column, element_column};
 
 /// All ratings of a scene.
 pub(super) fn build(

@@ -8,6 +8,8 @@ use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use crate::gear_tables::seat::BoreHold;
+
 number_range!(
     /// Damping ratios below the critical one.
     pub DampingRatio: End::At(0.0), End::Beyond(1.0)
@@ -71,30 +73,6 @@ pub enum Coupling {
     AllMeshes,
     /// Its own.
     OwnMesh,
-}
-
-/// How the bore of a gear is held.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum BoreHold {
-    /// Glued to a rigid pin.
-    Bonded,
-    /// It slides along a rigid pin, which holds it radially all round.
-    Sliding,
-    /// Rollers press on it where they touch.
-    Rollers,
-}
-
-impl BoreHold {
-    /// Name in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Bonded => "bonded",
-            Self::Sliding => "sliding",
-            Self::Rollers => "rollers",
-        }
-    }
 }
 
 /// How a gear body deflects.

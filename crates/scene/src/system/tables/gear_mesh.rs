@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::flank_errors::FlankErrorTable;
 use super::friction::FrictionTable;
 use super::mesh_model::{HertzTable, MeshModel};
+pub use crate::gear_tables::path_word::PathWord;
+pub use crate::gear_tables::seat::EccentricityTable;
 
 /// `[[gear_mesh]]` as written in the file.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
@@ -115,29 +117,4 @@ impl TouchingFlanks {
             Self::Left => &[Flank::Left],
         }
     }
-}
-
-/// Ends of the path of contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum PathWord {
-    /// Contact on the rigid path only.
-    LineOfAction,
-    /// Tip edges go on touching.
-    #[default]
-    Extended,
-}
-
-/// `eccentricity_1` and `eccentricity_2`.
-#[derive(Debug, Clone, Copy, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct EccentricityTable {
-    /// Distance of the gear's axis from the body's z axis.
-    pub offset_um: f64,
-    /// Its direction from the body's x axis.
-    pub direction_deg: f64,
-    /// Tilt of the gear's axis.
-    pub tilt_mrad: f64,
-    /// Direction of the tilt's axis from the body's x axis.
-    pub tilt_direction_deg: f64,
 }

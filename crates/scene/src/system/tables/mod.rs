@@ -1,10 +1,9 @@
-//! The tables of a scene file: keys as written in the file, and their checks. One file per table.
+//! The tables of a scene file: keys as written in the file, and their checks. One file per table; those that
+//! pairs have, too, are in `gear_tables/`.
 
 pub mod bearing;
 pub mod body;
 pub mod connection;
-pub mod flank_errors;
-pub mod friction;
 pub mod function;
 pub mod gear_mesh;
 pub mod joint;
@@ -18,7 +17,5 @@ pub mod run;
 pub mod shaft;
 pub mod solver;
 
-/// A millimetre in metres.
-pub(crate) const MM: f64 = 1e-3;
-/// A micrometre in metres.
-pub(crate) const UM: f64 = 1e-6;
+pub(crate) use crate::gear_tables::{MM, UM};
+pub use crate::gear_tables::{flank_errors, friction};

@@ -2,11 +2,11 @@
 //!
 //! | model | what resists | file |
 //! | --- | --- | --- |
-//! | `kinematic` | an ideal ratio, a joint and no force | `models/kinematic.rs` |
-//! | `impact` | K δ^e with damping, as in ADAMS | `models/impact.rs` |
-//! | `iso6336` | one stiffness for the whole mesh, after ISO 6336-1 | `models/iso6336.rs` |
-//! | `analytic` | each tooth a beam on its foundation, Hertz | `models/analytic.rs` |
-//! | `hybrid` | two reduced gears and the complementarity problem | `models/hybrid.rs` |
+//! | `kinematic` | an ideal ratio, a joint and no force | `kinematic.rs` |
+//! | `impact` | K δ^e with damping, as in ADAMS | `impact.rs` |
+//! | `iso6336` | one stiffness for the whole mesh, after ISO 6336-1 | `iso6336.rs` |
+//! | `analytic` | each tooth a beam on its foundation, Hertz | `analytic.rs` |
+//! | `hybrid` | two reduced gears and the complementarity problem | `hybrid.rs` |
 
 use gearmesh_dynamics::Iterate;
 

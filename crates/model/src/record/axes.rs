@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use super::OPEN;
 use crate::data_tree::{DataArray, DataTree, Values};
 use crate::file_error::FileError;
-use crate::record::OPEN;
 
-pub(crate) fn form(axes: &[(&str, usize)], single: &str) -> String {
+pub(super) fn form(axes: &[(&str, usize)], single: &str) -> String {
     if axes.is_empty() {
         return single.to_owned();
     }
@@ -14,7 +14,7 @@ pub(crate) fn form(axes: &[(&str, usize)], single: &str) -> String {
 }
 
 /// An array whose open axis is as long as its values say.
-pub(crate) fn array(values: Values, axes: &[(&str, usize)], unit: &str, what: &str) -> DataArray {
+pub(super) fn array(values: Values, axes: &[(&str, usize)], unit: &str, what: &str) -> DataArray {
     let known = axes.iter().map(|axis| axis.1).filter(|n| *n != OPEN);
     let open = values.len() / known.product::<usize>().max(1);
     let closed = |&(label, n): &(_, _)| (label, if n == OPEN { open } else { n });
@@ -23,7 +23,7 @@ pub(crate) fn array(values: Values, axes: &[(&str, usize)], unit: &str, what: &s
 }
 
 /// The shape that an array of the file must have: its own along the open axis.
-pub(crate) fn shape(
+pub(super) fn shape(
     tree: &DataTree,
     path: &Path,
     name: &str,

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use gearmesh_geometry::ToothGeometry;
 
+use super::SlicePlane;
 use crate::mesh_frame::MeshFrame;
-use crate::pose::Vector6;
-use crate::slice_plane::{SlicePlane, on_turn};
+use crate::pose::{Vector6, on_turn};
 
 /// Ideal spur flanks of tooth 0 of both gears in a slice plane; helical ones before their section turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
