@@ -24,7 +24,7 @@ pub fn ensure(workspace: &Workspace, venv: &Venv) -> Result<(), XtaskError> {
     let built = build_dir()?.join("libgearmesh_native.so");
     if !built.exists() {
         console::say(
-            "building the libraries and the Python module; the first build takes about 10 minutes",
+            "building the libraries and the Python module; the first build takes about 7 minutes",
         );
     }
     // The whole workspace, not the module's package: cargo unites features over what is named, and libraries built with

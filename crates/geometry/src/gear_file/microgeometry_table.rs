@@ -2,7 +2,7 @@
 
 use super::topography_table::TopographyTable;
 use super::{MM, UM};
-use crate::input::{InputDocument, InputError, TableKeys};
+use crate::input::{Bounded, InputDocument, InputError, TableKeys, Within};
 use crate::involute;
 use crate::microgeometry::{
     EndRelief, FaceEnds, GearMicrogeometry, Microgeometry, ProfileCrowning, ProfileRelief,
@@ -13,36 +13,39 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
+/// An amount in micrometres.
+type Amount = Bounded<Within<-1000, 1000>>;
+
 /// The keys of `[microgeometry]`. Amounts are removed along the flank normal; negative ones are added.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub struct MicrogeometryTable {
     /// Tip relief at the tip circle.
-    pub tip_relief_um: Option<f64>,
+    pub tip_relief_um: Option<Amount>,
     /// Diameter at which the tip relief begins; needed with it.
     pub tip_relief_start_diameter_mm: Option<f64>,
     /// How it grows with the roll length; "linear" where not given.
     pub tip_relief_shape: Option<ReliefWord>,
     /// Root relief at the form circle, where the involute begins.
-    pub root_relief_um: Option<f64>,
+    pub root_relief_um: Option<Amount>,
     /// Diameter at which the root relief begins; needed with it.
     pub root_relief_start_diameter_mm: Option<f64>,
     /// How it grows with the roll length; "linear" where not given.
     pub root_relief_shape: Option<ReliefWord>,
     /// Profile crowning (barrelling) at the tip circle, a parabola in roll length from profile_crowning_diameter_mm on.
-    pub profile_crowning_um: Option<f64>,
+    pub profile_crowning_um: Option<Amount>,
     /// Diameter at which the profile crowning is zero; needed with it.
     pub profile_crowning_diameter_mm: Option<f64>,
     /// Slope of the profile over the whole involute: half of it removed at the tip circle, half added at the form
     /// circle; 0 where not given.
-    pub profile_angle_um: Option<f64>,
+    pub profile_angle_um: Option<Amount>,
     /// Lead crowning: a parabola over the face, zero at mid-face, this at both ends; 0 where not given.
-    pub lead_crowning_um: Option<f64>,
+    pub lead_crowning_um: Option<Amount>,
     /// Slope of the flank line over the whole face width (helix angle modification): half of it removed at +z, half
     /// added at -z, zero at mid-face; 0 where not given.
-    pub flank_angle_um: Option<f64>,
+    pub flank_angle_um: Option<Amount>,
     /// End relief at the faces.
-    pub end_relief_um: Option<f64>,
+    pub end_relief_um: Option<Amount>,
     /// Length along the axis over which the end relief grows; needed with it.
     pub end_relief_length_mm: Option<f64>,
     /// How it grows along the axis; "linear" where not given.
@@ -51,7 +54,7 @@ pub struct MicrogeometryTable {
     pub end_relief_end: Option<FaceEnds>,
     /// Twist (bias): slope of the profile over the whole involute at the face towards +z less that at the one towards
     /// -z; 0 where not given.
-    pub twist_um: Option<f64>,
+    pub twist_um: Option<Amount>,
     /// Any other form: a table over the flank, added to the rest.
     pub topography: Option<TopographyTable>,
     /// Keys that are others on right flanks.
@@ -72,9 +75,6 @@ pub enum ReliefWord {
     /// As a circle that touches the unmodified flank at the start.
     Arc,
 }
-
-/// Largest amount in micrometres.
-const LARGEST_UM: f64 = 1000.0;
 
 impl MicrogeometryTable {
     /// The microgeometry in SI units of a gear with this profile and face width \[m\]. The table stands at the dotted `path`;
@@ -203,7 +203,7 @@ impl MicrogeometryTable {
 
 /// A relief of the profile by its keys, each with its name.
 struct StatedRelief {
-    amount: (&'static str, Option<f64>),
+    amount: (&'static str, Option<Amount>),
     start: (&'static str, Option<f64>),
     shape: (&'static str, Option<ReliefWord>),
     to_root: bool,
@@ -237,27 +237,19 @@ impl SideTable<'_> {
         TableKeys::new(self.document, &place).require("", value, ok, allowed)
     }
 
-    /// An amount \[m\], zero where not given.
-    fn amount_m(&self, key: &str, amount_um: Option<f64>) -> Result<f64, InputError> {
-        let amount = amount_um.unwrap_or(0.0);
-        self.require(key, amount, amount.abs() <= LARGEST_UM, "-1000 to 1000")?;
-        Ok(UM * amount)
-    }
-
     /// An amount \[m\] and the length in millimetres that belongs to it; none where neither is given, nor any of `others`.
     fn together(
         &self,
-        (amount_key, amount_um): (&str, Option<f64>),
+        (amount_key, amount_um): (&str, Option<Amount>),
         (length_key, length_mm): (&str, Option<f64>),
         others: &[(&str, bool)],
     ) -> Result<Option<(f64, f64)>, InputError> {
-        let amount_m = self.amount_m(amount_key, amount_um)?;
         let given = others
             .iter()
             .filter(|(_, given)| *given)
             .map(|(key, _)| *key);
         match (amount_um, length_mm) {
-            (Some(_), Some(length_mm)) => Ok(Some((amount_m, length_mm))),
+            (Some(amount_um), Some(length_mm)) => Ok(Some((UM * amount_um, length_mm))),
             (Some(_), None) => Err(self.error(amount_key, format!("needs {length_key}"))),
             (None, _) => match length_mm
                 .map(|_| length_key)
@@ -302,6 +294,11 @@ impl SideTable<'_> {
     }
 }
 
+/// An amount \[m\], zero where not given.
+fn amount_m(amount_um: Option<Amount>) -> f64 {
+    UM * amount_um.unwrap_or_default()
+}
+
 /// The keys of one side, and the teeth that they act on.
 struct FlankTable<'a> {
     of: SideTable<'a>,
@@ -320,15 +317,11 @@ impl FlankTable<'_> {
             profile_crowning: self.profile_crowning()?,
             tip_relief: self.relief(table.tip_relief())?,
             root_relief: self.relief(table.root_relief())?,
-            profile_angle_m: self
-                .of
-                .amount_m("profile_angle_um", table.profile_angle_um)?,
-            lead_crowning_m: self
-                .of
-                .amount_m("lead_crowning_um", table.lead_crowning_um)?,
-            flank_angle_m: self.of.amount_m("flank_angle_um", table.flank_angle_um)?,
+            profile_angle_m: amount_m(table.profile_angle_um),
+            lead_crowning_m: amount_m(table.lead_crowning_um),
+            flank_angle_m: amount_m(table.flank_angle_um),
             end_relief: self.end_relief()?,
-            twist_m: self.of.amount_m("twist_um", table.twist_um)?,
+            twist_m: amount_m(table.twist_um),
             topography: topography
                 .map(|table| {
                     let place = self.of.place("topography");
@@ -399,14 +392,14 @@ impl FlankTable<'_> {
     fn shape(
         &self,
         word: Option<ReliefWord>,
-        (key, amount_um): (&str, Option<f64>),
+        (key, amount_um): (&str, Option<Amount>),
         length_m: f64,
     ) -> Result<ReliefShape, InputError> {
         Ok(match word.unwrap_or_default() {
             ReliefWord::Linear => ReliefShape::Linear,
             ReliefWord::Parabolic => ReliefShape::Parabolic,
             ReliefWord::Arc => {
-                let (amount, most) = (amount_um.unwrap_or(0.0), length_m / UM);
+                let (amount, most) = (*amount_um.unwrap_or_default(), length_m / UM);
                 let allowed = format!(
                     "less than {most:.1} in magnitude: an arc is not deeper than it is long"
                 );

@@ -2,7 +2,7 @@
 
 use super::{MM, UM};
 use crate::given;
-use crate::input::{InputError, NumberTable, TableKeys};
+use crate::input::{Bounded, InputError, NumberTable, TableKeys, Within};
 use crate::involute;
 use crate::microgeometry::Topography;
 use crate::tooth::ToothGeometry;
@@ -24,11 +24,14 @@ pub struct TopographyTable {
     /// Places along the axis from mid-face, increasing.
     pub z_mm: Option<Vec<f64>>,
     /// Material removed: a list for each place along the profile, with a number for each place along the axis.
-    pub removed_um: Option<Vec<Vec<f64>>>,
+    pub removed_um: Option<Vec<Vec<Amount>>>,
 }
 
 /// Largest amount in micrometres.
-const LARGEST_UM: f64 = 1000.0;
+const LARGEST_UM: i32 = 1000;
+
+/// An amount in micrometres.
+type Amount = Bounded<Within<{ -LARGEST_UM }, LARGEST_UM>>;
 
 impl TopographyTable {
     pub(super) fn check(
@@ -104,13 +107,9 @@ impl TopographyTable {
                 );
                 return Err(keys.error(&format!("removed_um.{i}"), problem));
             }
-            for (j, &value) in row.iter().enumerate() {
-                let ok = value.abs() <= LARGEST_UM;
-                keys.require(&format!("removed_um.{i}.{j}"), value, ok, "-1000 to 1000")?;
-            }
         }
         let heights = heights.iter().map(|z| MM * z).collect();
-        let removed = rows.iter().flatten().map(|value| UM * value).collect();
+        let removed = rows.iter().flatten().map(|&value| UM * value).collect();
         Topography::new(rolls, heights, removed).map_err(|e| keys.error("", e))
     }
 }
@@ -135,9 +134,9 @@ fn from_file(path: &Path, profile: &ToothGeometry) -> Result<Topography, InputEr
     }
     let mut removed = vec![None; places.len() * heights.len()];
     for ((place, z), value) in columns[0].iter().zip(columns[1]).zip(columns[2]) {
-        if value.abs() > LARGEST_UM {
+        if value.abs() > f64::from(LARGEST_UM) {
             return Err(table.error(format!(
-                "removed_um: found {value}, allowed is -1000 to 1000"
+                "removed_um: found {value}, allowed is -{LARGEST_UM} to {LARGEST_UM}"
             )));
         }
         let row = places.partition_point(|other| other < place);

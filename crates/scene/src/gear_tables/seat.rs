@@ -1,7 +1,14 @@
 //! How a gear sits on its body: its place there, and what holds its bore.
 
+use gearmesh_geometry::input::{Bounded, End};
+use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+number_range!(
+    /// Tilts of a gear on its body in milliradians, as of misaligned axes.
+    pub SmallTilt: End::At(-10.0), End::At(10.0), "the misalignment is treated as small"
+);
 
 /// `eccentricity_1` and `eccentricity_2`.
 #[derive(Debug, Clone, Copy, Default, Deserialize, Serialize, JsonSchema)]
@@ -12,7 +19,7 @@ pub struct EccentricityTable {
     /// Its direction from the body's x axis.
     pub direction_deg: f64,
     /// Tilt of the gear's axis.
-    pub tilt_mrad: f64,
+    pub tilt_mrad: Bounded<SmallTilt>,
     /// Direction of the tilt's axis from the body's x axis.
     pub tilt_direction_deg: f64,
 }

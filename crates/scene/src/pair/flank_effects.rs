@@ -13,9 +13,6 @@ use crate::gear_tables::UM;
 use crate::gear_tables::seat::EccentricityTable;
 use crate::microgeometry_words::microgeometry_words;
 
-/// Largest tilt of a gear on its body, as of misaligned axes.
-const LARGEST_TILT_MRAD: f64 = 10.0;
-
 impl Scene {
     /// Puts the scene's microgeometry of a gear (1 or 2) in the place of that of its file; what acts, in words.
     ///
@@ -59,7 +56,7 @@ pub(crate) fn deviations(
 /// Places of the gears on their bodies; none where both stand on their axes.
 ///
 /// # Errors
-/// [`InputError`] for an offset that leaves no line of action, or a tilt that is not small.
+/// [`InputError`] for an offset that leaves no line of action.
 pub(crate) fn runout(scene: &Scene, pair: &GearPair) -> Result<Option<Runout>, InputError> {
     let tables = scene.eccentricity.map(Option::unwrap_or_default);
     if scene.eccentricity.iter().all(Option::is_none) {
@@ -70,18 +67,11 @@ pub(crate) fn runout(scene: &Scene, pair: &GearPair) -> Result<Option<Runout>, I
     let least_m = pair.circles().sum_m().abs();
     let most_um = 0.25 * (pair.centre_distance_m - least_m) / UM;
     for (number, table) in [1, 2].into_iter().zip(&tables) {
-        let at = |name: &str| format!("eccentricity_{number}.{name}");
         keys.require(
-            &at("offset_um"),
+            &format!("eccentricity_{number}.offset_um"),
             table.offset_um,
             table.offset_um.abs() <= most_um,
             &format!("-{most_um:.0} to {most_um:.0}, a quarter of the centre distance less its smallest value, the sum (with a ring the difference) of the base radii"),
-        )?;
-        keys.require(
-            &at("tilt_mrad"),
-            table.tilt_mrad,
-            table.tilt_mrad.abs() <= LARGEST_TILT_MRAD,
-            "-10 to 10: the misalignment is treated as small",
         )?;
     }
     Ok(Some(Runout::new(pair, tables.map(seat))))

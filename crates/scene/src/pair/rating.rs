@@ -92,10 +92,7 @@ impl RatedPair<'_> {
         keys: &TableKeys<'_>,
     ) -> Result<PairRating, InputError> {
         let rule = &table.rule(keys)?;
-        if let Some(gear) = table.gear {
-            keys.require("gear", gear as f64, (1..=2).contains(&gear), "1 or 2")?;
-        }
-        let series = self.gauge(&rule.gauge, table.gear, keys)?;
+        let series = self.gauge(&rule.gauge, table.gear.map(Count::get), keys)?;
         let (gear, _) = self.gauges[series];
         let (pitches, teeth) = (self.scene.pitches, self.models[gear - 1].teeth);
         if !pitches.is_multiple_of(teeth) {

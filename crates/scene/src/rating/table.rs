@@ -48,7 +48,7 @@ pub struct FatigueTable {
     /// Multibody scenes: body of the gauge; needed where gauges of several bodies have that name.
     pub body: Option<String>,
     /// Scenes of a pair: gear of the gauge, 1 or 2; needed where gauges of both have that name.
-    pub gear: Option<usize>,
+    pub gear: Option<Count<1, 2>>,
     /// Method of strain recovery, 1 or 2; 2 where not given.
     pub method: Option<Count<1, 2>>,
     /// "plane-strain" (stress E ε/(1 − ν²), middle of a wide tooth) or "uniaxial" (E ε, near the end faces);

@@ -68,7 +68,7 @@ fn pair(models: [&str; 2]) -> PairTables {
         },
         gear_1: GearTable {
             microgeometry: Some(MicrogeometryTable {
-                tip_relief_um: Some(5.0),
+                tip_relief_um: Some(5.0.into()),
                 tip_relief_start_diameter_mm: Some(94.0),
                 ..MicrogeometryTable::default()
             }),

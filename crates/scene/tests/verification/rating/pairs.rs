@@ -164,7 +164,7 @@ fn ratings_that_cannot_be_are_refused() {
         (
             "gear = 2\n",
             "gear = 3\n",
-            "rating.1.gear: found 3, allowed is 1 or 2",
+            "rating.1.gear: found 3, allowed is 1 to 2",
         ),
         (
             "gauge = \"g5\"",
