@@ -12,9 +12,9 @@ use gearmesh_operations::run::{RunHow, run_bevel};
 use gearmesh_operations::tca::{TcaRequest, tca};
 use gearmesh_operations::{Failure, Watch};
 use gearmesh_report::pair_in_space::bevel_pair;
+use gearmesh_scene::ModelShelf;
 use gearmesh_scene::pair::{BevelScene, SceneResult};
 use gearmesh_scene::study::RestFigures;
-use gearmesh_scene::ModelShelf;
 use serde_json::{Value, json};
 
 use crate::problem::Problem;
