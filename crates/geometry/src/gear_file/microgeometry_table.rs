@@ -1,8 +1,8 @@
 //! `[microgeometry]` of gear files and scenes: what is removed from the ideal flanks.
 
-use super::topography_table::TopographyTable;
+use super::topography_table::{Amount, TopographyTable};
 use super::{MM, UM};
-use crate::input::{Bounded, InputDocument, InputError, TableKeys, Within};
+use crate::input::{InputDocument, InputError, TableKeys};
 use crate::involute;
 use crate::microgeometry::{
     EndRelief, FaceEnds, GearMicrogeometry, Microgeometry, ProfileCrowning, ProfileRelief,
@@ -12,9 +12,6 @@ use crate::tooth::ToothGeometry;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-
-/// An amount in micrometres.
-type Amount = Bounded<Within<-1000, 1000>>;
 
 /// The keys of `[microgeometry]`. Amounts are removed along the flank normal; negative ones are added.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema, Default)]

@@ -30,8 +30,8 @@ pub struct TopographyTable {
 /// Largest amount in micrometres.
 const LARGEST_UM: i32 = 1000;
 
-/// An amount in micrometres.
-type Amount = Bounded<Within<{ -LARGEST_UM }, LARGEST_UM>>;
+/// What is removed from a flank, or added where it is negative, in micrometres.
+pub type Amount = Bounded<Within<{ -LARGEST_UM }, LARGEST_UM>>;
 
 impl TopographyTable {
     pub(super) fn check(
