@@ -14,9 +14,8 @@
 //! section.
 //!
 //! Gauges: p = 2, as displacements of nodes have it and is found (1.7 to 3.7 in plane strain), over the loads that strain
-//! them most, by RMS. Deflections: solid
-//! bodies converge with p = 2; at the sharp inner edges between web, rim and hub p falls to 2λ = 1.09 (see
-//! `gearmesh_mesh::layers`), and p = 1 is taken. S is the factor of safety of Roache's grid convergence index: 3 where
+//! them most, by RMS. Deflections: solid bodies converge with p = 2; at the sharp inner edges between web, rim and hub p
+//! falls to 2λ = 1.09 (see `gearmesh_mesh::layers`), and p = 1 is taken. S is the factor of safety of Roache's grid convergence index: 3 where
 //! two meshes tell nothing of the order, 1.25 where three have confirmed it. Graded meshes are not similar to the last
 //! element: what is found against converged quadratic elements is up to 1.1 times the bare estimate of a gauge and
 //! of the loaded tooth's deflection, 2.7 times that of other teeth. So S = 2 for gauges and the loaded

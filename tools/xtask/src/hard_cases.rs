@@ -166,6 +166,34 @@ pub fn hard_cases(workspace: &Workspace, _: &Options) -> Result<ExitCode, XtaskE
     Ok(ExitCode::from(u8::from(failed > 0)))
 }
 
+/// Figures that a page shows of a number at most: enough to see how a figure converges.
+const SHOWN_DIGITS: usize = 7;
+
+/// A text whose numbers with more figures than [`SHOWN_DIGITS`] are rounded.
+fn in_short(text: &str) -> String {
+    let mut short = String::new();
+    let mut rest = text;
+    while let Some(begin) = rest.find(|c: char| c.is_ascii_digit()) {
+        let (before, number) = rest.split_at(begin);
+        let end = number
+            .find(|c: char| !(c.is_ascii_digit() || c == '.'))
+            .unwrap_or(number.len());
+        let (mantissa, after) = number.split_at(end);
+        let digits = mantissa.trim_start_matches(['0', '.']);
+        let count = digits.chars().filter(char::is_ascii_digit).count();
+        short.push_str(before);
+        match (mantissa.parse::<f64>(), mantissa.split_once('.')) {
+            (Ok(value), Some((_, decimals))) if count > SHOWN_DIGITS => {
+                let kept = decimals.len().saturating_sub(count - SHOWN_DIGITS);
+                short.push_str(&format!("{value:.kept$}"));
+            }
+            _ => short.push_str(mantissa),
+        }
+        rest = after;
+    }
+    short + rest
+}
+
 /// The page.
 fn page(host: &Host, rows: &[(&Case, Option<&Finished>)]) -> String {
     let total: Duration = rows.iter().filter_map(|(_, f)| *f).map(|f| f.time).sum();
@@ -196,7 +224,7 @@ fn page(host: &Host, rows: &[(&Case, Option<&Finished>)]) -> String {
             place = here;
         }
         let (verdict, found, time) = match finished {
-            Some(f) if f.passed => ("", f.printed.join("<br>"), readable(f.time)),
+            Some(f) if f.passed => ("", in_short(&f.printed.join("<br>")), readable(f.time)),
             Some(f) => ("**FAILED** ", f.printed.join("<br>"), readable(f.time)),
             None => ("**NOT RUN** ", String::new(), String::new()),
         };
@@ -235,6 +263,13 @@ mod tests {
             (&*alone[0].target, &*alone[0].test),
             ("hard_cases", "one_ball")
         );
+    }
+
+    #[test]
+    fn long_numbers_are_rounded() {
+        let text = "[12405.761537860184, -4.707098051431353e-6] 0.0008948564855751848 m, 1.2.3, 100000 steps, v2, 0.25";
+        let short = "[12405.76, -4.707098e-6] 0.0008948565 m, 1.2.3, 100000 steps, v2, 0.25";
+        assert_eq!(in_short(text), short);
     }
 
     /// Every case of the project says what is hard in it.

@@ -12,7 +12,7 @@ use std::process::Command;
 
 use crate::console;
 use crate::error::XtaskError;
-use crate::steps::{cargo, run_checked};
+use crate::steps::{BUILD, cargo, run_checked};
 use crate::venv::Venv;
 use crate::workspace::Workspace;
 
@@ -24,12 +24,10 @@ pub fn ensure(workspace: &Workspace, venv: &Venv) -> Result<(), XtaskError> {
     let built = build_dir()?.join("libgearmesh_native.so");
     if !built.exists() {
         console::say(
-            "building the libraries and the Python module; the first build takes about 7 minutes",
+            "building the libraries, the Python module and the program; the first build takes about 7 minutes",
         );
     }
-    // The whole workspace, not the module's package: cargo unites features over what is named, and libraries built with
-    // others would be compiled again by the next step.
-    run_checked(cargo(workspace, venv).args(["build", "--workspace", "--lib"]))?;
+    run_checked(cargo(workspace, venv).args(BUILD))?;
 
     let site = site_packages(venv)?;
     let package = site.join("gearmesh");

@@ -63,6 +63,7 @@ fn as_in_equilibrium(
         .iter()
         .map(|l| l.outer_load_n)
         .fold(0.0, f64::max);
+    let mut worst = 0.0_f64;
     for (ball, load) in loads.elements[0].iter().enumerate() {
         for (race, expected) in [("inner", load.inner_load_n), ("outer", load.outer_load_n)] {
             let here = found.get(&format!("bearing.ball_{}_{race}_N", ball + 1));
@@ -71,8 +72,12 @@ fn as_in_equilibrium(
                 "ball {} {race}: {here}, in equilibrium {expected}",
                 ball + 1
             );
+            worst = worst.max((here - expected).abs() / largest);
         }
     }
+    println!(
+        "loads on all balls as in equilibrium to {worst:.1e} of the largest, {largest:.3e} N (allowed {share:.0e})"
+    );
 }
 
 /// Balls that just touch, turning slowly: no ball carries more than its centrifugal force; pressed in by 0.2 mm they carry a kilonewton each.
@@ -82,14 +87,21 @@ fn no_clearance_and_heavy_preload() {
     let idle = held(&bearing, &axial(0.0), 100.0, (1e-5, 5e-3));
     let ball = row(&bearing);
     let centrifugal = ball.ball_mass_kg * ball.pitch_radius_m * (0.4_f64 * 100.0).powi(2);
+    let mut most = 0.0_f64;
     for number in 1..=9 {
         let load = idle.get(&format!("bearing.ball_{number}_outer_N"));
         assert!(load <= 1.1 * centrifugal, "{load} N, {centrifugal} N");
+        most = most.max(load);
     }
+    println!(
+        "just touching: at most {most:.3e} N on a ball, centrifugal force {centrifugal:.3e} N (allowed 1.1 times that)"
+    );
     let pose = axial(2e-4);
     // Friction of a kilonewton's load stops a ball within microseconds: the step resolves that.
     let pressed = held(&bearing, &pose, 100.0, (1e-6, 1e-3));
-    assert!(pressed.get("bearing.ball_1_inner_N") > 1000.0);
+    let carried = pressed.get("bearing.ball_1_inner_N");
+    println!("pressed in by 0.2 mm: {carried:.1} N on ball 1 (at least 1000 N)");
+    assert!(carried > 1000.0);
     as_in_equilibrium(&pressed, &bearing, &pose, 100.0, 1e-3);
 }
 
@@ -135,6 +147,16 @@ fn balls_lose_contact_each_turn() {
             "{least} to {most}, {largest}"
         );
     }
+    let highest_low = range.iter().map(|r| r[0]).fold(0.0, f64::max);
+    let lowest_peak = range.iter().map(|r| r[1]).fold(f64::INFINITY, f64::min);
+    println!(
+        "in a turn of the cage each of {} balls falls to {highest_low} N and reaches at least {lowest_peak:.1} N",
+        range.len()
+    );
+    println!(
+        "largest load in equilibrium {largest:.1} N: {:.2} of it reached (at least 0.7)",
+        lowest_peak / largest
+    );
 }
 
 /// Balls that touch nothing feel nothing, at rest to the last bit; a run with them goes on.
@@ -142,19 +164,27 @@ fn balls_lose_contact_each_turn() {
 fn all_balls_unloaded() {
     let bearing = bearing(&format!("{B6205}radial_clearance_um = 50.0\n"));
     let rest = held(&bearing, &RingPose::default(), 0.0, (1e-4, 1e-2));
+    let mut largest = 0.0_f64;
     for axis in ["x", "y", "z"] {
-        assert_eq!(rest.get(&format!("bearing.force_shaft_{axis}_N")), 0.0);
+        let force = rest.get(&format!("bearing.force_shaft_{axis}_N"));
+        assert_eq!(force, 0.0);
+        largest = largest.max(force.abs());
     }
+    println!("at rest: largest force on the shaft {largest} N");
     // In motion they lie on the outer race by centrifugal force alone, and slow down there.
     let moving = held(&bearing, &RingPose::default(), 300.0, (1e-5, 5e-3));
+    let (mut inner, mut least, mut most) = (0.0_f64, f64::INFINITY, 0.0_f64);
     for ball in 1..=9 {
-        assert_eq!(moving.get(&format!("bearing.ball_{ball}_inner_N")), 0.0);
-        assert!(
-            moving
-                .get(&format!("bearing.ball_{ball}_outer_N"))
-                .is_finite()
-        );
+        let load = moving.get(&format!("bearing.ball_{ball}_inner_N"));
+        assert_eq!(load, 0.0);
+        inner = inner.max(load.abs());
+        let load = moving.get(&format!("bearing.ball_{ball}_outer_N"));
+        assert!(load.is_finite());
+        (least, most) = (least.min(load), most.max(load));
     }
+    println!(
+        "at 300 rad/s: {inner} N on a ball at the inner race, {least:.3e} to {most:.3e} N at the outer"
+    );
 }
 
 /// Orbit speed of the balls at the end, the shaft driven along its own time function.
@@ -184,11 +214,19 @@ fn start_from_rest_and_reversal() {
         0.0,
         0.03,
     );
+    println!(
+        "from rest to 100 rad/s: balls orbit at {start:.3} rad/s, rolling {rolling:.3}: off by {:.1e} (allowed 2e-3)",
+        (start / rolling - 1.0).abs()
+    );
     close(start, rolling, 2e-3);
     let back = driven(
         TimeFunction::step(0.005, 100.0, 0.03, -100.0).unwrap(),
         100.0,
         0.04,
+    );
+    println!(
+        "reversed to -100 rad/s: {back:.3} rad/s: off by {:.1e} (allowed 2e-3)",
+        (back / -rolling - 1.0).abs()
     );
     close(back, -rolling, 2e-3);
 }
@@ -203,12 +241,14 @@ fn four_million() {
     let ball = row(&bearing);
     let orbit = found.get("bearing.orbit_speed_rad_per_s");
     let centrifugal = ball.ball_mass_kg * ball.pitch_radius_m * orbit * orbit;
+    println!("centrifugal force of a ball {centrifugal:.1} N (at least 700 N)");
     assert!(centrifugal > 700.0, "{centrifugal}");
-    close(
-        orbit,
-        bearing.loads(&pose, &at(speed)).unwrap().1.elements[0][0].orbit_rad_per_s,
-        2e-2,
+    let expected = bearing.loads(&pose, &at(speed)).unwrap().1.elements[0][0].orbit_rad_per_s;
+    println!(
+        "balls orbit at {orbit:.1} rad/s, in equilibrium {expected:.1}: off by {:.1e} (allowed 2e-2)",
+        (orbit / expected - 1.0).abs()
     );
+    close(orbit, expected, 2e-2);
     // The loads are those of the square of that speed.
     as_in_equilibrium(&found, &bearing, &pose, speed, 4e-2);
 }
@@ -226,18 +266,22 @@ fn a_millinewton() {
     let mut run = Simulation::new(system, Params::fixed(1e-5)).unwrap();
     run.run(5e-3, |_| ControlFlow::Continue(())).unwrap();
     let found = Channels::at_end(run);
-    close(found.get("bearing.force_shaft_z_N"), -1e-3, 1e-2);
+    let force = found.get("bearing.force_shaft_z_N");
+    println!(
+        "axial force on the shaft {force:.5e} N against a thrust of 1e-3 N: off by {:.1e} (allowed 1e-2)",
+        (force / -1e-3 - 1.0).abs()
+    );
+    close(force, -1e-3, 1e-2);
 }
 
-/// Ten milliradians of misalignment: tonnes on the balls, as in equilibrium.
+/// Ten milliradians of misalignment: heavy loads on the balls, as in equilibrium, and a moment against the tilt.
 #[test]
 fn ten_milliradians() {
     let bearing = bearing(&format!("{B6205}radial_clearance_um = 20.0\n"));
     let pose = RingPose::from_five(&Vector5::new(0.0, 0.0, 0.0, 0.01, 0.0));
     let found = held(&bearing, &pose, 0.0, (1e-6, 1e-4));
-    let load = found.get("bearing.ball_1_inner_N");
-    assert!(load.is_finite());
     as_in_equilibrium(&found, &bearing, &pose, 0.0, 5e-3);
     let moment = found.get("bearing.moment_shaft_x_Nm");
+    println!("moment on the shaft about the axis of the tilt {moment:.2} N m (below -1 N m)");
     assert!(moment < -1.0, "{moment}");
 }

@@ -1,4 +1,5 @@
 //! Bearings whose balls are bodies: derivatives, blows, agreement with the equilibrium, cages, skidding.
+#![allow(clippy::print_stdout)]
 #![allow(clippy::unwrap_used, clippy::expect_used)] // test code
 
 mod blows;

@@ -43,10 +43,20 @@ fn assembly_errors_move_the_loaded_pattern() {
         "positions_per_pitch = 16",
         "positions_per_pitch = 12",
     );
-    for (text, face_mm, errors) in [
-        (rigid("bevel_20_20_loaded.toml"), 15.0, &ERRORS[..]),
-        (rigid("bevel_13_35_loaded.toml"), 28.0, &ERRORS[..]),
-        (reduced, 28.0, &ERRORS[..1]),
+    for (pair, text, face_mm, errors) in [
+        (
+            "20/20, rigid",
+            rigid("bevel_20_20_loaded.toml"),
+            15.0,
+            &ERRORS[..],
+        ),
+        (
+            "13/35, rigid",
+            rigid("bevel_13_35_loaded.toml"),
+            28.0,
+            &ERRORS[..],
+        ),
+        ("13/35, reduced", reduced, 28.0, &ERRORS[..1]),
     ] {
         let at = |key: &str, error: f64| {
             let text = format!("{text}\n[tca]\npositions_per_pitch = 8\n{key} = {error:?}\n");
@@ -54,6 +64,7 @@ fn assembly_errors_move_the_loaded_pattern() {
         };
         let (centred, as_designed) = at("offset_um", 0.0);
         let as_designed = tca(&as_designed);
+        let (mut parts, mut least) = (Vec::new(), f64::INFINITY);
         for (key, name, error) in errors {
             let [plus, minus] = [*error, -error].map(|error| at(key, error).0);
             let told = numbers(&as_designed["sensitivity"][name]);
@@ -64,6 +75,7 @@ fn assembly_errors_move_the_loaded_pattern() {
                     sign * there > 0.0 && sign * back < 0.0,
                     "{key}: {there} and {back}, told {told:?}"
                 );
+                least = least.min(sign * there).min(-sign * back);
             }
             // It goes some way with the mean contact: along the tooth 5 to 100 % of what that does.
             let moved_mm = 0.5 * (plus[0] - minus[0]) * face_mm;
@@ -74,7 +86,13 @@ fn assembly_errors_move_the_loaded_pattern() {
             };
             let part = moved_mm / (told[0] * scale * error);
             assert!((0.05..1.0).contains(&part), "{key}: {part}");
+            parts.push(format!("{part:.2} at {key} = {error}"));
         }
+        println!(
+            "{pair}: movement along the tooth over that of the contact without load (allowed 0.05 to 1): {}; least movement the told way \
+             {least:.1e} of the face or the flank's height (more than 0)",
+            parts.join(", ")
+        );
     }
 }
 
@@ -121,6 +139,12 @@ fn reduced_members_where_it_is_hard() {
         let most = loads.iter().copied().fold(0.0, f64::max);
         let end = if at_heel { loads[6] } else { loads[0] };
         assert!(end > 0.2 * most, "{name}: {loads:?}");
+        println!(
+            "slice at the {name} carries up to {:.0} N/mm (at least a fifth of the largest, {:.0} N/mm), energy error {:.1e} of the work (allowed 1e-4)",
+            1e-3 * end,
+            1e-3 * most,
+            result.relative_energy_error().unwrap()
+        );
     }
     let brake = "torque_Nm = { step = { start_s = 0.0, from = 0.0, end_s = 0.01, to = -100.0 } }";
     let sides = ["right", "left"];
@@ -140,8 +164,19 @@ fn reduced_members_where_it_is_hard() {
     let result = run("shaking", &shaking, 5e-4);
     let both = sides.map(|side| force(&result, side));
     assert!(both.iter().all(|force| force.iter().any(|f| *f > 200.0)));
-    let free = (0..both[0].len()).filter(|row| both[0][*row] + both[1][*row] == 0.0);
-    assert!(free.count() > both[0].len() / 4);
+    let free = (0..both[0].len())
+        .filter(|row| both[0][*row] + both[1][*row] == 0.0)
+        .count();
+    assert!(free > both[0].len() / 4);
+    let most = |force: &[f64]| force.iter().fold(0.0_f64, |most, f| most.max(*f));
+    println!(
+        "shaking: no force {:.0} % of the time (at least 25 %), largest force {:.0} N on the right, {:.0} N on the left flanks (at least 200 N), \
+         energy error {:.1e} of the work (allowed 5e-4)",
+        100.0 * free as f64 / both[0].len() as f64,
+        most(&both[0]),
+        most(&both[1]),
+        result.relative_energy_error().unwrap()
+    );
     // From brake to drive.
     let turning =
         "torque_Nm = { step = { start_s = 0.005, from = -50.0, end_s = 0.02, to = 50.0 } }";
@@ -149,4 +184,12 @@ fn reduced_members_where_it_is_hard() {
     let [right, left] = sides.map(|side| force(&result, side));
     let last = right.len() - 1;
     assert!(right[..last / 6].iter().any(|f| *f > 0.0) && left[last] > 0.0 && right[last] == 0.0);
+    println!(
+        "turning: right flanks up to {:.0} N in the first sixth, {:.0} N at the end, left ones {:.0} N; energy error {:.1e} of the work \
+         (allowed 1e-4)",
+        most(&right[..last / 6]),
+        right[last].abs(),
+        left[last],
+        result.relative_energy_error().unwrap()
+    );
 }

@@ -72,6 +72,7 @@ fn reactions_hold_though_the_body_turns_far_from_where_the_matrix_was_made() {
     let inertia = 4.0 + m * x * x;
     for step_s in [4e-4, 1e-4] {
         let mut simulation = Simulation::new(door(&[0.2]), Params::fixed(step_s)).unwrap();
+        let mut worst = 0.0_f64;
         simulation
             .run(2.0, |step| {
                 let phi = step.to.orientations[0].scaled_axis().z;
@@ -84,6 +85,7 @@ fn reactions_hold_though_the_body_turns_far_from_where_the_matrix_was_made() {
                 let expected = across[0].hypot(across[1]);
                 let moment = step.lambda[3].hypot(step.lambda[4]);
                 let error = moment / expected - 1.0;
+                worst = worst.max(error.abs());
                 assert!(
                     error.abs() < 1.1e-8 / step_s,
                     "{} s: {moment} N m, error {error:e}",
@@ -92,7 +94,12 @@ fn reactions_hold_though_the_body_turns_far_from_where_the_matrix_was_made() {
                 ControlFlow::Continue(())
             })
             .unwrap();
-        assert!(simulation.state().orientations[0].angle() > 1.7);
+        let turned = simulation.state().orientations[0].angle();
+        println!(
+            "steps of {step_s:.0e} s: moment off by {worst:.1e} of itself at most (allowed {:.1e}), door turned by {turned:.2} rad (at least 1.7)",
+            1.1e-8 / step_s
+        );
+        assert!(turned > 1.7);
     }
 }
 
@@ -103,10 +110,22 @@ fn a_minute_of_slow_rotation_does_not_drift() {
     let simulation = finish(driven_rotor(speed), Params::fixed(1e-3), 60.0);
     let info = simulation.info();
     // Ten turns of the driver, counted; the rotor follows and stays where its bearings hold it.
-    assert!((simulation.system().joints()[1].angle_rad() - 10.0 * TAU).abs() < 1e-9);
+    let ahead = simulation.system().joints()[1].angle_rad() - 10.0 * TAU;
+    println!("driver off by {ahead:.1e} rad after ten turns (allowed 1e-9)");
+    assert!(ahead.abs() < 1e-9);
     let z = simulation.state().velocity[5];
     assert!((z - speed).abs() < 1e-7 * speed, "{z}");
     let sag = 5.0 * 9.81 / 2e8;
+    println!(
+        "rotor: speed off by {:.1e} of itself (allowed 1e-7), sag of {sag:.2e} m by {:.1e} (allowed 1e-5)",
+        (z - speed).abs() / speed,
+        (simulation.state().positions_m[0].y + sag).abs() / sag
+    );
+    println!(
+        "joints off by {:.1e} m or rad at most (allowed 1e-12), kinetic energy by {:.1e} J (allowed 1e-8)",
+        info.largest_violation,
+        (info.energy.last.kinetic_j - 0.5 * 0.011 * speed * speed).abs()
+    );
     assert!(
         (simulation.state().positions_m[0].y + sag).abs() < 1e-5 * sag,
         "{}",
@@ -136,6 +155,7 @@ fn a_step_of_a_whole_turn_is_refused_with_advice() {
         "{error}"
     );
     let text = error.to_string();
+    println!("refused: {text}");
     assert!(text.contains("step of 1.000e0 s") && text.contains("adaptive"));
 }
 
@@ -183,6 +203,13 @@ fn a_force_that_is_no_number_ends_the_run() {
         let mut simulation = Simulation::new(system, Params::fixed(1e-2)).unwrap();
         let found = simulation.run(1.0, |_| ControlFlow::Continue(()));
         assert!(found.is_err(), "with joint: {joint}");
+        println!(
+            "{}: ended at {:.2} s with {:.3e} m/s: {}",
+            if joint { "with a joint" } else { "free" },
+            simulation.state().time_s,
+            simulation.state().velocity[0],
+            found.as_ref().unwrap_err()
+        );
         assert!(simulation.state().time_s < 0.06);
         assert!(simulation.state().velocity.iter().all(|v| v.is_finite()));
     }
@@ -212,6 +239,13 @@ fn an_adaptive_step_finds_the_length_that_a_stiff_spring_needs() {
         0.5,
     );
     let info = simulation.info();
+    println!(
+        "{} steps (more than 100) of {:.1e} to {:.1e} s (at most 1e-2), energy off by {:.1e} of that at the start (allowed 1e-2)",
+        info.steps,
+        info.step_range_s.0,
+        info.step_range_s.1,
+        info.energy.largest_error_j / info.energy.first.kinetic_j
+    );
     assert!(info.step_range_s.1 < 0.01 && info.steps > 100, "{info:?}");
     assert!(
         info.energy.largest_error_j < 1e-2 * info.energy.first.kinetic_j,
@@ -233,9 +267,14 @@ fn the_adaptive_step_follows_its_tolerance() {
         ((angle.abs() - spin.abs()).abs(), simulation.info().steps)
     };
     let ((coarse, few), (fine, many)) = (error(1e-7), error(1e-9));
+    println!("tolerance 1e-7: angle off by {coarse:.1e} rad, {few} steps");
+    println!(
+        "tolerance 1e-9: angle off by {fine:.1e} rad (allowed 1e-4 and 0.2 of the former), {many} steps"
+    );
     assert!(fine < 0.2 * coarse && fine < 1e-4, "{coarse} {fine}");
     // Steps go with the cube root of the tolerance: 100^(1/3) = 4.6.
     let ratio = many as f64 / few as f64;
+    println!("{ratio:.2} times as many steps (allowed 3 to 7)");
     assert!((3.0..7.0).contains(&ratio), "{few} {many}");
 }
 
@@ -255,6 +294,14 @@ fn a_resumed_run_gives_the_same_bits() {
             assert_eq!(second.state(), whole.state());
             assert_eq!(second.info(), whole.info());
             assert_eq!(second.checkpoint(), whole.checkpoint());
+            println!(
+                "{}: {} steps of {:.1e} to {:.1e} s, stopped at {:.3} s and resumed: the same bits",
+                whole.system().bodies()[0].name,
+                whole.info().steps,
+                whole.info().step_range_s.0,
+                whole.info().step_range_s.1,
+                first.state().time_s
+            );
         }
     }
 }
@@ -266,10 +313,16 @@ fn a_checkpoint_of_another_system_is_refused() {
     let error = Simulation::resume(driven_rotor(1.0), Params::fixed(1e-3), &checkpoint)
         .err()
         .unwrap();
+    println!("of another system, refused: {error}");
     assert!(matches!(error, DynamicsError::Checkpoint { .. }), "{error}");
     let mut damaged = checkpoint;
     damaged.matrix.pop();
-    assert!(Simulation::resume(door(&[0.2]), Params::fixed(1e-3), &damaged).is_err());
+    let resumed = Simulation::resume(door(&[0.2]), Params::fixed(1e-3), &damaged);
+    println!(
+        "one number short, refused: {}",
+        resumed.as_ref().err().unwrap()
+    );
+    assert!(resumed.is_err());
 }
 
 /// What a system does not name is never called, what it names once an evaluation.
@@ -280,7 +333,9 @@ fn what_a_system_does_not_name_is_not_called() {
         builder.body(Body::rigid("a", 1.0, [1.0; 3])).unwrap();
         finish(builder.build().unwrap(), Params::fixed(1e-2), 1.0)
     };
-    assert!(plain.system().calls().is_empty());
+    let called = plain.system().calls();
+    println!("a body alone: {} force elements called", called.len());
+    assert!(called.is_empty());
     let rotor = finish(driven_rotor(3.0), Params::fixed(1e-2), 1.0);
     let calls = rotor.system().calls();
     let named: Vec<&str> = rotor.system().elements().collect();
@@ -293,6 +348,14 @@ fn what_a_system_does_not_name_is_not_called() {
             "weight of rotor",
             "weight of driver"
         ]
+    );
+    println!(
+        "rotor: {} elements, the first called {} times ({} evaluations and 3 at the start), {} with tangents ({} factorisations and 3)",
+        calls.len(),
+        calls[0].force,
+        rotor.info().evaluations,
+        calls[0].tangents,
+        rotor.info().factorisations
     );
     for call in &calls {
         // The start takes three evaluations with tangents; then one for each Newton iteration.
@@ -323,6 +386,15 @@ fn output_on_a_uniform_grid_does_not_depend_on_the_steps() {
     let fine = sampled(Params::fixed(1e-4));
     let coarse = sampled(Params::adaptive(0.02, 1e-7, 1e-7));
     assert_eq!((fine.len(), coarse.len()), (101, 101));
+    let both = || fine.iter().zip(&coarse);
+    let late_s = both().map(|((t, _), (s, _))| (t - s).abs());
+    let apart = both().map(|((_, a), (_, b))| (a - b).abs());
+    println!(
+        "{} rows: angles apart by {:.1e} rad at most (allowed 2e-5), times by {:.1e} s (allowed 1e-12)",
+        fine.len(),
+        apart.fold(0.0, f64::max),
+        late_s.fold(0.0, f64::max)
+    );
     for ((t, a), (s, b)) in fine.iter().zip(&coarse) {
         assert!(
             (t - s).abs() < 1e-12 && (a - b).abs() < 2e-5,

@@ -1,5 +1,5 @@
 //! Systems of rigid bodies in time, in equilibrium and vibrating.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::print_stdout, clippy::unwrap_used)]
 
 mod hard_joints;
 mod hard_many_bodies;

@@ -124,9 +124,24 @@ pub fn run_within(pair: &str, scene: &str, [most_change, most_turn_rad]: [f64; 2
     let (rough, fine) = (runs.next().unwrap(), runs.next().unwrap());
     let [a, b] = [&rough, &fine].map(Shown::mean_force);
     assert!((a - b).abs() <= most_change * b, "{a} and {b} N");
+    let (mean, change) = (b, (a - b).abs() / b);
     let [a, b] = [&rough, &fine].map(|run| run.turn("gear"));
     assert!((a - b).abs() < most_turn_rad, "{a} and {b} rad");
+    let turn_change = (a - b).abs();
+    let errors = [&rough, &fine].map(|run| run.result.relative_energy_error().unwrap());
+    let error = errors[0].max(errors[1]);
+    println!(
+        "mean normal force {mean:.0} N; steps of 10 and 5 us differ by {change:.1e} of it (allowed {most_change:e}), in the gear's turn by \
+         {turn_change:.1e} rad (allowed {most_turn_rad:e}); energy error {error:.1e} of the work (allowed 1e-4)"
+    );
     fine
+}
+
+/// Least and largest of these values; zero has no sign.
+pub fn least_and_most(values: &[f64]) -> [f64; 2] {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    [least + 0.0, most + 0.0]
 }
 
 pub fn notes(pair: &str, scene: &str) -> String {
@@ -135,12 +150,20 @@ pub fn notes(pair: &str, scene: &str) -> String {
     build_in(scene, folder.path()).unwrap().notes.join("\n")
 }
 
+/// Of these notes those on teeth that jam.
+pub fn print_jams(notes: &str) {
+    for note in notes.lines().filter(|note| note.contains(" jam: ")) {
+        println!("reported: {note}");
+    }
+}
+
 /// Offsets of half a millimetre push the contact to the toe or to the heel, whose edges then carry.
 #[test]
 fn edges_carry_at_toe_and_heel() {
     for (offset, end) in [(0.5, 0.0), (-0.5, 1.0)] {
         let moved = format!("position_mm = [0.0, {offset:?}, 0.0]\ncardan_deg = [0.0, 0.0, 0.0]");
         let shown = run(&pair(), &changed(&at_3000_rpm(100.0), PINION, &moved), 5e-3);
+        let mut places = Vec::new();
         for gear in [1, 2] {
             let along = shown.of_pairs(&format!("along_{gear}"));
             assert!(
@@ -148,7 +171,13 @@ fn edges_carry_at_toe_and_heel() {
                 "{offset}: gear {gear}"
             );
             assert!(along.iter().all(|s| (-1e-9..=1.0 + 1e-9).contains(s)));
+            let [least, most] = least_and_most(&along);
+            places.push(format!("gear {gear} {least:.3} to {most:.3}"));
         }
+        println!(
+            "offset {offset} mm: contact along the face, toe 0, heel 1: {}",
+            places.join(", ")
+        );
     }
 }
 
@@ -171,12 +200,20 @@ fn contact_jumps_from_pair_to_pair_under_a_light_load() {
         "{steps:?}"
     );
     assert!(steps[0] == 1.0 || steps[0] == 19.0);
+    let [fewest, most] = least_and_most(&pairs[shown.half.clone()]);
+    let alone = pairs[shown.half.clone()].iter().filter(|n| **n == 1.0);
+    let share = 100.0 * alone.count() as f64 / shown.half.len() as f64;
+    println!(
+        "{fewest:.0} to {most:.0} pairs carry, one alone {share:.0} % of the time; taken over {} times, each time by the next tooth",
+        steps.len()
+    );
     let torque = 1.0;
     let mean = shown.mean_force();
     assert!(
         mean > torque / 0.0297 && mean < 1.5 * torque / 0.0297,
         "{mean}"
     );
+    println!("mean normal force {mean:.1} N (allowed 33.7 to 50.5 N)");
 }
 
 /// The shaft angle 24 mrad off, the gear 0.8 mm too far out: contact at the edges of the path, and no more. The other way the teeth jam, which is reported.
@@ -187,15 +224,24 @@ fn wrong_angle_and_wrong_cone_distance() {
             format!("position_mm = [{position:?}, 0.0, 0.0]\ncardan_deg = [0.0, {angle:?}]");
         changed(&at_3000_rpm(100.0), GEAR, &moved)
     };
+    let (mut worst, mut rows_apart) = (0.0_f64, 0);
     for moved in [at(0.0, 91.4), at(0.8, 90.0)] {
         let shown = run(&pair(), &moved, 5e-3);
-        assert!((shown.turn("gear") + shown.turn("pinion")).abs() < 3e-3);
-        assert!(shown.mesh("apart").iter().all(|apart| *apart == 0.0));
+        let off = (shown.turn("gear") + shown.turn("pinion")).abs();
+        assert!(off < 3e-3);
+        let apart = shown.mesh("apart");
+        assert!(apart.iter().all(|apart| *apart == 0.0));
         assert!(!notes(&pair(), &moved).contains("jam"));
+        worst = worst.max(off);
+        rows_apart += apart.iter().filter(|apart| **apart != 0.0).count();
     }
+    println!(
+        "turns of gear and pinion apart by {worst:.1e} rad at most (allowed 3e-3), rows with teeth out of reach {rows_apart}"
+    );
     for moved in [at(0.0, 88.6), at(-0.8, 90.0)] {
         let told = notes(&pair(), &moved);
         assert!(told.contains("the teeth of mesh `mesh` jam"), "{told}");
+        print_jams(&told);
     }
 }
 
@@ -206,17 +252,32 @@ fn teeth_lift_off_and_come_back() {
     let light = "{ step = { start_s = 0.0, from = 0.0, end_s = 0.003, to = 3.0 } }";
     let shown = run(&pair(), &scene(shaking, light, 0.012), 0.03);
     let force = shown.force();
-    assert!(shown.half.clone().filter(|row| force[*row] == 0.0).count() > shown.half.len() / 4);
+    let free = shown.half.clone().filter(|row| force[*row] == 0.0).count();
+    assert!(free > shown.half.len() / 4);
+    let mut strikes = Vec::new();
     for side in ["right", "left"] {
         let force = shown.mesh(&format!("normal_force_{side}_N"));
         assert!(force.iter().any(|force| *force > 500.0), "{side}");
+        strikes.push(format!("{side} {:.0} N", least_and_most(&force)[1]));
     }
+    println!(
+        "shaken: no force {:.0} % of the time (at least 25 %), largest force by flank (at least 500 N): {}",
+        100.0 * free as f64 / shown.half.len() as f64,
+        strikes.join(", ")
+    );
     let ramp = "{ step = { start_s = 0.001, from = 0.0, end_s = 0.011, to = 3000.0 } }";
     let shown = run(&pair(), &scene(ramp, "1.0", 0.02), 5e-3);
     assert!(shown.force().contains(&0.0));
     // At rest the gear stood at the coast flanks: it has crossed the backlash, 0.15 mm over a lever of 23 mm.
     let behind = shown.turn("gear") + shown.turn("pinion");
     assert!((behind - 6.5e-3).abs() < 0.6e-3, "{behind}");
+    let force = shown.force();
+    println!(
+        "ramp: no force in {} of {} rows (at least one), turns of gear and pinion then apart by {:.2} mrad (5.9 to 7.1)",
+        force.iter().filter(|force| **force == 0.0).count(),
+        force.len(),
+        1e3 * behind
+    );
 }
 
 /// The turn goes back under one torque, and the torque changes its sign under one speed: the other flanks then carry.
@@ -229,9 +290,15 @@ fn turn_and_torque_reverse() {
 pub fn reversals_carry_on_the_other_flanks(with: fn(&str) -> String, most_changes: [f64; 2]) {
     let back = "{ step = { start_s = 0.003, from = 1500.0, end_s = 0.011, to = -1500.0 } }";
     let shown = run(&pair(), &with(&scene(back, "20.0", 0.014)), most_changes[0]);
-    assert!(shown.turn("pinion").abs() < 1e-6 && shown.turn("gear").abs() < 2e-3);
+    let [pinion, gear] = ["pinion", "gear"].map(|body| shown.turn(body).abs());
+    assert!(pinion < 1e-6 && gear < 2e-3);
     let right = shown.mesh("normal_force_right_N");
     assert!(right.iter().all(|force| *force == 0.0));
+    println!(
+        "turned back: pinion off by {pinion:.1e} rad (allowed 1e-6), gear by {gear:.1e} rad (allowed 2e-3), largest force on the right \
+         flanks {:.0} N",
+        least_and_most(&right)[1]
+    );
     let changing = "{ step = { start_s = 0.003, from = 50.0, end_s = 0.011, to = -50.0 } }";
     let shown = run(
         &pair(),
@@ -239,11 +306,18 @@ pub fn reversals_carry_on_the_other_flanks(with: fn(&str) -> String, most_change
         most_changes[1],
     );
     let last = shown.force().len() - 1;
+    let mut carry = Vec::new();
     for (side, first, end) in [("left", true, false), ("right", false, true)] {
         let force = shown.mesh(&format!("normal_force_{side}_N"));
         let carried = force[20..100].iter().any(|force| *force > 0.0);
         assert_eq!((carried, force[last] > 0.0), (first, end), "{side}");
+        let most = least_and_most(&force[20..100])[1];
+        carry.push(format!(
+            "{side} flanks up to {most:.0} N early, {:.0} N at the end",
+            force[last].abs()
+        ));
     }
+    println!("torque changes its sign: {}", carry.join("; "));
 }
 
 /// Axes at 60 degrees: the mean normal force is that of statics at the mean radius within 5 %.
@@ -267,6 +341,10 @@ fn axes_at_60_degrees() {
     assert!(
         (mean - expected).abs() < 0.05 * expected,
         "{mean}, {expected}"
+    );
+    println!(
+        "mean normal force {mean:.0} N, by statics {expected:.0} N: {:+.2} % (allowed 5 %)",
+        100.0 * (mean / expected - 1.0)
     );
 }
 
@@ -295,11 +373,17 @@ fn teeth_in_teeth_are_refused() {
     ] {
         let found = refused
             .iter()
-            .any(|text| parts.iter().all(|part| text.contains(part)));
-        assert!(found, "{parts:?} {said:#?}");
+            .find(|text| parts.iter().all(|part| text.contains(part)));
+        assert!(found.is_some(), "{parts:?} {said:#?}");
+        println!("refused: {}", found.unwrap().replace('\n', " "));
     }
     // A tenth of a pitch is allowed on either side.
     assert!((20..26).contains(&refused.len()), "{said:#?}");
+    println!(
+        "refused at {} of {} angles over a pitch (20 to 25)",
+        refused.len(),
+        said.len()
+    );
 }
 
 /// A pair of few teeth on many.
@@ -321,14 +405,22 @@ fn eight_teeth_drive_48() {
     for part in ["undercut", "take more teeth, a larger pressure angle"] {
         assert!(refused.contains(part), "{refused}");
     }
+    // The folder has another name each time.
+    let place = format!("{}/", folder.path().display());
+    println!(
+        "20 degrees, refused: {}",
+        refused.replace(&place, "").replace('\n', " ")
+    );
     let shown = run(&eight_and_48(25.0), &scene, 5e-3);
     let behind = shown.turn("gear") + shown.turn("pinion") / 6.0;
     assert!(behind.abs() < 2e-3, "{behind}");
-    assert!((shown.turn("pinion") - 0.012 * 50.0 * TAU).abs() < 1e-6);
-    assert!(
-        shown
-            .of_pairs("tooth_1")
-            .iter()
-            .all(|tooth| (0.0..8.0).contains(tooth))
+    let off = (shown.turn("pinion") - 0.012 * 50.0 * TAU).abs();
+    assert!(off < 1e-6);
+    let teeth = shown.of_pairs("tooth_1");
+    assert!(teeth.iter().all(|tooth| (0.0..8.0).contains(tooth)));
+    let [first, last] = least_and_most(&teeth);
+    println!(
+        "25 degrees: gear off a sixth of the pinion's turn by {behind:.1e} rad (allowed 2e-3), pinion off its drive by {off:.1e} rad \
+         (allowed 1e-6), its teeth {first:.0} to {last:.0} carry"
     );
 }

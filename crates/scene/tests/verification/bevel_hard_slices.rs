@@ -44,6 +44,13 @@ fn slices_carry_at_toe_and_heel() {
             loads[COUNT - 4..].iter().all(|load| *load == 0.0),
             "{offset}: {loads:?}"
         );
+        let [first, largest, far] =
+            [loads[0], most, least_and_most(&loads[COUNT - 4..])[1]].map(|load| 1e-3 * load);
+        println!(
+            "offset {offset} mm: the slice at the {} carries up to {first:.0} N/mm (at least a fifth of the largest, {largest:.0} N/mm), the four at \
+             the other end {far:.0} N/mm",
+            if at_toe { "toe" } else { "heel" }
+        );
     }
 }
 
@@ -55,15 +62,24 @@ fn slices_at_a_wrong_angle_and_cone_distance() {
             format!("position_mm = [{position:?}, 0.0, 0.0]\ncardan_deg = [0.0, {angle:?}]");
         in_slices(&changed(&at_3000_rpm(100.0), GEAR, &moved))
     };
+    let (mut worst, mut rows_apart) = (0.0_f64, 0);
     for moved in [at(0.0, 91.4), at(0.8, 90.0)] {
         let shown = run(&pair(), &moved, 2e-3);
-        assert!((shown.turn("gear") + shown.turn("pinion")).abs() < 3e-3);
-        assert!(shown.mesh("apart").iter().all(|apart| *apart == 0.0));
+        let off = (shown.turn("gear") + shown.turn("pinion")).abs();
+        assert!(off < 3e-3);
+        let apart = shown.mesh("apart");
+        assert!(apart.iter().all(|apart| *apart == 0.0));
         assert!(!notes(&pair(), &moved).contains("jam"));
+        worst = worst.max(off);
+        rows_apart += apart.iter().filter(|apart| **apart != 0.0).count();
     }
+    println!(
+        "turns of gear and pinion apart by {worst:.1e} rad at most (allowed 3e-3), rows with teeth out of reach {rows_apart}"
+    );
     for moved in [at(0.0, 88.6), at(-0.8, 90.0)] {
         let told = notes(&pair(), &moved);
         assert!(told.contains("the teeth of mesh `mesh` jam"), "{told}");
+        print_jams(&told);
     }
 }
 
@@ -78,6 +94,10 @@ fn slices_under_a_light_load() {
         mean > 1.0 / 0.0297 && mean < 1.5 / 0.0297,
         "{mean} N, statics 44"
     );
+    println!(
+        "at most {:.0} pairs carry (allowed 2); mean normal force {mean:.1} N, by statics 44 N (allowed 33.7 to 50.5 N)",
+        least_and_most(&pairs)[1]
+    );
 }
 
 /// A drive that shakes tears the teeth apart and drives them against both sides; a ramp without load does it once.
@@ -89,17 +109,32 @@ fn slices_lift_off_and_come_back() {
     let shaken = in_slices(&scene(shaking, light, 0.012));
     let shown = run_within(&pair(), &shaken, [0.05, 3e-4]);
     let force = shown.force();
-    assert!(shown.half.clone().filter(|row| force[*row] == 0.0).count() > shown.half.len() / 4);
+    let free = shown.half.clone().filter(|row| force[*row] == 0.0).count();
+    assert!(free > shown.half.len() / 4);
+    let mut strikes = Vec::new();
     for side in ["right", "left"] {
         let force = shown.mesh(&format!("normal_force_{side}_N"));
         assert!(force.iter().any(|force| *force > 500.0), "{side}");
+        strikes.push(format!("{side} {:.0} N", least_and_most(&force)[1]));
     }
+    println!(
+        "shaken: no force {:.0} % of the time (at least 25 %), largest force by flank (at least 500 N): {}",
+        100.0 * free as f64 / shown.half.len() as f64,
+        strikes.join(", ")
+    );
     let ramp = "{ step = { start_s = 0.001, from = 0.0, end_s = 0.011, to = 3000.0 } }";
     let shown = run(&pair(), &in_slices(&scene(ramp, "1.0", 0.02)), 5e-3);
     assert!(shown.force().contains(&0.0));
     // At rest the gear stood at the coast flanks: it has crossed the backlash, 0.15 mm over a lever of 23 mm.
     let behind = shown.turn("gear") + shown.turn("pinion");
     assert!((behind - 6.5e-3).abs() < 0.6e-3, "{behind}");
+    let force = shown.force();
+    println!(
+        "ramp: no force in {} of {} rows (at least one), turns of gear and pinion then apart by {:.2} mrad (5.9 to 7.1)",
+        force.iter().filter(|force| **force == 0.0).count(),
+        force.len(),
+        1e3 * behind
+    );
 }
 
 /// The turn goes back under one torque, and the torque changes its sign under one speed: the other flanks then carry.
@@ -131,14 +166,24 @@ fn slices_of_other_axes_and_of_few_teeth() {
         20.0,
     );
     assert!((mean / expected - 1.0).abs() < 0.05, "{mean}, {expected}");
+    println!(
+        "axes at 60 degrees: mean normal force {mean:.0} N, by statics {expected:.0} N: {:+.2} % (allowed 5 %)",
+        100.0 * (mean / expected - 1.0)
+    );
 
     let shown = run(&eight_and_48(25.0), &in_slices(&at_3000_rpm(100.0)), 2e-3);
     let behind = shown.turn("gear") + shown.turn("pinion") / 6.0;
     assert!(behind.abs() < 5e-4, "{behind}");
-    assert!((shown.turn("pinion") - 0.012 * 50.0 * TAU).abs() < 1e-6);
+    let off = (shown.turn("pinion") - 0.012 * 50.0 * TAU).abs();
+    assert!(off < 1e-6);
     // The gear's mean radius: half its outer diameter, less half the face along its pitch cone.
     let cone = f64::atan2(48.0, 8.0);
     let expected = statics(100.0, 84e-3 - 9e-3 * cone.sin(), 25.0);
     let mean = shown.mean_force();
     assert!((mean / expected - 1.0).abs() < 0.05, "{mean}, {expected}");
+    println!(
+        "8/48: gear off a sixth of the pinion's turn by {behind:.1e} rad (allowed 5e-4), pinion off its drive by {off:.1e} rad (allowed \
+         1e-6), mean normal force {mean:.0} N, by statics {expected:.0} N: {:+.2} % (allowed 5 %)",
+        100.0 * (mean / expected - 1.0)
+    );
 }

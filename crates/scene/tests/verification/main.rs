@@ -1,5 +1,10 @@
 //! Scenes of all kinds: read, refused, run, studied, rated.
-#![allow(clippy::expect_used, clippy::unwrap_used, missing_docs)]
+#![allow(
+    clippy::expect_used,
+    clippy::print_stdout,
+    clippy::unwrap_used,
+    missing_docs
+)]
 
 mod accuracy;
 mod bad_scenes;

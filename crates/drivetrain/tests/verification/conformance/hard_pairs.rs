@@ -115,5 +115,6 @@ fn a_pair_whose_flank_turns_back_is_refused_with_that_reason() {
     let told = BevelMesh::new(&file.blank, &design)
         .unwrap_err()
         .to_string();
+    println!("refused: {told}");
     assert!(told.contains("turns back close below"), "{told}");
 }
