@@ -1,5 +1,5 @@
-//! Arguments of the commands. Each is described once, here or in the files of this folder, or in the request of its operation; help
-//! follows from it.
+//! Arguments of the commands. Each is described once, here or in the files of this folder, or in the request of its
+//! operation; help follows from it.
 
 mod bearing;
 mod machine;

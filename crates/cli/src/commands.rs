@@ -1,4 +1,5 @@
-//! The commands: what each is for, and which function does it. One file each; here those that print their answer as it is.
+//! The commands: what each is for, and which function does it. One file each; here those that print their answer as it
+//! is.
 
 mod accuracy;
 mod bearing;
