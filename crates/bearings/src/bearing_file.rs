@@ -106,10 +106,11 @@ struct GeneralKeys {
     element_material: Option<MaterialTable>,
     /// Material of the rings; steel where not given.
     ring_material: Option<MaterialTable>,
-    /// Load ratings of the whole bearing; those not given are computed. "catalogue": those of one bearing, `dynamic_N` and `static_N` needed without
-    /// `designation`.
+    /// Load ratings of the whole bearing; those not given are computed. "catalogue": those of one bearing, `dynamic_N`
+    /// and `static_N` needed without `designation`.
     ratings: Option<RatingsTable>,
-    /// Fits of the rings and temperatures: the clearance in operation follows from them; the bearing as stated where not given.
+    /// Fits of the rings and temperatures: the clearance in operation follows from them; the bearing as stated where
+    /// not given.
     fit: Option<fit_keys::FitTable>,
     /// Friction torque by Palmgren's model; none is computed where not given.
     friction: Option<friction_keys::FrictionTable>,
@@ -172,7 +173,8 @@ impl BearingFromFile {
     /// Reads and checks a bearing file.
     ///
     /// # Errors
-    /// [`InputError`] for an unreadable file, a key or value that is not allowed, or a bearing that cannot be assembled.
+    /// [`InputError`] for an unreadable file, a key or value that is not allowed, or a bearing that cannot be
+    /// assembled.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         Self::from_document(&InputDocument::read(path)?)
     }

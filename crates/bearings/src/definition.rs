@@ -127,7 +127,8 @@ pub struct BallGeometry {
     /// α₀: that of a ball which just touches both grooves, the rings moved apart along the axis; of a four-point
     /// bearing that of a ball which just touches all four arcs \[rad\].
     pub free_angle_rad: f64,
-    /// By how much the balls of a deep-groove bearing are too large for its rings, across the axis from one side to the other; 0 where there is play \[m\].
+    /// By how much the balls of a deep-groove bearing are too large for its rings, across the axis from one side to the
+    /// other; 0 where there is play \[m\].
     pub interference_m: f64,
     /// Heights of the shoulders above the bottoms of the inner and outer groove; estimated where none are stated \[m\].
     pub stated_shoulder_heights_m: Option<[f64; 2]>,
@@ -140,7 +141,8 @@ impl BallGeometry {
         (self.inner_conformity + self.outer_conformity - 1.0) * self.ball_diameter_m
     }
 
-    /// P_d = 2 A (1 − cos α₀), play of the inner ring across the axis from one side to the other; negative: interference \[m\].
+    /// P_d = 2 A (1 − cos α₀), play of the inner ring across the axis from one side to the other; negative:
+    /// interference \[m\].
     #[must_use]
     pub fn radial_clearance_m(&self) -> f64 {
         if let BallBearingKind::FourPoint { clearance_m } = self.kind {
@@ -184,7 +186,8 @@ pub struct RollerGeometry {
     pub length_m: f64,
     /// Diameter of the circle of the rollers' middles \[m\].
     pub pitch_diameter_m: f64,
-    /// Play of the inner ring across the axis from one side to the other, negative: interference; of tapered bearings 0 \[m\].
+    /// Play of the inner ring across the axis from one side to the other, negative: interference; of tapered bearings 0
+    /// \[m\].
     pub radial_clearance_m: f64,
     /// Taper and rib; none for other rollers.
     pub taper: Option<Taper>,

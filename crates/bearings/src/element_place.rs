@@ -7,7 +7,8 @@ use crate::row::Row;
 
 /// Places of all elements of a bearing, row after row.
 ///
-/// An evaluation that begins near the places of the one before needs fewer iterations; its result is the same within rounding.
+/// An evaluation that begins near the places of the one before needs fewer iterations; its result is the same within
+/// rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElementPlaces {
     rows: Vec<Vec<ElementPlace>>,

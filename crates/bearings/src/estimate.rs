@@ -1,10 +1,10 @@
 //! What is inside a bearing of which only the catalogue's line is known: an estimate, with its spread.
 //!
-//! Number Z and size of the elements are those that fit best, in logarithms and each in terms of its own scatter: C by ISO 281, C₀ by
-//! ISO 76, and the usual share of the section that the elements fill; without ratings the usual share of the circle,
-//! too. Numbers that cannot be assembled and sizes that do not go into the section are left out; what is known of the
-//! inside is kept. The spread is the range of all numbers whose misfit is at most 4 above the least (two standard
-//! deviations), without ratings widened by the scatter of the usual shares. docs/theory/rolling_bearings.md.
+//! Number Z and size of the elements are those that fit best, in logarithms and each in terms of its own scatter: C by
+//! ISO 281, C₀ by ISO 76, and the usual share of the section that the elements fill; without ratings the usual share of
+//! the circle, too. Numbers that cannot be assembled and sizes that do not go into the section are left out; what is
+//! known of the inside is kept. The spread is the range of all numbers whose misfit is at most 4 above the least (two
+//! standard deviations), without ratings widened by the scatter of the usual shares. docs/theory/rolling_bearings.md.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -6,8 +6,8 @@
 //! BPFO = Z |f_i − f_o| (1 − γ)/2               BPFI = Z |f_i − f_o| (1 + γ)/2
 //! ```
 //!
-//! by pure rolling; derived in docs/theory/rolling_bearings.md. BSF is the element's speed about its own axis seen from the cage: a
-//! fault on it meets a race twice a turn, at 2·BSF.
+//! by pure rolling; derived in docs/theory/rolling_bearings.md. BSF is the element's speed about its own axis seen from
+//! the cage: a fault on it meets a race twice a turn, at 2·BSF.
 
 use crate::build_rows::half_taper_rad;
 use crate::definition::{BearingDefinition, BearingGeometry};
@@ -40,8 +40,8 @@ pub struct RollingSizes {
 }
 
 impl BearingDefinition {
-    /// Sizes at the nominal contact angle: 0 for deep-groove and cylindrical roller bearings; of tapered ones the angle of the rollers' axes, so that
-    /// D cos α reaches from contact to contact.
+    /// Sizes at the nominal contact angle: 0 for deep-groove and cylindrical roller bearings; of tapered ones the angle
+    /// of the rollers' axes, so that D cos α reaches from contact to contact.
     #[must_use]
     pub fn rolling_sizes(&self) -> RollingSizes {
         match &self.geometry {

@@ -1,4 +1,5 @@
-//! Rating life: L10 by ISO 281, L10r of the true load distribution by ISO/TS 16281, L10mr with lubrication and contamination.
+//! Rating life: L10 by ISO 281, L10r of the true load distribution by ISO/TS 16281, L10mr with lubrication and
+//! contamination.
 
 use crate::definition::{BallBearingKind, BearingDefinition, BearingGeometry};
 use crate::double_row_load::equivalent_of_two_rows_n;
@@ -70,8 +71,8 @@ fn is_thrust(definition: &BearingDefinition) -> bool {
 /// A ring that turns by less than this share of the other one's speed stands still: housings on springs rock.
 const STANDS_STILL: f64 = 0.01;
 
-/// Whether inner and outer ring turn against the load, which stands still: a ring that turns carries it all round, one that does not wears where the
-/// load is. Without any speed the inner ring is taken to turn.
+/// Whether inner and outer ring turn against the load, which stands still: a ring that turns carries it all round, one
+/// that does not wears where the load is. Without any speed the inner ring is taken to turn.
 fn rings_that_turn(operation: &Operation) -> [bool; 2] {
     let speeds = [operation.inner_rad_per_s, operation.outer_rad_per_s].map(f64::abs);
     let fastest = speeds[0].max(speeds[1]);

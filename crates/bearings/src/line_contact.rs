@@ -1,14 +1,15 @@
 //! Line contact of a roller and a race, cut into laminae.
 //!
-//! ISO/TS 16281 (2008), section 5: a roller between two races carries Q = 35 948 L^{8/9} δ^{10/9} (N, mm; steel), δ the approach of both races
-//! together. One contact alone takes half of δ, so that with the length L of the roller and a lamina of length l
+//! ISO/TS 16281 (2008), section 5: a roller between two races carries Q = 35 948 L^{8/9} δ^{10/9} (N, mm; steel), δ the
+//! approach of both races together. One contact alone takes half of δ, so that with the length L of the roller and a
+//! lamina of length l
 //!
 //! ```text
 //! q = c l δ^{10/9},  c = 2^{10/9} · 35 948 N/mm^{19/9} · L^{−1/9} · E*/E*_steel
 //! ```
 //!
-//! E*_steel is that of 206 GPa and 0.3. There is no exact Hertz law for the approach of a line contact: it depends on the bodies'
-//! depth; this is Palmgren's fit, whose small dependence on L is kept.
+//! E*_steel is that of 206 GPa and 0.3. There is no exact Hertz law for the approach of a line contact: it depends on
+//! the bodies' depth; this is Palmgren's fit, whose small dependence on L is kept.
 
 /// E* of the steel that the law is stated for \[Pa\]: 206 GPa, 0.3.
 const STEEL_CONTACT_MODULUS_PA: f64 = 206e9 / (2.0 * 0.91);

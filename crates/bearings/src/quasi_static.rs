@@ -76,7 +76,8 @@ pub struct QuasiStaticBearing {
     pub preload_m: f64,
     /// Whether it resists along its axis.
     pub locates: bool,
-    /// How the outer and the inner ring stand on their seats; none: straight. Poses here are those of the rings themselves.
+    /// How the outer and the inner ring stand on their seats; none: straight. Poses here are those of the rings
+    /// themselves.
     pub misaligned: [Option<MisalignedRing>; 2],
 }
 
@@ -220,7 +221,8 @@ impl QuasiStaticBearing {
         self.evaluate_from(pose, operation, &mut ElementPlaces::unknown(&self.rows))
     }
 
-    /// As [`Self::evaluate`], the search of each element beginning at its place, which is left where it ended; without new memory.
+    /// As [`Self::evaluate`], the search of each element beginning at its place, which is left where it ended; without
+    /// new memory.
     ///
     /// # Errors
     /// As [`Self::evaluate`]; the places of the elements behind the failing one are then as before.

@@ -51,8 +51,8 @@ pub fn roller_dynamic_factor(gamma: f64) -> f64 {
         / (1.0 + gamma).powf(0.25)
 }
 
-/// f₀ of ISO 76, computed: the load of one ball at 4200 MPa on the tighter race over 5 D², grooves of 0.52 D inside and 0.53 D outside, steel of
-/// 207 GPa, the standard's.
+/// f₀ of ISO 76, computed: the load of one ball at 4200 MPa on the tighter race over 5 D², grooves of 0.52 D inside
+/// and 0.53 D outside, steel of 207 GPa, the standard's.
 #[must_use]
 pub fn ball_static_factor(gamma: f64) -> f64 {
     let modulus = contact_modulus_pa((207e9, 0.3), (207e9, 0.3));
@@ -197,7 +197,8 @@ impl StatedRatings {
     }
 }
 
-/// C_u = C₀/22 (balls), C₀/8.2 (rollers), less above a pitch diameter of 100 mm; ISO 281, annex B, the simplified estimate.
+/// C_u = C₀/22 (balls), C₀/8.2 (rollers), less above a pitch diameter of 100 mm; ISO 281, annex B, the simplified
+/// estimate.
 fn fatigue_limit_n(geometry: &BearingGeometry, static_n: f64) -> f64 {
     let (pitch_m, part, power) = match geometry {
         BearingGeometry::Ball(g) => (g.pitch_diameter_m, 22.0, 0.5),

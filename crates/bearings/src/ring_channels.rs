@@ -6,7 +6,8 @@ use nalgebra::{Vector3, Vector6};
 /// Number of the channels.
 pub(crate) const RING_CHANNELS: usize = 10;
 
-/// `force_shaft_x_N` … and `moment_shaft_x_Nm` … on the inner ring along the axes of the outer one, `force_world_x_N` …, and the force across the axis.
+/// `force_shaft_x_N` … and `moment_shaft_x_Nm` … on the inner ring along the axes of the outer one, `force_world_x_N`
+/// …, and the force across the axis.
 pub(crate) fn ring_channels() -> Vec<Channel> {
     load_channels("shaft_")
 }

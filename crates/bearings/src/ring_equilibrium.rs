@@ -57,9 +57,9 @@ impl QuasiStaticBearing {
     /// Where the inner ring comes to rest under a load.
     ///
     /// Newton's method with the exact tangent; steps that do not lessen the unbalanced load are turned towards it
-    /// (Levenberg and Marquardt). At speed the place at rest is the start, and balls stay between both grooves as long as
-    /// an equilibrium with them is found as the speed rises. Self-aligning bearings resist no tilt: they
-    /// are held without one where none is stated.
+    /// (Levenberg and Marquardt). At speed the place at rest is the start, and balls stay between both grooves as long
+    /// as an equilibrium with them is found as the speed rises. Self-aligning bearings resist no tilt: they are held
+    /// without one where none is stated.
     ///
     /// # Errors
     /// [`BearingError`] where there is none, or a cylindrical roller bearing is loaded along its axis.
@@ -117,12 +117,11 @@ impl QuasiStaticBearing {
 
     /// To rest down the potential energy, where Newton's method alone stays behind an edge of it.
     ///
-    /// One proximal step after the other: each ends where the ring would rest if springs held it to where it stood. Energy falls in every step, and
-    /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it; it
-    /// is not tried while the ring slides. A ring that slides out of the bearing ends the search, and so do elements
-    /// that find no place too often.
-    /// `failure` is what the search without springs ended with; elements begin at their `places`, if given, and leave
-    /// them where they end.
+    /// One proximal step after the other: each ends where the ring would rest if springs held it to where it stood.
+    /// Energy falls in every step, and springs are softened as long as the search within a step succeeds. Newton's
+    /// method without springs ends it; it is not tried while the ring slides. A ring that slides out of the bearing
+    /// ends the search, and so do elements that find no place too often. `failure` is what the search without springs
+    /// ended with; elements begin at their `places`, if given, and leave them where they end.
     pub(crate) fn settle(
         &self,
         start: RingPose,

@@ -40,7 +40,8 @@ pub(crate) fn spin_rad_per_s(body: &BodyMotion, marker: &Marker) -> f64 {
 }
 
 impl RingPose {
-    /// From the five coordinates x, y, z \[m\], θx, θy \[rad\]: the axis is e_z turned by the rotation vector (θx, θy, 0).
+    /// From the five coordinates x, y, z \[m\], θx, θy \[rad\]: the axis is e_z turned by the rotation vector (θx,
+    /// θy, 0).
     #[must_use]
     pub fn from_five(q: &Vector5<f64>) -> Self {
         let angle = q[3].hypot(q[4]);

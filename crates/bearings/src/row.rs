@@ -77,7 +77,8 @@ impl Row {
         }
     }
 
-    /// Peak pressures at the inner and outer race under an element's load \[Pa\]; of rollers those of the lamina that carries most.
+    /// Peak pressures at the inner and outer race under an element's load \[Pa\]; of rollers those of the lamina that
+    /// carries most.
     #[must_use]
     pub fn peak_pressures_pa(&self, load: &ElementLoad) -> [f64; 2] {
         match self {

@@ -9,9 +9,9 @@
 //! f[k] = 1 − 0.01/ln(1.985 |(2k − n_s − 1)/(2 n_s − 2)|),   k = 1 … n_s
 //! ```
 //!
-//! axisforge's `iso_16281/roller_bearing/postprocessing.py` quotes the same, with the standard's conditions: a profile by its
-//! equations (42) to (44), a medium load, less than 4′ of misalignment. docs/theory/rolling_bearings.md sets it beside
-//! a roller on a half-space.
+//! axisforge's `iso_16281/roller_bearing/postprocessing.py` quotes the same, with the standard's conditions: a profile
+//! by its equations (42) to (44), a medium load, less than 4′ of misalignment. docs/theory/rolling_bearings.md sets it
+//! beside a roller on a half-space.
 //!
 //! It is 1 in the middle and 2.328 at both ends, whatever n_s is, so that the life of evenly loaded rollers without a
 //! profile depends on n_s.

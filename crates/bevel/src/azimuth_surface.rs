@@ -5,7 +5,8 @@
 //! r = (ρ cos χ, ρ sin χ, z),   ρ = L sin γ + h cos γ,   z = L cos γ − h sin γ
 //! ```
 //!
-//! The lower line may bow, so that it follows a flank whose surface ends close below it. χ(s, v) is a sum of Chebyshev polynomials; all derivatives follow.
+//! The lower line may bow, so that it follows a flank whose surface ends close below it. χ(s, v) is a sum of Chebyshev
+//! polynomials; all derivatives follow.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -36,7 +37,8 @@ impl PatchPoint {
     }
 }
 
-/// How the lower line departs from the straight line between its ends: h(s) − h_line(s) = s (1 − s) Σ c_k (2 s − 1)^k \[m\].
+/// How the lower line departs from the straight line between its ends: h(s) − h_line(s) = s (1 − s) Σ c_k (2 s − 1)^k
+/// \[m\].
 pub(crate) type Bow = [f64; 6];
 
 /// Lines of the axial section between which s and v count.
@@ -201,8 +203,8 @@ impl AzimuthSurface {
         self.azimuth.value(x, y)
     }
 
-    /// ∂χ/∂s and ∂χ/∂v of a surface through a point with this normal (of either sense), and by how much the point moves along
-    /// the normal for each radian of χ \[m\]. As r_s·N = 0 and r_v·N = 0, χ_k = −(ρ_k N_ρ + z_k N_z)/(ρ N_φ).
+    /// ∂χ/∂s and ∂χ/∂v of a surface through a point with this normal (of either sense), and by how much the point moves
+    /// along the normal for each radian of χ \[m\]. As r_s·N = 0 and r_v·N = 0, χ_k = −(ρ_k N_ρ + z_k N_z)/(ρ N_φ).
     pub(crate) fn slopes_of_normal(
         frame: &SectionFrame,
         pitch: [f64; 2],

@@ -41,7 +41,8 @@ pub struct BevelGear {
     pub source: String,
 }
 
-/// The body below the teeth by its meridian: two lines from the rim to the bore, one on the toe's side and one on the heel's.
+/// The body below the teeth by its meridian: two lines from the rim to the bore, one on the toe's side and one on the
+/// heel's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BevelBlank {
     /// Bore \[m\].

@@ -18,7 +18,8 @@ pub(crate) struct Chebyshev2 {
 }
 
 impl Chebyshev2 {
-    /// Interpolates values at the zeros of the first polynomials left out, T_12 and T_20. `value` is asked row by row, y within x.
+    /// Interpolates values at the zeros of the first polynomials left out, T_12 and T_20. `value` is asked row by row,
+    /// y within x.
     pub(crate) fn interpolate<E>(
         mut value: impl FnMut(f64, f64) -> Result<f64, E>,
     ) -> Result<Self, E> {

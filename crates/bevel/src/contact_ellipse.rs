@@ -9,8 +9,8 @@ use crate::contact_point::Touch;
 /// Relative curvature at a contact and the ellipse on which the flanks are nearer than a marking thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactEllipse {
-    /// Least and largest relative curvature \[1/m\]; a negative one means that the flanks cut into each other beside the
-    /// point.
+    /// Least and largest relative curvature \[1/m\]; a negative one means that the flanks cut into each other beside
+    /// the point.
     pub curvatures_per_m: [f64; 2],
     /// Unit vectors in those directions, in the fixed frame: the first is the long axis.
     pub axes: [Vector3<f64>; 2],
@@ -36,8 +36,8 @@ impl ContactEllipse {
         }
     }
 
-    /// The ellipse of a marking thickness on a member's flank: half axes as steps of cone distance L and height h \[m\]; none
-    /// where the flanks are nearer than the marking all along.
+    /// The ellipse of a marking thickness on a member's flank: half axes as steps of cone distance L and height h
+    /// \[m\]; none where the flanks are nearer than the marking all along.
     pub fn on_flank_m(
         &self,
         marking_m: f64,

@@ -1,10 +1,10 @@
-//! Where a pair of teeth touches first at a turn of the pinion, edges and corners included: a search over the whole flank,
-//! then Newton's method.
+//! Where a pair of teeth touches first at a turn of the pinion, edges and corners included: a search over the whole
+//! flank, then Newton's method.
 //!
-//! A point of the pinion stands at z, ρ, φ in the gear's frame. The gear's flank goes through it when the gear has turned by
-//! θ₂ = φ − χ(L, h), χ the azimuth of the gear's flank at that z and ρ. The gear cannot be turned farther back than any point
-//! allows: the lead of the pair is the largest that a point has. What a grid of points has is a bound from below, which the
-//! contact that is found must reach.
+//! A point of the pinion stands at z, ρ, φ in the gear's frame. The gear's flank goes through it when the gear has
+//! turned by θ₂ = φ − χ(L, h), χ the azimuth of the gear's flank at that z and ρ. The gear cannot be turned farther
+//! back than any point allows: the lead of the pair is the largest that a point has. What a grid of points has is a
+//! bound from below, which the contact that is found must reach.
 
 use std::f64::consts::{PI, TAU};
 
@@ -28,8 +28,8 @@ const NEAR_END: f64 = 2.5;
 
 /// Tips, toes and heels of both members.
 const EDGES: usize = 6;
-/// Leads of points near an edge stay behind that of its contact by less \[rad\]: between points at the distance 2 m/16 a profile of radius m z sin α/2 lies back by
-/// 0.02/z² rad, so that this holds for gears of 15 teeth and more.
+/// Leads of points near an edge stay behind that of its contact by less \[rad\]: between points at the distance 2 m/16
+/// a profile of radius m z sin α/2 lies back by 0.02/z² rad, so that this holds for gears of 15 teeth and more.
 const PASSED_OVER_RAD: f64 = 1e-4;
 
 const WHOLE: [[f64; 2]; 2] = [[0.0, 1.0]; 2];
@@ -157,7 +157,8 @@ impl<'a> ContactSearch<'a> {
         Some(found.unwrap_or_else(|| (self.kind_at(&best), start)))
     }
 
-    /// The points of the largest lead near each edge of the pinion and of the gear, and of all: number and what the gear's flank is there.
+    /// The points of the largest lead near each edge of the pinion and of the gear, and of all: number and what the
+    /// gear's flank is there.
     fn leaders(&self, turn: f64) -> [Option<(usize, Candidate)>; EDGES + 1] {
         let mut leaders: [Option<(usize, Candidate)>; EDGES + 1] = [None; EDGES + 1];
         let is_near = |found: &Candidate, n: usize| {
@@ -203,7 +204,8 @@ impl<'a> ContactSearch<'a> {
         ahead
     }
 
-    /// Contacts at the ends of tips, which may be slivers between the points of the search: corners, and tips across ends.
+    /// Contacts at the ends of tips, which may be slivers between the points of the search: corners, and tips across
+    /// ends.
     fn at_ends(&self, turn: f64) -> Option<(ContactKind, Touch)> {
         let mesh = &self.mesh;
         let ideal = Mesh::ideal_gear_turn(mesh.assembly, turn);
@@ -355,8 +357,8 @@ impl<'a> ContactSearch<'a> {
         best
     }
 
-    /// The gear's exact flank through a point of the pinion's exact flank. Where Newton's method finds none, what the search has found: the same but for
-    /// the rounding of the gear's patch, and the pair is not lost.
+    /// The gear's exact flank through a point of the pinion's exact flank. Where Newton's method finds none, what the
+    /// search has found: the same but for the rounding of the gear's patch, and the pair is not lost.
     fn exact(&self, turn: f64, best: &Candidate, near: &Touch) -> Touch {
         let [pinion, gear] = self.mesh.flanks;
         let place = self.frames[0].place_m(best.places[0]);
@@ -444,8 +446,8 @@ impl Mesh<'_> {
         (0..2).all(|m| own(m).is_some_and(|p| self.flanks[m].holds(&p)))
     }
 
-    /// Whether both points of a contact of the extended flanks lie on the blanks or beside them by less than the size of the
-    /// flank.
+    /// Whether both points of a contact of the extended flanks lie on the blanks or beside them by less than the size
+    /// of the flank.
     pub(crate) fn is_near_flanks(&self, touch: &Touch) -> bool {
         (0..2).all(|m| {
             let blank = &self.flanks[m].blank;

@@ -132,8 +132,8 @@ impl Mesh<'_> {
         whole.collect()
     }
 
-    /// As [`Self::ease_off_map`], from the ease-off at the pinion's mean point; none at places where the pinion's flank is
-    /// undercut or never meets the gear's surface.
+    /// As [`Self::ease_off_map`], from the ease-off at the pinion's mean point; none at places where the pinion's flank
+    /// is undercut or never meets the gear's surface.
     ///
     /// # Errors
     /// [`BevelError::NoMate`] where the pinion's pitch line does not meet it.

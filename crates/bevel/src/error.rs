@@ -167,8 +167,8 @@ pub enum BevelError {
 }
 
 impl BevelError {
-    /// The complaint as one of the pair file that asks for what cannot be: with its name, and the line of the member's table where it lies
-    /// with one member.
+    /// The complaint as one of the pair file that asks for what cannot be: with its name, and the line of the member's
+    /// table where it lies with one member.
     #[must_use]
     pub fn in_file(&self, document: &InputDocument) -> InputError {
         let of_flank = |flank: &str| match flank.starts_with("pinion") {

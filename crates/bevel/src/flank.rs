@@ -245,7 +245,8 @@ impl Flank {
             .ok_or_else(|| self.no_point([cone_m, height]))
     }
 
-    /// Points of the fillet at a cone distance, from where the flank begins (share 1) downwards (0 the lower end): `shares` fall.
+    /// Points of the fillet at a cone distance, from where the flank begins (share 1) downwards (0 the lower end):
+    /// `shares` fall.
     ///
     /// # Errors
     /// As [`Self::bottom`].

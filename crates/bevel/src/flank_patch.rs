@@ -19,8 +19,8 @@ pub use crate::azimuth_surface::PatchPoint;
 
 /// How far a patch goes on beyond toe and heel, and above its upper line, as shares of its size.
 const BEYOND: [f64; 2] = [0.1, 0.12];
-/// How far it goes on below its lower line: gears that stand off their places reach deeper. The first of these where the surface goes on and the series is exact;
-/// flanks that turn back close below end at the line.
+/// How far it goes on below its lower line: gears that stand off their places reach deeper. The first of these where
+/// the surface goes on and the series is exact; flanks that turn back close below end at the line.
 const BELOW: [f64; 3] = [0.1, 0.07, 0.04];
 
 /// What the last terms of such a series are worth at most \[m\].
@@ -36,8 +36,8 @@ fn share(look: usize) -> f64 {
     look as f64 / (LOOKS - 1) as f64
 }
 
-/// A flank of tooth 0 in the member's frame: origin in the pitch apex, z towards the heel, the middle of the tooth on +x
-/// at the mean point.
+/// A flank of tooth 0 in the member's frame: origin in the pitch apex, z towards the heel, the middle of the tooth
+/// on +x at the mean point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankPatch {
     /// Number of teeth.
@@ -113,8 +113,8 @@ impl FlankPatch {
         self.surface.point_of(at, &azimuth)
     }
 
-    /// How far the polynomials of cells, which [`Self::point`] takes, lie from the series that they stand for at a place: azimuth \[rad\], and its
-    /// first and second derivatives by the place.
+    /// How far the polynomials of cells, which [`Self::point`] takes, lie from the series that they stand for at a
+    /// place: azimuth \[rad\], and its first and second derivatives by the place.
     pub fn azimuth_misfit(&self, at: [f64; 2]) -> [f64; 3] {
         let [x, y] = scaled(&self.surface.domain, at);
         let off = self
@@ -136,8 +136,8 @@ impl FlankPatch {
     }
 }
 
-/// The part of a flank that the mate can reach: its lower line is straight, and nowhere above where the flank ends or the mate's
-/// tip reaches.
+/// The part of a flank that the mate can reach: its lower line is straight, and nowhere above where the flank ends or
+/// the mate's tip reaches.
 ///
 /// # Errors
 /// [`BevelError::NoFlankPoint`] where the flank ends above its fillet.
@@ -156,7 +156,8 @@ pub(crate) fn reach_of(flank: &Flank, mate: &MemberBlank) -> Result<SectionFrame
     Ok(frame)
 }
 
-/// The whole flank above its fillet. Its lower line bows as the flank's end does: teeth close to undercut have no surface below it.
+/// The whole flank above its fillet. Its lower line bows as the flank's end does: teeth close to undercut have no
+/// surface below it.
 ///
 /// # Errors
 /// [`BevelError::NoFlankPoint`] where the flank ends above its fillet.
@@ -195,8 +196,8 @@ fn bottom_m(flank: &Flank, cone_m: f64) -> Result<f64, BevelError> {
     Ok(flank.place(&flank.bottom(cone_m)?.point.r)[1])
 }
 
-/// A flank over a domain of s and v, turned by an angle about the axis: down to the straight line of [`reach_of`], or, where the surface does not reach
-/// so deep, the whole of it above its fillet.
+/// A flank over a domain of s and v, turned by an angle about the axis: down to the straight line of [`reach_of`], or,
+/// where the surface does not reach so deep, the whole of it above its fillet.
 ///
 /// # Errors
 /// [`BevelError::NoFlankPoint`] where the surface does not reach over it either.

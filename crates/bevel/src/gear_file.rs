@@ -101,7 +101,8 @@ impl BevelGear {
         Self::of_files(document, file, &pair_document)
     }
 
-    /// A gear from the texts of its file and its pair's, as a reduced gear keeps them; `name` stands for them in messages.
+    /// A gear from the texts of its file and its pair's, as a reduced gear keeps them; `name` stands for them in
+    /// messages.
     ///
     /// # Errors
     /// As [`Self::read`].

@@ -1,4 +1,5 @@
-//! Points of a grid on the blank: their places in s and v, azimuths and slopes, and whether they are those of this flank.
+//! Points of a grid on the blank: their places in s and v, azimuths and slopes, and whether they are those of this
+//! flank.
 
 use gearmesh_geometry::InputError;
 use nalgebra::Vector3;
@@ -142,7 +143,8 @@ impl Samples {
         Ok(())
     }
 
-    /// The points are those of this side and hand: a flank that faces counter-clockwise turns back clockwise from root to tip.
+    /// The points are those of this side and hand: a flank that faces counter-clockwise turns back clockwise from root
+    /// to tip.
     fn demand_side(
         &self,
         grid: &PointGrid,

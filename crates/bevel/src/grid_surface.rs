@@ -18,8 +18,8 @@ use crate::point_grid::PointGrid;
 const DEFINED: f64 = 0.6;
 /// A normal counts as much as a place that is off by so much of the points' distance.
 const NORMAL_LEVER: f64 = 0.25;
-/// A point this many times as far off its neighbours' surface as half of the points, and this share of their distance, is a
-/// slip.
+/// A point this many times as far off its neighbours' surface as half of the points, and this share of their distance,
+/// is a slip.
 const SLIP: [f64; 2] = [12.0, 0.01];
 /// A normal so far off the surface through the points does not belong to them \[rad\].
 const MOST_TURNED: f64 = 0.05;
@@ -35,11 +35,11 @@ pub struct GridFit {
     pub rms_m: f64,
     /// Largest \[m\].
     pub worst_m: f64,
-    /// Root mean square of the distance of each point from the surface through all others: what the surface is off between
-    /// points \[m\].
+    /// Root mean square of the distance of each point from the surface through all others: what the surface is off
+    /// between points \[m\].
     pub left_out_rms_m: f64,
-    /// The largest of these, at an end of the grid as a rule; beyond the points the surface may be off by several times as much
-    /// \[m\].
+    /// The largest of these, at an end of the grid as a rule; beyond the points the surface may be off by several times
+    /// as much \[m\].
     pub left_out_worst_m: f64,
     /// Largest angle between a given normal and the surface's \[rad\]; none where the file has no normals.
     pub worst_normal_rad: Option<f64>,
@@ -123,7 +123,8 @@ enum Target {
 }
 
 impl Samples {
-    /// Rows of the least squares of a point: its place, and its two slopes where normals count. Units: metres along the normal.
+    /// Rows of the least squares of a point: its place, and its two slopes where normals count. Units: metres along the
+    /// normal.
     fn rows(&self, point: usize, [p, q]: [usize; 2]) -> DMatrix<f64> {
         let [x, y] = scaled(&self.surface.domain, self.at[point]);
         let by = scale(&self.surface.domain);
@@ -188,8 +189,8 @@ impl Samples {
         })
     }
 
-    /// The numbers of polynomials with which left-out points, places and normals, are missed least, first along the face, then
-    /// up the flank. Places alone may by chance be met well by a surface that waves between them.
+    /// The numbers of polynomials with which left-out points, places and normals, are missed least, first along the
+    /// face, then up the flank. Places alone may by chance be met well by a surface that waves between them.
     fn best(&self, grid: &PointGrid, target: Target) -> Option<Trial> {
         let more = if target == Target::Normals { 2 } else { 0 };
         let most = [
@@ -275,7 +276,8 @@ impl Samples {
         })
     }
 
-    /// Refuses points off the surface of their neighbours and normals that are not the surface's; the largest angle of normals.
+    /// Refuses points off the surface of their neighbours and normals that are not the surface's; the largest angle of
+    /// normals.
     fn demand_sense(&self, grid: &PointGrid, left_out: &[f64]) -> Result<Option<f64>, InputError> {
         let mut sorted = left_out.to_vec();
         sorted.sort_by(f64::total_cmp);

@@ -1,9 +1,10 @@
-//! A smooth function of two variables on the square −1 … 1 as a polynomial on each of many cells: as exact as the series that it is taken from,
-//! and several times as quick.
+//! A smooth function of two variables on the square −1 … 1 as a polynomial on each of many cells: as exact as the
+//! series that it is taken from, and several times as quick.
 //!
-//! On a cell f = Σ c_ij pⁱ qʲ, p and q from −1 to 1, interpolated at the zeros of Chebyshev's T₈ and T₁₀ (Trefethen, Approximation Theory and Approximation
-//! Practice, chapters 2 to 4: the error of an interpolation falls with the power of the cell's size that has one more than the degree). Cells are not
-//! fitted to each other: what jumps between them is the error of the interpolation, which is that of rounding.
+//! On a cell f = Σ c_ij pⁱ qʲ, p and q from −1 to 1, interpolated at the zeros of Chebyshev's T₈ and T₁₀ (Trefethen,
+//! Approximation Theory and Approximation Practice, chapters 2 to 4: the error of an interpolation falls with the power
+//! of the cell's size that has one more than the degree). Cells are not fitted to each other: what jumps between them
+//! is the error of the interpolation, which is that of rounding.
 
 use crate::chebyshev::Chebyshev2;
 use crate::jet::Jet;

@@ -1,5 +1,5 @@
-//! Points of a flank as measuring machines and publications list them: sectors along the face × heights up the flank, each
-//! with coordinates and normal.
+//! Points of a flank as measuring machines and publications list them: sectors along the face × heights up the flank,
+//! each with coordinates and normal.
 
 use std::path::Path;
 

@@ -47,7 +47,8 @@ pub struct FaceMill {
     pub edge_radius_m: f64,
     /// Radial distance S of the cutter's centre from the cradle's axis \[m\].
     pub radial_m: f64,
-    /// Cradle angle q of the cutter's centre at cradle turn 0, from +x of the machine; positive for a right hand \[rad\].
+    /// Cradle angle q of the cutter's centre at cradle turn 0, from +x of the machine; positive for a right hand
+    /// \[rad\].
     pub cradle_angle_rad: f64,
 }
 

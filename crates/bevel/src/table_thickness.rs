@@ -1,5 +1,6 @@
-//! How thick a tooth is by the azimuths of its two tables of points, beside the blank: the only thing by which a wrong origin on the
-//! axis shows that is not in the flanks' form. Derivation: docs/theory/bevel_gears.md, "Flanks from points".
+//! How thick a tooth is by the azimuths of its two tables of points, beside the blank: the only thing by which a wrong
+//! origin on the axis shows that is not in the flanks' form. Derivation: docs/theory/bevel_gears.md, "Flanks from
+//! points".
 
 use std::f64::consts::TAU;
 
@@ -17,16 +18,16 @@ pub struct TableThickness {
     pub found_m: f64,
     /// By the blank, which is what is used \[m\].
     pub blank_m: f64,
-    /// By how much the tables' origin would have to lie farther towards the heel for both to agree \[m\]; none where no move of up to
-    /// one and a half modules does it.
+    /// By how much the tables' origin would have to lie farther towards the heel for both to agree \[m\]; none where no
+    /// move of up to one and a half modules does it.
     pub origin_m: Option<f64>,
     /// Whether the difference is more than a twentieth of the mean normal module.
     pub is_doubtful: bool,
 }
 
 impl Tooth {
-    /// The thickness by the tables of both flanks; none of flanks that were cut. Teeth are taken to be the same, whichever of them each
-    /// table is of.
+    /// The thickness by the tables of both flanks; none of flanks that were cut. Teeth are taken to be the same,
+    /// whichever of them each table is of.
     pub fn table_thickness(&self, mean_normal_module_m: f64) -> Option<TableThickness> {
         let blank = &self.blank;
         let radius = blank.mean_cone_m * blank.pitch_angle_rad.sin();

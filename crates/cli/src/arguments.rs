@@ -108,8 +108,8 @@ pub struct StudyArguments {
     /// Largest size of the results of all cases together
     #[arg(long = "most-result-GB", default_value = "1", value_parser = positive)]
     pub most_result_gb: f64,
-    /// Run the cases on a Dask cluster: the address of its scheduler (tcp://HOST:8786), its scheduler file, or "local" for
-    /// one that is started for this study (docs/cluster.md)
+    /// Run the cases on a Dask cluster: the address of its scheduler (tcp://HOST:8786), its scheduler file, or "local"
+    /// for one that is started for this study (docs/cluster.md)
     #[arg(long)]
     pub scheduler: Option<String>,
     /// Compute nothing: make the table of what lies in the folder, with the failures that this file lists

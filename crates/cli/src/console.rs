@@ -48,8 +48,8 @@ pub fn warning(text: impl std::fmt::Display) {
     note(format!("warning: {text}"));
 }
 
-/// Says what is wrong with the words of a command, or prints the help that was asked for; returns the exit code. What is
-/// wrong has no colours: the words may be names of files.
+/// Says what is wrong with the words of a command, or prints the help that was asked for; returns the exit code. What
+/// is wrong has no colours: the words may be names of files.
 pub fn usage(told: &clap::Error) -> u8 {
     if told.use_stderr() {
         note(told.to_string().trim_end());

@@ -30,7 +30,8 @@ impl ProgressLines {
         self.told.is_some()
     }
 
-    /// Says that so much of a stage is done; a total of 0 is not known. The first line and the last one are always written.
+    /// Says that so much of a stage is done; a total of 0 is not known. The first line and the last one are always
+    /// written.
     pub fn tell(&self, stage: &str, done: f64, total: f64) {
         let Some(told) = &self.told else {
             return;

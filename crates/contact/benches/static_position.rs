@@ -1,5 +1,5 @@
-//! One static position, torque given, warm: two pairs of five slices on spur teeth, three of twelve on helical ones. The limits are 20 and 100
-//! microseconds.
+//! One static position, torque given, warm: two pairs of five slices on spur teeth, three of twelve on helical ones.
+//! The limits are 20 and 100 microseconds.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use gearmesh_contact::Drive;

@@ -1,15 +1,17 @@
 //! How the forces of contact slices sit on the axial stations of one gear, wherever the slices lie on its face.
 //!
-//! A gear's own slices have the shares of [`axial_shares`]. They are the means over a slice of a force at a point z that is shared as
+//! A gear's own slices have the shares of [`axial_shares`]. They are the means over a slice of a force at a point z
+//! that is shared as
 //!
 //! ```text
 //! φ_j(z) = h_j(z) + Σ_k λ_k(z) x_kj
 //! ```
 //!
-//! h_j: hats of the stations; x_k: what slice k has besides (¼, ½, ¼), which keeps its second moment; λ_k: broken lines on the stations whose
-//! mean is one over slice k and zero over all others, and which add up to one. The mean of φ over any other stretch of the face is therefore
-//! continuous in its ends, adds up to one, keeps the first moment away from the faces, and the second one of a stretch as wide as a slice;
-//! slices that fill the face with equal forces make an exactly uniform load.
+//! h_j: hats of the stations; x_k: what slice k has besides (¼, ½, ¼), which keeps its second moment; λ_k: broken lines
+//! on the stations whose mean is one over slice k and zero over all others, and which add up to one. The mean of φ over
+//! any other stretch of the face is therefore continuous in its ends, adds up to one, keeps the first moment away from
+//! the faces, and the second one of a stretch as wide as a slice; slices that fill the face with equal forces make an
+//! exactly uniform load.
 
 use gearmesh_model::ReducedGear;
 
@@ -82,7 +84,8 @@ impl AxialSpread {
     }
 }
 
-/// Shares of a unit force that is uniform between two places of a face, in widths of its `slices` own slices from its lower end.
+/// Shares of a unit force that is uniform between two places of a face, in widths of its `slices` own slices from its
+/// lower end.
 pub(crate) fn stretch_shares([low, high]: [f64; 2], slices: usize) -> Vec<(usize, f64)> {
     let stations = 2 * slices + 1;
     let inside = |x: f64| x.clamp(0.0, slices as f64);
@@ -162,7 +165,8 @@ mod tests {
         }
     }
 
-    /// A force of one newton with the moments of a uniform load, wherever it lies away from the faces; hats of the stations have the variance 1/24.
+    /// A force of one newton with the moments of a uniform load, wherever it lies away from the faces; hats of the
+    /// stations have the variance 1/24.
     #[test]
     fn a_stretch_anywhere_has_the_moments_of_a_uniform_load() {
         let slices = 9;

@@ -8,7 +8,8 @@ use crate::local_contact::LocalContact;
 use crate::profile_shares::ProfileHats;
 use crate::slice_compliance::{FlankGeometry, SliceCompliance};
 
-/// Where slices sit on a gear that were laid evenly on gear 1's face, `face_1_m` wide: both faces end together at the heel.
+/// Where slices sit on a gear that were laid evenly on gear 1's face, `face_1_m` wide: both faces end together at the
+/// heel.
 #[must_use]
 pub fn spread_from_heel(gear: &ReducedGear, face_1_m: f64, slices: usize) -> AxialSpread {
     let width_m = face_1_m / slices as f64;

@@ -126,7 +126,8 @@ pub(crate) fn between(sections_m: &[f64], middle_m: f64) -> (usize, f64) {
     (low, share)
 }
 
-/// What the mesh lacks of a slice's own deflection \[m²/N\], and its derivatives by the roll angle and the share of the width.
+/// What the mesh lacks of a slice's own deflection \[m²/N\], and its derivatives by the roll angle and the share of the
+/// width.
 pub(crate) struct Missing {
     pub value: f64,
     pub by_roll: f64,

@@ -1,8 +1,10 @@
-//! Involute pairs at rest: which tooth pairs touch at a driver angle, where, and how far their slices stand apart unloaded.
+//! Involute pairs at rest: which tooth pairs touch at a driver angle, where, and how far their slices stand apart
+//! unloaded.
 //!
-//! A helical contact line slants over the flank, ξ₁(z) = ξ₁(0) + ξ′ z ([`GearPair::roll_slope_1_rad_per_m`]), so that its slices enter and leave
-//! the path of contact one by one. A slice that is partly on the path touches over that part only: it has the roll angle of the part's middle
-//! and a share of the slice's length, which goes to zero with its force. The transmission error is therefore continuous where a slice enters.
+//! A helical contact line slants over the flank, ξ₁(z) = ξ₁(0) + ξ′ z ([`GearPair::roll_slope_1_rad_per_m`]), so that
+//! its slices enter and leave the path of contact one by one. A slice that is partly on the path touches over that part
+//! only: it has the roll angle of the part's middle and a share of the slice's length, which goes to zero with its
+//! force. The transmission error is therefore continuous where a slice enters.
 
 use crate::contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
 use crate::contact_zone::{ContactZone, SliceLayout};
@@ -29,8 +31,8 @@ impl Friction {
     }
 }
 
-/// One line of contact: a tooth pair at a driver angle. Of helical teeth it slants over the flank and its numbers are those
-/// of the section at mid-face; see [`ContactLines::section`] for others.
+/// One line of contact: a tooth pair at a driver angle. Of helical teeth it slants over the flank and its numbers are
+/// those of the section at mid-face; see [`ContactLines::section`] for others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactLine {
     /// Pair number p, see [`GearPair::teeth_of`].
@@ -50,7 +52,8 @@ pub struct ContactLine {
 }
 
 impl ContactLine {
-    /// Turn of the contact's normal from the flank normal of gear 0 or 1 towards the tip \[rad\]: zero but for a tip edge.
+    /// Turn of the contact's normal from the flank normal of gear 0 or 1 towards the tip \[rad\]: zero but for a tip
+    /// edge.
     pub fn tilt_rad(&self, gear: usize) -> f64 {
         (self.tip.filter(|tip| tip.tip_gear.indices().0 == gear)).map_or(0.0, |tip| tip.tilt_rad)
     }
@@ -165,7 +168,8 @@ impl ContactLines {
         }
     }
 
-    /// What a patch in a section is but for its slice, its place along the teeth and its gap; `width_m`: its part of the face width.
+    /// What a patch in a section is but for its slice, its place along the teeth and its gap; `width_m`: its part of
+    /// the face width.
     fn patch(
         &self,
         (number, section): (usize, &ContactLine),
@@ -239,9 +243,9 @@ impl ContactLines {
         (share > LEAST_SHARE).then_some((share.min(1.0), part.middle().0))
     }
 
-    /// Direction of the normal force on gear 2, x along the line of centres from gear 1 to gear 2, z along gear 1's axis:
-    /// (cos β_b w, ±sin β_b), upper sign on right flanks, w: [`gearmesh_geometry::BaseCircles::action`] at α_w or the
-    /// angle of a tip edge's force.
+    /// Direction of the normal force on gear 2, x along the line of centres from gear 1 to gear 2, z along gear 1's
+    /// axis: (cos β_b w, ±sin β_b), upper sign on right flanks, w: [`gearmesh_geometry::BaseCircles::action`] at α_w or
+    /// the angle of a tip edge's force.
     fn normal(&self, line: &ContactLine) -> [f64; 3] {
         let angle_rad = (line.tip).map_or(self.pair.working_pressure_angle_rad, |tip| {
             tip.force_angle_rad
@@ -269,9 +273,9 @@ impl ContactLines {
         ((end - start).abs() / self.pair.pitch_1_rad()).floor() as usize + 1
     }
 
-    /// Unloaded separation \[m\] along the normal of a slice at zero transmission error, open positive: the gap of a tip
-    /// edge, material removed from both flanks and misalignment. `line` is the line in the slice's section. What is removed from a tip edge along its own normal opens the gap by
-    /// its component cos δ.
+    /// Unloaded separation \[m\] along the normal of a slice at zero transmission error, open positive: the gap of a
+    /// tip edge, material removed from both flanks and misalignment. `line` is the line in the slice's section. What is
+    /// removed from a tip edge along its own normal opens the gap by its component cos δ.
     pub fn separation_m(&self, line: &ContactLine, z_m: f64) -> f64 {
         let [height_1, height_2] = self.zone.heights_m(z_m);
         let removed_1 = self.microgeometry_1.removed_m(line.roll_1_rad, height_1);
@@ -303,8 +307,8 @@ impl ContactLines {
         }
     }
 
-    /// How fast the line's gap closes with the approach x = −TE of the bases at a given driver angle: cos β_b, but for gear
-    /// 2's tip edge, whose lever arm over r_b2 stands in the place of 1.
+    /// How fast the line's gap closes with the approach x = −TE of the bases at a given driver angle: cos β_b, but for
+    /// gear 2's tip edge, whose lever arm over r_b2 stands in the place of 1.
     pub fn closing(&self, line: &ContactLine) -> f64 {
         match line.tip {
             Some(tip) if tip.tip_gear == TipGear::Two => {
@@ -314,8 +318,9 @@ impl ContactLines {
         }
     }
 
-    /// Torque about the axes of gear 1 and gear 2 per newton of normal force \[m\]: b = r_b (cos β_b + ratio ξ), or the lever
-    /// arms of a tip edge in their place: friction acts along the profile, in the transverse plane. `friction_ratio` as [`Friction::ratio`].
+    /// Torque about the axes of gear 1 and gear 2 per newton of normal force \[m\]: b = r_b (cos β_b + ratio ξ), or the
+    /// lever arms of a tip edge in their place: friction acts along the profile, in the transverse plane.
+    /// `friction_ratio` as [`Friction::ratio`].
     pub fn lever_arms_m(&self, line: &ContactLine, friction_ratio: f64) -> [f64; 2] {
         let cos = self.helix_cos();
         let bases = [

@@ -1,7 +1,8 @@
-//! A patch: one slice of a contact line, where two flanks touch or may touch. All that a contact problem needs to know of them.
+//! A patch: one slice of a contact line, where two flanks touch or may touch. All that a contact problem needs to know
+//! of them.
 //!
-//! Kinematics of flanks make patches, whatever the family of the gears: [`crate::ContactLines`] those of involute teeth at rest, the gear meshes
-//! of a multibody system those of a pose. What follows asks no more where they come from.
+//! Kinematics of flanks make patches, whatever the family of the gears: [`crate::ContactLines`] those of involute teeth
+//! at rest, the gear meshes of a multibody system those of a pose. What follows asks no more where they come from.
 
 /// A place on a flank by the coordinates of its grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,15 +29,16 @@ pub struct PatchEdge {
 pub struct PatchBalance {
     /// How fast the gap closes with the approach of the gears. No unit.
     pub closing: f64,
-    /// Load on gear 1 and on gear 2 for each newton of the normal force: torque about their axes \[m\], friction included.
+    /// Load on gear 1 and on gear 2 for each newton of the normal force: torque about their axes \[m\], friction
+    /// included.
     pub levers_m: [f64; 2],
     /// Friction over normal force, positive towards the tips of both gears.
     pub friction: f64,
 }
 
 impl PatchBalance {
-    /// The approach is that along the normals and the load the sum of the normal forces: where the pose of the gears is given, and their
-    /// balance is somebody else's affair.
+    /// The approach is that along the normals and the load the sum of the normal forces: where the pose of the gears is
+    /// given, and their balance is somebody else's affair.
     pub const ALONG_NORMALS: Self = Self {
         closing: 1.0,
         levers_m: [1.0; 2],
@@ -55,7 +57,8 @@ pub struct ContactPatch {
     pub slice: usize,
     /// Places on the flanks of gear 1 and gear 2.
     pub places: [FlankPlace; 2],
-    /// Share of the slice that touches, more than zero: one but where the line ends in the slice or the contact zone has changed its width.
+    /// Share of the slice that touches, more than zero: one but where the line ends in the slice or the contact zone
+    /// has changed its width.
     pub share: f64,
     /// Length of the touching part along the contact line \[m\].
     pub length_m: f64,
@@ -63,7 +66,8 @@ pub struct ContactPatch {
     pub radius_m: f64,
     /// ∂(ln ρ)/∂u on gear 1 and gear 2.
     pub radius_growth: [f64; 2],
-    /// ∂(ln length)/∂u on gear 1 and gear 2, besides what the share says: where the line's slant against the slices changes.
+    /// ∂(ln length)/∂u on gear 1 and gear 2, besides what the share says: where the line's slant against the slices
+    /// changes.
     pub length_growth: [f64; 2],
     /// Unit normal: direction of the force on gear 2, in the frame of the kinematics, whose z is gear 1's axis.
     pub normal: [f64; 3],
@@ -82,8 +86,9 @@ impl ContactPatch {
         (self.edge.filter(|edge| edge.gear == gear)).map_or(0.0, |edge| edge.tilt_rad)
     }
 
-    /// Normal and friction force on the tooth of gear 0 or 1 in the frame of its own flank, over the normal force: components along the
-    /// inward normal and towards the tip. (1, μ), but for an edge, which feels them turned by its tilt δ: (cos δ − μ sin δ, sin δ + μ cos δ).
+    /// Normal and friction force on the tooth of gear 0 or 1 in the frame of its own flank, over the normal force:
+    /// components along the inward normal and towards the tip. (1, μ), but for an edge, which feels them turned by its
+    /// tilt δ: (cos δ − μ sin δ, sin δ + μ cos δ).
     #[must_use]
     pub fn force_components(&self, gear: usize) -> [f64; 2] {
         let (sin, cos) = self.tilt_rad(gear).sin_cos();

@@ -1,14 +1,16 @@
 //! Where the faces of two gears overlap along their axes, and the slices that are laid over it.
 //!
-//! s runs along the axes from halfway between the two mid-faces, D is the place of gear 2's mid-face seen from gear 1's. A section at s lies on
-//! the gears at z₁ = s + D/2 and z₂ = s − D/2 of their own mid-faces, and the faces overlap in
+//! s runs along the axes from halfway between the two mid-faces, D is the place of gear 2's mid-face seen from gear
+//! 1's. A section at s lies on the gears at z₁ = s + D/2 and z₂ = s − D/2 of their own mid-faces, and the faces overlap
+//! in
 //!
 //! ```text
 //! max(−b₁/2 − D/2, −b₂/2 + D/2) < s < min(b₁/2 − D/2, b₂/2 + D/2)
 //! ```
 //!
-//! Exchanging the gears changes the sign of D and nothing else. Over the last micrometre before the ends of both faces meet, the larger one is
-//! taken smoothly: |x| = 2x²/ε − |x|³/ε², ε = 1 µm, which is exact at 0 and from ε on, with its slope.
+//! Exchanging the gears changes the sign of D and nothing else. Over the last micrometre before the ends of both faces
+//! meet, the larger one is taken smoothly: |x| = 2x²/ε − |x|³/ε², ε = 1 µm, which is exact at 0 and from ε on, with its
+//! slope.
 
 use gearmesh_model::ReducedGear;
 
@@ -98,8 +100,9 @@ fn larger(a: f64, b: f64) -> (f64, f64) {
     (0.5 * (a + b) + 0.5 * rounded, sense * slope)
 }
 
-/// Even slices over the contact zone of two gears. Their compliance is that of the places where they lie at the reference displacement; when
-/// the gears move along their axes the slices move with the zone and grow or shrink with it.
+/// Even slices over the contact zone of two gears. Their compliance is that of the places where they lie at the
+/// reference displacement; when the gears move along their axes the slices move with the zone and grow or shrink with
+/// it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SliceLayout {
     /// Face widths \[m\].
@@ -121,8 +124,8 @@ impl SliceLayout {
         }
     }
 
-    /// The slices of two models: as wide as those of the coarser one, or nearly, so that a whole number of them fills the zone. Models of one width
-    /// and number of slices, not displaced, keep theirs.
+    /// The slices of two models: as wide as those of the coarser one, or nearly, so that a whole number of them fills
+    /// the zone. Models of one width and number of slices, not displaced, keep theirs.
     #[must_use]
     pub fn of_models(models: [&ReducedGear; 2], displacement_m: f64) -> Self {
         let widths = models.map(|model| model.face_width_m);
@@ -135,9 +138,9 @@ impl SliceLayout {
         Self::new(widths, displacement_m, slices)
     }
 
-    /// So many slices of two models, or [`Self::of_models`] where no number is given. A model knows the compliance at its stations along the
-    /// tooth, two to each of its own slices: slices narrower than the spacing of the coarser model's would stand on stations that
-    /// they share.
+    /// So many slices of two models, or [`Self::of_models`] where no number is given. A model knows the compliance at
+    /// its stations along the tooth, two to each of its own slices: slices narrower than the spacing of the coarser
+    /// model's would stand on stations that they share.
     ///
     /// # Errors
     /// [`ContactError::Apart`], and [`ContactError::Slices`] for none or more than the models resolve.

@@ -1,6 +1,8 @@
-//! What a root crack adds to the compliance between slices: C_ab += Σ_k φ_k(a) φ_k(b), rows by tooth, as a crack sits on one.
+//! What a root crack adds to the compliance between slices: C_ab += Σ_k φ_k(a) φ_k(b), rows by tooth, as a crack sits
+//! on one.
 //!
-//! The rows of the model are combined to slices as the compliance is: along the tooth once, along the profile at each place.
+//! The rows of the model are combined to slices as the compliance is: along the tooth once, along the profile at each
+//! place.
 
 use crate::axial_spread::AxialSpread;
 use crate::placed_slice::ToothPlace;

@@ -1,5 +1,5 @@
-//! How the slices of a mesh sit on a flank of one of its reduced gears: what reads shapes or rows at the flank takes the shares that the compliance
-//! has, whichever family the gear is of.
+//! How the slices of a mesh sit on a flank of one of its reduced gears: what reads shapes or rows at the flank takes
+//! the shares that the compliance has, whichever family the gear is of.
 
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 

@@ -1,17 +1,17 @@
 //! Two half spaces pressed together along a line that is cut into slices: bodies that deflect at their surfaces only,
 //! as Hertz has it.
 //!
-//! A slice of length l carries the line load q, with Hertz's pressure of half width a across the line and even along it.
-//! A point load F on a half space deflects its surface by ½ k F/r (K. L. Johnson, Contact Mechanics, eq. 3.22b). Taken at a
-//! distance ρ across the line, in the middle of slice i, for each body,
+//! A slice of length l carries the line load q, with Hertz's pressure of half width a across the line and even along
+//! it. A point load F on a half space deflects its surface by ½ k F/r (K. L. Johnson, Contact Mechanics, eq. 3.22b).
+//! Taken at a distance ρ across the line, in the middle of slice i, for each body,
 //!
 //! ```text
 //! δ_i = Σ_j ½ k q_j [asinh((d + ½) l/ρ) − asinh((d − ½) l/ρ)],     k = 2(1 − ν²)/(πE),  d = |i − j|
 //! ```
 //!
-//! and with ln ρ = ln(a/2) − ½, its mean over Hertz's pressure, an endless line load deflects as it does there. ρ changes
-//! with the load; the compliance has ρ₀ = `SMEAR` l, and the own local law the rest, δ = k q ln(ρ₀/ρ): right where q
-//! changes little over ρ. Slices may be as short as 0.6 of the contact's width. How far that is from Hertz:
+//! and with ln ρ = ln(a/2) − ½, its mean over Hertz's pressure, an endless line load deflects as it does there. ρ
+//! changes with the load; the compliance has ρ₀ = `SMEAR` l, and the own local law the rest, δ = k q ln(ρ₀/ρ): right
+//! where q changes little over ρ. Slices may be as short as 0.6 of the contact's width. How far that is from Hertz:
 //! docs/theory/sliced_contact.md.
 
 /// ρ₀ over the length of a slice: the local law's logarithm then grows with the load up to half widths of 0.9 slices.
@@ -71,7 +71,8 @@ impl HalfSpaces {
 mod tests {
     use super::*;
 
-    /// An endless even line load on slices deflects as an endless line load does: what falls short of ln(2R/ρ₀) is R's alone.
+    /// An endless even line load on slices deflects as an endless line load does: what falls short of ln(2R/ρ₀) is R's
+    /// alone.
     #[test]
     fn an_even_load_deflects_as_a_line_load() {
         let bodies = HalfSpaces::new([(206e9, 0.3); 2]);

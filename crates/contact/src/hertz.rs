@@ -14,7 +14,8 @@ pub fn half_width_m(
     (4.0 * relative_radius_m * contact_compliance_per_pa * line_load_n_per_m / PI).sqrt()
 }
 
-/// Peak pressure p₀ = 2q/(πa) \[Pa\] of a line load q \[N/m\] over the half width a \[m\]; zero where the half width is.
+/// Peak pressure p₀ = 2q/(πa) \[Pa\] of a line load q \[N/m\] over the half width a \[m\]; zero where the half width
+/// is.
 pub fn peak_pressure_pa(line_load_n_per_m: f64, half_width_m: f64) -> f64 {
     if half_width_m > 0.0 {
         2.0 * line_load_n_per_m / (PI * half_width_m)

@@ -7,8 +7,8 @@
 //! δ = k q [ ln(2h/a) − ν/(2(1 − ν)) ],     k = 2(1 − ν²)/(πE)
 //! ```
 //!
-//! Weber and Banaschek: h is the distance to the opposite side of the tooth. Calibrated: δ = q [c₀ − w_h − k ln(a/a₀)], so
-//! that h is the effective depth
+//! Weber and Banaschek: h is the distance to the opposite side of the tooth. Calibrated: δ = q [c₀ − w_h − k ln(a/a₀)],
+//! so that h is the effective depth
 //!
 //! ```text
 //! h = (a₀/2) exp[ (c₀ − w_h)/k + ν/(2(1 − ν)) ]
@@ -78,7 +78,8 @@ impl LocalContact {
     }
 }
 
-/// How the law of a slice changes as its contact walks, per radian of roll, or as its width grows, per unit of the share of the slice.
+/// How the law of a slice changes as its contact walks, per radian of roll, or as its width grows, per unit of the
+/// share of the slice.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LawRate {
     /// α′ \[m/(N·rad)\].
@@ -102,8 +103,8 @@ impl LawRate {
 }
 
 impl LocalContact {
-    /// Change of a law where the depth in one body grows by the share `depth_growth` and the relative radius by `radius_growth`, per
-    /// radian.
+    /// Change of a law where the depth in one body grows by the share `depth_growth` and the relative radius by
+    /// `radius_growth`, per radian.
     pub fn law_rate(
         self,
         (contact, law): (&LineContact, &LocalLaw),
@@ -133,8 +134,8 @@ impl LocalContact {
         }
     }
 
-    /// Change of a law with the share s of the slice's width that touches, where the depths grow by these shares of themselves: α s and
-    /// β s are those of a line load, α s with the logarithm of the load's own width.
+    /// Change of a law with the share s of the slice's width that touches, where the depths grow by these shares of
+    /// themselves: α s and β s are those of a line load, α s with the logarithm of the load's own width.
     pub fn law_rate_by_share(
         self,
         (contact, law): (&LineContact, &LocalLaw),

@@ -36,12 +36,14 @@
 //! 3. If the set cycles: a descent that cannot. The problem is the optimality condition of a convex function,
 //!    minimised face by face (Lawson and Hanson, Solving Least Squares Problems (1974), chapter 23), on the plane
 //!    `Σ b_i F_i = T` if the load is given.
-//! 4. If that fails under a given load, which takes `b` not parallel to `w` and a nearly singular `C`: a bracket on `y`.
+//! 4. If that fails under a given load, which takes `b` not parallel to `w` and a nearly singular `C`: a bracket on
+//!    `y`.
 //!
 //! # What is unique
-//! With `C + diag δ'` positive definite the answer at given `x` is unique. Under a given load it is unique if `b` is parallel
-//! to `w`, and for weak friction on well-conditioned compliances; where `dT/dx` in [`Info`] comes out negative, other
-//! equilibria exist. On a singular `C` the gaps and the load at given `x` are unique, the split of the forces is not.
+//! With `C + diag δ'` positive definite the answer at given `x` is unique. Under a given load it is unique if `b` is
+//! parallel to `w`, and for weak friction on well-conditioned compliances; where `dT/dx` in [`Info`] comes out
+//! negative, other equilibria exist. On a singular `C` the gaps and the load at given `x` are unique, the split of the
+//! forces is not.
 //!
 //! # Residual
 //! Row by row, against the sum of the magnitudes of the row's own terms,

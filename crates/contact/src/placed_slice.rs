@@ -38,8 +38,8 @@ impl ToothPlace {
 ///
 /// A slice has axial stations at its edges and its middle. Equal forces on all slices make a uniform load whenever the
 /// edges carry ¼ each and a station in the middle ½ in sum over the slices. One share is left free: −1/24 on the
-/// neighbours' middles gives a slice's force the second moment w²/12 of a load that is uniform on it, w its width, and an
-/// edge slice the first. Without (¼, ½, ¼) it would be a triangle two slices wide with twice that moment.
+/// neighbours' middles gives a slice's force the second moment w²/12 of a load that is uniform on it, w its width, and
+/// an edge slice the first. Without (¼, ½, ¼) it would be a triangle two slices wide with twice that moment.
 const ON_NEIGHBOUR: f64 = -1.0 / 24.0;
 
 /// Shares of the force on `slice` of `slices`, as (axial station, share). They add up to one.
@@ -59,7 +59,8 @@ pub fn axial_shares(slice: usize, slices: usize) -> impl Iterator<Item = (usize,
 mod tests {
     use super::*;
 
-    /// Density of a slice's unit force at the stations, slices one unit wide: a hat of one newton is 2 high, at the faces 4.
+    /// Density of a slice's unit force at the stations, slices one unit wide: a hat of one newton is 2 high, at the
+    /// faces 4.
     fn density(slice: usize, slices: usize) -> Vec<f64> {
         let mut density = vec![0.0; 2 * slices + 1];
         for (station, share) in axial_shares(slice, slices) {
@@ -84,8 +85,8 @@ mod tests {
         }
     }
 
-    /// Moment of a slice's unit force about its middle, slices one unit wide: an inner hat has the variance 1/24 about its
-    /// station, half a hat its centroid 1/6 inside and the variance 1/72 about it.
+    /// Moment of a slice's unit force about its middle, slices one unit wide: an inner hat has the variance 1/24 about
+    /// its station, half a hat its centroid 1/6 inside and the variance 1/72 about it.
     fn moment(slice: usize, slices: usize, power: i32) -> f64 {
         axial_shares(slice, slices)
             .map(|(station, share)| {

@@ -1,10 +1,11 @@
 //! How a force at a place along the profile is shared by the hats of the stations.
 //!
-//! A hat is some tenths of a module wide, the true pressure next to nothing. What is narrower than a hat is the local term's
-//! affair; but the rest of the deflection, the bending of the tooth and the turn of its foot, is smooth over a hat, and a load
-//! spread over a width averages it: with the variance σ² of the spread load a smooth compliance D(ξ, ξ') is read as
-//! D + ½σ²(D_ξξ + D_ξ'ξ'), some tenths of a per cent too soft. The shares Φ therefore keep the force, its first moment *and* its
-//! second one, which is zero. With centroids c_i and variances v_i of the hats and ξ between c_i and c_{i+1}:
+//! A hat is some tenths of a module wide, the true pressure next to nothing. What is narrower than a hat is the local
+//! term's affair; but the rest of the deflection, the bending of the tooth and the turn of its foot, is smooth over a
+//! hat, and a load spread over a width averages it: with the variance σ² of the spread load a smooth compliance D(ξ,
+//! ξ') is read as D + ½σ²(D_ξξ + D_ξ'ξ'), some tenths of a per cent too soft. The shares Φ therefore keep the force,
+//! its first moment *and* its second one, which is zero. With centroids c_i and variances v_i of the hats and ξ between
+//! c_i and c_{i+1}:
 //!
 //! ```text
 //! Φ = (1−t) e_i + t e_{i+1} − V [(1−t) β_i + t β_{i+1}],     t = (ξ − c_i)/(c_{i+1} − c_i)
@@ -15,7 +16,8 @@
 //! continuous in ξ. At the outermost stations β is that of their inner neighbours. Beyond the outermost centroids the
 //! same rule is extrapolated: at the very edge of the flank the last stations have shares of some 0.2, −1.1, 1.8.
 //!
-//! Hats are taken over the flank's area, as the loads are: dA = a(u) du per width, on an involute flank, whose u is the roll angle ξ, r_b ξ dξ.
+//! Hats are taken over the flank's area, as the loads are: dA = a(u) du per width, on an involute flank, whose u is the
+//! roll angle ξ, r_b ξ dξ.
 
 /// Stations that share a force at most.
 pub const SHARES: usize = 4;
@@ -35,8 +37,8 @@ pub struct ProfileHats {
 pub struct ProfilePlace {
     /// Lower station.
     pub station: usize,
-    /// Share of the station above it in the linear interpolation between the two; may lie a little outside 0 to 1 beyond the
-    /// outermost centroids.
+    /// Share of the station above it in the linear interpolation between the two; may lie a little outside 0 to 1
+    /// beyond the outermost centroids.
     pub share: f64,
     /// First of the stations that have shares, and their shares.
     first: usize,

@@ -125,8 +125,8 @@ pub struct SliceContact {
 }
 
 impl SliceContact {
-    /// Prepares the contact of two reduced gears with so many teeth, loaded on flanks of these sides, on the slices of a
-    /// layout; for up to `most_lines` contact lines at once. Flanks that are `known` are not condensed again.
+    /// Prepares the contact of two reduced gears with so many teeth, loaded on flanks of these sides, on the slices of
+    /// a layout; for up to `most_lines` contact lines at once. Flanks that are `known` are not condensed again.
     ///
     /// # Errors
     /// [`ContactError`] when the models do not fit the teeth or each other.

@@ -1,11 +1,13 @@
-//! The part of a slice of helical teeth that is on the rigid path of contact: between the slice's edges and the places where a flank ends.
+//! The part of a slice of helical teeth that is on the rigid path of contact: between the slice's edges and the places
+//! where a flank ends.
 //!
 //! Places run along the axes. Each comes with its derivatives by N numbers, at rest none, at a pose the six increments.
 
 use nalgebra::SVector;
 
-/// Share of a slice below which it counts as off the path, or beside the mate's face. No unit. Its force falls with the share, so that this is the
-/// jump that is left, a hundred-thousandth of a slice's force; far below, the floor of the local law's logarithm would reach its cap.
+/// Share of a slice below which it counts as off the path, or beside the mate's face. No unit. Its force falls with the
+/// share, so that this is the jump that is left, a hundred-thousandth of a slice's force; far below, the floor of the
+/// local law's logarithm would reach its cap.
 pub const LEAST_SHARE: f64 = 1e-5;
 
 /// A number and its derivatives.

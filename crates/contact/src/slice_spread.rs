@@ -1,19 +1,20 @@
 //! What the calibrated correction of a slice's own term leaves for its neighbours.
 //!
-//! The correction is that of an endless line load. A slice is short: near its ends the true near field, which is narrow, is
-//! fully there, that of the hats, which reaches some tenths of a module, is not. So the correction of a single slice is
-//! smaller than the endless one, and what is missing there belongs to the neighbours. Along the line both near fields are
-//! those of a point load on a half space (Johnson eq. 3.22b), smeared over a distance r across the line:
+//! The correction is that of an endless line load. A slice is short: near its ends the true near field, which is
+//! narrow, is fully there, that of the hats, which reaches some tenths of a module, is not. So the correction of a
+//! single slice is smaller than the endless one, and what is missing there belongs to the neighbours. Along the line
+//! both near fields are those of a point load on a half space (Johnson eq. 3.22b), smeared over a distance r across the
+//! line:
 //!
 //! ```text
 //! K(z) = (k/2) ⟨ 1/√(z² + ρ²) ⟩ − (k/2) / √(z² + h²/4),     k = 2(1 − ν²)/(πE)
 //! ```
 //!
-//! The second part ends it at about the depth h of the tooth; it matters on slices wider than that only. ⟨⟩ is the mean over
-//! the distances ρ across the line between force and deflection (`Distances`): under the Hertz pressure those from its middle;
-//! between the hats those of two points of one hat each, scaled so that an endless line is as stiff as the hats on the mesh,
-//! ⟨ln ρ⟩_h = ⟨ln ρ⟩ + (c₀ − w_h)/k. The ends of a slice see ⟨ρ⟩ as well, which is why the shape matters.
-//! With s the uniform density of a slice force, f that of its hats ([`crate::axial_spread`]),
+//! The second part ends it at about the depth h of the tooth; it matters on slices wider than that only. ⟨⟩ is the mean
+//! over the distances ρ across the line between force and deflection (`Distances`): under the Hertz pressure those from
+//! its middle; between the hats those of two points of one hat each, scaled so that an endless line is as stiff as the
+//! hats on the mesh, ⟨ln ρ⟩_h = ⟨ln ρ⟩ + (c₀ − w_h)/k. The ends of a slice see ⟨ρ⟩ as well, which is why the shape
+//! matters. With s the uniform density of a slice force, f that of its hats ([`crate::axial_spread`]),
 //!
 //! ```text
 //! e = ∫∫ s_i K s_j dz dz' − ∫∫ f_i K_h f_j dz dz'                      j next to i
@@ -30,8 +31,8 @@ const SLICES: usize = 8;
 const CELLS: usize = 48;
 /// Distances across the line for which the kernel is taken.
 const DISTANCES: usize = 12;
-/// Largest share of the own correction that goes to one neighbour. An alternating load then still sees a third of it: the
-/// compliance stays positive. Reached only where slices are narrower than the hats' near field.
+/// Largest share of the own correction that goes to one neighbour. An alternating load then still sees a third of it:
+/// the compliance stays positive. Reached only where slices are narrower than the hats' near field.
 const LARGEST_SHARE: f64 = 1.0 / 6.0;
 
 /// How much of two neighbouring slices' densities lie at each distance, and with it the term between them.
@@ -87,8 +88,8 @@ impl Distances {
 }
 
 impl NeighbourTerm {
-    /// The overlaps, which depend on neither width nor material; `own_width`: that of the model's own slices, on which its stations lie, over that of
-    /// the slices.
+    /// The overlaps, which depend on neither width nor material; `own_width`: that of the model's own slices, on which
+    /// its stations lie, over that of the slices.
     pub fn new(own_width: f64) -> Self {
         let first = SLICES / 2 - 1;
         Self {
@@ -99,7 +100,8 @@ impl NeighbourTerm {
         }
     }
 
-    /// e \[m/N\] for slices of `width_m`, from k \[m²/N\], c₀ − w_h \[m²/N\] at a₀ \[m\], and the tooth's depth h \[m\].
+    /// e \[m/N\] for slices of `width_m`, from k \[m²/N\], c₀ − w_h \[m²/N\] at a₀ \[m\], and the tooth's depth h
+    /// \[m\].
     pub fn at(
         &self,
         k_m2_per_n: f64,
@@ -129,7 +131,8 @@ fn uniform(slice: usize) -> Vec<f64> {
     density
 }
 
-/// The stretch begins where slices of the model and of the contact begin together, and the model's go on beyond its ends.
+/// The stretch begins where slices of the model and of the contact begin together, and the model's go on beyond its
+/// ends.
 fn hats(slice: usize, own_width: f64) -> Vec<f64> {
     let own_slices = (SLICES as f64 / own_width).ceil() as usize;
     let mut stations = vec![0.0; 2 * own_slices + 2];
@@ -191,7 +194,8 @@ mod tests {
         }
     }
 
-    /// On a Hertz strip ⟨ρ⟩ = 4a/(3π) and ⟨ln ρ⟩ = ln(a/2) − 1/2; two points of a hat of half width one are 7/15 apart in the mean.
+    /// On a Hertz strip ⟨ρ⟩ = 4a/(3π) and ⟨ln ρ⟩ = ln(a/2) − 1/2; two points of a hat of half width one are 7/15 apart
+    /// in the mean.
     #[test]
     fn distances_have_the_means_of_their_densities() {
         let mean = |d: &Distances| d.0.iter().map(|(at, weight)| at * weight).sum::<f64>();
@@ -201,8 +205,8 @@ mod tests {
         assert!((hertz.mean_logarithm() - (0.5_f64.ln() - 0.5)).abs() < 0.01);
     }
 
-    /// On slices much wider than the hats' near field little is left but the overlap of the hats, which is taken back; on
-    /// narrow ones the neighbour gets its part, at most the sixth.
+    /// On slices much wider than the hats' near field little is left but the overlap of the hats, which is taken back;
+    /// on narrow ones the neighbour gets its part, at most the sixth.
     #[test]
     fn the_term_grows_as_slices_get_narrow() {
         let (k, missing, a0) = (2.8e-12, 6e-12, 1e-4);

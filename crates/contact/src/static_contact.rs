@@ -1,14 +1,14 @@
 //! Forces and transmission error of a pair at rest, at one position.
 //!
 //! g = C F + local(F) + e − x ≥ 0, F ≥ 0, gᵀF = 0, with x = −TE the rigid approach along the line of action, and where
-//! the driven torque is given Σ F_i b_i = T₂, b_i = r_b2 + μ_i ρ₂ (friction towards the tip of gear 2 helps to turn it).
-//! Beyond the ends of the path a tip edge touches: there x closes the gap at the rate w_i = b_i/r_b2 (without friction)
-//! and the compliance of the tip tooth is that of the force's component along its own flank's normal.
+//! the driven torque is given Σ F_i b_i = T₂, b_i = r_b2 + μ_i ρ₂ (friction towards the tip of gear 2 helps to turn
+//! it). Beyond the ends of the path a tip edge touches: there x closes the gap at the rate w_i = b_i/r_b2 (without
+//! friction) and the compliance of the tip tooth is that of the force's component along its own flank's normal.
 //!
 //! Errors of single flanks open gaps (flank_deviations.rs), gears beside their axes move the teeth (runout.rs).
 //!
-//! Helical teeth: gaps are measured along the normal, so that the approach closes them at w_i = cos β_b, the lever arms are
-//! b_i = r_b2 cos β_b + μ_i ρ₂, every slice has its own roll angle, and the forces have an axial part, ∓F sin β_b.
+//! Helical teeth: gaps are measured along the normal, so that the approach closes them at w_i = cos β_b, the lever arms
+//! are b_i = r_b2 cos β_b + μ_i ρ₂, every slice has its own roll angle, and the forces have an axial part, ∓F sin β_b.
 
 use crate::condensed_flanks::CondensedFlanks;
 use crate::contact_error::ContactError;
@@ -94,7 +94,8 @@ impl StaticContact {
         Ok(Self::of_condensed(lines, slices, options.friction))
     }
 
-    /// The bodies condensed to the slices of a layout: what of a contact does not depend on microgeometry, load or friction.
+    /// The bodies condensed to the slices of a layout: what of a contact does not depend on microgeometry, load or
+    /// friction.
     ///
     /// # Errors
     /// As [`StaticContact::new`].
@@ -116,8 +117,8 @@ impl StaticContact {
         )
     }
 
-    /// The contact of bodies that [`StaticContact::condensed`] has condensed for these lines, or for others of the same gears that are as
-    /// many at most.
+    /// The contact of bodies that [`StaticContact::condensed`] has condensed for these lines, or for others of the same
+    /// gears that are as many at most.
     #[must_use]
     pub fn of_condensed(
         lines: ContactLines,
@@ -191,8 +192,9 @@ impl<F: FlanksAtRest> StaticContact<F> {
         self.slices.reset();
     }
 
-    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact of the patch with this number under a normal force; q is
-    /// the force over the patch's length along the contact line. At a tip edge those of the Hertz contact that deflects as the edge does.
+    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact of the patch with this number under a
+    /// normal force; q is the force over the patch's length along the contact line. At a tip edge those of the Hertz
+    /// contact that deflects as the edge does.
     ///
     /// # Panics
     /// If there is no such patch.
@@ -203,7 +205,8 @@ impl<F: FlanksAtRest> StaticContact<F> {
         (a, hertz::peak_pressure_pa(force_n / contact.width_m, a))
     }
 
-    /// Solves one position. Patches and forces are left in [`StaticContact::patches`] and [`StaticContact::forces_n`]. No allocation.
+    /// Solves one position. Patches and forces are left in [`StaticContact::patches`] and [`StaticContact::forces_n`].
+    /// No allocation.
     ///
     /// # Errors
     /// [`ContactError::At`] the driver angle: the solver does not converge, or no local law exists.

@@ -33,8 +33,8 @@ impl TipGear {
 pub struct TipContact {
     /// Gear whose tip edge it is.
     pub tip_gear: TipGear,
-    /// Gap along the mating flank's normal \[m\], open positive. Grows by the mating gear's r_b per radian of its turning
-    /// back, by `tip_arm_m` per radian of the tip gear's.
+    /// Gap along the mating flank's normal \[m\], open positive. Grows by the mating gear's r_b per radian of its
+    /// turning back, by `tip_arm_m` per radian of the tip gear's.
     pub gap_m: f64,
     /// Roll angle of the foot point on the mating flank \[rad\].
     pub foot_roll_rad: f64,
@@ -43,8 +43,8 @@ pub struct TipContact {
     pub tilt_rad: f64,
     /// Angle between the force and the perpendicular to the line of centres \[rad\]: α_w at the ends of the path.
     pub force_angle_rad: f64,
-    /// Lever arm of the normal force about the tip gear's axis \[m\]; r_b of the tip gear at the ends of the path. About the
-    /// mating gear's axis it is always that gear's r_b.
+    /// Lever arm of the normal force about the tip gear's axis \[m\]; r_b of the tip gear at the ends of the path.
+    /// About the mating gear's axis it is always that gear's r_b.
     pub tip_arm_m: f64,
     /// Lever arm about the tip gear's axis of a unit force towards its tip, perpendicular to the normal force \[m\].
     pub tip_friction_arm_m: f64,
@@ -113,8 +113,8 @@ pub struct PathExtension {
 }
 
 impl PathExtension {
-    /// Derives how far the path is extended: up to [`LARGEST_GAP_OVER_BASE_PITCH`], at most half a pitch at each end and
-    /// never beyond the end of the mating flank.
+    /// Derives how far the path is extended: up to [`LARGEST_GAP_OVER_BASE_PITCH`], at most half a pitch at each end
+    /// and never beyond the end of the mating flank.
     pub fn new(pair: &GearPair, edge_radius_m: f64) -> Self {
         let base_pitch = pair.pitch_1_rad() * pair.gear_1.base_radius_m;
         let largest_gap = LARGEST_GAP_OVER_BASE_PITCH * base_pitch;

@@ -6,8 +6,8 @@
 //! τ(τ − 1)/2,   1 − τ²,   τ(τ + 1)/2
 //! ```
 //!
-//! keep the force, its first moment τ and its second one τ²: what is smooth along the tooth is read as it is at the place.
-//! At the ends of the tooth the three slices are those nearest to the end.
+//! keep the force, its first moment τ and its second one τ²: what is smooth along the tooth is read as it is at the
+//! place. At the ends of the tooth the three slices are those nearest to the end.
 
 /// Slices that share a force.
 pub(crate) const SLICES: usize = 3;
@@ -47,8 +47,8 @@ impl WalkedSlice {
     }
 }
 
-/// Slices of gear 2 that stand where their patches are along its teeth: gear 1's slices are even on its face, and both faces end
-/// together at the heel.
+/// Slices of gear 2 that stand where their patches are along its teeth: gear 1's slices are even on its face, and both
+/// faces end together at the heel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SliceWalk {
     slices: usize,
@@ -57,7 +57,8 @@ pub struct SliceWalk {
 }
 
 impl SliceWalk {
-    /// So many slices over a face of `face_m`, as many as gear 1 has over its face of `face_1_m`; none where there are too few to share a force.
+    /// So many slices over a face of `face_m`, as many as gear 1 has over its face of `face_1_m`; none where there are
+    /// too few to share a force.
     #[must_use]
     pub fn new(slices: usize, face_m: f64, face_1_m: f64) -> Option<Self> {
         let walk = Self {

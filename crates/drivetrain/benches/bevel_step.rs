@@ -1,9 +1,9 @@
-//! A spiral bevel pair in slices, 20/20 teeth at 600 rpm and 50 steps a mesh period: time of a step against real time, fastest and middle mesh
-//! period of many.
+//! A spiral bevel pair in slices, 20/20 teeth at 600 rpm and 50 steps a mesh period: time of a step against real time,
+//! fastest and middle mesh period of many.
 //!
-//! `cargo bench -p gearmesh-drivetrain --bench bevel_step --profile dev`; on a busy machine only the fastest period says something. With
-//! `-- NAME` only the cases of that name; with `-- PINION.h5 GEAR.h5` reduced members of the pair, as dynamics_bevel_20_20_hybrid.toml has them, in
-//! place of made-up ones.
+//! `cargo bench -p gearmesh-drivetrain --bench bevel_step --profile dev`; on a busy machine only the fastest period
+//! says something. With `-- NAME` only the cases of that name; with `-- PINION.h5 GEAR.h5` reduced members of the pair,
+//! as dynamics_bevel_20_20_hybrid.toml has them, in place of made-up ones.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 #[path = "../tests/mesh_common/mod.rs"]

@@ -1,8 +1,9 @@
-//! A pair at 600 rpm, both gears with six degrees of freedom: time of a step against real time, fastest and middle mesh period of many;
-//! then the same with every step written out, without and with eight gauges.
+//! A pair at 600 rpm, both gears with six degrees of freedom: time of a step against real time, fastest and middle mesh
+//! period of many; then the same with every step written out, without and with eight gauges.
 //!
-//! `cargo bench -p gearmesh-drivetrain --bench step --profile dev`; on a busy machine only the fastest period says something. With
-//! `-- NAME` only the cases of that name. With `-- accuracy` what Newton's tolerance and the step cost in accuracy, in place of times.
+//! `cargo bench -p gearmesh-drivetrain --bench step --profile dev`; on a busy machine only the fastest period says
+//! something. With `-- NAME` only the cases of that name. With `-- accuracy` what Newton's tolerance and the step cost
+//! in accuracy, in place of times.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 #[path = "../tests/mesh_common/mod.rs"]
@@ -23,7 +24,8 @@ struct Kind {
     pair: fn() -> GearPair,
     mesh: &'static str,
     steps: usize,
-    /// Stated share of the step's own motion to which Newton's method goes; none: the default, a tenth of the step's own error.
+    /// Stated share of the step's own motion to which Newton's method goes; none: the default, a tenth of the step's
+    /// own error.
     tolerance: Option<f64>,
     output: bool,
     gauges: usize,

@@ -1,15 +1,17 @@
 //! Helical teeth in space: the sections of both gears at the contact in a slice plane, and their derivatives.
 //!
-//! The plane cuts the axes at z₁ and z₂ (mesh_frame.rs). A contact at r_b1 (σ w⊥ + ξ₁ w) from gear 1's axis lies on gear 1 at the height
-//! z₁ − r_b1 (σ f·w⊥ + ξ₁ f·w), on gear 2 at z₂ − r_b2 (σ f·w⊥ + ξ₂ f·w). Its sections there have turned by κ times that, κ = tan β_b/r_b
-//! with the sign of the hand, κ₂ r_b2 = −κ₁ r_b1. With ξ⁰ the roll angle without twist, T = tan β_b, φ = f·w, ψ = f·w⊥,
+//! The plane cuts the axes at z₁ and z₂ (mesh_frame.rs). A contact at r_b1 (σ w⊥ + ξ₁ w) from gear 1's axis lies on
+//! gear 1 at the height z₁ − r_b1 (σ f·w⊥ + ξ₁ f·w), on gear 2 at z₂ − r_b2 (σ f·w⊥ + ξ₂ f·w). Its sections there have
+//! turned by κ times that, κ = tan β_b/r_b with the sign of the hand, κ₂ r_b2 = −κ₁ r_b1. With ξ⁰ the roll angle
+//! without twist, T = tan β_b, φ = f·w, ψ = f·w⊥,
 //!
 //! ```text
 //! ξ₁ = (ξ₁⁰ − σ κ₁ z₁ + T ψ)/(1 − σ T φ),        ξ₂ = (ξ₂⁰ − σ κ₂ z₂ − T ψ)/(1 + σ T φ)
 //! g = cos β_b (L − r_b1 ξ₁ − r_b2 ξ₂),           ∂φ = ½ (0, b × w) + ψ ∂ω,      ∂ψ = ½ (0, b × w⊥) − φ ∂ω
 //! ```
 //!
-//! On parallel axes ∂g = (n, (P − u) × n) with n = cos β_b w + σ sin β_b e_z and P the point of contact: the wrench of the flanks' normal.
+//! On parallel axes ∂g = (n, (P − u) × n) with n = cos β_b w + σ sin β_b e_z and P the point of contact: the wrench of
+//! the flanks' normal.
 
 use gearmesh_geometry::{BaseCircles, ToothGeometry};
 use nalgebra::Vector3;
@@ -18,7 +20,8 @@ use crate::mesh_frame::{MeshFrame, turn_of_spin_gradient};
 use crate::pose::{Vector6, on_turn};
 use crate::slice_plane::{Matrix6, SlicePlane, ToothZero};
 
-/// The helix of a pair; β_b is gear 1's, positive for a right hand. The gears have opposite hands, a ring and the gear inside it equal ones.
+/// The helix of a pair; β_b is gear 1's, positive for a right hand. The gears have opposite hands, a ring and the gear
+/// inside it equal ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BaseHelix {
     pub cos: f64,
@@ -69,9 +72,10 @@ impl BaseHelix {
         [roll_1, roll_2 - turned_2]
     }
 
-    /// The sections of two flanks whose roll angles without twist are `plain_rad`, and their gap. With `common` at a contact there, r_b1 ξ₁ − r_b2 ξ₂
-    /// \[m\], wherever these flanks touch: on tilted axes the gap changes from one pair of teeth to the next by 2 sin β_b f·w p_b, and what stands for all of
-    /// them takes it at one place. Its roll angles are then those of X = ξ (1 ∓ σ T φ), which teeth a pitch apart share but for their pitch.
+    /// The sections of two flanks whose roll angles without twist are `plain_rad`, and their gap. With `common` at a
+    /// contact there, r_b1 ξ₁ − r_b2 ξ₂ \[m\], wherever these flanks touch: on tilted axes the gap changes from one
+    /// pair of teeth to the next by 2 sin β_b f·w p_b, and what stands for all of them takes it at one place. Its roll
+    /// angles are then those of X = ξ (1 ∓ σ T φ), which teeth a pitch apart share but for their pitch.
     pub(crate) fn flanks(
         &self,
         (frame, plane): (&MeshFrame, &SlicePlane),

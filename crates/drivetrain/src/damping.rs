@@ -1,7 +1,7 @@
 //! Damping of elastic teeth.
 //!
-//! Both kinds fade in with the penetration δ = −gap by s(δ) = STEP(δ, 0, 0, δ_full, 1): the force is continuous where teeth meet and
-//! nothing acts on teeth that are apart.
+//! Both kinds fade in with the penetration δ = −gap by s(δ) = STEP(δ, 0, 0, δ_full, 1): the force is continuous where
+//! teeth meet and nothing acts on teeth that are apart.
 //!
 //! | kind | law |
 //! | --- | --- |
@@ -131,8 +131,8 @@ impl<M: TeethModel> Damped<M> {
         (self.teeth).apply_stiffness(&self.felt, loads, &self.advance_m, &mut self.drag_n);
         for (i, contact) in flanks.contacts.iter().enumerate() {
             loads.dissipated_w += contact.gap_rate_m_per_s * self.drag_n[i];
-            // The energy V at the true gap g, from the felt one g + a: V(g) = V(g + a) + F·a + ½ aᵀK a, so that what the forces do is the change
-            // of V and aᵀK ġ but for what K changes.
+            // The energy V at the true gap g, from the felt one g + a: V(g) = V(g + a) + F·a + ½ aᵀK a, so that what
+            // the forces do is the change of V and aᵀK ġ but for what K changes.
             let mean_n = loads.normal_n[i] + 0.5 * self.drag_n[i];
             loads.stored_j += mean_n * self.advance_m[i];
         }

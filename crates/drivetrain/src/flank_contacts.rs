@@ -11,22 +11,24 @@ use crate::pose::Vector6;
 /// Deviations of one gear's flanks.
 pub type FlankErrors = Vec<Arc<dyn FlankError>>;
 
-/// Where two flanks cross the line of action. The slices of a spur pair share the one at mid-face; of helical teeth each slice has its own.
+/// Where two flanks cross the line of action. The slices of a spur pair share the one at mid-face; of helical teeth
+/// each slice has its own.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Section {
-    /// Roll angles on gear 1 and gear 2 \[rad\]; continued beyond the ends of the path. Of a slice that is partly on the path that of the
-    /// part's middle.
+    /// Roll angles on gear 1 and gear 2 \[rad\]; continued beyond the ends of the path. Of a slice that is partly on
+    /// the path that of the part's middle.
     pub roll_rad: [f64; 2],
     /// The same, at most at the end of the flank.
     pub touching_roll_rad: [f64; 2],
     /// Derivatives of the roll angles by the increments of the pose.
     pub roll_gradient: [Vector6; 2],
-    /// Width that touches over the slice's width at the reference displacement, above zero: it changes with the overlap of the faces, and of helical
-    /// teeth on the rigid path with the part that is on it.
+    /// Width that touches over the slice's width at the reference displacement, above zero: it changes with the overlap
+    /// of the faces, and of helical teeth on the rigid path with the part that is on it.
     pub share: f64,
     /// Its derivative by the increments of the pose, and that of ln `stiffness`.
     pub share_gradient: Vector6,
-    /// Stiffness of the contact over that which the law states, for families whose curvature changes along the path; 1 elsewhere.
+    /// Stiffness of the contact over that which the law states, for families whose curvature changes along the path; 1
+    /// elsewhere.
     pub stiffness: f64,
     /// Length of a slice's part that touches, along the contact line \[m\].
     pub length_m: f64,
@@ -36,7 +38,8 @@ pub struct Section {
     pub radius_growth: [f64; 2],
     /// ∂(ln length)/∂u on gear 1 and gear 2, besides what the share says.
     pub length_growth: [f64; 2],
-    /// Derivatives of the places along the teeth of gear 1 and gear 2 by the increments of the pose, where slices walk along them.
+    /// Derivatives of the places along the teeth of gear 1 and gear 2 by the increments of the pose, where slices walk
+    /// along them.
     pub along_gradient: [Vector6; 2],
     /// First of its contacts, and how many there are.
     pub contacts: (usize, usize),
@@ -91,10 +94,11 @@ pub struct ModalRows {
     pub shapes: Vec<f64>,
     /// ∂φ/∂ξ, `[contact][mode]`; zero where the contact has reached the end of the flank.
     pub slopes: Vec<f64>,
-    /// ∂φ/∂(place along the tooth), `[contact][mode]` \[kg^-½/m\]; empty where slices do not walk along the teeth of the gear.
+    /// ∂φ/∂(place along the tooth), `[contact][mode]` \[kg^-½/m\]; empty where slices do not walk along the teeth of
+    /// the gear.
     pub slopes_along: Vec<f64>,
-    /// How fast flanks slide along each tangent of the friction per unit of η̇, `[contact][mode]` \[kg^-½\]; empty in a mesh without friction, the
-    /// second one of flanks that slide along the profile only.
+    /// How fast flanks slide along each tangent of the friction per unit of η̇, `[contact][mode]` \[kg^-½\]; empty in a
+    /// mesh without friction, the second one of flanks that slide along the profile only.
     pub sliding: [Vec<f64>; 2],
 }
 
@@ -174,10 +178,11 @@ pub struct FlankContacts {
     pub contacts: Vec<ToothContact>,
     /// Shapes of gear 1's and gear 2's vibration modes at them; empty without.
     pub modal: [ModalRows; 2],
-    /// How far vibration bends flanks towards each other at most \[m\], as a bound: stated before flanks are looked for, so that those are found
-    /// that touch when they are bent.
+    /// How far vibration bends flanks towards each other at most \[m\], as a bound: stated before flanks are looked
+    /// for, so that those are found that touch when they are bent.
     pub bent_m: f64,
-    /// Gap of ideal flanks in the middle of the zone \[m\] where no flanks of this side can touch and no lines were looked for.
+    /// Gap of ideal flanks in the middle of the zone \[m\] where no flanks of this side can touch and no lines were
+    /// looked for.
     pub open_gap_m: Option<f64>,
 }
 

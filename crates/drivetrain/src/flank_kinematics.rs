@@ -6,9 +6,9 @@
 //! | bevel gears, on axes that meet | `bevel/` |
 //! | crowned cylinders on crossed axes, the example of docs/extending.md | `tests/verification/conformance/crowned_cylinders.rs` |
 //!
-//! At rest, [`crate::PosedFlanks`] makes of any family what a static contact asks for.
-//! A family finds the patches that face each other at a pose, with their gaps and derivatives ([`FlankContacts`]). Models, friction, modes and
-//! the assembly of the load ask for no more.
+//! At rest, [`crate::PosedFlanks`] makes of any family what a static contact asks for. A family finds the patches that
+//! face each other at a pose, with their gaps and derivatives ([`FlankContacts`]). Models, friction, modes and the
+//! assembly of the load ask for no more.
 
 use gearmesh_contact::SliceLayout;
 use gearmesh_geometry::Flank;
@@ -53,12 +53,14 @@ pub trait FlankKinematics: Send {
     /// Slices along the teeth.
     fn layout(&self) -> &SliceLayout;
 
-    /// Side of the flanks of gear 0 or 1 that touch on a side, which is named by gear 1's: a ring and the gear inside it touch with opposite ones.
+    /// Side of the flanks of gear 0 or 1 that touch on a side, which is named by gear 1's: a ring and the gear inside
+    /// it touch with opposite ones.
     fn side_of(&self, _gear: usize, side: Flank) -> Flank {
         side
     }
 
-    /// σ = ±1 of a side: the tangent of [`Self::sliding`] points to the tip of gear 1 and from that of gear 2 where it is +1.
+    /// σ = ±1 of a side: the tangent of [`Self::sliding`] points to the tip of gear 1 and from that of gear 2 where it
+    /// is +1.
     fn hand(&self, side: Flank) -> f64 {
         side.mirror()
     }
@@ -66,7 +68,8 @@ pub trait FlankKinematics: Send {
     /// Largest number of patches that can face each other at once, for sizing.
     fn capacity(&self) -> usize;
 
-    /// Distance of one tooth from the next along the line of action \[m\]: the measure of motions in which teeth pass through each other.
+    /// Distance of one tooth from the next along the line of action \[m\]: the measure of motions in which teeth pass
+    /// through each other.
     fn pitch_m(&self) -> f64;
 
     /// Whether the flanks of any gear deviate from the ideal.
@@ -98,11 +101,12 @@ pub trait FlankKinematics: Send {
         None
     }
 
-    /// Finds all patches that face each other on one side; `pose`: the one that was located. Families that leave patches out which stand too far open
-    /// count with flanks bent by [`FlankContacts::bent_m`].
+    /// Finds all patches that face each other on one side; `pose`: the one that was located. Families that leave
+    /// patches out which stand too far open count with flanks bent by [`FlankContacts::bent_m`].
     fn contacts(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts);
 
-    /// The same where `found` holds what was found last on this side, at a pose next to this one: families whose search takes long begin at it.
+    /// The same where `found` holds what was found last on this side, at a pose next to this one: families whose search
+    /// takes long begin at it.
     fn contacts_nearby(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
         self.contacts(pose, side, found);
     }
@@ -158,7 +162,8 @@ pub trait FlankKinematics: Send {
         None
     }
 
-    /// Place of a contact on both flanks, and its ellipse after Hertz under a force \[N\] with E* \[Pa\]; of families whose flanks touch in points.
+    /// Place of a contact on both flanks, and its ellipse after Hertz under a force \[N\] with E* \[Pa\]; of families
+    /// whose flanks touch in points.
     fn contact_patch(
         &self,
         _contact: usize,
@@ -168,13 +173,14 @@ pub trait FlankKinematics: Send {
         None
     }
 
-    /// A vector in gear 1's axes from gear 1's axis to where gear 2 is, for the directions in which the force on gear 1 is
-    /// told.
+    /// A vector in gear 1's axes from gear 1's axis to where gear 2 is, for the directions in which the force on gear 1
+    /// is told.
     fn towards_gear_2(&self, pose: &Pose) -> Vector3<f64> {
         pose.displacement_m
     }
 
-    /// Gap \[m\] of the nearest ideal flanks of one side, continued beyond their ends, as the transmission error counts it.
+    /// Gap \[m\] of the nearest ideal flanks of one side, continued beyond their ends, as the transmission error counts
+    /// it.
     fn nearest_gap_m(&self, side: Flank) -> Option<f64>;
 
     /// Whether no tooth reaches the mate.

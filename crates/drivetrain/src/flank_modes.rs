@@ -4,10 +4,11 @@
 //! g = g_rigid + φ₁(ξ₁)·η₁ + φ₂(ξ₂)·η₂ + C_r F + δ(F),      C_r = C − Σ φ φᵀ/ω²         force on η: φ F
 //! ```
 //!
-//! φ is NᵀΦ of the reduced gear along the flank's inward normal, combined to slices with the same shares as the compliance, so that
-//! at rest, η = Ω⁻²φF, the gaps are those without modes to rounding. A pressing force moves the flank inwards: positive φη opens the gap. Where slices
-//! walk along the teeth (gear 2 of a bevel pair), φ changes along them, too.
-//! Friction pushes on the modes by the shapes in the tangent plane. Theory: docs/theory/gear_meshes.md.
+//! φ is NᵀΦ of the reduced gear along the flank's inward normal, combined to slices with the same shares as the
+//! compliance, so that at rest, η = Ω⁻²φF, the gaps are those without modes to rounding. A pressing force moves the
+//! flank inwards: positive φη opens the gap. Where slices walk along the teeth (gear 2 of a bevel pair), φ changes
+//! along them, too. Friction pushes on the modes by the shapes in the tangent plane. Theory:
+//! docs/theory/gear_meshes.md.
 
 use gearmesh_contact::{FlankSlices, ProfileHats, SliceWalk, WalkedSlice};
 use gearmesh_geometry::Flank;
@@ -34,8 +35,8 @@ pub struct FlankModes {
     walk: Option<SliceWalk>,
     stations: usize,
     slices: usize,
-    /// Along the inward normal, along the profile towards the tip, along the tooth, `[tooth][station][slice][mode]`; the last one is empty for
-    /// involute flanks, which do not slide along their teeth.
+    /// Along the inward normal, along the profile towards the tip, along the tooth, `[tooth][station][slice][mode]`;
+    /// the last one is empty for involute flanks, which do not slide along their teeth.
     rows: [Vec<f64>; 3],
     /// Largest entry of each mode along the normal, `[tooth][mode]`.
     largest: Vec<f64>,
@@ -45,7 +46,8 @@ impl FlankModes {
     /// The lowest `modes` modes of a model at its flanks of one side; `slices`: where their forces sit on the gear.
     ///
     /// # Errors
-    /// [`DrivetrainError::Model`] if the model has no modes or no loads on that side, [`DrivetrainError::Length`] if it has fewer modes.
+    /// [`DrivetrainError::Model`] if the model has no modes or no loads on that side, [`DrivetrainError::Length`] if it
+    /// has fewer modes.
     pub fn new(
         gear: &ReducedGear,
         side: Flank,
@@ -151,8 +153,8 @@ impl FlankModes {
         }
     }
 
-    /// Writes shapes and slopes of all contacts on gear 0 or 1 and lets the modal coordinates move gaps, gap rates and gradients;
-    /// `pose_rates`: (u̇, ω).
+    /// Writes shapes and slopes of all contacts on gear 0 or 1 and lets the modal coordinates move gaps, gap rates and
+    /// gradients; `pose_rates`: (u̇, ω).
     pub(crate) fn bend(
         &self,
         gear: usize,
@@ -198,8 +200,8 @@ impl FlankModes {
         }
     }
 
-    /// Writes how fast vibration slides the flanks at all contacts on gear 0 or 1 of a side of this hand; `tangents`: as
-    /// [`crate::FlankKinematics::tangents_on_flanks`] of this gear.
+    /// Writes how fast vibration slides the flanks at all contacts on gear 0 or 1 of a side of this hand; `tangents`:
+    /// as [`crate::FlankKinematics::tangents_on_flanks`] of this gear.
     pub(crate) fn lay_sliding(
         &self,
         (gear, hand): (usize, f64),
@@ -243,7 +245,8 @@ impl FlankModes {
 }
 
 impl FlankContacts {
-    /// How fast vibration slides gear 2's flank over gear 1's along one of the tangents at a contact \[m/s\]; zero without friction.
+    /// How fast vibration slides gear 2's flank over gear 1's along one of the tangents at a contact \[m/s\]; zero
+    /// without friction.
     #[must_use]
     pub fn sliding_by_vibration_m_per_s(
         &self,

@@ -1,11 +1,13 @@
-//! Coulomb friction between flanks with a static and a dynamic coefficient, regularised in the sliding velocity as in ADAMS.
+//! Coulomb friction between flanks with a static and a dynamic coefficient, regularised in the sliding velocity as in
+//! ADAMS.
 //!
 //! ```text
 //! T = −μ(v) F,   v: sliding velocity of gear 2 over gear 1 along w⊥
 //! μ runs by STEP from −μ_s at −v_s to μ_s at v_s, then to μ_d at v_d; odd in v
 //! ```
 //!
-//! The contact of tooth k₁ stands at P = σ r_b1 w⊥ + r_b1 ξ₁ w from gear 1's axis, so that v = k·(u̇, ω) and the load is T k with
+//! The contact of tooth k₁ stands at P = σ r_b1 w⊥ + r_b1 ξ₁ w from gear 1's axis, so that v = k·(u̇, ω) and the load
+//! is T k with
 //!
 //! ```text
 //! k = (w⊥, (P − u) × w⊥),   ∂k: dω = w⊥·dd/L,   dw⊥ = −w dω,   dP = r_b1 ξ₁ w⊥ dω
@@ -13,8 +15,8 @@
 //!
 //! where what falls to zero with the tilt is left out of ∂k.
 //!
-//! Flanks that slide along the teeth as well (bevel gears) have two tangents: with v_i = k_i·(u̇, ω) the load is −F Σ w_i k_i,
-//! w = μ(|v|) v/|v|, and ∂w_i/∂v_j = μ′ e_i e_j + (μ/|v|)(δ_ij − e_i e_j), e = v/|v|.
+//! Flanks that slide along the teeth as well (bevel gears) have two tangents: with v_i = k_i·(u̇, ω) the load is −F Σ
+//! w_i k_i, w = μ(|v|) v/|v|, and ∂w_i/∂v_j = μ′ e_i e_j + (μ/|v|)(δ_ij − e_i e_j), e = v/|v|.
 
 use nalgebra::Vector3;
 
@@ -38,8 +40,8 @@ impl Friction {
     /// Static coefficient at its speed and dynamic coefficient from its speed on.
     ///
     /// # Errors
-    /// [`DrivetrainError::Value`] if a coefficient is negative, the static one below the dynamic one, a speed not positive, or the dynamic
-    /// speed not above the static one.
+    /// [`DrivetrainError::Value`] if a coefficient is negative, the static one below the dynamic one, a speed not
+    /// positive, or the dynamic speed not above the static one.
     pub fn new(
         [static_coefficient, dynamic_coefficient]: [f64; 2],
         [static_speed_m_per_s, dynamic_speed_m_per_s]: [f64; 2],

@@ -7,8 +7,9 @@ use crate::pose_geometry::PoseGeometry;
 use crate::slice_plane::{Matrix6, SidePlanes};
 
 impl MeshKinematics {
-    /// Second derivative of the gap in a slice plane by the increments, microgeometry left out: that is of the order of the load times its
-    /// curvature, 1e-6 of the stiffness. `roll_rad`: of the contact, or the means of several ones weighted by their forces; unused on spur teeth.
+    /// Second derivative of the gap in a slice plane by the increments, microgeometry left out: that is of the order of
+    /// the load times its curvature, 1e-6 of the stiffness. `roll_rad`: of the contact, or the means of several ones
+    /// weighted by their forces; unused on spur teeth.
     ///
     /// # Panics
     /// If nothing was found or there is no such slice.

@@ -1,5 +1,5 @@
-//! The body of a reduced gear, rigid or with vibration modes: mass, centre of mass, inertia and modes of its finite element mesh, from the
-//! model file.
+//! The body of a reduced gear, rigid or with vibration modes: mass, centre of mass, inertia and modes of its finite
+//! element mesh, from the model file.
 
 use gearmesh_dynamics::{Body, Modes};
 use gearmesh_model::ReducedGear;
@@ -7,9 +7,9 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use crate::error::{DrivetrainError, not_negative};
 
-/// A body at the world's origin whose frame is the gear's: z along the axis, origin at mid-face, tooth 0 on +x. The model states its
-/// inertia about the reference point; with c the centre of mass from there, that about the centre of mass is
-/// J − m(cᵀc I − c cᵀ).
+/// A body at the world's origin whose frame is the gear's: z along the axis, origin at mid-face, tooth 0 on +x. The
+/// model states its inertia about the reference point; with c the centre of mass from there, that about the centre of
+/// mass is J − m(cᵀc I − c cᵀ).
 ///
 /// # Errors
 /// [`DrivetrainError::NoRigidBody`] for a model that was reduced without a density.
@@ -30,8 +30,8 @@ pub fn gear_body(gear: &ReducedGear) -> Result<Body, DrivetrainError> {
     })
 }
 
-/// [`gear_body`] with the lowest `modes` natural modes of the bore-fixed gear, all with one damping ratio: the Craig-Bampton body. Its bore
-/// moves rigidly. The mesh must know the same modes ([`crate::GearMesh::with_modes`]).
+/// [`gear_body`] with the lowest `modes` natural modes of the bore-fixed gear, all with one damping ratio: the
+/// Craig-Bampton body. Its bore moves rigidly. The mesh must know the same modes ([`crate::GearMesh::with_modes`]).
 ///
 /// # Errors
 /// As [`gear_body`]; [`DrivetrainError::Model`] for a model without modes, [`DrivetrainError::Length`] if it has fewer,
@@ -59,7 +59,8 @@ pub fn modal_gear_body(
 /// Number of modes of a model up to a frequency \[Hz\].
 ///
 /// # Errors
-/// [`DrivetrainError::Model`] for a model without modes, [`DrivetrainError::ModesBeyond`] if it does not hold all modes up to there.
+/// [`DrivetrainError::Model`] for a model without modes, [`DrivetrainError::ModesBeyond`] if it does not hold all modes
+/// up to there.
 pub fn modes_up_to(gear: &ReducedGear, up_to_hz: f64) -> Result<usize, DrivetrainError> {
     let basis = gear.modal_basis()?;
     if up_to_hz.is_nan() || up_to_hz > basis.complete_to_hz {

@@ -46,8 +46,9 @@ impl GearInertia {
     /// Integrates a gear body of density `density_kg_per_m3`.
     ///
     /// # Errors
-    /// [`DrivetrainError::Value`] for a density or width that is not positive, [`DrivetrainError::BodyWithoutClosedForm`] for hub and web
-    /// with a contour or a body meshed elsewhere: take those from the model file.
+    /// [`DrivetrainError::Value`] for a density or width that is not positive,
+    /// [`DrivetrainError::BodyWithoutClosedForm`] for hub and web with a contour or a body meshed elsewhere: take those
+    /// from the model file.
     pub fn new(
         tooth: &ToothGeometry,
         blank: &Blank,

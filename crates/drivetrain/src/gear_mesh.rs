@@ -1,12 +1,14 @@
-//! A gear mesh: kinematics, a model for each side of the teeth, friction; force and tangents on the six relative increments.
+//! A gear mesh: kinematics, a model for each side of the teeth, friction; force and tangents on the six relative
+//! increments.
 //!
 //! ```text
 //! load = Σ_i (F_i g_i + T_i k_i) + Σ_sections [Σ_gears (∂E*/∂ξ) ∂ξ + (∂E*/∂s) ∂s]     g = ∂gap, k: friction direction
 //! ∂load = Σ_i (g_i − μ_i k_i) ∂F_iᵀ + Σ_i F_i ∂g_i + friction,   ∂F_i = −Σ_j (K_ij ∂gap_j + D_ij ∂(gap rate)_j)
 //! ```
 //!
-//! Virtual work makes the load: it is a force on gear 2 and its reaction on gear 1 by construction. Left out of the tangent: how the
-//! compliance and the microgeometry's slope change with the pose, of the order of deflection over the pitch, 1e-3 of the stiffness.
+//! Virtual work makes the load: it is a force on gear 2 and its reaction on gear 1 by construction. Left out of the
+//! tangent: how the compliance and the microgeometry's slope change with the pose, of the order of deflection over the
+//! pitch, 1e-3 of the stiffness.
 
 use gearmesh_contact::FlankSlices;
 use gearmesh_dynamics::{Iterate, Power};
@@ -90,8 +92,8 @@ impl GearMesh {
         mesh.with_side(flank, model)
     }
 
-    /// Adds contact on the flanks of another side: with both, backlash is what the tooth thickness leaves. A side that is there already is
-    /// replaced.
+    /// Adds contact on the flanks of another side: with both, backlash is what the tooth thickness leaves. A side that
+    /// is there already is replaced.
     ///
     /// # Errors
     /// As [`GearMesh::new`], and [`DrivetrainError::SideAfterModes`].
@@ -125,7 +127,8 @@ impl GearMesh {
     }
 
     /// Lets gear 1 or 2 vibrate in the lowest `count` modes of its model: the mesh then needs their coordinates
-    /// ([`GearMesh::evaluate_modal`]) and pushes on them ([`GearMesh::modal_loads`]). Add all sides of the teeth before.
+    /// ([`GearMesh::evaluate_modal`]) and pushes on them ([`GearMesh::modal_loads`]). Add all sides of the teeth
+    /// before.
     ///
     /// # Errors
     /// [`DrivetrainError::ModesWithoutReducedTeeth`] if a side's model is not `hybrid`, or as [`FlankModes::new`].
@@ -193,9 +196,10 @@ impl GearMesh {
         self.sides.iter().map(|side| side.flank)
     }
 
-    /// Transmission error along the transverse line of action \[m\] of the last pose: the gap that ideal flanks would have on the side that
-    /// touches, or that is nearer where none does. Zero at first touch, negative under load, on right and left flanks alike; at the nominal
-    /// centre distance and without axial displacement r_b2 θ₂ − r_b1 θ₁. None where no teeth face each other.
+    /// Transmission error along the transverse line of action \[m\] of the last pose: the gap that ideal flanks would
+    /// have on the side that touches, or that is nearer where none does. Zero at first touch, negative under load, on
+    /// right and left flanks alike; at the nominal centre distance and without axial displacement r_b2 θ₂ − r_b1 θ₁.
+    /// None where no teeth face each other.
     #[must_use]
     pub fn transmission_error_m(&self) -> Option<f64> {
         let gaps = self
@@ -205,9 +209,10 @@ impl GearMesh {
         gaps.min_by(f64::total_cmp)
     }
 
-    /// The transmission error where gears stand beside the axes about which their bodies turn: that of ideal flanks on these axes, of the side
-    /// that touches at the last pose, so that runout and wobble are in it as in the turns of the bodies. `gears` is the last pose, `axes` the
-    /// pose of the axes at the same moment, `found` memory for the flanks there.
+    /// The transmission error where gears stand beside the axes about which their bodies turn: that of ideal flanks on
+    /// these axes, of the side that touches at the last pose, so that runout and wobble are in it as in the turns of
+    /// the bodies. `gears` is the last pose, `axes` the pose of the axes at the same moment, `found` memory for the
+    /// flanks there.
     ///
     /// # Errors
     /// [`DrivetrainError`] if the axes stand so that the flanks in contact are not known.

@@ -99,7 +99,8 @@ impl FlankKinematics for InvoluteMesh {
         (self.kinematics).gap_curvature(placed, contact.slice, side, roll_rad)
     }
 
-    /// Plane by plane: there it changes with the roll angles in proportion, so that their mean by the forces stands for all contacts.
+    /// Plane by plane: there it changes with the roll angles in proportion, so that their mean by the forces stands for
+    /// all contacts.
     fn load_curvature(&self, found: &FlankContacts, forces_n: &[f64], side: Flank) -> Matrix6 {
         let mut sum = Matrix6::zeros();
         let placed = (&self.at, self.planes(side));

@@ -8,9 +8,9 @@
 //! D  = D′ − F (r_b1 − r_b2)/(r_b1 + r_b2)                         the displacement of the faces at the pitch point
 //! ```
 //!
-//! A plane across c cuts the axes at z₁ = s + F/2 + D′/2 and z₂ = s + F/2 − D′/2 of the gears' origins, s counted at the pitch point from
-//! halfway between the mid-faces. Exchanging the gears changes the signs of u, f, D′ and D, and nothing else: what follows from this
-//! frame does not know which gear is the first.
+//! A plane across c cuts the axes at z₁ = s + F/2 + D′/2 and z₂ = s + F/2 − D′/2 of the gears' origins, s counted at
+//! the pitch point from halfway between the mid-faces. Exchanging the gears changes the signs of u, f, D′ and D, and
+//! nothing else: what follows from this frame does not know which gear is the first.
 
 use gearmesh_contact::ContactZone;
 use gearmesh_geometry::BaseCircles;

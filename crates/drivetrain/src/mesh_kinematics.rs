@@ -1,7 +1,7 @@
 //! Which tooth flanks face each other at a pose of two gears, and how far apart they are.
 //!
-//! Seen in planes across the axis halfway between the gears' axes (mesh_frame.rs), slice by slice. With d the way from gear 1's axis to gear 2's in
-//! such a plane, z₁ and z₂ where it cuts them, and σ = ±1 for right and left flanks
+//! Seen in planes across the axis halfway between the gears' axes (mesh_frame.rs), slice by slice. With d the way from
+//! gear 1's axis to gear 2's in such a plane, z₁ and z₂ where it cuts them, and σ = ±1 for right and left flanks
 //!
 //! ```text
 //! a = |d|,   β = polar angle of d,   cos α = R/a,   R = r_b1 + r_b2,   L = a sin α
@@ -9,16 +9,18 @@
 //! g  = cos β_b (L − r_b1 ξ₁ − r_b2 ξ₂) + e₁(ξ₁, z₁) + e₂(ξ₂, z₂)                      gap, e: material removed
 //! ```
 //!
-//! for tooth k₁ against tooth k₂, in lengths with the signs of [`BaseCircles`]: with a ring σ is its hand, β turns by half a turn, ψ_b of the ring is
-//! negative, and so half a turn changes sides (tooth_zero.rs). κ turns helical sections, on tilted axes as base_helix.rs has it, and is zero on spur teeth. The gradient is in
-//! closed form: with w the unit vector of the line of action (the transverse force on gear 2), w⊥ across it, t = ∂γ/∂ϑ and m the turn of the frame,
+//! for tooth k₁ against tooth k₂, in lengths with the signs of [`BaseCircles`]: with a ring σ is its hand, β turns by
+//! half a turn, ψ_b of the ring is negative, and so half a turn changes sides (tooth_zero.rs). κ turns helical
+//! sections, on tilted axes as base_helix.rs has it, and is zero on spur teeth. The gradient is in closed form: with w
+//! the unit vector of the line of action (the transverse force on gear 2), w⊥ across it, t = ∂γ/∂ϑ and m the turn of
+//! the frame,
 //!
 //! ```text
 //! ∂ξ₁/∂(u, ϑ) = σ w⊥·∂d/L − σ ∂m,     ∂ξ₂ = ∂ξ₁ − (0, σ t),     ∂g/∂(u, ϑ)  = w·∂d + (0, σ r_b2 t) + σ R ∂m + e₁′ ∂ξ₁ + e₂′ ∂ξ₂ + …
 //! ```
 //!
-//! Which teeth face each other follows from the angles alone: there is no memory, and a slipped pair is found again. Exchanging the gears
-//! changes nothing. Derivation, and the second derivative: docs/theory/gear_meshes.md.
+//! Which teeth face each other follows from the angles alone: there is no memory, and a slipped pair is found again.
+//! Exchanging the gears changes nothing. Derivation, and the second derivative: docs/theory/gear_meshes.md.
 
 use std::f64::consts::TAU;
 
@@ -38,8 +40,8 @@ use crate::pose::{Pose, Vector6};
 use crate::pose_geometry::PoseGeometry;
 use crate::slice_plane::{SidePlanes, SlicePlane, ToothZero, line_of_action};
 
-/// Largest angle between the axes \[rad\] for which slices in parallel planes are taken as the truth: neglected terms are of the order
-/// of its square, 1e-4 of the lengths. The static scene has the same limit.
+/// Largest angle between the axes \[rad\] for which slices in parallel planes are taken as the truth: neglected terms
+/// are of the order of its square, 1e-4 of the lengths. The static scene has the same limit.
 pub const LARGEST_MISALIGNMENT_RAD: f64 = 10e-3;
 
 /// Two gears with their deviations.
@@ -54,7 +56,8 @@ pub struct MeshKinematics {
     /// Roll angles up to which flanks touch, tip edges included.
     ends_rad: [f64; 2],
     pub(crate) helix: Option<BaseHelix>,
-    /// How far the roll angle on gear 1 changes from mid-face to the faces, tilted axes included \[rad\]; zero on spur teeth.
+    /// How far the roll angle on gear 1 changes from mid-face to the faces, tilted axes included \[rad\]; zero on spur
+    /// teeth.
     slant_1_rad: f64,
     /// r_b1 ξ₁ − r_b2 ξ₂ \[m\] in the pitch point.
     pitch_place_m: f64,
@@ -80,8 +83,9 @@ impl MeshKinematics {
     /// Two gears that run at about `centre_distance_m`, with slices over the overlap of their faces.
     ///
     /// # Errors
-    /// [`DrivetrainError::Helix`] if the helices do not fit, [`DrivetrainError::CentreDistance`], [`DrivetrainError::Length`] without
-    /// slices, [`DrivetrainError::Contact`] if the faces do not overlap where the slices are laid.
+    /// [`DrivetrainError::Helix`] if the helices do not fit, [`DrivetrainError::CentreDistance`],
+    /// [`DrivetrainError::Length`] without slices, [`DrivetrainError::Contact`] if the faces do not overlap where the
+    /// slices are laid.
     pub fn new(
         gears: [ToothGeometry; 2],
         errors: [FlankErrors; 2],
@@ -150,7 +154,8 @@ impl MeshKinematics {
         &self.layout
     }
 
-    /// Gives all pairs of teeth in a slice one gap, that of ideal flanks in the pitch point: for a spring that stands for the whole mesh.
+    /// Gives all pairs of teeth in a slice one gap, that of ideal flanks in the pitch point: for a spring that stands
+    /// for the whole mesh.
     pub(crate) fn share_one_gap(&mut self) {
         self.common_place_m = Some(self.pitch_place_m);
     }
@@ -437,7 +442,8 @@ impl MeshKinematics {
         (section.radius_m, section.radius_growth) = self.circles.relative_radius(rolls, helix_cos);
     }
 
-    /// The section of a helical slice in its middle, on the rigid path in the middle of the part that is on it; none off the path.
+    /// The section of a helical slice in its middle, on the rigid path in the middle of the part that is on it; none
+    /// off the path.
     fn own_section(
         &self,
         helix: &BaseHelix,
@@ -460,8 +466,8 @@ impl MeshKinematics {
         (touches && section.share > LEAST_SHARE).then_some(section)
     }
 
-    /// Depth \[m\] and slopes along the profile \[m/rad\] and the axis of everything removed at a flank, the tip edge's gap beyond the flank's end
-    /// included.
+    /// Depth \[m\] and slopes along the profile \[m/rad\] and the axis of everything removed at a flank, the tip edge's
+    /// gap beyond the flank's end included.
     fn removed(&self, gear: usize, at: FlankPoint) -> (f64, [f64; 2]) {
         let end = self.gears[gear].flank_end_roll_rad;
         let past_end = at.roll_rad - end;

@@ -5,11 +5,12 @@
 //!                                                  ∂τ_a = Σ_b τ_a,b ∂v_b,   v_b = k_b·(u̇, ω) + s_b·η̇
 //! ```
 //!
-//! τ is friction on gear 2 over the normal force along one tangent or two, s_a how fast vibration slides the flanks along a tangent: its power on the
-//! gears and their modes is F τ·v. On involute flanks there is one tangent, s = −σ φ_t with the shape φ_t along the profile towards the
-//! tip, and τ = −μ. Without friction ψ = φ.
+//! τ is friction on gear 2 over the normal force along one tangent or two, s_a how fast vibration slides the flanks
+//! along a tangent: its power on the gears and their modes is F τ·v. On involute flanks there is one tangent, s = −σ
+//! φ_t with the shape φ_t along the profile towards the tip, and τ = −μ. Without friction ψ = φ.
 //!
-//! Left out of the tangent: how φ changes with the place on the flank, of the order of deflection over pitch as all that the mesh leaves out.
+//! Left out of the tangent: how φ changes with the place on the flank, of the order of deflection over pitch as all
+//! that the mesh leaves out.
 
 use crate::flank_contacts::FlankContacts;
 use crate::flank_modes::add_scaled;

@@ -1,4 +1,5 @@
-//! Ideal flanks at mid-face whether teeth are there or not: how far the nearest pair stands open, and whether any can touch at all.
+//! Ideal flanks at mid-face whether teeth are there or not: how far the nearest pair stands open, and whether any can
+//! touch at all.
 //!
 //! All pairs of ideal flanks of one side have the same transverse gap but for whole base pitches,
 //!
@@ -6,8 +7,8 @@
 //! g = L − r_b1 ξ₁ − r_b2 ξ₂   (mod p_b),      p_b = 2π r_b1/z₁,      |g| ≤ p_b/2 for the nearest pair
 //! ```
 //!
-//! so that the gap goes on where no tooth reaches the mate: its flanks are then continued as involutes. Gears are apart from a = r_a1 + r_a2 on,
-//! a² = L² + (r_b1 + r_b2)². With a ring a and its radii are negative.
+//! so that the gap goes on where no tooth reaches the mate: its flanks are then continued as involutes. Gears are apart
+//! from a = r_a1 + r_a2 on, a² = L² + (r_b1 + r_b2)². With a ring a and its radii are negative.
 
 use std::f64::consts::TAU;
 
@@ -54,8 +55,8 @@ impl MeshKinematics {
         slices.all(is_open).then_some(middle_gap_m)
     }
 
-    /// Transverse gap \[m\] in the middle of the zone of the pair of ideal flanks that is nearest, continued beyond their ends: at most half a base
-    /// pitch open or overlapping. None at a pose that has not been located.
+    /// Transverse gap \[m\] in the middle of the zone of the pair of ideal flanks that is nearest, continued beyond
+    /// their ends: at most half a base pitch open or overlapping. None at a pose that has not been located.
     pub(crate) fn nearest_gap_m(&self, at: &PoseGeometry, side: Flank) -> Option<f64> {
         let frame = at.frame.as_ref()?;
         let (circles, sigma) = (&self.circles, self.circles.hand(side));
@@ -75,7 +76,8 @@ impl MeshKinematics {
         Some(nearest_m - pitch_m * (nearest_m / pitch_m).round())
     }
 
-    /// Whether no tooth reaches the mate at a located pose: the tip circles clear each other, or the faces no longer overlap.
+    /// Whether no tooth reaches the mate at a located pose: the tip circles clear each other, or the faces no longer
+    /// overlap.
     pub(crate) fn is_apart(&self, at: &PoseGeometry) -> bool {
         let circles = &self.circles;
         let tip = |gear: usize| circles.sense(gear) * self.gears[gear].tip_radius_m;
@@ -87,8 +89,8 @@ impl MeshKinematics {
 }
 
 impl GearMesh {
-    /// Transverse gap \[m\] of the nearest ideal flanks at the last pose, continued beyond the ends of the teeth: of two sides that of the one
-    /// which is nearer, as the transmission error.
+    /// Transverse gap \[m\] of the nearest ideal flanks at the last pose, continued beyond the ends of the teeth: of
+    /// two sides that of the one which is nearer, as the transmission error.
     #[must_use]
     pub fn nearest_gap_m(&self) -> Option<f64> {
         let gaps = self.flanks();

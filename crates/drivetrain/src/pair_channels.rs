@@ -1,8 +1,9 @@
 //! What a mesh reports of each pair of teeth that carries: which tooth, what force, where on both flanks, and Hertz'
 //! pressure there.
 //!
-//! Pair 1 is the one that stands nearest to the tip of gear 1, the next one below it, and so on; what no pair fills is zero, its tooth -1. Places are shares:
-//! along the face 0 at the toe and 1 at the heel, up the flank 0 at its lower line and 1 at the tip. Half axes are differences of such shares.
+//! Pair 1 is the one that stands nearest to the tip of gear 1, the next one below it, and so on; what no pair fills is
+//! zero, its tooth -1. Places are shares: along the face 0 at the toe and 1 at the heel, up the flank 0 at its lower
+//! line and 1 at the tip. Half axes are differences of such shares.
 //!
 //! Flanks that touch in points have one contact for each pair, with an ellipse. Of flanks in slices or patches a
 //! pair's force is the sum of its own,

@@ -1,16 +1,18 @@
 //! A pair's own static curve at one torque, as the simple mesh models take it.
 //!
-//! Transmission error and mesh stiffness of the pair at rest, position by position over whole pitches at the force F₀ = T₂/r_b2 along the
-//! transverse line of action, become mean and harmonics over the roll angle ξ on gear 1. What pitches differ in is averaged out.
+//! Transmission error and mesh stiffness of the pair at rest, position by position over whole pitches at the force F₀ =
+//! T₂/r_b2 along the transverse line of action, become mean and harmonics over the roll angle ξ on gear 1. What pitches
+//! differ in is averaged out.
 //!
 //! ```text
 //! iso6336   F = F₀ + k(ξ) (δ − δ₀(ξ)),    k: tangent stiffness,  δ₀ = −TE
 //! impact    F = K δ^e a pair of teeth,    e = mean of tangent over secant stiffness,  K (mean δ/s)^e = F₀,  s = mean of n(ξ)^(−1/e)
 //! ```
 //!
-//! The first is the pair's tangent at that torque: it has the pair's transmission error there, and vibrations that are small against the
-//! deflection see its stiffness. δ is the approach of ideal flanks, so that what microgeometry takes away is in δ₀. The second has the pair's
-//! mean deflection since first touch and its mean tangent; n: pairs of teeth on the path of contact, over the width.
+//! The first is the pair's tangent at that torque: it has the pair's transmission error there, and vibrations that are
+//! small against the deflection see its stiffness. δ is the approach of ideal flanks, so that what microgeometry takes
+//! away is in δ₀. The second has the pair's mean deflection since first touch and its mean tangent; n: pairs of teeth
+//! on the path of contact, over the width.
 
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
 use gearmesh_geometry::GearPair;
@@ -21,7 +23,8 @@ use crate::roll_harmonics::RollHarmonics;
 /// Positions of the pair at rest, at equal steps over whole pitches, the end not repeated.
 #[derive(Debug, Clone, Copy)]
 pub struct PairSamples<'a> {
-    /// Roll angle on gear 1 of the pair that touches at the pitch point at driver angle zero, at the first position \[rad\].
+    /// Roll angle on gear 1 of the pair that touches at the pitch point at driver angle zero, at the first position
+    /// \[rad\].
     pub start_roll_rad: f64,
     /// Pitches that the positions run through.
     pub pitches: usize,
@@ -52,8 +55,8 @@ impl PairCurve {
     /// Takes mean and the first `harmonics` harmonics of the positions, at most as many as they resolve.
     ///
     /// # Errors
-    /// [`DrivetrainError::Value`] for a force, deflection or stiffness that is not positive, and if so few harmonics make the stiffness
-    /// fall to zero; [`DrivetrainError::Length`].
+    /// [`DrivetrainError::Value`] for a force, deflection or stiffness that is not positive, and if so few harmonics
+    /// make the stiffness fall to zero; [`DrivetrainError::Length`].
     pub fn new(samples: PairSamples<'_>, harmonics: usize) -> Result<Self, DrivetrainError> {
         let owner = "static curve of the pair";
         let count = samples.te_m.len();

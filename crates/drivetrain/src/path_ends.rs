@@ -10,16 +10,18 @@ use crate::flank_contacts::Section;
 /// What happens where the rigid path of contact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PathEnds {
-    /// Pairs touch on the rigid path only. A loaded spur pair ends abruptly, its force jumps to zero and its elastic energy is lost; the
-    /// slices of a helical pair leave one after the other with a width that shrinks to nothing, and no energy is lost.
+    /// Pairs touch on the rigid path only. A loaded spur pair ends abruptly, its force jumps to zero and its elastic
+    /// energy is lost; the slices of a helical pair leave one after the other with a width that shrinks to nothing, and
+    /// no energy is lost.
     LineOfAction,
-    /// Beyond the end the tip edge goes on touching with a gap that grows as ½ δ² ρ_tip L/ρ_mate · cos β_b, δ the roll angle beyond: the
-    /// exact gap of an edge to second order. Force and energy are then continuous.
+    /// Beyond the end the tip edge goes on touching with a gap that grows as ½ δ² ρ_tip L/ρ_mate · cos β_b, δ the roll
+    /// angle beyond: the exact gap of an edge to second order. Force and energy are then continuous.
     #[default]
     Extended,
 }
 
-/// How far beyond the end of its flank each gear's tip edge is followed \[rad\], and its gap over δ² \[m/rad²\]; zero on the rigid path.
+/// How far beyond the end of its flank each gear's tip edge is followed \[rad\], and its gap over δ² \[m/rad²\]; zero
+/// on the rigid path.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct TipEdges {
     pub reach_rad: [f64; 2],
@@ -46,12 +48,12 @@ impl TipEdges {
     }
 }
 
-/// Takes the section in the middle of a whole slice of helical teeth to the middle of the part that is on the rigid path; false where none of
-/// it is. `flanks`: of both gears how the roll angle changes along the axis \[rad/m\], where the flank ends \[rad\] and the sense of the roll angle
-/// there; `width_m`: of a slice at the reference displacement.
+/// Takes the section in the middle of a whole slice of helical teeth to the middle of the part that is on the rigid
+/// path; false where none of it is. `flanks`: of both gears how the roll angle changes along the axis \[rad/m\], where
+/// the flank ends \[rad\] and the sense of the roll angle there; `width_m`: of a slice at the reference displacement.
 ///
-/// A flank ends at x = (ξ_end − ξ)/ξ′; the part's share of the width and the roll angles in its middle go with the pose as the slice's edges and
-/// these places do.
+/// A flank ends at x = (ξ_end − ξ)/ξ′; the part's share of the width and the roll angles in its middle go with the pose
+/// as the slice's edges and these places do.
 pub(crate) fn part_on_path(
     section: &mut Section,
     flanks: [(f64, f64, f64); 2],

@@ -16,11 +16,11 @@ pub(crate) fn on_turn(lower: Vector3<f64>) -> Vector6 {
     stacked(Vector3::zeros(), lower)
 }
 
-/// Place and motion of gear 2's frame in gear 1's. Each frame has its z along the gear's axis, its origin at mid-face and tooth 0
-/// centred on +x; the two z point the same way.
+/// Place and motion of gear 2's frame in gear 1's. Each frame has its z along the gear's axis, its origin at mid-face
+/// and tooth 0 centred on +x; the two z point the same way.
 ///
-/// Derivatives by "the increments" mean (δu, ϑ): u → u + δu and Q → exp(ϑ×) Q, both in gear 1's axes. They are the same six
-/// directions as the rates (u̇, ω).
+/// Derivatives by "the increments" mean (δu, ϑ): u → u + δu and Q → exp(ϑ×) Q, both in gear 1's axes. They are the same
+/// six directions as the rates (u̇, ω).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// u: gear 2's origin from gear 1's \[m\].
@@ -65,8 +65,8 @@ impl Pose {
         b[2] > 0.0 && b[0] * b[0] + b[1] * b[1] <= (limit_rad.tan() * b[2]).powi(2)
     }
 
-    /// Turn γ \[rad\] of gear 2 about its axis, without the tilt of that axis: Q = (shortest rotation that takes z to the axis)
-    /// times a rotation by γ about z.
+    /// Turn γ \[rad\] of gear 2 about its axis, without the tilt of that axis: Q = (shortest rotation that takes z to
+    /// the axis) times a rotation by γ about z.
     #[must_use]
     pub fn spin_rad(&self) -> f64 {
         let q = &self.rotation;

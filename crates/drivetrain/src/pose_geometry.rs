@@ -53,8 +53,8 @@ impl PoseGeometry {
             } else {
                 CentreLine::new(frame, frame.section(place))?
             };
-            // Where gear 1 has turned by half a turn, those of some slices would be π, of others −π, and teeth that are counted in the middle would
-            // be a whole turn off.
+            // Where gear 1 has turned by half a turn, those of some slices would be π, of others −π, and teeth that are
+            // counted in the middle would be a whole turn off.
             line.polar_rad += TAU * ((middle.polar_rad - line.polar_rad) / TAU).round();
             self.slices.push(line);
         }

@@ -1,9 +1,9 @@
 //! What the body below a tooth deflects: an elastic ring, held at the bore, under the stresses of the tooth's root.
 //!
-//! The ring reaches from the bore to the root circle, r_f, in plane stress. On the arc |θ| ≤ θ_f that the tooth covers it carries what the tooth as a
-//! beam has there: normal stress m θ/θ_f and p (bending, compression), shear stress τ (constant). A force on the tooth along the normal at
-//! the angle α_F to the perpendicular of its centre line, which its line crosses at the distance x from the gear's centre, has with X = x/r_f, per
-//! unit width and r_f = 1,
+//! The ring reaches from the bore to the root circle, r_f, in plane stress. On the arc |θ| ≤ θ_f that the tooth covers
+//! it carries what the tooth as a beam has there: normal stress m θ/θ_f and p (bending, compression), shear stress τ
+//! (constant). A force on the tooth along the normal at the angle α_F to the perpendicular of its centre line, which
+//! its line crosses at the distance x from the gear's centre, has with X = x/r_f, per unit width and r_f = 1,
 //!
 //! ```text
 //! moment about the gear's centre   2 τ θ_f = X cos α_F
@@ -12,17 +12,18 @@
 //! E b c = m² W_mm + 2 m τ W_mτ + τ² W_ττ + p² W_pp
 //! ```
 //!
-//! c is twice the elastic energy of the ring for a unit force, as bending, shear and compression of the tooth are. Every W is the work of one
-//! stress on the displacements of another. With stresses (s cos nθ, t sin nθ) as Fourier series each harmonic is a problem of four constants: Kolosov's
-//! potentials φ = a z^(n+1) + b z^(1−n), ψ = c z^(n−1) + d z^(−n−1), for n = 1 with b ln z and −κ b ln z in place of the second, κ = (3 − ν)/(1 + ν):
+//! c is twice the elastic energy of the ring for a unit force, as bending, shear and compression of the tooth are.
+//! Every W is the work of one stress on the displacements of another. With stresses (s cos nθ, t sin nθ) as Fourier
+//! series each harmonic is a problem of four constants: Kolosov's potentials φ = a z^(n+1) + b z^(1−n), ψ = c z^(n−1) +
+//! d z^(−n−1), for n = 1 with b ln z and −κ b ln z in place of the second, κ = (3 − ν)/(1 + ν):
 //!
 //! ```text
 //! 2G (u_r + i u_θ) = e^(−iθ) [κ φ − z φ′* − ψ*],      σ_r − i τ_rθ = φ′ + φ′* − e^(2iθ) (z* φ″ + ψ′)
 //! ```
 //!
-//! No fit: any bore and any tooth. Sources: N. I. Muskhelishvili, *Some Basic Problems of the Mathematical Theory of Elasticity*, Noordhoff 1953,
-//! §§ 32, 39, 59 (ring); P. Sainsot, P. Velex, O. Duverger, J. Mech. Des. 126 (2004) 748-752, for the ring as a foundation with these stresses, of which
-//! they give a fit.
+//! No fit: any bore and any tooth. Sources: N. I. Muskhelishvili, *Some Basic Problems of the Mathematical Theory of
+//! Elasticity*, Noordhoff 1953, §§ 32, 39, 59 (ring); P. Sainsot, P. Velex, O. Duverger, J. Mech. Des. 126 (2004)
+//! 748-752, for the ring as a foundation with these stresses, of which they give a fit.
 
 use std::f64::consts::PI;
 
@@ -42,7 +43,8 @@ pub struct RingFoundation {
 }
 
 impl RingFoundation {
-    /// Half the angle that the tooth covers on the root circle, root radius over bore radius (above 1), Poisson's ratio.
+    /// Half the angle that the tooth covers on the root circle, root radius over bore radius (above 1), Poisson's
+    /// ratio.
     #[must_use]
     pub fn new(half_angle_rad: f64, radius_ratio: f64, poisson: f64) -> Self {
         let theta = half_angle_rad;
@@ -63,8 +65,8 @@ impl RingFoundation {
             let by_stress = ring.displacements(n);
             let order = n as f64;
             let (sin, cos) = (order * theta).sin_cos();
-            // ∫ (θ/θ_f) sin nθ dθ and ∫ cos nθ dθ over the arc. Odd normal and even shear stress are the harmonic turned by a quarter of its
-            // period, in which the shear changes its sign.
+            // ∫ (θ/θ_f) sin nθ dθ and ∫ cos nθ dθ over the arc. Odd normal and even shear stress are the harmonic
+            // turned by a quarter of its period, in which the shear changes its sign.
             let linear = 2.0 * (sin / order - theta * cos) / (order * theta);
             let constant = 2.0 * sin / order;
             foundation.bending += linear * linear * by_stress[(0, 0)] / PI;
@@ -75,7 +77,8 @@ impl RingFoundation {
         foundation
     }
 
-    /// E b c of a force on the tooth: its lever about the gear's centre over r_f cos α_F, X, and sine and cosine of α_F.
+    /// E b c of a force on the tooth: its lever about the gear's centre over r_f cos α_F, X, and sine and cosine of
+    /// α_F.
     #[must_use]
     pub fn compliance(&self, lever: f64, [sin, cos]: [f64; 2]) -> f64 {
         let theta = self.half_angle_rad;
@@ -124,7 +127,8 @@ impl Ring {
         at_rim * constants
     }
 
-    /// Displacements (u_r, u_θ) and stresses (σ_r, τ_rθ) of the four fields a, b, c, d at a radius; b and d scaled to the bore.
+    /// Displacements (u_r, u_θ) and stresses (σ_r, τ_rθ) of the four fields a, b, c, d at a radius; b and d scaled to
+    /// the bore.
     fn field(&self, n: usize, r: f64) -> [SMatrix<f64, 2, 4>; 2] {
         let (k, order) = (self.kappa, n as f64);
         let exponent = n as i32;
@@ -168,7 +172,8 @@ impl Ring {
 mod tests {
     use super::*;
 
-    /// X* = A/θ² + B h² + C h/θ + D/θ + E h + F: L*, M*, P*, Q* of Sainsot, Velex and Duverger, fitted for 1.4 ≤ h ≤ 7, 0.01 ≤ θ ≤ 0.12.
+    /// X* = A/θ² + B h² + C h/θ + D/θ + E h + F: L*, M*, P*, Q* of Sainsot, Velex and Duverger, fitted for 1.4 ≤ h ≤
+    /// 7, 0.01 ≤ θ ≤ 0.12.
     fn fit(theta: f64, h: f64) -> [f64; 4] {
         [
             [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045],
@@ -183,7 +188,8 @@ mod tests {
         })
     }
 
-    /// Maxwell and Betti: each stress does the same work on the other's displacement; and it takes work to deform the ring.
+    /// Maxwell and Betti: each stress does the same work on the other's displacement; and it takes work to deform the
+    /// ring.
     #[test]
     fn every_harmonic_is_reciprocal_and_stiff() {
         for radius_ratio in [1.1, 2.0, 7.0] {
@@ -201,7 +207,8 @@ mod tests {
         }
     }
 
-    /// A narrow tooth stands on a half plane: the moment of a linear stress turns it by 18/π (M/E s²), by the energy (Weber).
+    /// A narrow tooth stands on a half plane: the moment of a linear stress turns it by 18/π (M/E s²), by the energy
+    /// (Weber).
     #[test]
     fn a_narrow_tooth_stands_on_a_half_plane() {
         let theta = 0.004;
@@ -211,8 +218,8 @@ mod tests {
         assert!((turn / (18.0 / PI) - 1.0).abs() < 3e-3, "{turn}");
     }
 
-    /// Within the fit's range, levers of up to a tooth: the sum of all parts agrees (of a ring as thin as h = 1.6 the fit's is up to 17 %
-    /// larger). The fit's bending part alone is a fifth larger than that by the energy.
+    /// Within the fit's range, levers of up to a tooth: the sum of all parts agrees (of a ring as thin as h = 1.6 the
+    /// fit's is up to 17 % larger). The fit's bending part alone is a fifth larger than that by the energy.
     #[test]
     fn the_published_fit_is_near() {
         for h in [2.5, 4.0, 6.0] {

@@ -21,7 +21,8 @@ impl RollHarmonics {
         Self::new(value, &[], 1, 0.0)
     }
 
-    /// From amplitude and phase \[rad\] of the harmonics, counted from the roll angle `start_rad` on a gear 1 with `teeth_1` teeth.
+    /// From amplitude and phase \[rad\] of the harmonics, counted from the roll angle `start_rad` on a gear 1 with
+    /// `teeth_1` teeth.
     #[must_use]
     pub fn new(mean: f64, harmonics: &[(f64, f64)], teeth_1: usize, start_rad: f64) -> Self {
         let part = |&(amplitude, phase): &(f64, f64)| {

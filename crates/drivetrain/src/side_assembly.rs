@@ -1,4 +1,5 @@
-//! One side of a mesh at one pose, put together: contact forces and friction to the load on the gears and their modes, with the tangents.
+//! One side of a mesh at one pose, put together: contact forces and friction to the load on the gears and their modes,
+//! with the tangents.
 
 use gearmesh_geometry::Flank;
 
@@ -123,7 +124,8 @@ impl Assembly<'_> {
 
     /// The same as the flanks see it.
     fn on_flanks(&self, drag: &Drag, contact: usize) -> FlankFriction {
-        // Of one tangent w⊥ the tip of either gear lies where friction −μ w⊥ on gear 2 and μ w⊥ on gear 1 point for μ σ > 0.
+        // Of one tangent w⊥ the tip of either gear lies where friction −μ w⊥ on gear 2 and μ w⊥ on gear 1 point for μ
+        // σ > 0.
         let of_profile = [self.kinematics.hand(self.flank) * drag.coefficient; 2];
         let towards_tips = match self.kinematics.tangents_on_flanks(contact, self.flank) {
             None => of_profile,

@@ -140,9 +140,9 @@ impl SlicePlane {
         stacked(*along, moment) + 2.0 * tilt * self.plane_gradient
     }
 
-    /// Second derivative of the transverse gap of spur flanks by the increments; what falls to zero with the tilt is left out, and
-    /// microgeometry: that is of the order of the load times its curvature, 1e-6 of the stiffness. On parallel axes, with p = (0, b × w) and
-    /// ∂z₂ = ∂(s + F/2) − ∂D′/2,
+    /// Second derivative of the transverse gap of spur flanks by the increments; what falls to zero with the tilt is
+    /// left out, and microgeometry: that is of the order of the load times its curvature, 1e-6 of the stiffness. On
+    /// parallel axes, with p = (0, b × w) and ∂z₂ = ∂(s + F/2) − ∂D′/2,
     ///
     /// ```text
     /// ∂²g = L ∂ω ∂ωᵀ + p ∂z₂ᵀ + ∂(s + F/2) pᵀ − ½ (c, 0) pᵀ + [z₂ b wᵀ − (σ r_b2/2 + σ R/8) b×]

@@ -4,11 +4,11 @@
 //! ε = gᵀΦ (η − Ω⁻² Σ s T) + Σ (row − gᵀΦ Ω⁻² φ) F + Σ row_t T          rows of method 1 or 2; without modes the rows alone
 //! ```
 //!
-//! T is friction towards the tip; method 1 has no row_t. One multiplication a gauge, slice and share: no field, no allocation. Forces that
-//! reach the gear through another mesh or a joint are not in it: strain is linear, so that the readings of all meshes of a gear add up, gᵀΦη
-//! counted once ([`ModalPart`]). So is γ̂q, what rollers that bend the gear's bore by q strain it
-//! ([`StrainGauges::feel_bore`]). What the modes read of the mesh's forces at rest is taken out, for the rows hold it
-//! already.
+//! T is friction towards the tip; method 1 has no row_t. One multiplication a gauge, slice and share: no field, no
+//! allocation. Forces that reach the gear through another mesh or a joint are not in it: strain is linear, so that the
+//! readings of all meshes of a gear add up, gᵀΦη counted once ([`ModalPart`]). So is γ̂q, what rollers that bend the
+//! gear's bore by q strain it ([`StrainGauges::feel_bore`]). What the modes read of the mesh's forces at rest is taken
+//! out, for the rows hold it already.
 
 use gearmesh_geometry::Flank;
 use gearmesh_model::{GaugeRows, RadialMotions, ReducedGear};
@@ -53,7 +53,8 @@ impl StrainGauges {
     /// Gauges of gear 1 or 2 of a mesh, by their names in the gear's model. Set the mesh's modes before.
     ///
     /// # Errors
-    /// [`DrivetrainError::Gauge`] for an unknown name, [`DrivetrainError::Model`] if the model has no loads on a side of the mesh.
+    /// [`DrivetrainError::Gauge`] for an unknown name, [`DrivetrainError::Model`] if the model has no loads on a side
+    /// of the mesh.
     ///
     /// # Panics
     /// If `gear` is neither 1 nor 2.
@@ -157,7 +158,8 @@ impl StrainGauges {
         }
     }
 
-    /// Strain at the last pose of the mesh, one entry a gauge; `coordinates`: η of the gear's body, empty without modes.
+    /// Strain at the last pose of the mesh, one entry a gauge; `coordinates`: η of the gear's body, empty without
+    /// modes.
     pub fn read(&mut self, mesh: &GearMesh, coordinates: &[f64]) -> &[Strain] {
         self.strain.fill(Strain::default());
         for (side, gauges) in &self.sides {

@@ -1,19 +1,19 @@
 //! Compliance of one tooth by the energy method: bending, shear, axial compression, and the fillet foundation.
 //!
-//! The tooth is a cantilever of variable section on its real outline, fillet included, held where the fillet leaves the root circle.
-//! A unit force along the inward normal at roll angle ξ makes the angle α_F = ξ − ψ_b with the perpendicular to the centre line; at the
-//! section x, half thickness y, load point (x_F, y_F):
+//! The tooth is a cantilever of variable section on its real outline, fillet included, held where the fillet leaves the
+//! root circle. A unit force along the inward normal at roll angle ξ makes the angle α_F = ξ − ψ_b with the
+//! perpendicular to the centre line; at the section x, half thickness y, load point (x_F, y_F):
 //!
 //! ```text
 //! bending   ∫ [(x_F − x) cos α_F − y_F sin α_F]²/(E I) dx,   I = ⅔ y³ b
 //! shear     ∫ 1.2 cos²α_F/(G A) dx,   compression  ∫ sin²α_F/(E A) dx,   A = 2 y b
 //! ```
 //!
-//! and the foundation, an elastic ring between root circle and bore (ring_foundation.rs). A root crack takes the part of the section behind it
-//! out of I and A.
+//! and the foundation, an elastic ring between root circle and bore (ring_foundation.rs). A root crack takes the part
+//! of the section behind it out of I and A.
 //!
-//! Sources: D. C. H. Yang, J. Y. Lin, J. Mech. Trans. Autom. 109 (1987) 189-196; X. Tian, thesis, University of Alberta (2004), for shear;
-//! S. Wu, M. Zuo, A. Parey, J. Sound Vib. 317 (2008) 308-324 for the crack.
+//! Sources: D. C. H. Yang, J. Y. Lin, J. Mech. Trans. Autom. 109 (1987) 189-196; X. Tian, thesis, University of Alberta
+//! (2004), for shear; S. Wu, M. Zuo, A. Parey, J. Sound Vib. 317 (2008) 308-324 for the crack.
 
 use gearmesh_geometry::{Flank, Material, ToothGeometry};
 
@@ -84,7 +84,8 @@ pub struct ToothCompliance {
     m_per_n: Vec<f64>,
 }
 
-/// A section of the tooth: distance from the gear's centre along the tooth's centre line, half thickness on each side \[m\].
+/// A section of the tooth: distance from the gear's centre along the tooth's centre line, half thickness on each side
+/// \[m\].
 #[derive(Debug, Clone, Copy)]
 struct Section {
     x: f64,
@@ -231,8 +232,8 @@ impl BeamTooth<'_> {
     }
 }
 
-/// Takes the part of each section behind the crack away: below the crack's tip the section ends at the crack, above it at the tip's
-/// distance from the centre line.
+/// Takes the part of each section behind the crack away: below the crack's tip the section ends at the crack, above it
+/// at the tip's distance from the centre line.
 fn cut(sections: &mut [Section], crack: RootCrack) {
     let near = (sections.iter())
         .min_by(|a, b| {

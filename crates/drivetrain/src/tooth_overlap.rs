@@ -1,8 +1,8 @@
 //! Teeth that overlap deeper than any teeth deflect: no motion of gears, although the equations would go on with it.
 //!
-//! Which tooth faces which follows from the angles alone (mesh_kinematics.rs). So teeth whose only modelled flanks are torn apart would
-//! pass through those of the mate until the next tooth is nearer, half a base pitch deep in it, and the mesh would push with a force that
-//! no work has been done against. A run ends before that.
+//! Which tooth faces which follows from the angles alone (mesh_kinematics.rs). So teeth whose only modelled flanks are
+//! torn apart would pass through those of the mate until the next tooth is nearer, half a base pitch deep in it, and
+//! the mesh would push with a force that no work has been done against. A run ends before that.
 
 use gearmesh_geometry::Flank;
 
@@ -10,20 +10,21 @@ use crate::error::DrivetrainError;
 use crate::gear_mesh::GearMesh;
 use crate::pose::Pose;
 
-/// How deep flanks that the mesh leaves out may overlap, as a share of the base pitch: 0.06 modules, the upper end of the usual
-/// backlash, since gears without thickness allowance have none and still may lift off their working flanks by as much.
+/// How deep flanks that the mesh leaves out may overlap, as a share of the base pitch: 0.06 modules, the upper end of
+/// the usual backlash, since gears without thickness allowance have none and still may lift off their working flanks by
+/// as much.
 pub const BEHIND: f64 = 0.02;
 
-/// How deep flanks of the mesh may be pressed into each other, as a share of the base pitch: 0.3 modules, a fifth of the way to the next
-/// tooth and far more than teeth can be bent.
+/// How deep flanks of the mesh may be pressed into each other, as a share of the base pitch: 0.3 modules, a fifth of
+/// the way to the next tooth and far more than teeth can be bent.
 pub const THROUGH: f64 = 0.1;
 
 impl GearMesh {
     /// Refuses a motion in which teeth overlap, at the pose of the last evaluation.
     ///
     /// # Errors
-    /// [`DrivetrainError::TeethPressed`] for flanks of the mesh deeper than [`THROUGH`], [`DrivetrainError::TeethBehind`] for flanks that it
-    /// leaves out deeper than [`BEHIND`].
+    /// [`DrivetrainError::TeethPressed`] for flanks of the mesh deeper than [`THROUGH`],
+    /// [`DrivetrainError::TeethBehind`] for flanks that it leaves out deeper than [`BEHIND`].
     pub fn refuse_overlap(&self, pose: &Pose) -> Result<(), DrivetrainError> {
         let pitch_m = self.kinematics().pitch_m();
         for flank in self.flanks() {

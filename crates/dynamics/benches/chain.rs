@@ -1,5 +1,5 @@
-//! Time of a step of a chain over its number of links, dense and sparse; one line of JSON for each. `cargo xtask bench chain` sets it beside
-//! Exudyn.
+//! Time of a step of a chain over its number of links, dense and sparse; one line of JSON for each. `cargo xtask bench
+//! chain` sets it beside Exudyn.
 //!
 //! `cargo bench --workspace --bench chain --profile dev`
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // bench code

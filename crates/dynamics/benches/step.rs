@@ -1,6 +1,7 @@
 //! Time of one step.
 //!
-//! Run on a quiet machine: `cargo bench -p gearmesh-dynamics --profile dev`; on a busy one only the fastest column says something.
+//! Run on a quiet machine: `cargo bench -p gearmesh-dynamics --profile dev`; on a busy one only the fastest column says
+//! something.
 #![allow(clippy::unwrap_used)] // bench code
 
 #[path = "../tests/problems/andrews.rs"]

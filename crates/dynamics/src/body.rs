@@ -1,8 +1,8 @@
 //! A body: rigid, or with modal coordinates on top of its rigid motion.
 //!
-//! The body frame sits at the *reference point*, which need not be the centre of mass. A modal body is that of Craig and
-//! Bampton with the reference point held: its modes vanish there, so joints and bearings act on the rigid frame and only
-//! elements that know the mode shapes push on the modal coordinates.
+//! The body frame sits at the *reference point*, which need not be the centre of mass. A modal body is that of Craig
+//! and Bampton with the reference point held: its modes vanish there, so joints and bearings act on the rigid frame and
+//! only elements that know the mode shapes push on the modal coordinates.
 
 use nalgebra::{DMatrix, Matrix3, UnitQuaternion, Vector3};
 
@@ -45,8 +45,8 @@ pub struct Modes {
     pub angular_frequency_rad_per_s: Vec<f64>,
     /// Damping ratios ζ; the modal damping is 2ζω.
     pub damping_ratio: Vec<f64>,
-    /// L = ΦᵀM R, shape modes × 6: coupling to the acceleration of the reference point along the body axes \[√kg\] and to the angular
-    /// acceleration about them \[√kg·m\].
+    /// L = ΦᵀM R, shape modes × 6: coupling to the acceleration of the reference point along the body axes \[√kg\] and
+    /// to the angular acceleration about them \[√kg·m\].
     pub coupling: DMatrix<f64>,
 }
 

@@ -1,8 +1,9 @@
 //! Joint equations as a whole: places and speeds that fit them, and which of them are redundant.
 //!
-//! Redundant equations are found in the order of the joints by what is left of each row once its projection on those before it is taken away, in
-//! the metric of the mass matrix (`metric.rs`). The order makes the answer repeatable and lets an earlier joint keep its equations, which a QR
-//! with free choice of pivots would not. Dropped equations are watched, not solved.
+//! Redundant equations are found in the order of the joints by what is left of each row once its projection on those
+//! before it is taken away, in the metric of the mass matrix (`metric.rs`). The order makes the answer repeatable and
+//! lets an earlier joint keep its equations, which a QR with free choice of pivots would not. Dropped equations are
+//! watched, not solved.
 
 use crate::elements::Iterate;
 use crate::equations::{At, Detail, Equations};
@@ -12,7 +13,8 @@ use crate::redundancy::Redundancy;
 use crate::state::State;
 use crate::system::System;
 
-/// What may be left of a redundant equation (m, rad, or m/s, rad/s): more than any rounding, less than anything that matters.
+/// What may be left of a redundant equation (m, rad, or m/s, rad/s): more than any rounding, less than anything that
+/// matters.
 pub(crate) const CONSISTENT: f64 = 1e-6;
 
 /// What [`analyse`] found.

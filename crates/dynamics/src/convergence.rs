@@ -1,36 +1,39 @@
 //! When the iteration of a step may end: as soon as what is left of it is small against the step's own error.
 //!
-//! What is left of an increment, ε, stays in the velocity as γ/(βh) ε and adds up from step to step; so does the step's own error of the
-//! velocity, which is known from the accelerations of three points in time:
+//! What is left of an increment, ε, stays in the velocity as γ/(βh) ε and adds up from step to step; so does the step's
+//! own error of the velocity, which is known from the accelerations of three points in time:
 //!
 //! ```text
 //! own error of the velocity = D h³ v⃛,    D = Δ(α_m − ½) + 1/12 − Δ²,    h² v⃛ ≈ v̇_{n+1} − 2 v̇_n + v̇_{n−1}
 //! ε ≤ SHARE · D β/γ · h² |v̇_{n+1} − 2 v̇_n + v̇_{n−1}|
 //! ```
 //!
-//! The largest of each kind of coordinate (places, rotations, modal coordinates) counts. Where a step is long against the fastest
-//! vibrations (stiff modes that a damping scheme passes over, motions that follow their loads), these accelerations tell nothing about what
-//! the step gets wrong, and are large: then a share of the step's own increment is the limit, [`MOST`]. A stated tolerance,
-//! such a share too, takes the place of both. Derivation: docs/theory/multibody.md.
+//! The largest of each kind of coordinate (places, rotations, modal coordinates) counts. Where a step is long against
+//! the fastest vibrations (stiff modes that a damping scheme passes over, motions that follow their loads), these
+//! accelerations tell nothing about what the step gets wrong, and are large: then a share of the step's own increment
+//! is the limit, [`MOST`]. A stated tolerance, such a share too, takes the place of both. Derivation:
+//! docs/theory/multibody.md.
 
 use crate::matrix::Matrix;
 use crate::scheme::Scheme;
 use crate::system::System;
 
-/// Share of the step's own error that may be left. What is left is estimated from two corrections, and over a run it may add up with one sign
-/// where the step's own errors cancel in part: with a hundredth it was seen to come to a twentieth of the error at the end, with this share to
-/// less than a fiftieth (tests/mechanisms).
+/// Share of the step's own error that may be left. What is left is estimated from two corrections, and over a run it
+/// may add up with one sign where the step's own errors cancel in part: with a hundredth it was seen to come to a
+/// twentieth of the error at the end, with this share to less than a fiftieth (tests/mechanisms).
 const SHARE: f64 = 0.003;
 
-/// Share of the step's own increment that is never exceeded: bodies with modes above 20 kHz, driven against each other in steps of 0.7
-/// ms, otherwise leave the iteration so early that they pass through each other.
+/// Share of the step's own increment that is never exceeded: bodies with modes above 20 kHz, driven against each other
+/// in steps of 0.7 ms, otherwise leave the iteration so early that they pass through each other.
 const MOST: f64 = 1e-8;
 
-/// Smallest meaningful correction of a rotation \[rad\], and of a place over the size of the system: the rounding of a few operations.
-/// Velocities carry it divided by the step. It grows with the largest counted angle \[rad\], which is as inexact as it is large.
+/// Smallest meaningful correction of a rotation \[rad\], and of a place over the size of the system: the rounding of a
+/// few operations. Velocities carry it divided by the step. It grows with the largest counted angle \[rad\], which is
+/// as inexact as it is large.
 const ROUNDING: f64 = 1e-15;
 
-/// Kinds of degrees of freedom: places, rotations, modal coordinates, coordinates of elements over their scale. Tolerances go by kind.
+/// Kinds of degrees of freedom: places, rotations, modal coordinates, coordinates of elements over their scale.
+/// Tolerances go by kind.
 pub(crate) const KINDS: usize = 4;
 
 /// A step as far as it has come.
@@ -68,7 +71,8 @@ pub(crate) struct Convergence {
     floor: [f64; KINDS],
     /// 1 + the largest counted angle \[rad\] at the start of the step: what multiplies the floor.
     revolved: f64,
-    /// Size of the system \[m\] and square root of its heaviest mass: how far a turn moves places, and modal coordinates per place.
+    /// Size of the system \[m\] and square root of its heaviest mass: how far a turn moves places, and modal
+    /// coordinates per place.
     reach: (f64, f64),
     pub inverse_mass: Vec<f64>,
     /// 1 for degrees of freedom of bodies, 1/scale for coordinates of elements.
@@ -115,8 +119,8 @@ impl Convergence {
         self.revolved = 1.0 + largest_angle_rad;
     }
 
-    /// Measures the latest correction. That of the reactions counts as the increment that it would cause if the bodies were free, M⁻¹Bᵀμ
-    /// with the diagonal of M: with old factors δ can vanish while λ does not converge.
+    /// Measures the latest correction. That of the reactions counts as the increment that it would cause if the bodies
+    /// were free, M⁻¹Bᵀμ with the diagonal of M: with old factors δ can vanish while λ does not converge.
     pub(crate) fn measure(&mut self, kept: &[usize], step: &Progress<'_>) -> Measured {
         if !kept.is_empty() {
             self.pushed.fill(0.0);
@@ -187,8 +191,8 @@ impl Convergence {
         self.shared(largest)
     }
 
-    /// A turn moves places, and places modal coordinates: what hardly moves in a system that spins need not be exact to a share of its own
-    /// small motion.
+    /// A turn moves places, and places modal coordinates: what hardly moves in a system that spins need not be exact to
+    /// a share of its own small motion.
     fn shared(&self, mut size: [f64; KINDS]) -> [f64; KINDS] {
         let (arm, root_mass) = self.reach;
         size[0] = size[0].max(arm * size[1]);

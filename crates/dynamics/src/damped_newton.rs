@@ -1,15 +1,16 @@
 //! Newton's method with damping, for steps at which plain iterations find no solution.
 //!
-//! Friction that turns round within less slip than a step changes has a matrix that says nothing about the other side: whole corrections go to and fro
-//! between sliding one way and sliding the other. Here the matrix is made anew at each iterate x, and of its correction Δ = −J(x)⁻¹ r(x) only the share
-//! λ is taken after which the same matrix sees less left over:
+//! Friction that turns round within less slip than a step changes has a matrix that says nothing about the other side:
+//! whole corrections go to and fro between sliding one way and sliding the other. Here the matrix is made anew at each
+//! iterate x, and of its correction Δ = −J(x)⁻¹ r(x) only the share λ is taken after which the same matrix sees less
+//! left over:
 //!
 //! ```text
 //! ‖J(x)⁻¹ r(x + λ Δ)‖ ≤ (1 − λ/4) ‖Δ‖        ‖δ‖² = Σ m δ²,  λ = 1, ½, ¼ …
 //! ```
 //!
-//! The test does not depend on how equations are scaled. It costs an evaluation and a solution each time, and a factorisation for each iterate, so that it
-//! stands behind the plain iteration.
+//! The test does not depend on how equations are scaled. It costs an evaluation and a solution each time, and a
+//! factorisation for each iterate, so that it stands behind the plain iteration.
 //!
 //! Source: P. Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004, section 3.3 (natural monotonicity test).
 

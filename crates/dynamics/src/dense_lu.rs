@@ -1,7 +1,8 @@
 //! LU factorisation of a dense matrix in place, with faer, without allocation after its making.
 //!
-//! Systems have some ten to some hundred unknowns and few factorisations, but a solution for every correction. Substitution is
-//! nalgebra's, column by column: faer's, made for many right-hand sides, takes five times as long for a dozen unknowns.
+//! Systems have some ten to some hundred unknowns and few factorisations, but a solution for every correction.
+//! Substitution is nalgebra's, column by column: faer's, made for many right-hand sides, takes five times as long for a
+//! dozen unknowns.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor;

@@ -1,16 +1,17 @@
 //! Natural frequencies, damping and shapes of small motions about an operating point.
 //!
-//! With rotations δθ along **world** axes, δψ = Rᵀδθ and δΩ = Rᵀδθ̇, so that the linearised equations are of the second order also for
-//! spinning bodies, gyroscopic terms in Ĉ:
+//! With rotations δθ along **world** axes, δψ = Rᵀδθ and δΩ = Rᵀδθ̇, so that the linearised equations are of the second
+//! order also for spinning bodies, gyroscopic terms in Ĉ:
 //!
 //! ```text
 //! M̂ ÿ + Ĉ ẏ + K̂ y + B̂ᵀδλ = 0,  B̂ y = 0       M̂ = TᵀMT,  Ĉ = TᵀCT − M̂ W,  K̂ = TᵀKT,  B̂ = BT
 //! T = diag(I, Rᵀ, I),  W = diag(0, ω̃, 0)
 //! ```
 //!
-//! On a basis Z of the null space of B̂ with ZᵀM̂Z = I the eigenvalues are those of [0 I; −ZᵀK̂Z −ZᵀĈZ], or, where nothing damps or spins,
-//! −ω² those of the symmetric −ZᵀK̂Z. The equations are frozen at the given instant: exact at rest and for bodies that spin
-//! about an axis of symmetry; otherwise coefficients vary with the angle. Derivation: docs/theory/multibody.md.
+//! On a basis Z of the null space of B̂ with ZᵀM̂Z = I the eigenvalues are those of [0 I; −ZᵀK̂Z −ZᵀĈZ], or, where
+//! nothing damps or spins, −ω² those of the symmetric −ZᵀK̂Z. The equations are frozen at the given instant: exact at
+//! rest and for bodies that spin about an axis of symmetry; otherwise coefficients vary with the angle. Derivation:
+//! docs/theory/multibody.md.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
@@ -26,7 +27,8 @@ use crate::rotation::skew;
 use crate::state::State;
 use crate::system::{Slot, System};
 
-/// A damping matrix below this share of the frequencies, and an asymmetry of the stiffness below this share of it, is rounding.
+/// A damping matrix below this share of the frequencies, and an asymmetry of the stiffness below this share of it, is
+/// rounding.
 const ROUNDING: f64 = 1e-11;
 
 /// One eigenvalue s = σ ± iω with its shape.
@@ -36,8 +38,8 @@ pub struct NaturalMode {
     pub growth_per_s: f64,
     /// ω ≥ 0 of the damped vibration \[rad/s\]; 0 for motions that do not vibrate.
     pub angular_frequency_rad_per_s: f64,
-    /// Complex amplitudes (real, imaginary) of all degrees of freedom: places and rotations along world axes, then modal
-    /// coordinates; the largest is 1 + 0i.
+    /// Complex amplitudes (real, imaginary) of all degrees of freedom: places and rotations along world axes, then
+    /// modal coordinates; the largest is 1 + 0i.
     pub shape: Vec<[f64; 2]>,
 }
 
@@ -73,8 +75,9 @@ const LARGE: usize = 400;
 /// Share of its frequency below which the growth of a mode found by Krylov vectors is rounding.
 const FOUND: f64 = 1e-9;
 
-/// The modes of [`natural_modes`] whose frequency is at most `most_hz`. In large systems they alone are sought, by Krylov vectors (`krylov.rs`), which
-/// leaves out motions that die out faster than e^(−2π `most_hz` t); a frequency that occurs more than four times may then lack members.
+/// The modes of [`natural_modes`] whose frequency is at most `most_hz`. In large systems they alone are sought, by
+/// Krylov vectors (`krylov.rs`), which leaves out motions that die out faster than e^(−2π `most_hz` t); a frequency
+/// that occurs more than four times may then lack members.
 ///
 /// # Errors
 /// As [`natural_modes`].
@@ -163,8 +166,8 @@ pub fn natural_modes(
     Ok(sorted(modes))
 }
 
-/// Share of each force element in the strain energy of some modes about a state, `[mode][element]`: |yᴴ K y| with the element's part of the
-/// stiffness, over the sum of all elements. Zero of all where nothing is strained.
+/// Share of each force element in the strain energy of some modes about a state, `[mode][element]`: |yᴴ K y| with the
+/// element's part of the stiffness, over the sum of all elements. Zero of all where nothing is strained.
 ///
 /// # Errors
 /// The error of an element.

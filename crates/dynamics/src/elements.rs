@@ -135,10 +135,11 @@ pub struct Power {
 
 /// What an element returns: generalised force on its bodies, and tangents where wanted.
 ///
-/// Local order: the degrees of freedom of the first body of [`ForceElement::bodies`], then of the second and so on, then the element's own
-/// coordinates, whose place holds Q of their equation ([`crate::UnknownKind`]); [`Loads::starts`] says where each begins. Of a body there are the
-/// force on the reference point (world axes \[N\]), the moment about it (body axes \[N·m\]) and the modal forces \[√kg·m/s²\]. The
-/// ground has six places, whose content is dropped. Tangents are ∂force/∂increments and ∂force/∂velocities, row: force.
+/// Local order: the degrees of freedom of the first body of [`ForceElement::bodies`], then of the second and so on,
+/// then the element's own coordinates, whose place holds Q of their equation ([`crate::UnknownKind`]);
+/// [`Loads::starts`] says where each begins. Of a body there are the force on the reference point (world axes \[N\]),
+/// the moment about it (body axes \[N·m\]) and the modal forces \[√kg·m/s²\]. The ground has six places, whose content
+/// is dropped. Tangents are ∂force/∂increments and ∂force/∂velocities, row: force.
 #[derive(Debug)]
 pub struct Loads {
     pub(crate) force: Vec<f64>,
@@ -291,8 +292,8 @@ impl Channel {
 
 /// A force that acts on some bodies, with coordinates of its own where it has any (docs/extending.md).
 ///
-/// `evaluate` must depend on the view and on what was kept by the last `commit` only: it is called many times a step, also for
-/// motions that are then given up.
+/// `evaluate` must depend on the view and on what was kept by the last `commit` only: it is called many times a step,
+/// also for motions that are then given up.
 pub trait ForceElement: Send {
     /// Name, used in every message.
     fn name(&self) -> &str;
@@ -300,18 +301,19 @@ pub trait ForceElement: Send {
     /// The bodies it acts on, in the order of the local degrees of freedom.
     fn bodies(&self) -> &[BodyId];
 
-    /// Coordinates that the element owns. They are solved with the motion of the bodies, saved in checkpoints, and part of equilibria and natural
-    /// modes.
+    /// Coordinates that the element owns. They are solved with the motion of the bodies, saved in checkpoints, and part
+    /// of equilibria and natural modes.
     fn unknowns(&self) -> Vec<Unknown> {
         Vec::new()
     }
 
-    /// Where its coordinates start, given the start of its bodies; all are zero before. Those in equilibrium are solved from there.
+    /// Where its coordinates start, given the start of its bodies; all are zero before. Those in equilibrium are solved
+    /// from there.
     fn start_unknowns(&self, _view: &View<'_>, _values: &mut [f64], _rates: &mut [f64]) {}
 
-    /// Groups of local degrees of freedom of which each may depend on each other; none: all depend on all. `starts` is that of
-    /// [`Loads::starts`]. An element with many coordinates states the few that meet (a ball: its own, and the rings' six each), so that its part of
-    /// the matrix is sparse. Tangents outside the groups are an error.
+    /// Groups of local degrees of freedom of which each may depend on each other; none: all depend on all. `starts` is
+    /// that of [`Loads::starts`]. An element with many coordinates states the few that meet (a ball: its own, and the
+    /// rings' six each), so that its part of the matrix is sparse. Tangents outside the groups are an error.
     fn couplings(&self, _starts: &[usize]) -> Vec<Vec<usize>> {
         Vec::new()
     }
@@ -325,8 +327,8 @@ pub trait ForceElement: Send {
     /// Called once before the run, at its first motion: internal state begins here.
     fn begin(&mut self, _view: &View<'_>) {}
 
-    /// Asked after the last evaluation, which was at this motion, where an equilibrium is sought along a motion that nothing
-    /// resists: whether the element's model covers that motion.
+    /// Asked after the last evaluation, which was at this motion, where an equilibrium is sought along a motion that
+    /// nothing resists: whether the element's model covers that motion.
     ///
     /// # Errors
     /// A motion that the model does not cover: the search ends with this message.
@@ -334,8 +336,8 @@ pub trait ForceElement: Send {
         Ok(())
     }
 
-    /// Called at the end of every accepted step and at every static equilibrium: internal state (turns, slip, warm starts) moves on here
-    /// only.
+    /// Called at the end of every accepted step and at every static equilibrium: internal state (turns, slip, warm
+    /// starts) moves on here only.
     ///
     /// # Errors
     /// A motion that the element's model does not cover: the run ends with this message.

@@ -4,7 +4,8 @@
 //! E(t) − E(0) + ∫ dissipated − ∫ supplied = error of the balance
 //! ```
 //!
-//! Powers are integrated by the trapezoidal rule over the accepted steps, an error of the second order like the integrator's own.
+//! Powers are integrated by the trapezoidal rule over the accepted steps, an error of the second order like the
+//! integrator's own.
 //!
 //! What the error is judged against is the work done, whatever its sign: ∫ W dt with
 //!
@@ -12,8 +13,8 @@
 //! W = Σ |power of each load and motion| + dissipated + Σ |m_i v̇_i v_i|      m: diagonal of the mass matrix
 //! ```
 //!
-//! The last sum is the work of all forces together on each degree of freedom. Kinetic energy that a body just has is no work: a fast flywheel
-//! must not hide that a mesh makes energy out of nothing.
+//! The last sum is the work of all forces together on each degree of freedom. Kinetic energy that a body just has is no
+//! work: a fast flywheel must not hide that a mesh makes energy out of nothing.
 
 /// Energies and powers at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

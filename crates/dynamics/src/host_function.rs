@@ -1,12 +1,13 @@
-//! Functions of the program that calls this library, for loads and prescribed motion: what no closed form or table gives.
+//! Functions of the program that calls this library, for loads and prescribed motion: what no closed form or table
+//! gives.
 
 use std::fmt;
 use std::sync::Arc;
 
 use crate::derivatives::Derivatives;
 
-/// What the calling program computes: value, rate and acceleration at a time \[s\]. Must depend on the time alone. Numbers
-/// that are not finite say that it has failed; the step, and with it the run, then ends.
+/// What the calling program computes: value, rate and acceleration at a time \[s\]. Must depend on the time alone.
+/// Numbers that are not finite say that it has failed; the step, and with it the run, then ends.
 pub type TimeCall = dyn Fn(f64) -> Derivatives + Send + Sync;
 
 /// A function of time under its name.

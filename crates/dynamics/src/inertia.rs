@@ -1,7 +1,7 @@
 //! Inertia forces of one body and their tangents.
 //!
-//! From the kinetic energy, with V = Rᵀv, s = m c + L_tᵀη the first moment of mass of the deformed body and L_t, L_r the
-//! halves of the modal coupling,
+//! From the kinetic energy, with V = Rᵀv, s = m c + L_tᵀη the first moment of mass of the deformed body and L_t, L_r
+//! the halves of the modal coupling,
 //!
 //! ```text
 //! T = ½ m vᵀv + vᵀR (Ω × s + L_tᵀη̇) + ½ ΩᵀJΩ + ΩᵀL_rᵀη̇ + ½ η̇ᵀη̇
@@ -11,9 +11,9 @@
 //! modal:            η̈ + L_t Rᵀv̇ + L_r Ω̇ + 2ζω η̇ + ω² η
 //! ```
 //!
-//! Exact for a rigid body. For a modal one the change of J and L_r with η (centrifugal softening, gyroscopic coupling of modes
-//! among each other) is neglected; what is kept is derived from T, so energy is kept, and does not depend on the observer's
-//! velocity. Derivation: docs/theory/multibody.md.
+//! Exact for a rigid body. For a modal one the change of J and L_r with η (centrifugal softening, gyroscopic coupling
+//! of modes among each other) is neglected; what is kept is derived from T, so energy is kept, and does not depend on
+//! the observer's velocity. Derivation: docs/theory/multibody.md.
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -70,8 +70,8 @@ pub(crate) fn accelerations(
     })
 }
 
-/// v̈ by a central difference of [`accelerations`] along the motion, ± `step_s`: an error of the second order in the step. Coordinates without mass get
-/// their accelerations, and those in equilibrium their rates, by differences, too.
+/// v̈ by a central difference of [`accelerations`] along the motion, ± `step_s`: an error of the second order in the
+/// step. Coordinates without mass get their accelerations, and those in equilibrium their rates, by differences, too.
 pub(crate) fn jerk(
     system: &mut System,
     state: &mut State,
@@ -143,8 +143,8 @@ impl System {
             .collect()
     }
 
-    /// The same with masses in place of the zeros that make a coordinate over its scale weigh as much as a turn of the heaviest body at the size
-    /// of the system: for scales.
+    /// The same with masses in place of the zeros that make a coordinate over its scale weigh as much as a turn of the
+    /// heaviest body at the size of the system: for scales.
     pub(crate) fn mass_diagonal(&self) -> Vec<f64> {
         let heaviest = self
             .bodies
@@ -160,7 +160,8 @@ impl System {
         masses
     }
 
-    /// Gives coordinates without mass one of 1, so that a matrix of masses and joints is regular; they then do not move in it.
+    /// Gives coordinates without mass one of 1, so that a matrix of masses and joints is regular; they then do not move
+    /// in it.
     pub(crate) fn hold_massless(&self, mass: &mut Matrix) {
         for dof in self.layout.massless() {
             mass.add(dof, dof, 1.0);

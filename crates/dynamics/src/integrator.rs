@@ -1,21 +1,22 @@
 //! One step of the Lie-group generalized-alpha scheme for index 3.
 //!
-//! Unknowns are the increment Δq and the reactions λ at the end of the step; a_{n+1}, v_{n+1} and v̇_{n+1} follow from Δq by the scheme.
-//! Newton's matrix, with T the derivative of the exponential (rotation.rs), multiplied by βh²:
+//! Unknowns are the increment Δq and the reactions λ at the end of the step; a_{n+1}, v_{n+1} and v̇_{n+1} follow from
+//! Δq by the scheme. Newton's matrix, with T the derivative of the exponential (rotation.rs), multiplied by βh²:
 //!
 //! ```text
 //! [μ M + γh C + βh² K T   Bᵀ] [δΔq    ]      [βh² residual]
 //! [B T                    0 ] [βh² δλ ]  = − [violation   ]        μ = (1 − α_m)/(1 − α_f)
 //! ```
 //!
-//! The factors are kept from step to step, what a step's own corrections tell about their error is used within it (`secants.rs`), and they
-//! are made anew, at the present iterate, when the step length has changed or corrections shrink
-//! too slowly. In small systems, where factors cost less than an evaluation, they are made anew at the start of every step for a while
-//! once a step by old ones has taken many corrections. Corrections by factors of the step itself that grow go astray: they might end at another solution, far
-//! from where the step began. The iteration is then given up; a damped one takes its place (`damped_newton.rs`), or a shorter step.
+//! The factors are kept from step to step, what a step's own corrections tell about their error is used within it
+//! (`secants.rs`), and they are made anew, at the present iterate, when the step length has changed or corrections
+//! shrink too slowly. In small systems, where factors cost less than an evaluation, they are made anew at the start of
+//! every step for a while once a step by old ones has taken many corrections. Corrections by factors of the step itself
+//! that grow go astray: they might end at another solution, far from where the step began. The iteration is then given
+//! up; a damped one takes its place (`damped_newton.rs`), or a shorter step.
 //!
-//! Sources: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1; growing corrections: A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math.
-//! Softw. 31 (2005) 363-396, whose CVODE gives up at the same factor.
+//! Sources: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1; growing corrections: A. C.
+//! Hindmarsh et al., SUNDIALS, ACM Trans. Math. Softw. 31 (2005) 363-396, whose CVODE gives up at the same factor.
 
 use std::sync::Arc;
 
@@ -49,8 +50,8 @@ const MANY: usize = 5;
 /// So many steps then begin with new factors, before old ones are tried again.
 const FRESH_STEPS: u64 = 32;
 
-/// Unknowns up to which a system is small. An evaluation by elements worth speaking of, such as a contact of elastic bodies, takes longer than factors
-/// of as many.
+/// Unknowns up to which a system is small. An evaluation by elements worth speaking of, such as a contact of elastic
+/// bodies, takes longer than factors of as many.
 const SMALL: usize = 60;
 
 /// Where corrections no longer shrink, they are accepted up to this multiple of the floor of rounding.
@@ -226,8 +227,8 @@ impl Integrator {
         Err(StepFailure::Singular)
     }
 
-    /// Says how many steps to come begin with new factors, after one that did or did not and took so many corrections. Where new factors take as
-    /// many, they are no help.
+    /// Says how many steps to come begin with new factors, after one that did or did not and took so many corrections.
+    /// Where new factors take as many, they are no help.
     fn pace(&mut self, began_fresh: bool, corrections: usize) {
         let is_small = self.delta.len() + self.mu.len() <= SMALL;
         self.fresh_steps = match (began_fresh, corrections >= MANY) {
@@ -375,7 +376,8 @@ impl Integrator {
         }
     }
 
-    /// Evaluates masses and joints at a point and factorises [M Bᵀ; B 0] there into the projector; `false` if it is singular.
+    /// Evaluates masses and joints at a point and factorises [M Bᵀ; B 0] there into the projector; `false` if it is
+    /// singular.
     pub(crate) fn joints_are_regular(&mut self, system: &mut System, point: &Point) -> bool {
         let at = At {
             state: &point.state,
@@ -390,9 +392,10 @@ impl Integrator {
         self.projector.factor(mass, gradient, gradient)
     }
 
-    /// Fits a and v to another step length, `old_step_s` = 0 at the start of a run: a stands for v̇ at t + Δh, and v carries C h² v̈ in the
-    /// directions that joints prescribe (docs/theory/multibody.md). Without this λ would lose an order for some steps. Later in a run the
-    /// part that v carries is read off the joints' rates and scaled, which does not amplify what noise v̈ has.
+    /// Fits a and v to another step length, `old_step_s` = 0 at the start of a run: a stands for v̇ at t + Δh, and v
+    /// carries C h² v̈ in the directions that joints prescribe (docs/theory/multibody.md). Without this λ would lose an
+    /// order for some steps. Later in a run the part that v carries is read off the joints' rates and scaled, which
+    /// does not amplify what noise v̈ has.
     pub(crate) fn retune(
         &mut self,
         system: &mut System,

@@ -11,8 +11,8 @@
 //! Σ factor · coordinate − offset − f(t) = 0
 //! ```
 //!
-//! The reaction is Bᵀλ, with λ \[N, or N·m for angles\] on the left-hand side of the equation of motion. It is a force between the
-//! two markers, so Jacobian and derivative of Bᵀλ come from relative_motion.rs.
+//! The reaction is Bᵀλ, with λ \[N, or N·m for angles\] on the left-hand side of the equation of motion. It is a force
+//! between the two markers, so Jacobian and derivative of Bᵀλ come from relative_motion.rs.
 
 use nalgebra::{Matrix3, SVector, Vector3};
 
@@ -166,9 +166,9 @@ impl Joint {
         Ok(Self::assembled(name, vec![MarkerPair { a, b }], equations))
     }
 
-    /// Couples the angles of two marker pairs about their z axes over any number of turns: Σ factor·angle stays what it is at the
-    /// start. For two wheels in mesh, the factors are their radii (both positive for external teeth on parallel z axes); the reaction is
-    /// a torque on each, so bearings do not feel the force between the teeth.
+    /// Couples the angles of two marker pairs about their z axes over any number of turns: Σ factor·angle stays what it
+    /// is at the start. For two wheels in mesh, the factors are their radii (both positive for external teeth on
+    /// parallel z axes); the reaction is a torque on each, so bearings do not feel the force between the teeth.
     #[must_use]
     pub fn ratio(name: &str, first: (MarkerPair, f64), second: (MarkerPair, f64)) -> Self {
         let term = |pair, factor| Term {
@@ -185,14 +185,15 @@ impl Joint {
         Self::assembled(name, vec![first.0, second.0], vec![equation])
     }
 
-    /// Lets B roll on the outside of A without slip, wherever their parallel z axes go: with φ their turns, β the polar angle of the line of
-    /// centres and radii in the ratio r_A : r_B,
+    /// Lets B roll on the outside of A without slip, wherever their parallel z axes go: with φ their turns, β the polar
+    /// angle of the line of centres and radii in the ratio r_A : r_B,
     ///
     /// ```text
     /// r_A (φ_A − β) + r_B (φ_B − β) = r_B γ − (r_A + r_B) β_A = what it is at the start
     /// ```
     ///
-    /// γ: turn of B against A, β_A: β seen in A. The reaction is the tangential force where the circles touch, which bearings feel.
+    /// γ: turn of B against A, β_A: β seen in A. The reaction is the tangential force where the circles touch, which
+    /// bearings feel.
     #[must_use]
     pub fn rolling(name: &str, pair: MarkerPair, [radius_a, radius_b]: [f64; 2]) -> Self {
         let term = |coordinate, factor| Term {
@@ -417,8 +418,9 @@ impl Joint {
         slope
     }
 
-    /// Force \[N\] and moment \[N·m\] of the joint on the body of marker B of a pair, in B's origin and along A's axes; the body of A
-    /// feels the opposite. `lambda` holds the reactions of this joint's equations: −Σ λ ∂(equation)/∂(u, rotation).
+    /// Force \[N\] and moment \[N·m\] of the joint on the body of marker B of a pair, in B's origin and along A's axes;
+    /// the body of A feels the opposite. `lambda` holds the reactions of this joint's equations: −Σ λ ∂(equation)/∂(u,
+    /// rotation).
     #[must_use]
     pub fn load(&self, pair: usize, lambda: &[f64], motion: &RelativeMotion) -> SVector<f64, 6> {
         let mut load = SVector::<f64, 6>::zeros();

@@ -6,12 +6,12 @@
 //! (A − σE)⁻¹E (a, b) = (y, a + σ y),    S y + Bᵀμ = −(M (b + σ a) + C a),    B y = 0,    S = σ²M + σC + K
 //! ```
 //!
-//! has the eigenvalues 1/(s − σ): those next to σ are the largest and are found first. S is sparse and factorised once. Equations without mass and
-//! joints make eigenvalues zero, which is where they do no harm.
+//! has the eigenvalues 1/(s − σ): those next to σ are the largest and are found first. S is sparse and factorised once.
+//! Equations without mass and joints make eigenvalues zero, which is where they do no harm.
 //!
-//! Several starting vectors, so that frequencies that occur as often are found; all vectors are kept orthogonal (twice), in coordinates weighted by
-//! the masses. The residual of a pair is what the projected matrix has below its square part. Source: Y. Saad, *Numerical Methods for Large
-//! Eigenvalue Problems*, 2nd ed. 2011, sections 6.2 and 8.1.
+//! Several starting vectors, so that frequencies that occur as often are found; all vectors are kept orthogonal
+//! (twice), in coordinates weighted by the masses. The residual of a pair is what the projected matrix has below its
+//! square part. Source: Y. Saad, *Numerical Methods for Large Eigenvalue Problems*, 2nd ed. 2011, sections 6.2 and 8.1.
 
 use std::sync::Arc;
 
@@ -44,8 +44,8 @@ pub(crate) struct Found {
     pub shape: Vec<[f64; 2]>,
 }
 
-/// All eigenvalues with |s| up to a limit \[rad/s\] and an imaginary part that is not negative; `None` where so many are wanted that a dense
-/// solution takes less. The equations have rotations along world axes.
+/// All eigenvalues with |s| up to a limit \[rad/s\] and an imaginary part that is not negative; `None` where so many
+/// are wanted that a dense solution takes less. The equations have rotations along world axes.
 pub(crate) fn eigenvalues_within(
     system: &System,
     equations: &Equations,
@@ -193,7 +193,8 @@ impl Basis {
         basis
     }
 
-    /// Makes a vector orthogonal to all and adds what is left; its coefficients, the length of what is left behind them.
+    /// Makes a vector orthogonal to all and adds what is left; its coefficients, the length of what is left behind
+    /// them.
     fn add(&mut self, mut vector: Vec<f64>) -> Vec<f64> {
         let length = norm(&vector);
         let mut coefficients = vec![0.0; self.vectors.len()];

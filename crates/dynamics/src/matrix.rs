@@ -154,7 +154,8 @@ impl Matrix {
         }
     }
 
-    /// The same for all bodies of a gradient, whose rows come in sixes: `t` of the body whose degrees of freedom begin at a row.
+    /// The same for all bodies of a gradient, whose rows come in sixes: `t` of the body whose degrees of freedom begin
+    /// at a row.
     pub(crate) fn turn_bodies(&mut self, t: impl Fn(usize) -> Matrix3<f64>) {
         for (rows, values) in self
             .pattern

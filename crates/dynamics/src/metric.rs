@@ -1,15 +1,16 @@
 //! Joint equations in the metric of the mass matrix, body by body.
 //!
-//! With M = LLᵀ (one block for each body) the rows of B̂ = B L⁻ᵀ are comparable whatever their units, and G = B̂B̂ᵀ = B M⁻¹Bᵀ couples only
-//! equations that share a body. G is factorised row by row in the order of the equations, each row from its first neighbour on: what is left on
-//! the diagonal is the part of a row of B̂ that does not follow from those before it.
+//! With M = LLᵀ (one block for each body) the rows of B̂ = B L⁻ᵀ are comparable whatever their units, and G = B̂B̂ᵀ = B
+//! M⁻¹Bᵀ couples only equations that share a body. G is factorised row by row in the order of the equations, each row
+//! from its first neighbour on: what is left on the diagonal is the part of a row of B̂ that does not follow from those
+//! before it.
 
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
 use crate::equations::Equations;
 
-/// Share of a row of B̂ below which it counts as dependent on the rows before it. Rounding leaves about 1e-15, well-built
-/// mechanisms have more than 1e-3.
+/// Share of a row of B̂ below which it counts as dependent on the rows before it. Rounding leaves about 1e-15,
+/// well-built mechanisms have more than 1e-3.
 const DEPENDENT: f64 = 1e-8;
 
 /// Square of the share of a row that the factors of G still tell; below it the rest of the row itself is formed, twice.
@@ -37,8 +38,8 @@ pub(crate) struct Factors {
 }
 
 impl Metric {
-    /// `None` if the mass matrix is not positive definite, which valid bodies exclude as long as modes stay small. `bodies`: their degrees of
-    /// freedom; others take part in no joint.
+    /// `None` if the mass matrix is not positive definite, which valid bodies exclude as long as modes stay small.
+    /// `bodies`: their degrees of freedom; others take part in no joint.
     pub(crate) fn new(
         equations: &Equations,
         bodies: impl Iterator<Item = std::ops::Range<usize>>,
@@ -187,7 +188,8 @@ impl Metric {
         (kept, factors)
     }
 
-    /// Length of what is left of a row of B̂ without its projection on the kept ones; projected twice, so that rounding does not hide a dependence.
+    /// Length of what is left of a row of B̂ without its projection on the kept ones; projected twice, so that rounding
+    /// does not hide a dependence.
     fn rest(&self, equation: usize, kept: &[usize], factors: &Factors) -> f64 {
         let mut rest = vec![0.0; self.block_of.len()];
         for &(dof, value) in &self.rows[equation] {

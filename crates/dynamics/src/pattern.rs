@@ -1,4 +1,5 @@
-//! Which places of a sparse matrix may hold a value: known from the bodies that joints and elements connect, the same for a whole run.
+//! Which places of a sparse matrix may hold a value: known from the bodies that joints and elements connect, the same
+//! for a whole run.
 
 /// Places of a matrix, column after column, rows rising.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -69,7 +70,8 @@ impl Pattern {
         &self.indices
     }
 
-    /// Where an entry stands among all; `None` if the pattern leaves it out. Most columns have no gaps, which are then not searched.
+    /// Where an entry stands among all; `None` if the pattern leaves it out. Most columns have no gaps, which are then
+    /// not searched.
     #[inline]
     pub(crate) fn place(&self, row: usize, column: usize) -> Option<usize> {
         let start = self.starts[column];

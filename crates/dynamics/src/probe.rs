@@ -19,8 +19,8 @@ pub struct Probe {
 }
 
 impl System {
-    /// Asks an element at the configuration of `from` moved by `increment`, with the velocities `velocity`, each with one number for every degree of
-    /// freedom. None where there is no such element, or it has no force there.
+    /// Asks an element at the configuration of `from` moved by `increment`, with the velocities `velocity`, each with
+    /// one number for every degree of freedom. None where there is no such element, or it has no force there.
     #[must_use]
     pub fn probe(
         &mut self,

@@ -1,6 +1,7 @@
 //! The angle that a marker has turned about another one's z axis, counted over any number of turns.
 //!
-//! With c the x axis of B seen in A, a = atan2(c_y, c_x). Its derivative by a rotation φ of B against A (A axes) is jᵀφ,
+//! With c the x axis of B seen in A, a = atan2(c_y, c_x). Its derivative by a rotation φ of B against A (A axes) is
+//! jᵀφ,
 //!
 //! ```text
 //! j = (−c_z c_x/ρ², −c_z c_y/ρ², 1),   ρ² = c_x² + c_y²

@@ -5,14 +5,16 @@
 //! [B̄   0 ] [μ] = [p]          A: n × n, like a mass matrix; B̄ = B or B T
 //! ```
 //!
-//! With D = diag(M)^(−1/2) and σ_i = 1/‖D B_i‖ the factorised matrix is [D A D, D Bᵀσ; σ B̄ D, 0], whose entries are of order 1.
-//! The caller multiplies the equations of motion by βh² and takes μ = βh² δλ, so that nothing grows as h → 0. Source:
-//! C. L. Bottasso, D. Dopico, L. Trainelli, Multibody Syst. Dyn. 19 (2008) 3-20.
+//! With D = diag(M)^(−1/2) and σ_i = 1/‖D B_i‖ the factorised matrix is [D A D, D Bᵀσ; σ B̄ D, 0], whose entries are of
+//! order 1. The caller multiplies the equations of motion by βh² and takes μ = βh² δλ, so that nothing grows as h → 0.
+//! Source: C. L. Bottasso, D. Dopico, L. Trainelli, Multibody Syst. Dyn. 19 (2008) 3-20.
 //!
-//! Coordinates of elements without mass have a column scale from their own, and a row scale that makes the largest of their row 1.
+//! Coordinates of elements without mass have a column scale from their own, and a row scale that makes the largest of
+//! their row 1.
 //!
-//! The matrix has entries where bodies meet in a joint or an element. Small or full ones are factorised as dense matrices, others as sparse
-//! ones, [`LinearSolver::Automatic`]. Where the two cross was measured: docs/decisions/0010-sparse-system-matrix.md.
+//! The matrix has entries where bodies meet in a joint or an element. Small or full ones are factorised as dense
+//! matrices, others as sparse ones, [`LinearSolver::Automatic`]. Where the two cross was measured:
+//! docs/decisions/0010-sparse-system-matrix.md.
 
 use std::sync::Arc;
 
@@ -89,7 +91,8 @@ enum Factors {
 pub(crate) struct Saddle {
     form: Arc<SaddleForm>,
     scale: Vec<f64>,
-    /// Scales of equations; those of the unknowns but where an equation has no mass, whose size is then read off the matrix.
+    /// Scales of equations; those of the unknowns but where an equation has no mass, whose size is then read off the
+    /// matrix.
     left: Vec<f64>,
     massless: Vec<usize>,
     row_scale: Vec<f64>,
@@ -190,8 +193,8 @@ impl Saddle {
         }
     }
 
-    /// Solves for right-hand sides r (n) and p (one for each equation, dropped ones ignored); δ goes to `delta`, μ to `mu`, zero
-    /// for dropped equations.
+    /// Solves for right-hand sides r (n) and p (one for each equation, dropped ones ignored); δ goes to `delta`, μ to
+    /// `mu`, zero for dropped equations.
     pub(crate) fn solve(&mut self, r: &[f64], p: &[f64], delta: &mut [f64], mu: &mut [f64]) {
         let n = self.scale.len();
         let kept = &self.form.kept;
@@ -215,8 +218,8 @@ impl Saddle {
         }
     }
 
-    /// What a checkpoint needs to go on with the same factors: the scaled matrix, the scales of its joint rows, and the matrix for which the
-    /// pivots of a sparse one were chosen.
+    /// What a checkpoint needs to go on with the same factors: the scaled matrix, the scales of its joint rows, and the
+    /// matrix for which the pivots of a sparse one were chosen.
     pub(crate) fn save(&self, out: &mut Vec<f64>) {
         out.extend_from_slice(&self.values);
         out.extend_from_slice(&self.row_scale);

@@ -8,8 +8,8 @@
 //! α_m = (2ρ − 1)/(ρ + 1),  α_f = ρ/(ρ + 1),  γ = ½ − Δ,  β = ¼ (1 − Δ)²,      Δ = α_m − α_f
 //! ```
 //!
-//! Sources: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371-375; O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012)
-//! 121-137.
+//! Sources: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371-375; O. Brüls, A. Cardona, M. Arnold, Mech. Mach.
+//! Theory 48 (2012) 121-137.
 
 use crate::error::DynamicsError;
 
@@ -22,8 +22,8 @@ pub(crate) struct Scheme {
     pub beta: f64,
     /// Δ: a_n is v̇ at t_n + Δ h, to the second order.
     pub shift: f64,
-    /// C: the error of one step is C h³ v̈ in the position. In directions that joints prescribe, where the position has none, the
-    /// velocity is off by C h² v̈ instead. C = 1/6 − Δ/2 − β = −(1/12 + Δ²/4).
+    /// C: the error of one step is C h³ v̈ in the position. In directions that joints prescribe, where the position has
+    /// none, the velocity is off by C h² v̈ instead. C = 1/6 − Δ/2 − β = −(1/12 + Δ²/4).
     pub error_constant: f64,
 }
 
@@ -43,8 +43,8 @@ impl Scheme {
         }
     }
 
-    /// D: the error of one step is D h³ v⃛ in the velocity. With a_n = v̇ + Δh v̈ + k h² v⃛ the scheme gives k = Δ(α_m − ½), and
-    /// D = k + γ(½ + Δ) − 1/6 = Δ(α_m − ½) + 1/12 − Δ².
+    /// D: the error of one step is D h³ v⃛ in the velocity. With a_n = v̇ + Δh v̈ + k h² v⃛ the scheme gives k = Δ(α_m
+    /// − ½), and D = k + γ(½ + Δ) − 1/6 = Δ(α_m − ½) + 1/12 − Δ².
     pub(crate) fn velocity_error_constant(&self) -> f64 {
         let shift = self.shift;
         shift * (self.alpha_m - 0.5) + 1.0 / 12.0 - shift * shift
@@ -91,7 +91,8 @@ impl StepControl {
     }
 }
 
-/// Limits of the adaptive step. The error of one step is estimated as |C| h² |v̇_{n+1} − v̇_n| for each degree of freedom.
+/// Limits of the adaptive step. The error of one step is estimated as |C| h² |v̇_{n+1} − v̇_n| for each degree of
+/// freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AdaptiveStep {
     /// First step \[s\].
@@ -111,14 +112,14 @@ pub struct AdaptiveStep {
 /// Parameters of the integrator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Params {
-    /// ρ∞, what is left of the highest frequencies after a step: 1 keeps all energy (and all noise of the reactions), 0 removes
-    /// them at once. Default 0.8.
+    /// ρ∞, what is left of the highest frequencies after a step: 1 keeps all energy (and all noise of the reactions), 0
+    /// removes them at once. Default 0.8.
     pub rho_infinity: f64,
     /// Step length.
     pub step: StepControl,
-    /// Newton ends when what is left is estimated below a tenth of the step's own error (docs/theory/multibody.md); or, where a share is
-    /// stated, below that share of the step's own largest increment, for places, rotations and modal coordinates each, a rotation counting
-    /// as a motion of places at the system's size. Default: none stated.
+    /// Newton ends when what is left is estimated below a tenth of the step's own error (docs/theory/multibody.md); or,
+    /// where a share is stated, below that share of the step's own largest increment, for places, rotations and modal
+    /// coordinates each, a rotation counting as a motion of places at the system's size. Default: none stated.
     pub newton_tolerance: Option<f64>,
     /// Newton iterations after which a step is given up. Default 20; three are usual.
     pub most_iterations: usize,

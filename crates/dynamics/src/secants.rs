@@ -6,8 +6,9 @@
 //! z = −J₀⁻¹ r;    z ← z + s_{j+1} ⟨s_j, z⟩/⟨s_j, s_j⟩  for j = 0 … k − 1;    s_{k+1} = z/(1 − ⟨s_k, z⟩/⟨s_k, s_k⟩)
 //! ```
 //!
-//! ⟨⟩ weighs the increments with their masses; reactions take part in s, not in ⟨⟩, which is a Broyden update all the same. A contact
-//! whose stiffness has changed is an error of rank one: one update removes it. Nothing is kept from step to step.
+//! ⟨⟩ weighs the increments with their masses; reactions take part in s, not in ⟨⟩, which is a Broyden update all the
+//! same. A contact whose stiffness has changed is an error of rank one: one update removes it. Nothing is kept from
+//! step to step.
 //!
 //! Source: C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, section 7.3.
 

@@ -1,10 +1,10 @@
 //! LU factorisation of a sparse matrix whose values change while its pattern stays.
 //!
-//! Columns are ordered once, by approximate minimum degree of the (symmetric) pattern. faer chooses the pivots, row by row the largest; later
-//! matrices are factorised with the same pivots on the same pattern, with neither a search nor new memory, until one of them no longer serves:
-//! then pivots are chosen anew. Sources: T. A. Davis, E. Palamadai Natarajan, ACM Trans. Math. Softw. 37 (2010) 36 (KLU); J. R. Gilbert,
-//! T. Peierls, SIAM J. Sci. Stat. Comput. 9 (1988) 862-874; P. R. Amestoy, T. A. Davis, I. S. Duff, SIAM J. Matrix Anal. Appl. 17 (1996)
-//! 886-905.
+//! Columns are ordered once, by approximate minimum degree of the (symmetric) pattern. faer chooses the pivots, row by
+//! row the largest; later matrices are factorised with the same pivots on the same pattern, with neither a search nor
+//! new memory, until one of them no longer serves: then pivots are chosen anew. Sources: T. A. Davis, E. Palamadai
+//! Natarajan, ACM Trans. Math. Softw. 37 (2010) 36 (KLU); J. R. Gilbert, T. Peierls, SIAM J. Sci. Stat. Comput. 9
+//! (1988) 862-874; P. R. Amestoy, T. A. Davis, I. S. Duff, SIAM J. Matrix Anal. Appl. 17 (1996) 886-905.
 
 use std::sync::Arc;
 
@@ -133,8 +133,8 @@ impl SparseLu {
         }
     }
 
-    /// Factorises the matrix of these values with the pivots that there are, or new ones where those do not serve; `false` if a pivot
-    /// vanishes or is not finite.
+    /// Factorises the matrix of these values with the pivots that there are, or new ones where those do not serve;
+    /// `false` if a pivot vanishes or is not finite.
     pub(crate) fn factor(&mut self, values: &[f64]) -> bool {
         if values.iter().any(|value| !value.is_finite()) {
             return false;

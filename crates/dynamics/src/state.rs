@@ -1,8 +1,9 @@
 //! Positions and velocities of all bodies, and how they move along an increment.
 //!
 //! Degrees of freedom of a body, in this order: velocity of the reference point (world axes, 3), angular velocity (body
-//! axes, 3), rates of the modal coordinates. Behind all bodies come the coordinates u that force elements own, which move by plain addition as
-//! modal coordinates do. The configuration of a body is ℝ³ × SO(3) × ℝᵐ; an increment Δ = (Δx, Δψ, Δη) acts as
+//! axes, 3), rates of the modal coordinates. Behind all bodies come the coordinates u that force elements own, which
+//! move by plain addition as modal coordinates do. The configuration of a body is ℝ³ × SO(3) × ℝᵐ; an increment Δ =
+//! (Δx, Δψ, Δη) acts as
 //!
 //! ```text
 //! x ← x + Δx,      q ← q exp(Δψ),      η ← η + Δη
@@ -175,8 +176,8 @@ impl State {
         }
     }
 
-    /// The state between two accepted ones by cubic Hermite interpolation (rotations: of the rotation vector from `from`),
-    /// error of the fourth order in the step. Used for output on a uniform time grid.
+    /// The state between two accepted ones by cubic Hermite interpolation (rotations: of the rotation vector from
+    /// `from`), error of the fourth order in the step. Used for output on a uniform time grid.
     pub fn interpolate(&mut self, from: &Self, to: &Self, time_s: f64, layout: &Layout) {
         let h = to.time_s - from.time_s;
         let s = (time_s - from.time_s) / h;

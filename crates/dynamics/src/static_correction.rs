@@ -17,11 +17,12 @@ use crate::system::System;
 /// Singular values below this share of the largest, after scaling, count as zero.
 const FREE: f64 = 1e-11;
 
-/// Share of the largest stiffness, and of the largest entry of a joint equation, scaled by the masses, that counts as rounding.
+/// Share of the largest stiffness, and of the largest entry of a joint equation, scaled by the masses, that counts as
+/// rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// Share of the largest push anywhere with which a push is compared at least: below [`BALANCED`] times this it is rounding, such as what a body turned
-/// by rounding has of a load beside its direction.
+/// Share of the largest push anywhere with which a push is compared at least: below [`BALANCED`] times this it is
+/// rounding, such as what a body turned by rounding has of a load beside its direction.
 const FELT: f64 = 1e-5;
 
 /// Largest growth of a vector by the inverse of the scaled matrix at which it counts as regular: a hundred times below
@@ -196,7 +197,8 @@ fn without_rounding(system: &System, equations: &Equations) -> Mat<f64> {
     // What has no mass is not measured by it.
     let weighs: Vec<bool> = system.masses().iter().map(|mass| *mass > 0.0).collect();
     let mut matrix = Mat::zeros(total, total);
-    // Stiffness at the level of rounding is none: the largest stiffness and, over a radian, the loads say how much that is.
+    // Stiffness at the level of rounding is none: the largest stiffness and, over a radian, the loads say how much that
+    // is.
     let mut most = 0.0_f64;
     for j in (0..n).filter(|&j| weighs[j]) {
         let column = equations.stiffness.entries(j).filter(|(i, _)| weighs[*i]);
@@ -251,8 +253,9 @@ fn by_singular_values(
         let s = svd.S().column_vector();
         (0..total).take_while(|&k| s[k] > FREE * s[0]).count()
     };
-    // A motion that nothing resists changes no load; yet off the equilibrium other motions change the load along it, by as much as loads are unbalanced.
-    // Scaled up, that little would weigh as much as all else: the equation along a free motion is left out.
+    // A motion that nothing resists changes no load; yet off the equilibrium other motions change the load along it, by
+    // as much as loads are unbalanced. Scaled up, that little would weigh as much as all else: the equation along a
+    // free motion is left out.
     let along_free = svd.V().subcols(rank, total - rank).to_owned();
     let unequal = along_free.transpose() * matrix;
     if unequal.norm_max() > FREE * svd.S().column_vector()[0] {

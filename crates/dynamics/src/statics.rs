@@ -5,10 +5,11 @@
 //! [B              0 ] [δλ] = −  [violation]           v̇ = 0, v as given
 //! ```
 //!
-//! Each correction is the smallest that solves this (singular value decomposition of the scaled matrix). Directions that nothing
-//! resists are thereby held and reported by name, or refused. A load along such a direction moves the system along it for some
-//! iterations, because resistance may come with the position; if none comes it is an error. It moves a little at first and further each
-//! time: surfaces that just touch have to be met within their deflection, a pendulum released level has a long way to go.
+//! Each correction is the smallest that solves this (singular value decomposition of the scaled matrix). Directions
+//! that nothing resists are thereby held and reported by name, or refused. A load along such a direction moves the
+//! system along it for some iterations, because resistance may come with the position; if none comes it is an error. It
+//! moves a little at first and further each time: surfaces that just touch have to be met within their deflection, a
+//! pendulum released level has a long way to go.
 
 use std::sync::Arc;
 
@@ -26,14 +27,15 @@ use crate::unbalanced::{most_unbalanced, pushing};
 /// Load along a free direction, as a share of all that pushes along it, that counts as balanced.
 const BALANCED: f64 = 1e-9;
 
-/// Share of all that pushes on a degree of freedom that may be left over where corrections do not become small: rounding, over a stiffness that is
-/// hardly there.
+/// Share of all that pushes on a degree of freedom that may be left over where corrections do not become small:
+/// rounding, over a stiffness that is hardly there.
 const AT_REST: f64 = 1e-12;
 
 /// Longest correction of one iteration: radians, and shares of the system's size.
 const LONGEST: f64 = 0.2;
 
-/// First move along a free direction, largest entry in m or rad, and the factor by which the next one is longer while none resists.
+/// First move along a free direction, largest entry in m or rad, and the factor by which the next one is longer while
+/// none resists.
 const FIRST_PUSH: f64 = 1e-6;
 const PUSH_GROWTH: f64 = 2.0;
 
@@ -61,8 +63,8 @@ pub enum FreeMotions {
 /// Parameters of [`equilibrium`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StaticParams {
-    /// Longest steps in which applied loads and weights are brought up, or time goes on: so many; shorter ones are made where they are needed.
-    /// Default 1.
+    /// Longest steps in which applied loads and weights are brought up, or time goes on: so many; shorter ones are made
+    /// where they are needed. Default 1.
     pub load_steps: usize,
     /// Iterations in each. Default 100.
     pub most_iterations: usize,
@@ -99,8 +101,8 @@ pub struct Equilibrium {
 /// Finds the static equilibrium near a state. Loads are brought up in fewer or more steps, as they are needed.
 ///
 /// # Errors
-/// [`DynamicsError::NoEquilibrium`], [`DynamicsError::Unbalanced`], [`DynamicsError::LeftOnTheWay`], [`DynamicsError::Singular`] or the error of
-/// an element.
+/// [`DynamicsError::NoEquilibrium`], [`DynamicsError::Unbalanced`], [`DynamicsError::LeftOnTheWay`],
+/// [`DynamicsError::Singular`] or the error of an element.
 pub fn equilibrium(
     system: &mut System,
     start: &State,
@@ -210,8 +212,8 @@ fn follow(
 }
 
 impl Path {
-    /// Whether shorter steps may find what a longer one did not. A motion that nothing resists is none the more resisted under a part of the
-    /// loads, but contact may be lost on the way to another position.
+    /// Whether shorter steps may find what a longer one did not. A motion that nothing resists is none the more
+    /// resisted under a part of the loads, but contact may be lost on the way to another position.
     fn may_help(self, error: &DynamicsError) -> bool {
         match error {
             DynamicsError::NoEquilibrium { .. }
@@ -223,7 +225,8 @@ impl Path {
     }
 }
 
-/// The failure of an element after a correction that was largest at the degree of freedom `moved`; at the start the error itself.
+/// The failure of an element after a correction that was largest at the degree of freedom `moved`; at the start the
+/// error itself.
 fn on_the_way(
     error: DynamicsError,
     system: &System,

@@ -28,7 +28,8 @@ impl StepFailure {
         }
     }
 
-    /// Whether iterates that went another way, or a shorter step, may do without it: they did not converge, or went where an element cannot follow.
+    /// Whether iterates that went another way, or a shorter step, may do without it: they did not converge, or went
+    /// where an element cannot follow.
     pub(crate) fn is_of_the_way(&self) -> bool {
         matches!(
             self,
@@ -36,7 +37,8 @@ impl StepFailure {
         )
     }
 
-    /// Steps that count as made where it is judged whether such failures are rare: a start out of balance may go beyond what an element covers some times.
+    /// Steps that count as made where it is judged whether such failures are rare: a start out of balance may go beyond
+    /// what an element covers some times.
     pub(crate) fn leeway(&self) -> u64 {
         match self {
             Self::Element(_) => LEEWAY,

@@ -1,4 +1,5 @@
-//! Where the matrices of a system may have entries: blocks of bodies, of pairs that joints connect, and of force elements.
+//! Where the matrices of a system may have entries: blocks of bodies, of pairs that joints connect, and of force
+//! elements.
 
 use std::sync::Arc;
 

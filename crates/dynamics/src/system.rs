@@ -294,8 +294,8 @@ impl System {
         }
     }
 
-    /// Writes all channels at a motion, in the order of [`Self::channels`]. `counts` holds the number of channels of each element,
-    /// so that nothing is allocated here.
+    /// Writes all channels at a motion, in the order of [`Self::channels`]. `counts` holds the number of channels of
+    /// each element, so that nothing is allocated here.
     pub fn sample(&mut self, state: &State, counts: &[usize], out: &mut [f64]) {
         self.refresh(state);
         // Next to where elements were asked last: at the end of a step, or at rest.
@@ -432,7 +432,8 @@ impl System {
         rate + of_each.sum::<f64>()
     }
 
-    /// Size of the system \[m\]: the farthest body or joint, at least a millimetre. What rounding of places is compared with.
+    /// Size of the system \[m\]: the farthest body or joint, at least a millimetre. What rounding of places is compared
+    /// with.
     pub(crate) fn size_m(&self) -> f64 {
         let places = self.start.positions_m.iter().map(|x| x.norm());
         let markers = self.joints.iter().flat_map(|joint| joint.pairs().iter());

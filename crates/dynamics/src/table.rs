@@ -8,8 +8,8 @@ use crate::error::DynamicsError;
 pub enum Interpolation {
     /// Straight lines; the rate jumps at the points.
     Linear,
-    /// Cubic Hermite pieces with the slopes of Fritsch and Butland (weighted harmonic mean of the neighbouring slopes): no
-    /// overshoot, continuous rate. Source: SIAM J. Sci. Stat. Comput. 5 (1984) 300-304.
+    /// Cubic Hermite pieces with the slopes of Fritsch and Butland (weighted harmonic mean of the neighbouring slopes):
+    /// no overshoot, continuous rate. Source: SIAM J. Sci. Stat. Comput. 5 (1984) 300-304.
     MonotoneCubic,
 }
 
@@ -28,8 +28,8 @@ impl Table {
     /// A table of at least two points.
     ///
     /// # Errors
-    /// [`DynamicsError::Table`] names the table and the first row where the time does not increase, a number is not finite
-    /// or the columns differ in length.
+    /// [`DynamicsError::Table`] names the table and the first row where the time does not increase, a number is not
+    /// finite or the columns differ in length.
     pub fn new(
         name: &str,
         times_s: Vec<f64>,

@@ -1,4 +1,5 @@
-//! Every joint and force element: analytic tangents against central differences, and energy against work. One suite for all.
+//! Every joint and force element: analytic tangents against central differences, and energy against work. One suite for
+//! all.
 #![allow(clippy::unwrap_used)] // test code
 
 use nalgebra::{DMatrix, Matrix5, Matrix6, UnitQuaternion, Vector3, Vector5};

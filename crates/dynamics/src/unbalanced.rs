@@ -6,8 +6,8 @@ use crate::system::System;
 /// Joints and elements that are named.
 const NAMED: usize = 3;
 
-/// Sum of the magnitudes of all forces of elements and joints, and of what is left over, on each degree of freedom. The equations are those of the last evaluation, with
-/// tangents.
+/// Sum of the magnitudes of all forces of elements and joints, and of what is left over, on each degree of freedom. The
+/// equations are those of the last evaluation, with tangents.
 pub(crate) fn pushing(system: &System, equations: &Equations, lambda: &[f64]) -> Vec<f64> {
     let mut sums: Vec<f64> = equations.residual.iter().map(|r| r.abs()).collect();
     for slot in &system.slots {
@@ -21,8 +21,8 @@ pub(crate) fn pushing(system: &System, equations: &Equations, lambda: &[f64]) ->
     sums
 }
 
-/// The degree of freedom with the largest unbalanced force in the measure of the masses (rᵢ²/mᵢ), and the joints and force elements with the
-/// largest forces on it. The equations are those of the last evaluation, with tangents.
+/// The degree of freedom with the largest unbalanced force in the measure of the masses (rᵢ²/mᵢ), and the joints and
+/// force elements with the largest forces on it. The equations are those of the last evaluation, with tangents.
 pub(crate) fn most_unbalanced(system: &System, equations: &Equations, lambda: &[f64]) -> String {
     let mass = system.mass_diagonal();
     let of_each = equations.residual.iter().zip(&mass).map(|(r, m)| r * r / m);

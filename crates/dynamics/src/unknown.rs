@@ -3,15 +3,16 @@
 /// Which equation a coordinate u has. Q is what the element writes in its place of the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum UnknownKind {
-    /// m ü = Q: a mass inside the element, moving along u only. Q is a force in the unit that goes with u (N for m, N·m for rad); forces of
-    /// inertia of a frame that moves are part of Q.
+    /// m ü = Q: a mass inside the element, moving along u only. Q is a force in the unit that goes with u (N for m, N·m
+    /// for rad); forces of inertia of a frame that moves are part of Q.
     Inertial {
         /// m, in kg for a u in metres, kg·m² for one in radians.
         mass: f64,
     },
     /// u̇ = Q: a film, wear, a spring in series with a damper.
     Rate,
-    /// 0 = Q: an inner equilibrium without mass. Q must change with u. Its rate follows from the steps and is not exact.
+    /// 0 = Q: an inner equilibrium without mass. Q must change with u. Its rate follows from the steps and is not
+    /// exact.
     Equilibrium,
 }
 
@@ -22,7 +23,8 @@ pub struct Unknown {
     pub name: String,
     /// Its equation.
     pub kind: UnknownKind,
-    /// Change of it that matters about as much as a turn by one radian: tolerances of rotations hold for u over this scale. Positive.
+    /// Change of it that matters about as much as a turn by one radian: tolerances of rotations hold for u over this
+    /// scale. Positive.
     pub scale: f64,
 }
 

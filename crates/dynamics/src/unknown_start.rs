@@ -19,8 +19,8 @@ const MOST_ITERATIONS: usize = 50;
 const FOUND: f64 = 1e-13;
 
 impl System {
-    /// Moves the start to a state whose places fit the joints, such as an equilibrium of a simpler twin; coordinates of elements begin where the
-    /// elements say that they do there.
+    /// Moves the start to a state whose places fit the joints, such as an equilibrium of a simpler twin; coordinates of
+    /// elements begin where the elements say that they do there.
     pub fn start_at(&mut self, state: State) {
         self.start = state;
         self.start_unknowns();
@@ -45,7 +45,8 @@ impl System {
     }
 }
 
-/// Solves the equations without mass at a motion: for the coordinate where nothing else is in it, for the rate where that is.
+/// Solves the equations without mass at a motion: for the coordinate where nothing else is in it, for the rate where
+/// that is.
 pub(crate) fn settle_unknowns(system: &mut System, state: &mut State) -> Result<(), DynamicsError> {
     if system.layout.massless().next().is_none() {
         return Ok(());
@@ -100,7 +101,8 @@ pub(crate) fn settle_unknowns(system: &mut System, state: &mut State) -> Result<
     Ok(())
 }
 
-/// Newton's correction of the coordinates without mass of one element: of the rate where a rate is given, else of the coordinate.
+/// Newton's correction of the coordinates without mass of one element: of the rate where a rate is given, else of the
+/// coordinate.
 fn correction(
     slot: &mut Slot,
     view: &View<'_>,

@@ -51,9 +51,9 @@ impl DofOrdering {
         Self::from_forward(forward)
     }
 
-    /// Nested dissection of the interior, then the nodes `late` of the interior, then the kept ones, both in the order given. Nodes are
-    /// triples of rows of `k`, of which the lower triangle is read. Late nodes that separate the others into parts keep what is eliminated in
-    /// one part out of the other.
+    /// Nested dissection of the interior, then the nodes `late` of the interior, then the kept ones, both in the order
+    /// given. Nodes are triples of rows of `k`, of which the lower triangle is read. Late nodes that separate the
+    /// others into parts keep what is eliminated in one part out of the other.
     ///
     /// # Errors
     /// [`FeError::TooLarge`]; [`FeError::Metis`]; [`FeError::NotAPermutation`] when a node is listed twice or does not

@@ -1,8 +1,8 @@
 //! The base circles of two gears that run together, and what follows from them alone.
 //!
-//! Lengths have the signs of ISO 21771: the base radius of a ring with internal teeth is negative, and with it the sum R of both,
-//! the distance a of the axes and the length L of the line of action. Then one set of equations holds for two external gears and
-//! for a ring and the gear inside it,
+//! Lengths have the signs of ISO 21771: the base radius of a ring with internal teeth is negative, and with it the sum
+//! R of both, the distance a of the axes and the length L of the line of action. Then one set of equations holds for
+//! two external gears and for a ring and the gear inside it,
 //!
 //! ```text
 //! R = r₁ + r₂,   cos α = R/a,   L = a sin α,   ρ_i = r_i ξ_i
@@ -49,8 +49,8 @@ impl BaseCircles {
         1f64.copysign(self.radii_m[gear])
     }
 
-    /// Side of the flanks of gear 0 or 1 that touch where gear 0 touches with `side_1`: the same of external gears, a ring and the gear inside touch with
-    /// opposite ones.
+    /// Side of the flanks of gear 0 or 1 that touch where gear 0 touches with `side_1`: the same of external gears, a
+    /// ring and the gear inside touch with opposite ones.
     #[must_use]
     pub fn side_of(&self, gear: usize, side_1: Flank) -> Flank {
         if gear == 1 && self.has_ring() {
@@ -60,8 +60,8 @@ impl BaseCircles {
         }
     }
 
-    /// σ = ±1: hand of a side of the teeth, given on gear 1, in the equations with signs. That of the right flank is +1, on a ring −1; it is the same
-    /// of both gears.
+    /// σ = ±1: hand of a side of the teeth, given on gear 1, in the equations with signs. That of the right flank
+    /// is +1, on a ring −1; it is the same of both gears.
     #[must_use]
     pub fn hand(&self, side_1: Flank) -> f64 {
         self.sense(0) * side_1.mirror()
@@ -82,8 +82,8 @@ impl BaseCircles {
         distance_m.copysign(self.sum_m())
     }
 
-    /// Length L \[m\] of the line of action between the base circles and working pressure angle α \[rad\] at a distance of the axes without its sign; none
-    /// where it is no number or not above |R|.
+    /// Length L \[m\] of the line of action between the base circles and working pressure angle α \[rad\] at a distance
+    /// of the axes without its sign; none where it is no number or not above |R|.
     #[must_use]
     pub fn line_of_action(&self, distance_m: f64) -> Option<(f64, f64)> {
         let sum = self.sum_m();
@@ -118,7 +118,8 @@ impl BaseCircles {
         )
     }
 
-    /// (r₁ − r₂)/R. In the pitch point r₁ ξ₁ − r₂ ξ₂ is so much of L; it lies so much of ½ a beyond halfway between the axes.
+    /// (r₁ − r₂)/R. In the pitch point r₁ ξ₁ − r₂ ξ₂ is so much of L; it lies so much of ½ a beyond halfway between the
+    /// axes.
     #[must_use]
     pub fn pitch_place(&self) -> f64 {
         let [r1, r2] = self.radii_m;

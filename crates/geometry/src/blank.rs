@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use crate::flank::Flank;
 use std::f64::consts::TAU;
 
-/// The body below the teeth. Held at the bore, at the end faces of the shaft that it is cut into, or at the outside of a
-/// ring.
+/// The body below the teeth. Held at the bore, at the end faces of the shaft that it is cut into, or at the outside of
+/// a ring.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Blank {
     /// A disc of full width, perhaps with openings through it.
@@ -192,9 +192,9 @@ impl CutIntoShaft {
     /// The hole over the root radius: it takes 0.06 % of the root disc's area, and 4e-7 of its polar moment.
     pub const HOLE: f64 = 1.0 / 40.0;
     /// Length of the stubs of shaft that are meshed beyond the faces, over the shaft's diameter. Stress without
-    /// resultant dies away along a round bar by exp(−2.7 z/R) where it is the same all round (R. W. Little and S. B. Childs,
-    /// Q. Appl. Math. 25 (1967) 261-274), and by exp(−2.09 z/R) where it has two lobes (docs/theory/reduction.md): a quarter
-    /// of the diameter leaves 0.26 to 0.35 of it at the stub's rigid end.
+    /// resultant dies away along a round bar by exp(−2.7 z/R) where it is the same all round (R. W. Little and S. B.
+    /// Childs, Q. Appl. Math. 25 (1967) 261-274), and by exp(−2.09 z/R) where it has two lobes
+    /// (docs/theory/reduction.md): a quarter of the diameter leaves 0.26 to 0.35 of it at the stub's rigid end.
     pub const STUB: f64 = 0.25;
 
     /// Lengths of the stubs on the back and the front face \[m\]; 0 where the shaft does not go on.

@@ -1,4 +1,5 @@
-//! What a gear is: the validated definition, in SI units. The defaults of its parts are empty records to be filled, no gears.
+//! What a gear is: the validated definition, in SI units. The defaults of its parts are empty records to be filled, no
+//! gears.
 
 use gearmesh_elements::Element;
 use schemars::JsonSchema;

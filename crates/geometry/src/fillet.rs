@@ -58,8 +58,8 @@ impl Fillet {
         Some(0.5 * (low + high))
     }
 
-    /// Angle between the middle of the tooth space and the place where the fillet leaves the root circle \[rad\]: half of
-    /// the arc of the root circle; zero where there is none.
+    /// Angle between the middle of the tooth space and the place where the fillet leaves the root circle \[rad\]: half
+    /// of the arc of the root circle; zero where there is none.
     pub fn root_arc_rad(&self) -> f64 {
         match self {
             Self::Rack(curve) => curve.centre_offset_m / curve.reference_radius_m,

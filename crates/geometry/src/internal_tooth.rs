@@ -1,8 +1,8 @@
 //! The tooth of a ring gear: what its number of teeth, profile shift and cutter make of it.
 //!
-//! The space of the ring is the tooth of its counterpart, an external gear with the same number of teeth and the profile
-//! shift −x. Lengths in files have no sign; ISO 21771 gives z and all diameters of a ring a negative one. Equations:
-//! docs/theory/internal_teeth.md.
+//! The space of the ring is the tooth of its counterpart, an external gear with the same number of teeth and the
+//! profile shift −x. Lengths in files have no sign; ISO 21771 gives z and all diameters of a ring a negative one.
+//! Equations: docs/theory/internal_teeth.md.
 
 use crate::bisection::halved;
 use crate::fillet::Fillet;
@@ -50,8 +50,8 @@ impl CutterTooth {
         }
     }
 
-    /// Roll angle of the inner parallel curve of the flank at the radius of the rounding's centre, and the angle γ of that
-    /// centre from the middle of the tooth; γ is negative where the rounding does not fit.
+    /// Roll angle of the inner parallel curve of the flank at the radius of the rounding's centre, and the angle γ of
+    /// that centre from the middle of the tooth; γ is negative where the rounding does not fit.
     fn rounding(&self, radius_m: f64) -> [f64; 2] {
         let roll = involute::roll_angle_rad(self.tip_radius_m - radius_m, self.base_radius_m);
         let turned = radius_m / self.base_radius_m + involute::polar_angle_rad(roll);
@@ -69,9 +69,10 @@ impl CutterTooth {
 }
 
 impl PinionCutter {
-    /// A cutter that suits a ring, where a file leaves its numbers open: the fewest teeth, from a third of the ring's on,
-    /// whose involute reaches the ring's tip and whose tip runs clear of it; an addendum of 1.25 modules; a tip radius of
-    /// 0.25 modules or, where that does not fit, the largest that does. A third of the ring's teeth where no number does.
+    /// A cutter that suits a ring, where a file leaves its numbers open: the fewest teeth, from a third of the ring's
+    /// on, whose involute reaches the ring's tip and whose tip runs clear of it; an addendum of 1.25 modules; a tip
+    /// radius of 0.25 modules or, where that does not fit, the largest that does. A third of the ring's teeth where no
+    /// number does.
     #[must_use]
     pub fn suited(
         d: &ToothDefinition,
@@ -224,8 +225,8 @@ struct MadeRoot {
 }
 
 impl RingSpace {
-    /// By a pinion cutter without backlash, at the centre distance that the widths of its tooth and of the space ask for:
-    /// r_w2 (ψ_s − inv α_w0) = r_w0 (ψ_0 − inv α_w0), with the pitch radii as the numbers of teeth.
+    /// By a pinion cutter without backlash, at the centre distance that the widths of its tooth and of the space ask
+    /// for: r_w2 (ψ_s − inv α_w0) = r_w0 (ψ_0 − inv α_w0), with the pitch radii as the numbers of teeth.
     fn cut(&self, d: &ToothDefinition, cutter: &PinionCutter) -> Result<MadeRoot, GeometryError> {
         let (z, z_0) = (self.teeth as f64, cutter.teeth as f64);
         if cutter.teeth + LEAST_DIFFERENCE > self.teeth {

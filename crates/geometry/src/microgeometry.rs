@@ -36,7 +36,8 @@ pub struct Microgeometry {
     pub tip_relief: Option<TipRelief>,
     /// Root relief, if any.
     pub root_relief: Option<RootRelief>,
-    /// Profile slope \[m\] over the whole involute: half of it removed at the tip circle, half added at the form circle.
+    /// Profile slope \[m\] over the whole involute: half of it removed at the tip circle, half added at the form
+    /// circle.
     pub profile_angle_m: f64,
     /// Lead crowning \[m\]: a parabola over the face width, zero at mid-face, this amount at both ends.
     pub lead_crowning_m: f64,
@@ -122,7 +123,8 @@ impl Microgeometry {
     #[must_use]
     pub fn most_added_m(&self) -> f64 {
         let added = |amount_m: f64| (-amount_m).max(0.0);
-        // The far end of the flank: at the base circle, of a ring, whose tip has the smallest roll angle, at the form circle.
+        // The far end of the flank: at the base circle, of a ring, whose tip has the smallest roll angle, at the form
+        // circle.
         let far_roll = if self.form_roll_rad > self.tip_roll_rad {
             self.form_roll_rad
         } else {

@@ -21,8 +21,8 @@ pub struct Misalignment {
     pub deviation_rad: f64,
 }
 
-/// A gear pair on parallel axes, spur or helical: two external gears, or one inside a ring. Gear 1 drives. External gears
-/// are loaded on flanks of the same hand, a ring and the gear inside on opposite ones.
+/// A gear pair on parallel axes, spur or helical: two external gears, or one inside a ring. Gear 1 drives. External
+/// gears are loaded on flanks of the same hand, a ring and the gear inside on opposite ones.
 ///
 /// The equations are those of external gears with the base radius of a ring, and with it the centre distance, negative
 /// (ISO 21771): docs/theory/internal_teeth.md.
@@ -279,7 +279,8 @@ impl GearPair {
         self.roll_start_1_rad = self.roll_at_tip_of_2_rad().max(0.0);
     }
 
-    /// Side of the flanks in contact on gear 1 (0) or gear 2 (1): the same on external gears, opposite ones with a ring.
+    /// Side of the flanks in contact on gear 1 (0) or gear 2 (1): the same on external gears, opposite ones with a
+    /// ring.
     #[must_use]
     pub fn flank_of(&self, gear: usize) -> Flank {
         self.circles().side_of(gear, self.flank)
@@ -290,7 +291,8 @@ impl GearPair {
         Self { flank, ..self }
     }
 
-    /// Base helix angle β_b of gear 1 \[rad\], positive for a right hand; gear 2 has the opposite, with a ring the same.
+    /// Base helix angle β_b of gear 1 \[rad\], positive for a right hand; gear 2 has the opposite, with a ring the
+    /// same.
     pub fn base_helix_angle_rad(&self) -> f64 {
         self.gear_1.base_helix_angle_rad()
     }
@@ -302,7 +304,8 @@ impl GearPair {
 
     /// How the roll angle on gear 1 of one pair changes along the axis \[rad/m\]. A right-hand helix turns the sections
     /// above mid-face counter-clockwise: where gear 1 turns clockwise (right flanks in contact) they lag behind,
-    /// ξ₁(z) = ξ₁(0) − z tan β₁/r₁; on left flanks they are ahead. On a ring the roll falls as it turns: the signs swap.
+    /// ξ₁(z) = ξ₁(0) − z tan β₁/r₁; on left flanks they are ahead. On a ring the roll falls as it turns: the signs
+    /// swap.
     pub fn roll_slope_1_rad_per_m(&self) -> f64 {
         -self.flank.mirror() * self.gear_1.tip_direction() * self.gear_1.twist_rad_per_m()
     }
@@ -364,8 +367,8 @@ impl GearPair {
     }
 
     /// Teeth of gear 1 and gear 2 that make pair p. A higher p comes later: on right flanks (gear 1 turns clockwise)
-    /// gear 1's tooth p with gear 2's tooth −p, on left flanks the mirror image, tooth −p with tooth p. With a ring both
-    /// turn the same way: tooth p with tooth p, on left flanks −p with −p.
+    /// gear 1's tooth p with gear 2's tooth −p, on left flanks the mirror image, tooth −p with tooth p. With a ring
+    /// both turn the same way: tooth p with tooth p, on left flanks −p with −p.
     pub fn teeth_of(&self, pair: i64) -> [usize; 2] {
         // Wide enough to be turned round, whatever a file says.
         let pair = i128::from(pair);
@@ -390,9 +393,9 @@ impl GearPair {
     }
 
     /// Sliding velocity \[m/s\] of gear 1's flank over gear 2's, positive towards gear 1's *root* (and gear 2's tip):
-    /// ω₁ (1 + r_b1/r_b2) (ρ₁ − r_b1 tan α_w), which is (ω₁ + ω₂) s of external gears with s the distance from the pitch
-    /// point; r_b1/r_b2 is negative with a ring. Zero at the pitch point, where it changes its sign. The contact runs
-    /// towards the tip of gear 1, so the material below it moves towards the root.
+    /// ω₁ (1 + r_b1/r_b2) (ρ₁ − r_b1 tan α_w), which is (ω₁ + ω₂) s of external gears with s the distance from the
+    /// pitch point; r_b1/r_b2 is negative with a ring. Zero at the pitch point, where it changes its sign. The contact
+    /// runs towards the tip of gear 1, so the material below it moves towards the root.
     pub fn sliding_velocity_m_per_s(&self, roll_1_rad: f64, speed_1_rad_per_s: f64) -> f64 {
         let [r1, r2] = self.circles().radii_m;
         let ratio = r1 / r2;
@@ -422,8 +425,8 @@ impl GearPair {
     /// (z ∓ s tan β_b)(δ_inclination sin α_w + δ_deviation cos α_w), − on right flanks with a right-hand gear 1.
     ///
     /// An axis that moves away opens external flanks and closes those inside a ring: there the inclination counts
-    /// negative. Gear 2 tilts about the pitch point at mid-face. Spur flanks feel the displacement along the line of action only;
-    /// a helical flank also feels the axial one.
+    /// negative. Gear 2 tilts about the pitch point at mid-face. Spur flanks feel the displacement along the line of
+    /// action only; a helical flank also feels the axial one.
     pub fn misalignment_gap_m(&self, z_m: f64, path_m: f64) -> f64 {
         let (s, c) = self.working_pressure_angle_rad.sin_cos();
         let opens = self.circles().sum_m().signum();

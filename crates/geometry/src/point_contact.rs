@@ -1,4 +1,5 @@
-//! Hertz contact of two bodies in a point, as a ball in a groove or two bevel flanks: half axes, approach and pressure by the exact elliptic integrals.
+//! Hertz contact of two bodies in a point, as a ball in a groove or two bevel flanks: half axes, approach and pressure
+//! by the exact elliptic integrals.
 //!
 //! With the curvatures ρ of both bodies in the two principal planes, κ = a/b and m = 1 − 1/κ²,
 //!

@@ -2,8 +2,8 @@
 //!
 //! The line of action says down to which radius the tip touches the mate's flank. Where that is on the involute the
 //! edge may still cut into the fillet on its way through the tooth space, if the clearance is small and the fillet
-//! large: its path in the mate's frame, an epitrochoid or, with a ring, a hypotrochoid, goes deeper than the point where
-//! it leaves the flank.
+//! large: its path in the mate's frame, an epitrochoid or, with a ring, a hypotrochoid, goes deeper than the point
+//! where it leaves the flank.
 
 use crate::bisection::crossing;
 use crate::involute;
@@ -18,9 +18,9 @@ const ROUNDING_M: f64 = 1e-15;
 /// Largest depth \[m\], along the normal of the mate's fillet, of the tip edge of `tip` in `mate` while right flanks of
 /// `tip` are in contact (the edge is then as close to the fillet as it comes); zero where it stays clear.
 ///
-/// The mate's axis lies at +a from the tip's; at −a where the mate is a ring, so that the pitch point lies at +x of `tip`
-/// in all cases. In a pair with a ring right flanks touch left ones: the picture is taken in the mirror of the mate, so
-/// that its right fillet is meant.
+/// The mate's axis lies at +a from the tip's; at −a where the mate is a ring, so that the pitch point lies at +x of
+/// `tip` in all cases. In a pair with a ring right flanks touch left ones: the picture is taken in the mirror of the
+/// mate, so that its right fillet is meant.
 pub(crate) fn depth_m(tip: &ToothGeometry, mate: &ToothGeometry, centre_distance_m: f64) -> f64 {
     let a = centre_distance_m;
     let [outside, together] = [

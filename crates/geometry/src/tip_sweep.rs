@@ -1,8 +1,8 @@
 //! The corners of a pinion inside a ring, and how deep they run into its teeth: trochoidal interference.
 //!
 //! Away from the line of action tips of both gears pass each other; where the numbers of teeth are close, they collide.
-//! The path of a corner in the ring's frame is a hypotrochoid; it is followed in steps and compared with the ring's flanks.
-//! So are the straight paths on which it comes into the ring radially.
+//! The path of a corner in the ring's frame is a hypotrochoid; it is followed in steps and compared with the ring's
+//! flanks. So are the straight paths on which it comes into the ring radially.
 
 use crate::involute;
 use crate::tooth::ToothGeometry;

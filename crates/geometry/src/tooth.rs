@@ -92,8 +92,8 @@ impl ToothGeometry {
         (a_m - b_m) * self.tip_direction() > 0.0
     }
 
-    /// The smallest and the largest roll angle of the flank \[rad\]: from form circle to flank end, of a ring from flank
-    /// end to form circle.
+    /// The smallest and the largest roll angle of the flank \[rad\]: from form circle to flank end, of a ring from
+    /// flank end to form circle.
     pub fn flank_rolls_rad(&self) -> [f64; 2] {
         let ends = [self.form_roll_rad, self.flank_end_roll_rad];
         [ends[0].min(ends[1]), ends[0].max(ends[1])]

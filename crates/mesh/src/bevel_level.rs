@@ -1,7 +1,8 @@
 //! Sections of a bevel gear's sector along the tooth: where their nodes lie.
 //!
-//! A section is the cone L = const, normal to the pitch cone; the one at the toe and the one at the heel are the ends of the tooth. In a section
-//! a place is the azimuth χ and the height h above the pitch cone. The body below the ring is `bevel_meridian.rs`. Nodes of all sections are numbered alike:
+//! A section is the cone L = const, normal to the pitch cone; the one at the toe and the one at the heel are the ends
+//! of the tooth. In a section a place is the azimuth χ and the height h above the pitch cone. The body below the ring
+//! is `bevel_meridian.rs`. Nodes of all sections are numbered alike:
 //!
 //! ```text
 //!            T---------T            h   tip
@@ -166,7 +167,8 @@ impl<'a> Levels<'a> {
         }
     }
 
-    /// The same gear with an even number of elements along the tooth, one more than before if need be. `order` as in [`Self::new`].
+    /// The same gear with an even number of elements along the tooth, one more than before if need be. `order` as in
+    /// [`Self::new`].
     #[must_use]
     pub fn even_along(mut self, order: usize) -> Self {
         let layers = ((self.spacing.along.len() - 1) / order).next_multiple_of(2) * order;

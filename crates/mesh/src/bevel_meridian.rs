@@ -1,8 +1,10 @@
-//! The body of a bevel gear below the ring of its teeth: quads in the meridian, turned about the axis over the columns of the ring.
+//! The body of a bevel gear below the ring of its teeth: quads in the meridian, turned about the axis over the columns
+//! of the ring.
 //!
-//! Where the lines of the body on the toe's and on the heel's side run much alike, rows between them do. Webs with steep walls would have
-//! rows that lie askew; there the meridian is meshed freely in quads (gmsh), and elements are as long as `body_mm` away from the ring.
-//! Columns follow the spiral in the ring. In rows each keeps the azimuth of its section; how it goes on into a free mesh is `bevel_twist.rs`.
+//! Where the lines of the body on the toe's and on the heel's side run much alike, rows between them do. Webs with
+//! steep walls would have rows that lie askew; there the meridian is meshed freely in quads (gmsh), and elements are as
+//! long as `body_mm` away from the ring. Columns follow the spiral in the ring. In rows each keeps the azimuth of its
+//! section; how it goes on into a free mesh is `bevel_twist.rs`.
 
 use gearmesh_bevel::BevelGear;
 
@@ -178,8 +180,8 @@ impl Meridian {
         if self.between.contains(&1) { 2 } else { 1 }
     }
 
-    /// Azimuths of all nodes, `[node][column]` \[rad\], from those at the ring, `[section][column]`; the last column is the first of the
-    /// next sector.
+    /// Azimuths of all nodes, `[node][column]` \[rad\], from those at the ring, `[section][column]`; the last column is
+    /// the first of the next sector.
     pub(crate) fn azimuths_rad(&self, ring: &[&[f64]]) -> Vec<Vec<f64>> {
         let sections = ring.len();
         if self.kind == BodyGrid::Rows {

@@ -1,8 +1,9 @@
-//! Nodes and elements of a bevel gear in hexahedra, swept along the tooth from toe to heel, with the sets that the reduction needs.
+//! Nodes and elements of a bevel gear in hexahedra, swept along the tooth from toe to heel, with the sets that the
+//! reduction needs.
 //!
-//! One tooth's sector is made of two grids of quads in each section ([`Levels`]), the tooth above its cut and the ring below it, and of quads
-//! of the meridian below the ring ([`BodyGrid`]), turned about the axis over the ring's columns. Sectors are turned copies; the left side of
-//! one is the right side of the next.
+//! One tooth's sector is made of two grids of quads in each section ([`Levels`]), the tooth above its cut and the ring
+//! below it, and of quads of the meridian below the ring ([`BodyGrid`]), turned about the axis over the ring's columns.
+//! Sectors are turned copies; the left side of one is the right side of the next.
 
 use gearmesh_bevel::{BevelError, BevelGear};
 use gearmesh_geometry::{Element, Flank};
@@ -30,8 +31,8 @@ pub struct BevelMesh {
     pub quality: QualityReport,
     /// Sections from toe to heel, as shares of the face.
     pub along: Vec<f64>,
-    /// Outlines of tooth 0 from the middle of the space to the tip: cone distance and height above the pitch cone \[m\],
-    /// `[right, left][section][node]`.
+    /// Outlines of tooth 0 from the middle of the space to the tip: cone distance and height above the pitch cone
+    /// \[m\], `[right, left][section][node]`.
     pub outline_m: [Vec<Vec<[f64; 2]>>; 2],
     teeth: usize,
     grid: Grid,
@@ -56,8 +57,8 @@ impl BevelMesh {
     /// Meshes a bevel gear, the body in rows, or freely where rows would be poorer than demanded.
     ///
     /// # Errors
-    /// [`MeshError::Bevel`] where the tool leaves no surface, [`MeshError::Quality`] for a mesh poorer than demanded, and those of
-    /// [`Self::of_grid`].
+    /// [`MeshError::Bevel`] where the tool leaves no surface, [`MeshError::Quality`] for a mesh poorer than demanded,
+    /// and those of [`Self::of_grid`].
     pub fn new(gear: &BevelGear) -> Result<Self, MeshError> {
         let sections = Sections::new(gear, BodyGrid::Rows)?;
         let demanded = gear.mesh.min_scaled_jacobian;
@@ -75,8 +76,8 @@ impl BevelMesh {
     /// The same with a body of this kind, however poor its elements.
     ///
     /// # Errors
-    /// [`MeshError::Bevel`]; of free bodies [`MeshError::CrossedLines`], and [`MeshError::Python`] or [`MeshError::Plane`] where gmsh is
-    /// missing or fails.
+    /// [`MeshError::Bevel`]; of free bodies [`MeshError::CrossedLines`], and [`MeshError::Python`] or
+    /// [`MeshError::Plane`] where gmsh is missing or fails.
     pub fn of_grid(gear: &BevelGear, body: BodyGrid) -> Result<Self, MeshError> {
         Self::of_sections(&Sections::new(gear, body)?, body)
     }
@@ -201,7 +202,8 @@ impl BevelMesh {
         (sector * self.in_sector) as u32 + self.in_body[node * self.grid.columns + column]
     }
 
-    /// Nodes of some nodes of the meridian in some columns, where there are any: those of the first, then those of the second.
+    /// Nodes of some nodes of the meridian in some columns, where there are any: those of the first, then those of the
+    /// second.
     fn body_columns(
         &self,
         sector: usize,
@@ -245,7 +247,8 @@ impl BevelMesh {
             .collect()
     }
 
-    /// What is seen of all sectors along the axis: corners, of teeth and ring in the section nearest to the middle of the face, and the elements before and behind them.
+    /// What is seen of all sectors along the axis: corners, of teeth and ring in the section nearest to the middle of
+    /// the face, and the elements before and behind them.
     pub fn columns_along(&self) -> Vec<([u32; 4], Vec<u32>)> {
         let (grid, p) = (self.grid, self.grid.order);
         let middle = (grid.sections - 1) / p / 2 * p;
@@ -302,7 +305,8 @@ impl BevelMesh {
         self.elements_of(tooth, 0..self.grid.quad_counts()[1])
     }
 
-    /// Nodes of a sector's body, with what it shares with the ring, the i-th of each sector the image of the i-th of sector 0.
+    /// Nodes of a sector's body, with what it shares with the ring, the i-th of each sector the image of the i-th of
+    /// sector 0.
     pub fn body_nodes(&self, sector: usize) -> Vec<u32> {
         self.body_columns(
             sector,
@@ -334,7 +338,8 @@ impl BevelMesh {
         self.elements_of(tooth, 0..self.grid.quad_counts()[0])
     }
 
-    /// Nodes that hold the tooth-only submodel for loads on `loaded`: the cut and the opposite side of the tooth above it.
+    /// Nodes that hold the tooth-only submodel for loads on `loaded`: the cut and the opposite side of the tooth above
+    /// it.
     pub fn tooth_supports(&self, tooth: usize, loaded: Flank) -> Vec<u32> {
         let grid = self.grid;
         let column = match loaded {
@@ -352,8 +357,8 @@ impl BevelMesh {
         self.columns(tooth, outline[self.grid.beside..].iter().copied())
     }
 
-    /// Faces of one side of a tooth from the middle of the space to the tip; `place` gives the coordinates of an outline node
-    /// in a section: its number from the space's middle and that of the section.
+    /// Faces of one side of a tooth from the middle of the space to the tip; `place` gives the coordinates of an
+    /// outline node in a section: its number from the space's middle and that of the section.
     pub fn outline_faces(
         &self,
         tooth: usize,

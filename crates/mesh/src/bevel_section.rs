@@ -1,7 +1,9 @@
-//! A bevel tooth in the plane normal to it at one place of the face: its outlines, and its own mesh seen along the tooth.
+//! A bevel tooth in the plane normal to it at one place of the face: its outlines, and its own mesh seen along the
+//! tooth.
 //!
-//! The section L = const is cut obliquely by the spiral. Seen along the tooth (the direction of the lines of nodes in the middle of it) it becomes the normal
-//! section of the cylinder that touches the tooth there. x points up the tooth, y counter-clockwise.
+//! The section L = const is cut obliquely by the spiral. Seen along the tooth (the direction of the lines of nodes in
+//! the middle of it) it becomes the normal section of the cylinder that touches the tooth there. x points up the tooth,
+//! y counter-clockwise.
 
 use gearmesh_bevel::BevelGear;
 use gearmesh_geometry::{Element, Flank};

@@ -1,7 +1,9 @@
-//! How the azimuth θ of a column goes on from the ring of a bevel gear into a freely meshed body: ∫ r³ |∇θ|² dA over the meridian is the least.
+//! How the azimuth θ of a column goes on from the ring of a bevel gear into a freely meshed body: ∫ r³ |∇θ|² dA over
+//! the meridian is the least.
 //!
-//! r ∇θ is the shear of the elements by the twist of the teeth, 2πr dA the volume behind dA: shear has its least mean square. The equation is that of
-//! Saint-Venant's torsion of a shaft of changing diameter (S. P. Timoshenko, J. N. Goodier, *Theory of Elasticity*, section on that case).
+//! r ∇θ is the shear of the elements by the twist of the teeth, 2πr dA the volume behind dA: shear has its least mean
+//! square. The equation is that of Saint-Venant's torsion of a shaft of changing diameter (S. P. Timoshenko, J. N.
+//! Goodier, *Theory of Elasticity*, section on that case).
 
 use crate::bevel_grid::corners_of;
 

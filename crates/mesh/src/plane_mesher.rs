@@ -60,8 +60,8 @@ pub struct PlaneMesh {
 }
 
 impl PlaneMesh {
-    /// Smallest scaled Jacobian of the quads with straight sides: the sine of the angle at a corner, smallest of all. That of the bricks
-    /// which stand upright on them.
+    /// Smallest scaled Jacobian of the quads with straight sides: the sine of the angle at a corner, smallest of all.
+    /// That of the bricks which stand upright on them.
     pub fn smallest_scaled_jacobian(&self) -> f64 {
         let at_corner = |quad: &[usize; 4], k: usize| {
             let [before, here, after] = [3, 0, 1].map(|step| self.nodes[quad[(k + step) % 4]]);

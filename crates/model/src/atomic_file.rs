@@ -165,7 +165,8 @@ pub(crate) fn temporary_prefix(path: &Path) -> String {
     format!(".gearmesh-{}-", &digest[..16])
 }
 
-/// Makes temporary files or folders of these names, with the usual rights under the user's umask instead of 0600 and 0700.
+/// Makes temporary files or folders of these names, with the usual rights under the user's umask instead of 0600
+/// and 0700.
 pub(crate) fn temporary_builder<'a>(
     prefix: &'a str,
     suffix: &'a str,

@@ -1,5 +1,5 @@
-//! What a reduced bevel gear has besides what every reduced gear has: which member of which pair it is, its flank at the
-//! stations, and its near field, which changes along the tooth.
+//! What a reduced bevel gear has besides what every reduced gear has: which member of which pair it is, its flank at
+//! the stations, and its near field, which changes along the tooth.
 
 use crate::near_field::{ContactCurve, EdgeDistance};
 use crate::record::Named;
@@ -45,9 +45,10 @@ impl Named for SpiralHand {
 
 /// Parts of a reduced bevel gear.
 ///
-/// Frame: origin in the pitch apex, z the axis towards the heel, the middle of tooth 0 on +x at the mean point. The grid's
-/// `roll_angles_rad` are u, the share of the way up the flank (0 its lower line, 1 the tip, no unit), its `z_m` are
-/// (s − ½)·face width, s the share of the way along the face (0 toe, 1 heel). With f flanks, U stations up the flank and V along it.
+/// Frame: origin in the pitch apex, z the axis towards the heel, the middle of tooth 0 on +x at the mean point. The
+/// grid's `roll_angles_rad` are u, the share of the way up the flank (0 its lower line, 1 the tip, no unit), its `z_m`
+/// are (s − ½)·face width, s the share of the way along the face (0 toe, 1 heel). With f flanks, U stations up the
+/// flank and V along it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BevelBody {
     /// The pair file, word for word.
@@ -70,8 +71,8 @@ pub struct BevelBody {
     pub near_field: Option<BevelNearField>,
 }
 
-/// The near field of a bevel tooth in sections normal to the tooth: as [`crate::NearField`], which see, for each flank and
-/// section.
+/// The near field of a bevel tooth in sections normal to the tooth: as [`crate::NearField`], which see, for each flank
+/// and section.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BevelNearField {
     /// Half width a₀ of the Hertz pressure (m).

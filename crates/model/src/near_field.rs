@@ -30,7 +30,8 @@ pub struct NearField {
 }
 
 impl NearField {
-    /// c₀ over the roll angle on a gear with this base radius, negative of a ring, whose tip has the smallest roll angle.
+    /// c₀ over the roll angle on a gear with this base radius, negative of a ring, whose tip has the smallest roll
+    /// angle.
     pub fn contact_curve(&self, base_radius_m: f64) -> ContactCurve {
         let end_rad = match base_radius_m < 0.0 {
             true => self.roll_angles_rad[0],
@@ -55,8 +56,8 @@ impl NearField {
 
 /// c₀ over the roll angle. Beyond the ends the end's value.
 ///
-/// Towards the edge c₀ grows like the logarithm of the distance d to it, r_b (ξ_end² − ξ²)/2 on an involute flank. The interpolation is
-/// therefore in u = −ln(1 + d/a₀), by a [`SmoothCurve`].
+/// Towards the edge c₀ grows like the logarithm of the distance d to it, r_b (ξ_end² − ξ²)/2 on an involute flank. The
+/// interpolation is therefore in u = −ln(1 + d/a₀), by a [`SmoothCurve`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactCurve {
     distance: EdgeDistance,

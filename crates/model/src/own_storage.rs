@@ -109,8 +109,9 @@ impl Walk<'_> {
         }
     }
 
-    /// Counts the length that a text states: libhdf5 takes so much memory before it looks for the text. In the file a text is its length (4 bytes) and
-    /// where it lies ("HDF5 File Format Specification Version 3.0", VIII.B); texts kept otherwise than in one piece are none of gearmesh's.
+    /// Counts the length that a text states: libhdf5 takes so much memory before it looks for the text. In the file a
+    /// text is its length (4 bytes) and where it lies ("HDF5 File Format Specification Version 3.0", VIII.B); texts
+    /// kept otherwise than in one piece are none of gearmesh's.
     fn text(&mut self, dataset: &Dataset, name: &str) -> Result<(), FileError> {
         let Some(place) = dataset.offset().filter(|_| dataset.is_scalar()) else {
             return Err(self.elsewhere(name, "is a text that is not kept in one piece"));

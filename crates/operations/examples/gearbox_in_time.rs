@@ -1,5 +1,5 @@
-//! A gearbox in time: a scene file runs into a result file, with its progress on standard error; Enter stops it, and the
-//! next call goes on from its checkpoint.
+//! A gearbox in time: a scene file runs into a result file, with its progress on standard error; Enter stops it, and
+//! the next call goes on from its checkpoint.
 //!
 //! `cargo run --example gearbox_in_time -- fe_models/dynamics_17_25.toml target/result.h5`
 

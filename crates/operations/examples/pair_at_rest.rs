@@ -1,7 +1,8 @@
 //! A gear pair at rest: two gears are reduced, one after the other, and a scene without a file runs them under three
 //! torques.
 //!
-//! `cargo run --example pair_at_rest -- fe_models/first_pair target/first_pair`: folder of the gear files, folder for the models.
+//! `cargo run --example pair_at_rest -- fe_models/first_pair target/first_pair`: folder of the gear files, folder for
+//! the models.
 
 use std::error::Error;
 use std::path::Path;

@@ -191,7 +191,8 @@ fn along_axis(body: &GearBody<BevelMesh>, field: &Field, title: &str) -> FieldPi
         .values(FieldValues::PerElement(values))
 }
 
-/// One side of a tooth from the middle of the space to the tip: along the face, and the length over root, fillet and flank.
+/// One side of a tooth from the middle of the space to the tip: along the face, and the length over root, fillet and
+/// flank.
 fn tooth_surface(
     gear: &BevelGear,
     body: &GearBody<BevelMesh>,

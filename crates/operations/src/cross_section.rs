@@ -1,4 +1,5 @@
-//! Displacement and stress of a cylindrical gear at one position of a pair's result, and the picture of its whole cross-section.
+//! Displacement and stress of a cylindrical gear at one position of a pair's result, and the picture of its whole
+//! cross-section.
 
 use crate::failure::{Failure, Result};
 use gearmesh_geometry::GearDefinition;

@@ -35,7 +35,8 @@ pub struct ExportRequest {
     /// Gears that move: most moments, evenly chosen [default: 100]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub moments: Option<u32>,
-    /// Gears that move: with the von Mises stress on the surfaces of their finite elements; meshes and solves each gear again
+    /// Gears that move: with the von Mises stress on the surfaces of their finite elements; meshes and solves each gear
+    /// again
     #[arg(long)]
     #[serde(default)]
     pub stress: bool,

@@ -48,8 +48,8 @@ pub struct Imported {
     pub trial: Trial,
 }
 
-/// Writes the files of a gearbox into a folder, checks them and runs its scenes at rest. Files that cannot be used are in
-/// [`Trial::refused`].
+/// Writes the files of a gearbox into a folder, checks them and runs its scenes at rest. Files that cannot be used are
+/// in [`Trial::refused`].
 ///
 /// # Errors
 /// [`Failure`] for a file that is no gearbox, and files that cannot be written.

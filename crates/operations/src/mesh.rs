@@ -74,7 +74,8 @@ impl Meshed {
 /// Meshes a gear of either family and writes the mesh.
 ///
 /// # Errors
-/// [`Failure`] where the gear cannot be meshed, an element is unfit for the finite element model, or the file cannot be written.
+/// [`Failure`] where the gear cannot be meshed, an element is unfit for the finite element model, or the file cannot be
+/// written.
 pub fn mesh(a: &MeshRequest, watch: &Watch<'_>) -> Result<Meshed> {
     overwriting::refuse(vec![a.gear.clone()], std::slice::from_ref(&a.output))?;
     output_name::demand_mesh(&a.output)?;

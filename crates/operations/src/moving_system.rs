@@ -21,8 +21,8 @@ const SECTIONS: usize = 6;
 /// turns, angles of balls, and of each mesh and gear the force and where it acts.
 ///
 /// # Errors
-/// [`Failure`] for a result without anything that could be drawn, for files that are not as they were in the run, and once `watch`
-/// stops it.
+/// [`Failure`] for a result without anything that could be drawn, for files that are not as they were in the run, and
+/// once `watch` stops it.
 pub fn moving_system(
     (file, result): (&Path, &SystemResult),
     [from_s, to_s]: [Option<f64>; 2],
@@ -112,8 +112,8 @@ struct Sum {
     point_m: [f64; 3],
 }
 
-/// A moment: of each gear its rotation (by rows) and origin, and of each mesh and gear the sum of the forces on the gear
-/// with its point of attack, the mean of the slices' places by their forces.
+/// A moment: of each gear its rotation (by rows) and origin, and of each mesh and gear the sum of the forces on the
+/// gear with its point of attack, the mean of the slices' places by their forces.
 fn frame(moment: &Moment, surfaces: &[GearSurface]) -> Value {
     let places = moment.placements.iter();
     let places = places.map(|placed| place(&placed.rotation, &placed.origin_m));

@@ -45,8 +45,8 @@ pub struct FoundOptimum {
     pub optimum: Optimum,
 }
 
-/// Seeks the optimum of a file, and writes `front.csv`, `tried.csv` and the page into a folder. The result of a trial of a
-/// multibody scene may be as large as `most_result_gb` at most. Stopped, the files have what was tried until then,
+/// Seeks the optimum of a file, and writes `front.csv`, `tried.csv` and the page into a folder. The result of a trial
+/// of a multibody scene may be as large as `most_result_gb` at most. Stopped, the files have what was tried until then,
 /// which [`Optimum::stopped`] says.
 ///
 /// # Errors

@@ -38,8 +38,8 @@ pub struct ReportRequest {
     /// largest]
     #[arg(long, allow_negative_numbers = true)]
     pub stress_angle_deg: Option<f64>,
-    /// The stress of a multibody scene: folder that its file names are relative to [default: that of the result, else the
-    /// working folder]
+    /// The stress of a multibody scene: folder that its file names are relative to [default: that of the result, else
+    /// the working folder]
     #[arg(long)]
     pub scene_folder: Option<PathBuf>,
     /// Folder of a reference record for each result, in the same order
@@ -51,7 +51,8 @@ pub struct ReportRequest {
 /// Writes the page; what `gearmesh report --json` prints.
 ///
 /// # Errors
-/// [`Failure`] for files that cannot be read, options that do not belong to a result, and a page that cannot be written.
+/// [`Failure`] for files that cannot be read, options that do not belong to a result, and a page that cannot be
+/// written.
 pub fn report(a: &ReportRequest, watch: &Watch<'_>) -> Result<Answer> {
     demand_sound(a)?;
     let how = StressRequest {

@@ -1,4 +1,5 @@
-//! The stress of a result's gears for its page: of each gear at the moment at which its roots are stressed most, or at one that is named.
+//! The stress of a result's gears for its page: of each gear at the moment at which its roots are stressed most, or at
+//! one that is named.
 
 use crate::cross_section::{CROSS_SECTION, FieldCase, largest_torque, nearest_angle, picture};
 use crate::failure::{Failure, Result};

@@ -1,4 +1,5 @@
-//! A gear's finite element body under forces at places of its flanks: the stress on its surface, for series and pictures.
+//! A gear's finite element body under forces at places of its flanks: the stress on its surface, for series and
+//! pictures.
 //!
 //! | what | file |
 //! | --- | --- |
@@ -259,7 +260,8 @@ pub fn bevel_surface(
     Ok(element_surface(mesh, faces, outline, place))
 }
 
-/// Nodes of the surface numbered anew, teeth and flanks of its faces. `place`: what the coordinates of an outline face's corners are on the flank.
+/// Nodes of the surface numbered anew, teeth and flanks of its faces. `place`: what the coordinates of an outline
+/// face's corners are on the flank.
 fn element_surface(
     mesh: &impl RepeatedMesh,
     faces: &[SkinFace],

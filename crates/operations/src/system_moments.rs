@@ -1,4 +1,5 @@
-//! Moments of a multibody result: gears where their bodies are, line loads and pressures computed again from places and speeds.
+//! Moments of a multibody result: gears where their bodies are, line loads and pressures computed again from places and
+//! speeds.
 
 use crate::failure::{Failure, Result};
 use crate::stressed_gear::{StressedGear, bevel_gear_of, bevel_surface};

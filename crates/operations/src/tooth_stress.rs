@@ -1,4 +1,5 @@
-//! Pictures of the stress in a loaded tooth and its neighbours, for the pages of `report` and `tca`: from the side that is pressed, and in the middle of the face.
+//! Pictures of the stress in a loaded tooth and its neighbours, for the pages of `report` and `tca`: from the side that
+//! is pressed, and in the middle of the face.
 
 use crate::failure::Result;
 use crate::stressed_gear::{GaugeReading, Pressed, RootFace, StressedGear, ToothFrame};
@@ -10,7 +11,8 @@ use gearmesh_report::page::{Align, FieldPicture, Mark, MarkSign, Section, Table,
 use gearmesh_report::short;
 use serde_json::{Value, json};
 
-/// The view from the side that is pressed: so far from looking down on the tip towards that side, and towards the tooth's larger end.
+/// The view from the side that is pressed: so far from looking down on the tip towards that side, and towards the
+/// tooth's larger end.
 const FROM_SIDE: [f64; 3] = [1.0, 0.5, 0.1];
 
 /// Gauges so near to the middle of the face, in faces, are drawn in the cut.

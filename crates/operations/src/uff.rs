@@ -12,7 +12,8 @@ const READ: &str = include_str!("uff/read.py");
 /// Reads all real functions of a file.
 ///
 /// # Errors
-/// [`Failure`] where Python or pyuff is missing, or the file is no universal file with functions, is cut, or holds what is no number.
+/// [`Failure`] where Python or pyuff is missing, or the file is no universal file with functions, is cut, or holds what
+/// is no number.
 pub fn read(path: &Path, watch: &Watch<'_>) -> Result<Vec<Function>> {
     demand_readable(path, MOST_TEXT_BYTES)
         .map_err(|error| Failure::input(format!("{}: {error}", path.display())))?;

@@ -27,7 +27,8 @@ pyo3::create_exception!(
     "The input was read, the work failed: no equilibrium, no mesh, a file that cannot be written."
 );
 
-/// A message as a terminal may show it: names of files are in it. The attributes of an `InputError` have them as they are.
+/// A message as a terminal may show it: names of files are in it. The attributes of an `InputError` have them as they
+/// are.
 fn shown(error: &dyn std::fmt::Display) -> String {
     printable(&error.to_string()).into_owned()
 }

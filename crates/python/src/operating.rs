@@ -8,8 +8,8 @@ use pyo3::prelude::*;
 
 use crate::watched::{OnInterrupt, watched};
 
-/// Does an operation of gearmesh-operations: its request and its figures are JSON. interpreter is a Python with gmsh and
-/// meshio. progress(stage, done, total) hears how far it is.
+/// Does an operation of gearmesh-operations: its request and its figures are JSON. interpreter is a Python with gmsh
+/// and meshio. progress(stage, done, total) hears how far it is.
 ///
 /// Raises InputError, WorkError, OSError, MemoryError; KeyboardInterrupt on Ctrl-C.
 #[pyfunction]

@@ -11,7 +11,8 @@ use pyo3::types::PyDict;
 
 use crate::errors::file_error;
 
-/// Texts and small parts as the result has them, and its data sets, moved into arrays that cannot be written to: tables and files are made of them.
+/// Texts and small parts as the result has them, and its data sets, moved into arrays that cannot be written to: tables
+/// and files are made of them.
 pub(crate) struct PairArrays {
     /// The result without its large arrays.
     pub(crate) head: SceneResult,

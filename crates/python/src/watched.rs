@@ -82,8 +82,8 @@ impl Task for Told<'_> {
 pub(crate) enum OnInterrupt {
     /// It ends by itself; what it stores, a checkpoint or the cases at hand, is whole then.
     Wait,
-    /// It may be where it cannot stop, in a factorisation or a mesher. After a moment it ends in the background: it looks at
-    /// the flag before it writes anything.
+    /// It may be where it cannot stop, in a factorisation or a mesher. After a moment it ends in the background: it
+    /// looks at the flag before it writes anything.
     Leave,
 }
 

@@ -177,7 +177,8 @@ impl RootSection {
             / (face_width_m * self.thickness_m * self.thickness_m)
     }
 
-    /// Compression F sin φ/(b s) \[Pa\] by the radial part of the load, positive: the loaded side carries σ_b minus this.
+    /// Compression F sin φ/(b s) \[Pa\] by the radial part of the load, positive: the loaded side carries σ_b minus
+    /// this.
     pub fn compressive_stress_pa(&self, normal_force_n: f64, face_width_m: f64) -> f64 {
         normal_force_n * self.load_angle_rad.sin() / (face_width_m * self.thickness_m)
     }

@@ -13,15 +13,15 @@
 //! Of bevel gears, whose bodies have no edges between web and rim, the first mesh has longer elements in the whole
 //! section.
 //!
-//! Gauges: p = 2, as displacements of nodes have it and is found (1.7 to 3.7 in plane strain), over the loads that strain
-//! them most, by RMS. Deflections: solid bodies converge with p = 2; at the sharp inner edges between web, rim and hub p
-//! falls to 2λ = 1.09 (see `gearmesh_mesh::layers`), and p = 1 is taken. S is the factor of safety of Roache's grid
-//! convergence index: 3 where two meshes tell nothing of the order, 1.25 where three have confirmed it. Graded meshes are
-//! not similar to the last element: what is found against converged quadratic elements is up to 1.1 times the bare
-//! estimate of a gauge and of the loaded tooth's deflection, 2.7 times that of other teeth. So S = 2 for gauges and the
-//! loaded tooth, 3 for other teeth, and for the loaded tooth over openings: sides at their corners are as short on
-//! coarser meshes. Of two loaded teeth the errors of both are added, as if they had one sign. In plane strain, and of
-//! tetrahedra, which have no layers along the axis, one coarser mesh tells all.
+//! Gauges: p = 2, as displacements of nodes have it and is found (1.7 to 3.7 in plane strain), over the loads that
+//! strain them most, by RMS. Deflections: solid bodies converge with p = 2; at the sharp inner edges between web, rim
+//! and hub p falls to 2λ = 1.09 (see `gearmesh_mesh::layers`), and p = 1 is taken. S is the factor of safety of
+//! Roache's grid convergence index: 3 where two meshes tell nothing of the order, 1.25 where three have confirmed it.
+//! Graded meshes are not similar to the last element: what is found against converged quadratic elements is up to 1.1
+//! times the bare estimate of a gauge and of the loaded tooth's deflection, 2.7 times that of other teeth. So S = 2 for
+//! gauges and the loaded tooth, 3 for other teeth, and for the loaded tooth over openings: sides at their corners are
+//! as short on coarser meshes. Of two loaded teeth the errors of both are added, as if they had one sign. In plane
+//! strain, and of tetrahedra, which have no layers along the axis, one coarser mesh tells all.
 //!
 //! P. J. Roache, *Perspective: a method for uniform reporting of grid refinement studies*, J. Fluids Eng. 116 (1994)
 //! 405-413.
@@ -268,8 +268,8 @@ impl CoarserMeshes {
     }
 }
 
-/// Stations whose loads make a gauge read at least half of its largest reading. What people read, the range of a strain,
-/// is made there; loads beside a gauge strain it little, and their readings err most.
+/// Stations whose loads make a gauge read at least half of its largest reading. What people read, the range of a
+/// strain, is made there; loads beside a gauge strain it little, and their readings err most.
 fn large_readings(readings: &[f64]) -> Vec<usize> {
     let largest = readings.iter().fold(0.0f64, |most, x| most.max(x.abs()));
     let is_large = |at: &usize| readings[*at].abs() >= 0.5 * largest;

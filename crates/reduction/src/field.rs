@@ -1,7 +1,7 @@
 //! The whole displacement and stress field of a gear under given grid forces: made only when a picture is asked for.
 //!
-//! Nothing of it is in the reduced model: displacements of all nodes under each unit load would be thousands of times its compliance. The gear is
-//! meshed and factorised again and solved for the forces at hand.
+//! Nothing of it is in the reduced model: displacements of all nodes under each unit load would be thousands of times
+//! its compliance. The gear is meshed and factorised again and solved for the forces at hand.
 
 use gearmesh_bevel::BevelGear;
 use gearmesh_fe::{ElementFormulas, FeError, FeModel, von_mises};
@@ -115,7 +115,8 @@ impl FlankUnits {
         summed(turned.collect())
     }
 
-    /// Solves K d = f for each set of grid forces and hands the displacements of all degrees of freedom \[m\] to `each`.
+    /// Solves K d = f for each set of grid forces and hands the displacements of all degrees of freedom \[m\] to
+    /// `each`.
     ///
     /// # Panics
     /// If a force stands on a side whose units were not asked for.
@@ -163,8 +164,8 @@ impl FlankUnits {
         Ok(displacement_m)
     }
 
-    /// What rows g of nodal weights read under each unit load of one side, on every tooth: gᵀK⁻¹p, `[row][tooth][component][load]`, components normal and tangential. No field
-    /// is made for it.
+    /// What rows g of nodal weights read under each unit load of one side, on every tooth: gᵀK⁻¹p,
+    /// `[row][tooth][component][load]`, components normal and tangential. No field is made for it.
     pub fn readings(
         &self,
         body: &GearBody<impl RepeatedMesh>,
@@ -237,7 +238,8 @@ pub fn fields(
 /// The same of a bevel gear.
 ///
 /// # Errors
-/// [`ReductionError::Fe`] when an element's strain cannot be taken, [`ReductionError::Mesh`] where the tool leaves no surface.
+/// [`ReductionError::Fe`] when an element's strain cannot be taken, [`ReductionError::Mesh`] where the tool leaves no
+/// surface.
 pub fn bevel_fields(
     gear: &BevelGear,
     body: &GearBody<BevelMesh>,

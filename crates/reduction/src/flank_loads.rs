@@ -47,8 +47,8 @@ impl GridLoad {
     }
 }
 
-/// The flank grid of a gear: roll stations evenly over the flank, from the form circle to its end, of a ring from its end
-/// to the form circle; axial stations at the edges and middles of the slices.
+/// The flank grid of a gear: roll stations evenly over the flank, from the form circle to its end, of a ring from its
+/// end to the form circle; axial stations at the edges and middles of the slices.
 pub fn flank_grid(gear: &GearDefinition) -> FlankGrid {
     let profile = &gear.profile;
     let n = gear.reduction.roll_stations - 1;

@@ -1,7 +1,8 @@
 //! How many natural modes a gear has up to a frequency, roughly and before any of them is known.
 //!
 //! H. Weyl's law counts the waves that fit into a body: those that bend a plate, those in its plane, and those of a
-//! solid, whose wavelengths fit into the thickness, too. For a part of the area A, the thickness h and the volume V = A h
+//! solid, whose wavelengths fit into the thickness, too. For a part of the area A, the thickness h and the volume V = A
+//! h
 //!
 //! ```text
 //! N(ω) = A ω/(4π) √(ρ h/D) + A ω²/(4π) (1/c_p² + 1/c_t²) + V ω³/(6π²) (1/c_l³ + 2/c_t³)
@@ -9,8 +10,8 @@
 //! ```
 //!
 //! Hub, web and rim are rings of their thickness up to the reference circle. What is held or free at the edges shifts
-//! the count by a term of one order less in ω: of the lowest few modes it counts one. Source: R. Courant, D. Hilbert, *Methods of Mathematical Physics* I,
-//! section VI.4.
+//! the count by a term of one order less in ω: of the lowest few modes it counts one. Source: R. Courant, D.
+//! Hilbert, *Methods of Mathematical Physics* I, section VI.4.
 
 use gearmesh_geometry::{GearDefinition, Material, Openings};
 use std::f64::consts::{PI, TAU};
@@ -102,8 +103,8 @@ mod tests {
         density_kg_per_m3: Some(7850.0),
     };
 
-    /// Bending of a simply supported plate, ω = π² (i²/a² + j²/b²) √(D/ρh): the term of bending and its correction at the edges, half of
-    /// which the law leaves out.
+    /// Bending of a simply supported plate, ω = π² (i²/a² + j²/b²) √(D/ρh): the term of bending and its correction at
+    /// the edges, half of which the law leaves out.
     #[test]
     fn bending_waves_of_a_plate_are_counted() {
         let (a, b, h) = (0.5, 0.3, 1e-3);
@@ -130,8 +131,8 @@ mod tests {
         assert!(exact > 100.0);
     }
 
-    /// Block on rollers: for each (i, j, l) one dilatational mode where not all are zero, and shear modes, two where none is zero and one where
-    /// one is (docs/theory/modes.md). A cube: the faces' terms are of one order less.
+    /// Block on rollers: for each (i, j, l) one dilatational mode where not all are zero, and shear modes, two where
+    /// none is zero and one where one is (docs/theory/modes.md). A cube: the faces' terms are of one order less.
     #[test]
     fn waves_in_a_solid_are_counted() {
         let side = 0.2;

@@ -22,7 +22,8 @@ pub trait RepeatedMesh: Sync {
     /// Elements of a tooth's cell.
     fn cell_elements(&self, tooth: usize) -> Vec<u32>;
 
-    /// Nodes of a sector's body with what it shares with the teeth, the i-th of each sector the image of the i-th of sector 0.
+    /// Nodes of a sector's body with what it shares with the teeth, the i-th of each sector the image of the i-th of
+    /// sector 0.
     fn body_nodes(&self, sector: usize) -> Vec<u32>;
 
     /// Elements of a sector's body.

@@ -1,17 +1,18 @@
 //! A circle of few nodes that parts a body: that between hub and web, as a rule.
 //!
-//! What is inside of it is then eliminated without the rim, and loads on teeth do not reach it: their half solves pass through the rim, the
-//! web and the circle only. Nested dissection by itself cuts hub, web and rim along radii, with fewer nodes in each cut, and every tooth
-//! reaches some of each. Which nodes are eliminated late changes the cost only, no result beyond rounding.
+//! What is inside of it is then eliminated without the rim, and loads on teeth do not reach it: their half solves pass
+//! through the rim, the web and the circle only. Nested dissection by itself cuts hub, web and rim along radii, with
+//! fewer nodes in each cut, and every tooth reaches some of each. Which nodes are eliminated late changes the cost
+//! only, no result beyond rounding.
 
 use std::collections::BTreeSet;
 
 /// Nodes on one circle lie so near to it (m).
 const SAME_M: f64 = 1e-9;
 
-/// Nodes of the circle by which the fewest nodes part a body's elements, those outside of it from those inside; none where no circle does,
-/// or only one of more nodes than the cuts of a compact body have, (elements)^(2/3). `nodes` are those of `elements`' numbers \[m\], the axis is
-/// z; `is_free` tells which may move.
+/// Nodes of the circle by which the fewest nodes part a body's elements, those outside of it from those inside; none
+/// where no circle does, or only one of more nodes than the cuts of a compact body have, (elements)^(2/3). `nodes` are
+/// those of `elements`' numbers \[m\], the axis is z; `is_free` tells which may move.
 pub(crate) fn separating_circle<'a>(
     nodes: &[[f64; 3]],
     elements: impl Iterator<Item = &'a [u32]> + Clone,

@@ -1,4 +1,5 @@
-//! The surface of a finite element model, or of a part that is cut out of it: faces that belong to one element only, and the stress on them.
+//! The surface of a finite element model, or of a part that is cut out of it: faces that belong to one element only,
+//! and the stress on them.
 
 use gearmesh_fe::{ElementFormulas, FeModel, von_mises};
 use nalgebra::Matrix3;
@@ -52,7 +53,8 @@ fn corners(face: &[usize]) -> &[usize] {
     &face[..count]
 }
 
-/// Stress \[Pa\] in the middle of each face under the displacement of all degrees of freedom \[m\], that of the face's element there: xx, yy, zz, xy, yz, xz.
+/// Stress \[Pa\] in the middle of each face under the displacement of all degrees of freedom \[m\], that of the face's
+/// element there: xx, yy, zz, xy, yz, xz.
 ///
 /// # Errors
 /// [`ReductionError::Fe`] when an element's strain cannot be taken.

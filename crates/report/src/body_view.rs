@@ -1,4 +1,5 @@
-//! A body seen from one direction: faces of its surface that look at the viewer, projected without perspective, the far ones first.
+//! A body seen from one direction: faces of its surface that look at the viewer, projected without perspective, the far
+//! ones first.
 
 use crate::page::{FieldPicture, FieldValues};
 
@@ -27,7 +28,8 @@ fn unit(a: [f64; 3]) -> [f64; 3] {
 }
 
 impl BodyView {
-    /// Seen by a viewer in this direction from the body, with `up` upwards as far as it goes; the two must not be parallel.
+    /// Seen by a viewer in this direction from the body, with `up` upwards as far as it goes; the two must not be
+    /// parallel.
     #[must_use]
     pub fn new(towards_viewer: [f64; 3], up: [f64; 3]) -> Self {
         let towards = unit(towards_viewer);

@@ -1,4 +1,5 @@
-//! Gears that move, as a series of files for ParaView and PyVista: `gearmesh export RESULT -o x.pvd`. For users: docs/formats.md.
+//! Gears that move, as a series of files for ParaView and PyVista: `gearmesh export RESULT -o x.pvd`. For users:
+//! docs/formats.md.
 //!
 //! | what | file |
 //! | --- | --- |

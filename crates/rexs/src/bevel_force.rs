@@ -1,13 +1,15 @@
 //! Force between two bevel gears at the middle of the face, on their shafts.
 //!
-//! At the mean point P of the common line of the pitch cones, l points from the apex to the heel, a along a gear's axis away from the apex, r from
-//! the axis to P, t = a × r is the way of P when the gear turns about a, m = a sin δ − r cos δ points across the cone into the gear. Teeth of a right
-//! hand run along cos β l + sin β t. The normal force of teeth without friction is across them, and so on that gear
+//! At the mean point P of the common line of the pitch cones, l points from the apex to the heel, a along a gear's axis
+//! away from the apex, r from the axis to P, t = a × r is the way of P when the gear turns about a, m = a sin δ − r cos
+//! δ points across the cone into the gear. Teeth of a right hand run along cos β l + sin β t. The normal force of teeth
+//! without friction is across them, and so on that gear
 //!
 //! F = F_t t − s F_t tan β l + |F_t| tan α/cos β m,  F_t = T/(R_m sin δ),
 //!
-//! s = 1 for a right hand, −1 for a left one, T the torque about a that the mate puts on it, R_m the mean cone distance, α the normal pressure angle (Niemann,
-//! Winter: Maschinenelemente, volume 3, forces of bevel gears; ISO 10300-1 has the same shares). The mate feels the opposite at the same point.
+//! s = 1 for a right hand, −1 for a left one, T the torque about a that the mate puts on it, R_m the mean cone
+//! distance, α the normal pressure angle (Niemann, Winter: Maschinenelemente, volume 3, forces of bevel gears; ISO
+//! 10300-1 has the same shares). The mate feels the opposite at the same point.
 
 use crate::bevel::BevelStage;
 use crate::vectors::{add, cross, dot, unit};
@@ -35,8 +37,8 @@ const MOST_APART: f64 = 5e-3;
 /// Largest difference between the angle of the axes and the shaft angle \[rad\].
 const MOST_OFF_RAD: f64 = 0.02;
 
-/// Force on the pinion: `axes` of pinion and gear, each with a point on the side of its teeth, `torque_nm` on the pinion about the direction of
-/// its axis. None where the axes do not cross at the shaft angle.
+/// Force on the pinion: `axes` of pinion and gear, each with a point on the side of its teeth, `torque_nm` on the
+/// pinion about the direction of its axis. None where the axes do not cross at the shaft angle.
 pub fn mean_force(pair: &BevelStage, axes: [Line; 2], torque_nm: f64) -> Option<MeanForce> {
     let cone_mm = pair.mean_cone_distance_mm();
     let apex = crossing(axes, MOST_APART * cone_mm)?;

@@ -21,7 +21,8 @@ pub struct BevelLoad {
     moment_nm: [f64; 3],
 }
 
-/// The loads of all bevel stages whose torque is known and whose axes cross; of the others only the torque acts, which is reported.
+/// The loads of all bevel stages whose torque is known and whose axes cross; of the others only the torque acts, which
+/// is reported.
 pub fn bevel_loads(source: &Source<'_>, train: &Train) -> Vec<BevelLoad> {
     let mut loads = Vec::new();
     for seats in train.bevels.chunks_exact(2) {

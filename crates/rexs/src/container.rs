@@ -3,8 +3,8 @@
 use crate::error::{Result, RexsError};
 use std::io::{Cursor, Read};
 
-/// Text of more than this is not read: gearbox files have a few megabytes, and a zip file of some kilobytes may unpack to
-/// anything.
+/// Text of more than this is not read: gearbox files have a few megabytes, and a zip file of some kilobytes may unpack
+/// to anything.
 pub const MOST_MB: u64 = 256;
 
 /// Text of a model.

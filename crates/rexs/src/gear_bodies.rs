@@ -1,5 +1,5 @@
-//! The bodies of gears in the scene. Most sit on a station of their shaft; one that turns loose has a place of its own, and so has a
-//! second gear at the place of another one, to which it is fixed.
+//! The bodies of gears in the scene. Most sit on a station of their shaft; one that turns loose has a place of its own,
+//! and so has a second gear at the place of another one, to which it is fixed.
 
 use crate::gearbox::{SeatedGear, Train};
 use crate::ledger::About;
@@ -31,7 +31,8 @@ fn place<'a>(train: &'a Train, seated: &SeatedGear) -> Place<'a> {
     }
 }
 
-/// Tables of all gears: bodies, and joints of those that stand at the place of another one. `file` is what a body names as its gear.
+/// Tables of all gears: bodies, and joints of those that stand at the place of another one. `file` is what a body names
+/// as its gear.
 pub fn gear_bodies(
     source: &Source<'_>,
     train: &Train,
@@ -70,8 +71,8 @@ pub fn gear_bodies(
     text + &joints
 }
 
-/// Angles about x and the new y that turn z into a direction, R_x(a) R_y(b) e_z = (sin b, −sin a cos b, cos a cos b); the mesh
-/// settles the third one.
+/// Angles about x and the new y that turn z into a direction, R_x(a) R_y(b) e_z = (sin b, −sin a cos b, cos a cos b);
+/// the mesh settles the third one.
 fn cardan_deg([x, y, z]: [f64; 3]) -> [f64; 2] {
     let about_x = if y.hypot(z) < 1e-12 {
         0.0

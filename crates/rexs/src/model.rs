@@ -119,7 +119,8 @@ impl Value {
         }
     }
 
-    /// Whether all of it says that there is no value, as programs write numbers that they have not computed: `NaN` in any letters.
+    /// Whether all of it says that there is no value, as programs write numbers that they have not computed: `NaN` in
+    /// any letters.
     pub fn is_nan(&self) -> bool {
         let nan = |text: &String| text.trim().eq_ignore_ascii_case("nan");
         match self {

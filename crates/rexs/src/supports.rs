@@ -1,5 +1,5 @@
-//! Shafts that nothing holds: files of teeth alone have no bearings, pins and carriers of planetary stages stand on parts that
-//! scenes do not have.
+//! Shafts that nothing holds: files of teeth alone have no bearings, pins and carriers of planetary stages stand on
+//! parts that scenes do not have.
 
 use crate::bearing::{self, AxialSupport, Bearing};
 use crate::coupling::RIGID;
@@ -35,8 +35,8 @@ pub fn leave_out_bare(source: &Source<'_>, train: &mut Train) {
 /// Bearings nearer to each other than this stand at one place \[mm\].
 const SAME_PLACE_MM: f64 = 0.1;
 
-/// Couplings of which the file says nothing hold shafts that lack bearings, and shafts that nothing holds across their axis are held
-/// at both ends.
+/// Couplings of which the file says nothing hold shafts that lack bearings, and shafts that nothing holds across their
+/// axis are held at both ends.
 pub fn hold(source: &Source<'_>, train: &mut Train) {
     let bearings = train.bearings.clone();
     let carriers = train.shafts.iter();

@@ -44,12 +44,12 @@ const TOLERANCE_UM: [[f64; 7]; 10] = [
     [200.0, 300.0, 400.0, 500.0, 600.0, 800.0, 1000.0],
 ];
 
-/// By how much the tooth is thinner in the normal section, in the middle of the field, \[mm\]; none for codes and diameters
-/// that the tables do not have.
+/// By how much the tooth is thinner in the normal section, in the middle of the field, \[mm\]; none for codes and
+/// diameters that the tables do not have.
 ///
 /// # Sources
-/// DIN 3967 (1978), "System of gear fits; backlash, tooth thickness allowances, tooth thickness tolerances", tables 1 and 2,
-/// quoted from memory.
+/// DIN 3967 (1978), "System of gear fits; backlash, tooth thickness allowances, tooth thickness tolerances", tables 1
+/// and 2, quoted from memory.
 pub fn din_3967_mm(code: &str, reference_diameter_mm: f64) -> Option<f64> {
     let code = code.trim().to_lowercase();
     let digits = code.find(|c: char| c.is_ascii_digit())?;

@@ -120,8 +120,8 @@ fn follow_hubs(
     }
 }
 
-/// Middles of the faces: programs write the start of the face or its middle as `u_coordinate_on_shaft`; the support vector is
-/// the middle in all of them.
+/// Middles of the faces: programs write the start of the face or its middle as `u_coordinate_on_shaft`; the support
+/// vector is the middle in all of them.
 ///
 /// # Errors
 /// Those of [`Part`].

@@ -192,7 +192,8 @@ pub fn read(text: &str) -> Option<(Dimension, f64)> {
     }
     let plain = plain.replace("**", "^");
     let exact = KNOWN.iter().find(|(name, ..)| *name == plain);
-    // Letters of another size are taken where they can mean one thing only (`Mm` and `mm` differ, but nobody writes `Mm`).
+    // Letters of another size are taken where they can mean one thing only (`Mm` and `mm` differ, but nobody writes
+    // `Mm`).
     let alike = || {
         let mut same = KNOWN
             .iter()

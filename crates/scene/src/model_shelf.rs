@@ -25,7 +25,8 @@ pub struct ModelShelf {
     condensed: CondensedPairs,
 }
 
-/// Pairs of models condensed to slices, by all that this depends on: microgeometry, load and friction are not among it. Clones share it.
+/// Pairs of models condensed to slices, by all that this depends on: microgeometry, load and friction are not among it.
+/// Clones share it.
 #[derive(Debug, Clone, Default)]
 pub struct CondensedPairs(Arc<Mutex<BTreeMap<String, Condensed>>>);
 

@@ -15,7 +15,8 @@ pub fn named_files(text: &str, folder: &Path) -> BTreeMap<String, PathBuf> {
     found
 }
 
-/// The same with the files that TOML files among them name, and so on: by the names on the way, `pair.toml: points.csv`. What a scene depends on.
+/// The same with the files that TOML files among them name, and so on: by the names on the way, `pair.toml:
+/// points.csv`. What a scene depends on.
 pub fn named_files_and_theirs(text: &str, folder: &Path) -> BTreeMap<String, PathBuf> {
     let mut waiting: Vec<(String, PathBuf)> = named_files(text, folder).into_iter().collect();
     let mut found: BTreeMap<String, PathBuf> = BTreeMap::new();

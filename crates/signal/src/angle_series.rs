@@ -11,9 +11,9 @@ const FEWEST_POINTS: usize = 4;
 /// this many mean steps says that the data do not cover the period, and a spline across it would be invented.
 const LARGEST_STEP_RATIO: f64 = 20.0;
 
-/// Largest ratio of neighbouring steps for a spline. Where two points stand close together beside a longer step, a spline
-/// takes the noise of their difference for a slope and carries it over that step: it leaves the values by about the noise
-/// times this ratio.
+/// Largest ratio of neighbouring steps for a spline. Where two points stand close together beside a longer step, a
+/// spline takes the noise of their difference for a slope and carries it over that step: it leaves the values by about
+/// the noise times this ratio.
 const LARGEST_NEIGHBOUR_RATIO: f64 = 4.0;
 
 /// A point this close to first + period (fraction of the period) is the first point written again.
@@ -97,9 +97,9 @@ pub enum AngleSeriesError {
     },
 }
 
-/// A quantity over the angle of a shaft, known everywhere by periodic cubic interpolation: a spline, or where neighbouring
-/// steps differ by more than a factor of four (samples at random places, holes) a cubic that stays between the values of its
-/// neighbours and cuts off crests between p points a period by up to 1 − cos(π/p).
+/// A quantity over the angle of a shaft, known everywhere by periodic cubic interpolation: a spline, or where
+/// neighbouring steps differ by more than a factor of four (samples at random places, holes) a cubic that stays between
+/// the values of its neighbours and cuts off crests between p points a period by up to 1 − cos(π/p).
 ///
 /// # Why a spline
 /// It works on any increasing grid and damps least among the local choices. For a pure order with p points per period,

@@ -16,8 +16,8 @@ pub struct Latest {
 }
 
 impl Latest {
-    /// Runs `work` on a thread of its own as soon as no other does. An older one is told to stop; of those that wait only
-    /// the newest gets its turn.
+    /// Runs `work` on a thread of its own as soon as no other does. An older one is told to stop; of those that wait
+    /// only the newest gets its turn.
     ///
     /// # Errors
     /// Those of the work; [`Problem::Overtaken`] where a newer one came, [`Problem::Work`] where it panicked.

@@ -1,10 +1,11 @@
 //! How fast stress without resultant dies away along a round bar with a free surface: exp(−γ z/R), γ the roots of the
-//! end problem of the solid cylinder. They set how long the stubs of a gear cut into its shaft are (docs/theory/reduction.md, "Two
-//! faces").
+//! end problem of the solid cylinder. They set how long the stubs of a gear cut into its shaft are
+//! (docs/theory/reduction.md, "Two faces").
 //!
-//! A displacement that goes with cos nθ e^(−γz) (R = 1, 2μ = 1) is a sum of three of Navier's equations:
-//! ∇H, ∇×(H̃ e_z), and Galerkin's 2(1−ν)∇²F e_z − ∇∂F/∂z with F = r ∂H/∂r, which is biharmonic because (r∂_r + z∂_z)H is
-//! harmonic; H = J_n(γr) cos nθ e^(−γz), H̃ alike with the sine. Three tractions of the surface r = 1 vanish: det(γ) = 0.
+//! A displacement that goes with cos nθ e^(−γz) (R = 1, 2μ = 1) is a sum of three of Navier's equations: ∇H, ∇×(H̃
+//! e_z), and Galerkin's 2(1−ν)∇²F e_z − ∇∂F/∂z with F = r ∂H/∂r, which is biharmonic because (r∂_r + z∂_z)H is
+//! harmonic; H = J_n(γr) cos nθ e^(−γz), H̃ alike with the sine. Three tractions of the surface r = 1 vanish:
+//! det(γ) = 0.
 
 use nalgebra::{Complex, Matrix3};
 
@@ -102,7 +103,8 @@ fn least(n: usize) -> f64 {
     least
 }
 
-/// Without lobes the root is that of γ²(J₀² + J₁²) = 2(1 − ν) J₁², the equation of R. W. Little and S. B. Childs (1967).
+/// Without lobes the root is that of γ²(J₀² + J₁²) = 2(1 − ν) J₁², the equation of R. W. Little and S. B. Childs
+/// (1967).
 #[test]
 fn stress_without_lobes_dies_away_as_little_and_childs_say() {
     let equation = |g: C| {

@@ -1,6 +1,6 @@
 //! Gear pairs in time against what is known without time: pairs A and B at 10 rpm against the static contact, the
-//! spectrum of the pair of *Defect Diagnosis and Modelling for A Rotating Machine* (seed 002 in docs/sources.md) against
-//! its mesh frequency.
+//! spectrum of the pair of *Defect Diagnosis and Modelling for A Rotating Machine* (seed 002 in docs/sources.md)
+//! against its mesh frequency.
 
 use crate::mesh_common;
 #[path = "../../../crates/drivetrain/tests/verification/pairs_in_time/scene.rs"]

@@ -140,8 +140,8 @@ fn stated_errors_cover_the_true_ones_in_plane_strain() {
 }
 
 /// Strain of gauges on meshes whose lengths fall by 1.5: changes from each to the next fall as with second order, for
-/// which the estimate takes them. Its factor of safety, 2, covers orders from 1.2 on, (1.5² − 1)/2 = 1.5^1.2 − 1; 1.7 is
-/// the least found, 1.6 the least allowed.
+/// which the estimate takes them. Its factor of safety, 2, covers orders from 1.2 on, (1.5² − 1)/2 = 1.5^1.2 − 1; 1.7
+/// is the least found, 1.6 the least allowed.
 #[test]
 fn gauges_converge_with_second_order() {
     const FACTOR: f64 = 1.5;

@@ -1,5 +1,5 @@
-//! Validation: deflection of a ring's tooth, of the teeth beside it, and root strain, against an independent plane-strain
-//! solution of the whole ring (reference/plane_ring), for a thin and a thick rim.
+//! Validation: deflection of a ring's tooth, of the teeth beside it, and root strain, against an independent
+//! plane-strain solution of the whole ring (reference/plane_ring), for a thin and a thick rim.
 
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};
 use gearmesh_contact::{LocalContact, ProfileHats};
@@ -14,8 +14,8 @@ use std::sync::OnceLock;
 /// Six lugs of the thin ring, the first around tooth 0.
 const LUGS: &str = "[blank.lugs]\ncount = 6\nwidth_deg = 10.0\n";
 
-/// Outer diameter and radius of the load \[mm\]; deflection of the own tooth, of those after and before it \[µm\]; strain
-/// \[µm/m\].
+/// Outer diameter and radius of the load \[mm\]; deflection of the own tooth, of those after and before it \[µm\];
+/// strain \[µm/m\].
 fn reference() -> Vec<[f64; 6]> {
     rows("plane_ring")
 }
@@ -55,8 +55,8 @@ fn reduced_as(gear: GearDefinition, estimate_error: bool) -> ReducedGear {
         .0
 }
 
-/// Strain of the gauge under a line load over the whole width at a roll angle: each slice's force on its own load station
-/// and, by a quarter each, on those at its ends.
+/// Strain of the gauge under a line load over the whole width at a roll angle: each slice's force on its own load
+/// station and, by a quarter each, on those at its ends.
 fn root_strain(gear: &ReducedGear, roll_rad: f64, line_load_n_per_m: f64) -> f64 {
     let place = ProfileHats::of_involute(&gear.grid.roll_angles_rad).place(roll_rad);
     let force = line_load_n_per_m * gear.face_width_m / gear.grid.slices as f64;
@@ -150,9 +150,9 @@ fn on_default_mesh() -> &'static Found {
     FOUND.get_or_init(|| found("", true))
 }
 
-/// The own tooth as that of the external gear of `plane_strain_deflection`: 1 % on the default mesh, whose elements along
-/// the flank are 0.9 mm long, 0.7 % from 0.8 mm on. The root strain of linear elements is within the error that the
-/// reduction states. Teeth beside are not bounded here: they deflect by 1 to 10 % of the loaded one.
+/// The own tooth as that of the external gear of `plane_strain_deflection`: 1 % on the default mesh, whose elements
+/// along the flank are 0.9 mm long, 0.7 % from 0.8 mm on. The root strain of linear elements is within the error that
+/// the reduction states. Teeth beside are not bounded here: they deflect by 1 to 10 % of the loaded one.
 #[test]
 fn a_ring_deflects_as_an_independent_program_says() {
     let default = on_default_mesh();

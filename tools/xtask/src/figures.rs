@@ -1,8 +1,8 @@
 //! `cargo xtask figures`: the pages whose figures were measured, and which of them are older than the code.
 //!
-//! Each such page says in its head on which commit, day and processor it was made. It is stale where the code has changed
-//! since, where it was made with changes that no commit has, or on another processor than this one: figures of one kind
-//! are compared with each other, so they should be of one machine.
+//! Each such page says in its head on which commit, day and processor it was made. It is stale where the code has
+//! changed since, where it was made with changes that no commit has, or on another processor than this one: figures of
+//! one kind are compared with each other, so they should be of one machine.
 
 use std::io::Write;
 use std::path::Path;

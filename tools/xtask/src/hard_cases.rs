@@ -1,8 +1,8 @@
 //! `cargo xtask hard-cases`: every hard case of every crate, run and written into one page.
 //!
-//! A hard case is one test in one place: in a file of `crates/*/tests` whose name has the word `hard`. The comment above the
-//! test says what is hard and what must hold; what the test prints are the figures it found. The page is made of these and of
-//! nothing else, so that it knows no case that CI does not run.
+//! A hard case is one test in one place: in a file of `crates/*/tests` whose name has the word `hard`. The comment
+//! above the test says what is hard and what must hold; what the test prints are the figures it found. The page is made
+//! of these and of nothing else, so that it knows no case that CI does not run.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;

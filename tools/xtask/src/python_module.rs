@@ -1,8 +1,8 @@
-//! The Python package `gearmesh`: its compiled module is built by cargo, it and the Python files are copied into `.venv`
-//! where they have changed.
+//! The Python package `gearmesh`: its compiled module is built by cargo, it and the Python files are copied into
+//! `.venv` where they have changed.
 //!
-//! The module follows Python's stable ABI (`abi3`), so one file serves every Python of the lock and needs no packing here.
-//! `wheel.rs` packs it for others.
+//! The module follows Python's stable ABI (`abi3`), so one file serves every Python of the lock and needs no packing
+//! here. `wheel.rs` packs it for others.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;

@@ -83,8 +83,8 @@ pub struct Finished {
     pub printed: Vec<String>,
 }
 
-/// Builds with `build` and runs the tests named by package, program and test, with a variable of the environment. Those that
-/// no program has are not among the answers.
+/// Builds with `build` and runs the tests named by package, program and test, with a variable of the environment. Those
+/// that no program has are not among the answers.
 ///
 /// # Errors
 /// [`XtaskError::Failed`] where something does not build.

@@ -176,9 +176,9 @@ pub fn build_program(workspace: &Workspace, venv: &Venv) -> Result<PathBuf, Xtas
     program()
 }
 
-/// Builds libraries and program together. The whole workspace, not one package, and the libraries with the program: cargo
-/// unites features over what is named, and shares what build scripts and libraries both use; by itself the program had
-/// HDF5 and all that stands on it compiled again.
+/// Builds libraries and program together. The whole workspace, not one package, and the libraries with the program:
+/// cargo unites features over what is named, and shares what build scripts and libraries both use; by itself the
+/// program had HDF5 and all that stands on it compiled again.
 pub const BUILD: [&str; 5] = ["build", "--workspace", "--lib", "--bin", "gearmesh"];
 
 /// Where the program `gearmesh` is, once built.

@@ -1,5 +1,5 @@
-//! What comes from the system: the shared libraries that gmsh's wheel links to and does not bring (OpenGL and X11, even without
-//! a window), CalculiX for the tests that compute with exported decks, Chromium for those of pages.
+//! What comes from the system: the shared libraries that gmsh's wheel links to and does not bring (OpenGL and X11, even
+//! without a window), CalculiX for the tests that compute with exported decks, Chromium for those of pages.
 
 use std::process::{Command, Stdio};
 
@@ -74,7 +74,8 @@ const NEEDED: [Needed; 2] = [
     },
 ];
 
-/// Installs the programs that some tests need, as root; without root, apt-get or a network says which tests are left out.
+/// Installs the programs that some tests need, as root; without root, apt-get or a network says which tests are left
+/// out.
 pub fn offer_programs() {
     NEEDED.iter().for_each(offer);
 }

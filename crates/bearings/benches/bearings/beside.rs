@@ -1,7 +1,7 @@
 //! The same bearing as tools/bench/bearing_exudyn.py has it: what both programs can, to compare their errors and steps.
 //!
-//! A deep-groove bearing, whose balls stay in one plane: the contact of Exudyn 1.13.6 has a wrong gap where a ball stands aside of the plane of
-//! the torus.
+//! A deep-groove bearing, whose balls stay in one plane: the contact of Exudyn 1.13.6 has a wrong gap where a ball
+//! stands aside of the plane of the torus.
 
 use super::machine::{
     BALL_M, BALLS, Machine, PITCH_RADIUS_M, RADIAL_N, SHAFT_KG, SHAFT_KG_M2, SPEED_RAD_PER_S,

@@ -1,4 +1,5 @@
-//! One evaluation in equilibrium: load of the inner ring with its tangent, 14 balls; cold, and warm from the balls' places of the evaluation before.
+//! One evaluation in equilibrium: load of the inner ring with its tangent, 14 balls; cold, and warm from the balls'
+//! places of the evaluation before.
 
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::{ElementPlaces, Operation, QuasiStaticBearing, RingPose};

@@ -1,4 +1,5 @@
-//! Seed 000's bearing on a shaft at 6000 rpm: 18 balls of 9.525 mm on 70 mm, 15 degrees, pressed in by 500 N, 300 N of radial load.
+//! Seed 000's bearing on a shaft at 6000 rpm: 18 balls of 9.525 mm on 70 mm, 15 degrees, pressed in by 500 N, 300 N of
+//! radial load.
 
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::dynamic::{
@@ -88,7 +89,8 @@ pub fn rolling_rad_per_s(bearing: &QuasiStaticBearing, pose: &RingPose) -> f64 {
 }
 
 impl Machine {
-    /// Bearings with cages on one shaft that is driven, their races tori or triangles: film at the races, pockets and lands as in fe_models/spindle_6000_rpm.toml.
+    /// Bearings with cages on one shaft that is driven, their races tori or triangles: film at the races, pockets and
+    /// lands as in fe_models/spindle_6000_rpm.toml.
     pub fn spindle(bearings: usize, surface: Option<TriangleSize>) -> Self {
         let bearing = bearing(ANGULAR);
         let pose = pose(&bearing, PRELOAD_N);
@@ -164,7 +166,8 @@ impl Machine {
         }
     }
 
-    /// What Exudyn's own bearing has too: a stated contact at both races, Coulomb friction, balls on springs to their cage. The shaft turns on.
+    /// What Exudyn's own bearing has too: a stated contact at both races, Coulomb friction, balls on springs to their
+    /// cage. The shaft turns on.
     pub fn plain(cage_kg_m2: [f64; 3]) -> Self {
         let bearing = fitted();
         let pose = pose(&bearing, 0.0);

@@ -1,5 +1,5 @@
-//! Time and error of bearings: balls in equilibrium and balls that move; one line of JSON for each run. `cargo xtask bench bearings` makes
-//! the page of them, beside Exudyn.
+//! Time and error of bearings: balls in equilibrium and balls that move; one line of JSON for each run. `cargo xtask
+//! bench bearings` makes the page of them, beside Exudyn.
 //!
 //! `cargo bench --workspace --bench bearings --profile dev`
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // bench code

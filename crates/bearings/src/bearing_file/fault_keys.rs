@@ -59,7 +59,8 @@ pub enum FaultTable {
         row: Option<usize>,
         /// The ball, from 1.
         ball: usize,
-        /// Place along the track of the ball at the start: 0 faces the outer race, 180 the inner one; 0 where not given.
+        /// Place along the track of the ball at the start: 0 faces the outer race, 180 the inner one; 0 where not
+        /// given.
         angle_deg: Option<f64>,
         /// Place beside the track, towards +z; 0 where not given.
         beside_deg: Option<Bounded<Within<-90, 90>>>,

@@ -31,15 +31,15 @@ type Expansion = Bounded<Within<-5, 100>>;
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub(super) struct FitTable {
-    /// Shaft's diameter less the bore of the inner ring at 20 °C, smoothing of the surfaces taken off; negative: loose. Not given: the shaft does not
-    /// press the ring, whatever the temperatures.
+    /// Shaft's diameter less the bore of the inner ring at 20 °C, smoothing of the surfaces taken off; negative: loose.
+    /// Not given: the shaft does not press the ring, whatever the temperatures.
     shaft_interference_um: Option<f64>,
     /// Bore of a hollow shaft; 0, solid, where not given.
     shaft_bore_mm: Option<Bounded<NotNegative>>,
     /// Material of the shaft; steel where not given.
     shaft_material: Option<SeatMaterial>,
-    /// Outside diameter of the outer ring less the housing's bore at 20 °C, smoothing taken off; negative: loose. Not given: the housing does not press the
-    /// ring, whatever the temperatures.
+    /// Outside diameter of the outer ring less the housing's bore at 20 °C, smoothing taken off; negative: loose. Not
+    /// given: the housing does not press the ring, whatever the temperatures.
     housing_interference_um: Option<f64>,
     /// Outside diameter of the housing; needed with `housing_interference_um`.
     housing_outside_diameter_mm: Option<f64>,

@@ -16,11 +16,12 @@ use crate::friction::{Friction, LoadFactor, usual_factors};
 pub(super) struct FrictionTable {
     /// Viscosity of the lubricant at the bearing's temperature; of a grease that of its base oil.
     viscosity_mm2_per_s: Bounded<UpTo<100_000>>,
-    /// f0 of the part without load, for a row; where not given that of the type in an oil bath: deep groove 2, angular contact 3.3, cylindrical rollers 3,
-    /// tapered rollers 6. Oil mist and little grease half of it, oil jets and vertical shafts twice.
+    /// f0 of the part without load, for a row; where not given that of the type in an oil bath: deep groove 2, angular
+    /// contact 3.3, cylindrical rollers 3, tapered rollers 6. Oil mist and little grease half of it, oil jets and
+    /// vertical shafts twice.
     f0: Option<Bounded<Within<0, 100>>>,
-    /// f1 of the part by the load; where not given that of the type: deep groove 0.0005 (P0/C0)^0.55, angular contact 0.001 (P0/C0)^0.33, cylindrical rollers
-    /// 0.0003, tapered rollers 0.0004.
+    /// f1 of the part by the load; where not given that of the type: deep groove 0.0005 (P0/C0)^0.55, angular
+    /// contact 0.001 (P0/C0)^0.33, cylindrical rollers 0.0003, tapered rollers 0.0004.
     f1: Option<Bounded<LoadFactors>>,
     /// Torque of all seals, as their maker states it; 0 where not given.
     seal_torque_Nm: Option<Bounded<Within<0, 10_000>>>,

@@ -1,7 +1,8 @@
 //! A force on a ball by a surface of a body, brought to the ball's coordinates and the body's degrees of freedom.
 //!
-//! With X, V the body's reference point and its velocity, Ω its angular velocity (world axes), r = x − X and the force f and moment m on the ball, the
-//! body feels −f and −(r × f + m) about X. For a body that turns by δφ the surface turns with it, and so does the force, so that
+//! With X, V the body's reference point and its velocity, Ω its angular velocity (world axes), r = x − X and the force
+//! f and moment m on the ball, the body feels −f and −(r × f + m) about X. For a body that turns by δφ the surface
+//! turns with it, and so does the force, so that
 //!
 //! ```text
 //! δf = A (δx − δX) + (A [r]× + B) δφ + G_u (δv − δV + [r]× δΩ) + G_σ (δω − δΩ)

@@ -1,6 +1,7 @@
 //! How a ball with a spall stands: its orientation, kept for such balls alone.
 //!
-//! The coordinates of a ball's turning are the integral of its spin; their increment ψ since the last accepted step turns the ball from where it was then,
+//! The coordinates of a ball's turning are the integral of its spin; their increment ψ since the last accepted step
+//! turns the ball from where it was then,
 //!
 //! ```text
 //! q = exp(ψ) q₀,   δφ = Tᵀ(ψ) δψ          world axes, T of gearmesh_dynamics::rotation

@@ -16,7 +16,8 @@ pub(crate) struct BallStart {
     pub spin_rad_per_s: Vector3<f64>,
 }
 
-/// The start of every ball of a row. Where the equilibrium fails, balls start on their pitch circle, at the speeds of rolling.
+/// The start of every ball of a row. Where the equilibrium fails, balls start on their pitch circle, at the speeds of
+/// rolling.
 pub(crate) fn start_of_row(
     row: &BallRow,
     pose: &RingPose,

@@ -28,7 +28,8 @@ use crate::ring_pose::{RingPose, spin_rad_per_s};
 /// What a bearing's balls feel besides the elastic races. The default is nothing.
 #[derive(Debug, Clone, Default)]
 pub struct DynamicEffects {
-    /// Load and damping of the contacts at the races by a stated law; none: Hertz with `rebound`. Balls start at Hertz' places all the same.
+    /// Load and damping of the contacts at the races by a stated law; none: Hertz with `rebound`. Balls start at Hertz'
+    /// places all the same.
     pub contact: Option<StatedContact>,
     /// Damping of Hertz' contacts at the races.
     pub rebound: Rebound,
@@ -38,17 +39,18 @@ pub struct DynamicEffects {
     pub traction: Option<Traction>,
     /// Weight of the balls \[m/s²\], world axes.
     pub gravity_m_per_s2: Option<[f64; 3]>,
-    /// A cage for each row, in the order of rows; none: balls are free. A cage is a body of the system whose reference point is its middle and whose z axis
-    /// is that of the bearing; its pockets stand where the balls are at the start, turned with the body.
+    /// A cage for each row, in the order of rows; none: balls are free. A cage is a body of the system whose reference
+    /// point is its middle and whose z axis is that of the bearing; its pockets stand where the balls are at the start,
+    /// turned with the body.
     pub cages: Vec<(BodyId, Pockets)>,
 }
 
 /// A ball bearing: the outer ring on marker A, the inner ring on marker B, z along the axis of each.
 ///
-/// Channels: force and moment on the inner ring (axes of marker A, moment about marker B's place), mean orbital speed of the balls against the outer ring; with
-/// [`Self::with_ball_loads`] the load of every ball at both races and its place; with
-/// [`Self::with_ball_accelerations`] its acceleration; with cages the force on each by its pockets, where its middle
-/// is, and how fast it turns and whirls.
+/// Channels: force and moment on the inner ring (axes of marker A, moment about marker B's place), mean orbital speed
+/// of the balls against the outer ring; with [`Self::with_ball_loads`] the load of every ball at both races and its
+/// place; with [`Self::with_ball_accelerations`] its acceleration; with cages the force on each by its pockets, where
+/// its middle is, and how fast it turns and whirls.
 pub struct DynamicBearing {
     name: String,
     pub(super) pair: MarkerPair,
@@ -68,8 +70,9 @@ impl DynamicBearing {
     /// Puts a bearing between its outer ring (marker A) and its inner ring (marker B).
     ///
     /// # Errors
-    /// [`BearingError::NotCarried`] for bearings with rollers, where there are cages but not one for each row, for a spall on a ball that nothing turns, or for
-    /// races as triangles in a bearing with faults; [`BearingError::Parameter`] for edges of triangles that do not fit.
+    /// [`BearingError::NotCarried`] for bearings with rollers, where there are cages but not one for each row, for a
+    /// spall on a ball that nothing turns, or for races as triangles in a bearing with faults;
+    /// [`BearingError::Parameter`] for edges of triangles that do not fit.
     pub fn new(
         name: &str,
         pair: MarkerPair,
@@ -132,7 +135,8 @@ impl DynamicBearing {
         found
     }
 
-    /// Adds the load of every ball to the channels: `ball_<number>_inner_N`, `ball_<number>_outer_N`, and its place `ball_<number>_angle_rad`, counted from one, row after row.
+    /// Adds the load of every ball to the channels: `ball_<number>_inner_N`, `ball_<number>_outer_N`, and its place
+    /// `ball_<number>_angle_rad`, counted from one, row after row.
     #[must_use]
     pub fn with_ball_loads(mut self) -> Self {
         self.ball_loads = true;

@@ -5,7 +5,8 @@ use nalgebra::{Matrix3, Vector3};
 use super::surface_contact::{ElasticLoad, Touch};
 use crate::ball_row::Groove;
 
-/// The touch of a ball whose centre stands at w from the ring's middle, the ring's axis being a (both in the same axes):
+/// The touch of a ball whose centre stands at w from the ring's middle, the ring's axis being a (both in the same
+/// axes):
 ///
 /// ```text
 /// h = w·a,  e = (w − ha)/|w − ha|,  d = (|w − ha| − R) e + (h − z) a,  ℓ = |d|,  n = d/ℓ,  δ = ℓ − (r − D/2)

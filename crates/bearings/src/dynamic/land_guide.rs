@@ -1,8 +1,8 @@
 //! The land of a ring that guides a cage: a short bearing with a film, and solid contact where the film is gone.
 //!
-//! Seen from the land, with the cage's displacement e across the axis, C the radial clearance, ε = e/C, R the land's radius, L its width, ω the cage's
-//! speed and ϕ̇ the speed of e's direction, all against the land, the film of the π type has (F. W. Ocvirk, NACA TN 2808, 1952; with squeeze: D. Childs,
-//! *Turbomachinery Rotordynamics*, Wiley 1993)
+//! Seen from the land, with the cage's displacement e across the axis, C the radial clearance, ε = e/C, R the land's
+//! radius, L its width, ω the cage's speed and ϕ̇ the speed of e's direction, all against the land, the film of the π
+//! type has (F. W. Ocvirk, NACA TN 2808, 1952; with squeeze: D. Childs, *Turbomachinery Rotordynamics*, Wiley 1993)
 //!
 //! ```text
 //! against e:   (ηRL³/2C²) [2ε²|ω − 2ϕ̇|/(1 − ε²)² + π(1 + 2ε²) ε̇/(1 − ε²)^2.5]
@@ -10,9 +10,10 @@
 //! moment on the cage:   −2πηωR³L/(C√(1 − ε²)) − ½ e × F
 //! ```
 //!
-//! Without whirl and squeeze these are η U L³ ε²/(C²(1 − ε²)²), πηUL³ε/(4C²(1 − ε²)^1.5) and 2πηUR²L/(C√(1 − ε²)) with U = Rω. Where less than
-//! the roughness h₀ is left of the gap, the solids carry K (e − C + h₀)^1.5, and the film stays as it is there. ω − 2ϕ̇ is the same
-//! in every frame, so that land and cage may both turn. A tilt of the cage is not seen: two lands side by side resist it.
+//! Without whirl and squeeze these are η U L³ ε²/(C²(1 − ε²)²), πηUL³ε/(4C²(1 − ε²)^1.5) and 2πηUR²L/(C√(1 − ε²)) with
+//! U = Rω. Where less than the roughness h₀ is left of the gap, the solids carry K (e − C + h₀)^1.5, and the film stays
+//! as it is there. ω − 2ϕ̇ is the same in every frame, so that land and cage may both turn. A tilt of the cage is not
+//! seen: two lands side by side resist it.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,5 @@
-//! Ball bearings whose balls are bodies: every ball moves, touches each race at one point, and rolls where friction makes it.
+//! Ball bearings whose balls are bodies: every ball moves, touches each race at one point, and rolls where friction
+//! makes it.
 //!
 //! | effect | type | file |
 //! | --- | --- | --- |
@@ -18,9 +19,10 @@
 //! | where balls begin | | `ball_start.rs` |
 //! | all of it between the bodies of a system | [`DynamicBearing`] | `dynamic_bearing.rs` |
 //!
-//! A ball has three coordinates, the place of its centre in the world. Where there is friction it has three more, whose rates are its
-//! spin; a sphere's orientation has no effect, so that none is kept but for balls with spalls. What is not asked for is not called ([`BearingEffort`] counts).
-//! Formulas (10) to (16) and (21) of docs/theory/rolling_bearings.md.
+//! A ball has three coordinates, the place of its centre in the world. Where there is friction it has three more, whose
+//! rates are its spin; a sphere's orientation has no effect, so that none is kept but for balls with spalls. What is
+//! not asked for is not called ([`BearingEffort`] counts). Formulas (10) to (16) and (21) of
+//! docs/theory/rolling_bearings.md.
 
 mod ball_contacts;
 mod ball_on_body;

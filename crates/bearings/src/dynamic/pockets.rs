@@ -1,6 +1,7 @@
 //! Pockets of a cage: what a ball feels there, continuous in its displacement.
 //!
-//! With d the displacement of the ball from the pocket's middle (across the pocket's axis, or in all directions where the pocket is a sphere) and z = |d|,
+//! With d the displacement of the ball from the pocket's middle (across the pocket's axis, or in all directions where
+//! the pocket is a sphere) and z = |d|,
 //!
 //! ```text
 //! P = K_c z                         z ≤ C_p      film
@@ -49,7 +50,8 @@ impl Pockets {
     /// The pockets, if their numbers make sense.
     ///
     /// # Errors
-    /// [`BearingError::Parameter`] where a number is negative, or friction goes by a fluid, which needs a Hertz contact.
+    /// [`BearingError::Parameter`] where a number is negative, or friction goes by a fluid, which needs a Hertz
+    /// contact.
     pub fn validated(self) -> Result<Self, BearingError> {
         let (film, solid) = (
             self.film_stiffness_n_per_m,

@@ -1,12 +1,13 @@
-//! Energy lost in a blow: damping that fades in with the load and never pulls (K. H. Hunt, F. R. E. Crossley, *Coefficient of restitution
-//! interpreted as damping in vibroimpact*, J. Appl. Mech. 42 (1975) 440-445).
+//! Energy lost in a blow: damping that fades in with the load and never pulls (K. H. Hunt, F. R. E.
+//! Crossley, *Coefficient of restitution interpreted as damping in vibroimpact*, J. Appl. Mech. 42 (1975) 440-445).
 //!
 //! ```text
 //! F = Q(δ) max(0, 1 + χ δ̇)
 //! x − ln(1 + x) + e x + ln(1 − e x) = 0,   x = χ v
 //! ```
 //!
-//! The second line is the exact balance of a free blow that begins with the speed v and ends with e v, whatever the law Q(δ).
+//! The second line is the exact balance of a free blow that begins with the speed v and ends with e v, whatever the law
+//! Q(δ).
 
 use crate::error::BearingError;
 
@@ -18,8 +19,8 @@ pub struct Rebound {
 }
 
 impl Rebound {
-    /// The damping with which a ball that hits a surface with the speed v \[m/s\] leaves it with e v. Slower blows lose less of their speed, faster
-    /// ones more.
+    /// The damping with which a ball that hits a surface with the speed v \[m/s\] leaves it with e v. Slower blows lose
+    /// less of their speed, faster ones more.
     ///
     /// # Errors
     /// [`BearingError::Parameter`] unless 0 < e ≤ 1 and the speed is positive.

@@ -101,8 +101,9 @@ impl SurfaceForce {
     };
 }
 
-/// Sets the force at a touch. `damped` gives F of the rate δ̇, `traction` κ of a load and a slip; none: no friction. Without `tangents` the
-/// derivatives in `found` keep what they were: with all of them it is large, and moving it took an eighth of a run.
+/// Sets the force at a touch. `damped` gives F of the rate δ̇, `traction` κ of a load and a slip; none: no friction.
+/// Without `tangents` the derivatives in `found` keep what they were: with all of them it is large, and moving it took
+/// an eighth of a run.
 #[inline]
 pub(crate) fn surface_force(
     touch: &Touch,
@@ -228,7 +229,8 @@ impl Drag {
     }
 }
 
-/// Derivatives that a ball has whose approach depends on its rotation; `load_by_own` are those of F by φ and by the spin.
+/// Derivatives that a ball has whose approach depends on its rotation; `load_by_own` are those of F by φ and by the
+/// spin.
 fn add_turn(
     touch: &Touch,
     by: &ByTurn,

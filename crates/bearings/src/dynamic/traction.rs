@@ -6,7 +6,8 @@
 //! | table | μ(s) by points, without overshoot between them; T = 0 at s = 0 |
 //! | fluid | A τ_E asinh(η s/(τ_E h)), η = η₀ exp(α p̄): K. L. Johnson, J. L. Tevaarwerk, *Shear behaviour of elastohydrodynamic oil films*, Proc. R. Soc. A 356 (1977) 215-236 |
 //!
-//! A = πab is the Hertz ellipse under F, p̄ = F/A its mean pressure, h the thickness of the film, which is given. A ∝ F^⅔, so that p̄ ∝ F^⅓.
+//! A = πab is the Hertz ellipse under F, p̄ = F/A its mean pressure, h the thickness of the film, which is given. A ∝
+//! F^⅔, so that p̄ ∝ F^⅓.
 
 use std::f64::consts::PI;
 

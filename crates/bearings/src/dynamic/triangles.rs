@@ -1,14 +1,17 @@
-//! A groove as a mesh of triangles: what a ball feels does not depend on how fine the mesh is, once the contact spans some of them.
+//! A groove as a mesh of triangles: what a ball feels does not depend on how fine the mesh is, once the contact spans
+//! some of them.
 //!
-//! Every point x of the surface that the ball covers by h = D/2 − |x − w| > 0 stores ½h² on a unit of area, as an elastic foundation does. With W the
-//! integral over all triangles, the approach is that of the paraboloid that would store the same,
+//! Every point x of the surface that the ball covers by h = D/2 − |x − w| > 0 stores ½h² on a unit of area, as an
+//! elastic foundation does. With W the integral over all triangles, the approach is that of the paraboloid that would
+//! store the same,
 //!
 //! ```text
 //! G(δ) = δ³/√(1 + βδ) = 3 W √(ρ₁ρ₂)/π,   n = ∂δ/∂w,   N = ∂n/∂w
 //! ```
 //!
-//! with the sums of curvatures ρ₁ and ρ₂ of the contact across and along the groove, and βδ the share by which ρ₁ grows as the ball sinks in. There is one force for a ball and a groove, Hertz' of this δ; it has a potential,
-//! and its direction is smooth, which that to the nearest triangle is not. Formula (21) of docs/theory/rolling_bearings.md.
+//! with the sums of curvatures ρ₁ and ρ₂ of the contact across and along the groove, and βδ the share by which ρ₁ grows
+//! as the ball sinks in. There is one force for a ball and a groove, Hertz' of this δ; it has a potential, and its
+//! direction is smooth, which that to the nearest triangle is not. Formula (21) of docs/theory/rolling_bearings.md.
 
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
@@ -45,10 +48,12 @@ pub struct GrooveTriangles {
 }
 
 impl GrooveTriangles {
-    /// Divides the groove of a ring. Its vertices stand aside of the torus, so that the triangles lie on it in the mean.
+    /// Divides the groove of a ring. Its vertices stand aside of the torus, so that the triangles lie on it in the
+    /// mean.
     ///
     /// # Errors
-    /// [`BearingError::Parameter`] where an edge is not positive, too long for the groove or so short that there would be more than two million triangles.
+    /// [`BearingError::Parameter`] where an edge is not positive, too long for the groove or so short that there would
+    /// be more than two million triangles.
     pub fn new(row: &BallRow, side: Side, size: TriangleSize) -> Result<Self, BearingError> {
         let groove = row.groove(side);
         let radius_m = groove.arm_m + 0.5 * row.ball_diameter_m;
@@ -126,7 +131,8 @@ impl GrooveTriangles {
         self.mesh.num_triangles()
     }
 
-    /// δ \[m\], n and N \[1/m\] of a ball of a radius whose centre stands at w in the frame of the ring; none where it covers no triangle.
+    /// δ \[m\], n and N \[1/m\] of a ball of a radius whose centre stands at w in the frame of the ring; none where it
+    /// covers no triangle.
     #[must_use]
     pub fn approach(
         &self,

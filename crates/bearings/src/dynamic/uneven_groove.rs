@@ -1,7 +1,7 @@
 //! Where a ball stands against a groove that has faults: waves, spalls, or a spall of the ball.
 //!
-//! With ϱ, ψ, ζ the cylinder coordinates of the ball's centre in the ring's own axes, R(ψ) and z(ψ) the displaced circle of the groove's centres and θ the angle of
-//! (ϱ − R, ζ − z),
+//! With ϱ, ψ, ζ the cylinder coordinates of the ball's centre in the ring's own axes, R(ψ) and z(ψ) the displaced
+//! circle of the groove's centres and θ the angle of (ϱ − R, ζ − z),
 //!
 //! ```text
 //! δ = |(ϱ − R, ζ − z)| − (r − D/2) − h(ψ, θ),
@@ -9,7 +9,8 @@
 //! ∇∇δ: ee δ_ϱϱ, aa δ_ζζ, ea δ_ϱζ, tt δ_ψψ/ϱ² + δ_ϱ/ϱ, et δ_ϱψ/ϱ − δ_ψ/ϱ², at δ_ζψ/ϱ
 //! ```
 //!
-//! The force is that of a potential of these coordinates alone: what the fault does to a ball it does to the ring in reverse, and no energy is made.
+//! The force is that of a potential of these coordinates alone: what the fault does to a ball it does to the ring in
+//! reverse, and no energy is made.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -48,7 +49,8 @@ impl Angle {
     }
 }
 
-/// The touch of a ball at w from the ring's middle; `axes` are the ring's x, y and z in the axes of w. None where [`super::groove_touch`] has none.
+/// The touch of a ball at w from the ring's middle; `axes` are the ring's x, y and z in the axes of w. None where
+/// [`super::groove_touch`] has none.
 pub(crate) fn uneven_touch(
     groove: &Groove,
     faults: Option<&RaceFaults>,

@@ -1,6 +1,7 @@
 //! Material lost from a round patch of a ball.
 //!
-//! With c the patch's middle on the ball (a unit vector that turns with it), n from the ball's centre to the contact and u = n·c,
+//! With c the patch's middle on the ball (a unit vector that turns with it), n from the ball's centre to the contact
+//! and u = n·c,
 //!
 //! ```text
 //! h(u) = d' S(chord),   chord = (D/2) √(2 − 2u),   d' = min(d, L²/(8R)),   R = max(R_L, R_W)                (19)
@@ -17,7 +18,8 @@ use crate::groove::Groove;
 /// A spall on a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BallSpall {
-    /// Place along the track at the start: 0 faces the outer race, a quarter of a turn later the way on, half a turn the inner race \[rad\].
+    /// Place along the track at the start: 0 faces the outer race, a quarter of a turn later the way on, half a turn
+    /// the inner race \[rad\].
     pub angle_rad: f64,
     /// Place beside the track, towards +z of the ring \[rad\].
     pub beside_rad: f64,

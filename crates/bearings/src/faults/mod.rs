@@ -11,8 +11,9 @@
 //! | ring that stands askew or aside | [`MisalignedRing`] | `misaligned_ring.rs` |
 //! | all those of one row, and what they do to a groove | [`RowFaults`] | `row_faults.rs` |
 //!
-//! A fault without depth is none: it is dropped when the bearing is built, so that the bearing is the sound one to the last bit. Unbalance belongs to the
-//! body that carries the ring: give the shaft's body a centre of mass beside the axis. Formulas (17) to (20) of docs/theory/rolling_bearings.md.
+//! A fault without depth is none: it is dropped when the bearing is built, so that the bearing is the sound one to the
+//! last bit. Unbalance belongs to the body that carries the ring: give the shaft's body a centre of mass beside the
+//! axis. Formulas (17) to (20) of docs/theory/rolling_bearings.md.
 
 pub mod ball_spall;
 pub mod misaligned_ring;

@@ -1,6 +1,7 @@
 //! A ball that is larger or smaller than the others.
 //!
-//! Its approach to both races grows by half of what it is larger; its mass grows with the cube. The stiffness of its contacts is kept: it changes by a share of about ΔD/D.
+//! Its approach to both races grows by half of what it is larger; its mass grows with the cube. The stiffness of its
+//! contacts is kept: it changes by a share of about ΔD/D.
 
 use crate::groove::Groove;
 

@@ -1,12 +1,14 @@
 //! Material lost from a patch of a race.
 //!
-//! With ψ the ball's angle in the ring's own axes, α its contact angle, ρ the radius on which the contact runs round the axis and r that of the groove,
+//! With ψ the ball's angle in the ring's own axes, α its contact angle, ρ the radius on which the contact runs round
+//! the axis and r that of the groove,
 //!
 //! ```text
 //! h(ψ, α) = d' S_L(ρ (ψ − ψ₀)) S_W(r (α − α₀)),   d' = min(d, L²/(8R_L), W²/(8R_W))                       (17)
 //! ```
 //!
-//! is what the approach of ball and race lacks there; S of `smooth_edge.rs`. Between its rims a rigid ball sinks no deeper than d'.
+//! is what the approach of ball and race lacks there; S of `smooth_edge.rs`. Between its rims a rigid ball sinks no
+//! deeper than d'.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,8 +1,9 @@
 //! The edge of a spall: how far a ball has sunk on its way from the rim.
 //!
-//! A ball that rolls over a rim turns about it: a distance x behind the rim its centre has sunk by x²/(2R), 1/R the sum of the curvatures of ball and race along
-//! the way, until it lies on the floor, at e = √(2Rd). Between two rims at the distance L it sinks by L²/(8R) at most. That curve has a kink
-//! where the ball meets the floor; here the depth grows over the same length e by the quintic of class C²,
+//! A ball that rolls over a rim turns about it: a distance x behind the rim its centre has sunk by x²/(2R), 1/R the sum
+//! of the curvatures of ball and race along the way, until it lies on the floor, at e = √(2Rd). Between two rims at the
+//! distance L it sinks by L²/(8R) at most. That curve has a kink where the ball meets the floor; here the depth grows
+//! over the same length e by the quintic of class C²,
 //!
 //! ```text
 //! S(ξ) = 6ξ⁵ − 15ξ⁴ + 10ξ³,  ξ = x/e

@@ -4,8 +4,8 @@
 //! w_r = A_r cos(nψ + φ),   w_z = A_z cos(nψ + φ)                                                        (18)
 //! ```
 //!
-//! move the groove's centre at the angle ψ of the ring's own axes away from the axis and along it. One wave a turn across the axis is a ring that stands aside, one
-//! along it a ring that stands askew.
+//! move the groove's centre at the angle ψ of the ring's own axes away from the axis and along it. One wave a turn
+//! across the axis is a ring that stands aside, one along it a ring that stands askew.
 
 /// Waves of one order.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -117,8 +117,8 @@ fn restitution_is_the_ratio_of_speeds() {
     }
 }
 
-/// A stated contact K δ^e gives back what a ball brings: ½ m v² = K δ^(e+1)/(e + 1) at the deepest place; 398 N at 10 µm of 1e7 N/mm^2.2. Its damping takes energy and
-/// never pulls.
+/// A stated contact K δ^e gives back what a ball brings: ½ m v² = K δ^(e+1)/(e + 1) at the deepest place; 398 N at 10
+/// µm of 1e7 N/mm^2.2. Its damping takes energy and never pulls.
 #[test]
 fn a_stated_contact_is_its_law() {
     let bearing = one_ball();

@@ -49,7 +49,8 @@ fn caged(pockets: Pockets, land: Option<LandGuide>, start_share: f64, axial_m: f
     builder.build().unwrap()
 }
 
-/// Slow and thrust alone: balls roll at (1 − γ cos α)/2 of the shaft's speed at their contact angle, and the cage with them.
+/// Slow and thrust alone: balls roll at (1 − γ cos α)/2 of the shaft's speed at their contact angle, and the cage with
+/// them.
 #[test]
 fn the_cage_tends_to_its_kinematic_speed() {
     let mut pockets = pockets();
@@ -132,7 +133,8 @@ fn the_middle_of_the_cage_is_seen() {
     );
 }
 
-/// Newton's law for the cage: what its pockets and its land do is its mass times its acceleration; and balls touch their pockets in this run.
+/// Newton's law for the cage: what its pockets and its land do is its mass times its acceleration; and balls touch
+/// their pockets in this run.
 #[test]
 fn pocket_forces_sum_to_the_force_on_the_cage() {
     let system = caged(pockets(), None, 0.9, PRESSED_M);
@@ -156,7 +158,8 @@ fn pocket_forces_sum_to_the_force_on_the_cage() {
     assert!(largest > 0.1, "{largest} N");
 }
 
-/// The law of a pocket is continuous and rises in the ball's displacement, also where solid contact takes over from the film.
+/// The law of a pocket is continuous and rises in the ball's displacement, also where solid contact takes over from the
+/// film.
 #[test]
 fn the_pocket_law_is_continuous() {
     let system = |place: f64| {
@@ -205,7 +208,8 @@ fn land(side: LandSide) -> LandGuide {
     }
 }
 
-/// Without whirl and squeeze the film is Ocvirk's: ηUL³ε²/(C²(1 − ε²)²) against e, πηUL³ε/(4C²(1 − ε²)^1.5) across it, 2πηUR²L/(C√(1 − ε²)).
+/// Without whirl and squeeze the film is Ocvirk's: ηUL³ε²/(C²(1 − ε²)²) against e, πηUL³ε/(4C²(1 − ε²)^1.5) across it,
+/// 2πηUR²L/(C√(1 − ε²)).
 #[test]
 fn the_steady_film_is_ocvirks() {
     use gearmesh_dynamics::{Body, State};
@@ -250,7 +254,8 @@ fn the_steady_film_is_ocvirks() {
     assert!(probe.force[at].abs() < 1e-12 && probe.force[at + 1].abs() < 1e-12);
 }
 
-/// A cage thrown at its land stays inside it, whichever ring has the land, and a cage on its balls stays in the middle without any.
+/// A cage thrown at its land stays inside it, whichever ring has the land, and a cage on its balls stays in the middle
+/// without any.
 #[test]
 fn cages_stay_where_they_are_guided() {
     let throw = |guide: Option<LandGuide>, pockets: Pockets| {

@@ -21,8 +21,8 @@ fn damped(factor_s_per_m: f64) -> DynamicEffects {
     }
 }
 
-/// Loads under a force and a moment at 60 rpm after a displaced start, against the equilibrium's: 0.1 % of the largest. The runs are short:
-/// without cage and friction nothing keeps balls from drifting out of a load zone.
+/// Loads under a force and a moment at 60 rpm after a displaced start, against the equilibrium's: 0.1 % of the largest.
+/// The runs are short: without cage and friction nothing keeps balls from drifting out of a load zone.
 fn compare(text: &str, force_n: [f64; 3], moment_nm: [f64; 2], (damping, end_s): (f64, f64)) {
     let bearing = bearing(text);
     let speed = 2.0 * std::f64::consts::PI;
@@ -76,7 +76,8 @@ fn slow_runs_are_the_equilibrium() {
     compare(PAIR, [400.0, -150.0, 300.0], [2.0, -1.0], (60.0, 2e-3));
 }
 
-/// The ring held where the equilibrium has it and balls that begin 20 nm off: 0.1 % of the largest load, and of force and moment on the ring.
+/// The ring held where the equilibrium has it and balls that begin 20 nm off: 0.1 % of the largest load, and of force
+/// and moment on the ring.
 #[test]
 fn balls_settle_where_the_equilibrium_has_them() {
     let bearing = bearing(&format!("{B6205}radial_clearance_um = 12.0\n"));
@@ -186,7 +187,8 @@ fn counted(
     builder.build().unwrap()
 }
 
-/// Entries of the tangent and evaluations of contacts grow with the number of balls and no faster; what is not named is not called.
+/// Entries of the tangent and evaluations of contacts grow with the number of balls and no faster; what is not named is
+/// not called.
 #[test]
 fn cost_is_linear_in_the_balls() {
     let mut seen = Vec::new();

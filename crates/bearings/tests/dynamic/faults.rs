@@ -1,8 +1,9 @@
-//! What faults do to the force on the rings: the lines of FTF, BSF, BPFO and BPFI, waves that a set of balls feels or does not, energy, and a bearing without
-//! any.
+//! What faults do to the force on the rings: the lines of FTF, BSF, BPFO and BPFI, waves that a set of balls feels or
+//! does not, energy, and a bearing without any.
 //!
-//! Which orders of waves a set of Z balls feels: kZ along the axis, kZ ± 1 across it (F. P. Wardle, *Vibration forces produced by waviness of the rolling surfaces of
-//! thrust loaded ball bearings*, Proc. IMechE C 202 (1988), parts 1 and 2).
+//! Which orders of waves a set of Z balls feels: kZ along the axis, kZ ± 1 across it (F. P. Wardle, *Vibration forces
+//! produced by waviness of the rolling surfaces of thrust loaded ball bearings*, Proc. IMechE C 202 (1988), parts 1
+//! and 2).
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -46,7 +47,8 @@ fn lines() -> BearingFrequencies {
     sizes.frequencies(SPEED / TAU, 0.0)
 }
 
-/// Amplitudes of the lines of a channel, 10 Hz apart, of a tenth of a second at 6000 rpm after a hundredth; a Hann window.
+/// Amplitudes of the lines of a channel, 10 Hz apart, of a tenth of a second at 6000 rpm after a hundredth; a Hann
+/// window.
 fn spectrum(faults: &str, channel: &str) -> Vec<f64> {
     let bearing = bearing(&format!("{B6205}{faults}"));
     let system = system(&bearing, effects(), &pose(), SPEED, &Held::Fast);
@@ -199,7 +201,8 @@ fn a_fault_without_depth_is_none() {
     }
 }
 
-/// Without friction and damping races with spalls and waves take no energy and give none: what the balance misses falls with the square of the step.
+/// Without friction and damping races with spalls and waves take no energy and give none: what the balance misses falls
+/// with the square of the step.
 #[test]
 fn faults_make_no_energy() {
     let faults = format!(

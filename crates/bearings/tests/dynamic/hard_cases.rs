@@ -1,4 +1,5 @@
-//! Bearings at the ends of what is asked of them: no clearance, heavy preload, lift-off, no load at all, from rest, reversal, very fast, very light, askew.
+//! Bearings at the ends of what is asked of them: no clearance, heavy preload, lift-off, no load at all, from rest,
+//! reversal, very fast, very light, askew.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -80,7 +81,8 @@ fn as_in_equilibrium(
     );
 }
 
-/// Balls that just touch, turning slowly: no ball carries more than its centrifugal force; pressed in by 0.2 mm they carry a kilonewton each.
+/// Balls that just touch, turning slowly: no ball carries more than its centrifugal force; pressed in by 0.2 mm they
+/// carry a kilonewton each.
 #[test]
 fn no_clearance_and_heavy_preload() {
     let bearing = bearing(B6205);
@@ -105,7 +107,8 @@ fn no_clearance_and_heavy_preload() {
     as_in_equilibrium(&pressed, &bearing, &pose, 100.0, 1e-3);
 }
 
-/// A caged bearing with clearance under a radial load: each ball that passes the load zone and leaves it carries load and loses it within a turn of the cage.
+/// A caged bearing with clearance under a radial load: each ball that passes the load zone and leaves it carries load
+/// and loses it within a turn of the cage.
 #[test]
 fn balls_lose_contact_each_turn() {
     let bearing = bearing(&format!("{B6205}radial_clearance_um = 15.0\n"));

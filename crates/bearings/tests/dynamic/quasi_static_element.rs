@@ -149,7 +149,8 @@ fn tangents_of_the_element_are_derivatives() {
     }
 }
 
-/// Balls pass: under a radial load the force of a held shaft varies at Z times the cage's frequency, and a step's length does not matter.
+/// Balls pass: under a radial load the force of a held shaft varies at Z times the cage's frequency, and a step's
+/// length does not matter.
 #[test]
 fn balls_pass_at_the_outer_races_frequency() {
     let pose = RingPose::from_five(&Vector5::new(2e-5, 0.0, 0.0, 0.0, 0.0));
@@ -183,7 +184,8 @@ fn balls_pass_at_the_outer_races_frequency() {
     }
 }
 
-/// The outer ring turns, the inner one stands and is displaced: balls pass the load, which stands with it, at Z f_o (1 + γ)/2.
+/// The outer ring turns, the inner one stands and is displaced: balls pass the load, which stands with it, at Z f_o
+/// (1 + γ)/2.
 #[test]
 fn balls_pass_under_a_turning_outer_ring() {
     let outer_hz = 10.0;

@@ -1,8 +1,9 @@
 //! Skidding of a lightly loaded fast bearing.
 //!
-//! Trend: T. Hirano, *Motion of a ball in angular-contact ball bearing*, ASLE Transactions 8 (1965) 425-434, and T. A. Harris, *An analytical
-//! method to predict skidding in thrust-loaded, angular-contact ball bearings*, J. Lubr. Technol. 93 (1971) 17-23: below a thrust that grows with the speed
-//! the balls and the cage fall behind rolling; above it they do not.
+//! Trend: T. Hirano, *Motion of a ball in angular-contact ball bearing*, ASLE Transactions 8 (1965) 425-434, and T. A.
+//! Harris, *An analytical method to predict skidding in thrust-loaded, angular-contact ball bearings*, J. Lubr.
+//! Technol. 93 (1971) 17-23: below a thrust that grows with the speed the balls and the cage fall behind rolling; above
+//! it they do not.
 
 use std::ops::ControlFlow;
 

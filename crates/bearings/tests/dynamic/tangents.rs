@@ -66,7 +66,8 @@ struct Change {
     velocity: Vec<f64>,
 }
 
-/// A random motion: rings some micrometres apart, balls some micrometres away from their equilibrium, everything in motion.
+/// A random motion: rings some micrometres apart, balls some micrometres away from their equilibrium, everything in
+/// motion.
 fn change(system: &System, numbers: &mut Numbers) -> Change {
     let n = system.degrees_of_freedom();
     let first = system.layout().first_unknown();
@@ -212,7 +213,8 @@ fn check(
                     &exact.by_position
                 };
                 let stated: Vec<f64> = matrix.column(column).iter().copied().collect();
-                // Across a place where a ball is about to touch, or a pocket's film ends, no difference says anything: there they disagree.
+                // Across a place where a ball is about to touch, or a pocket's film ends, no difference says anything:
+                // there they disagree.
                 let steps = if by_velocity {
                     [3e-4, 1e-4, 3e-5]
                 } else {

@@ -1,4 +1,5 @@
-//! Races as meshes of triangles: the force of the torus, however fine the mesh; derivatives; a run; sizes that do not fit.
+//! Races as meshes of triangles: the force of the torus, however fine the mesh; derivatives; a run; sizes that do not
+//! fit.
 
 use std::ops::ControlFlow;
 
@@ -25,7 +26,8 @@ fn mesh(side: Side, size: TriangleSize) -> GrooveTriangles {
 
 const RADIUS_M: f64 = 0.5 * 7.938e-3;
 
-/// Places of balls that are pressed in by 4 to 8 µm, round the ring and a little up its sides; with the approach and the normal on the torus.
+/// Places of balls that are pressed in by 4 to 8 µm, round the ring and a little up its sides; with the approach and
+/// the normal on the torus.
 fn places(side: Side) -> Vec<(Vector3<f64>, f64, Vector3<f64>)> {
     let bearing = bearing(B6205);
     let groove = row(&bearing).groove(side);
@@ -61,7 +63,8 @@ fn errors(side: Side, size: TriangleSize) -> [f64; 2] {
     })
 }
 
-/// Approach and direction tend to those of the torus, at least with the square of the edges; edges of a fifth of the contact ellipse miss less than a percent.
+/// Approach and direction tend to those of the torus, at least with the square of the edges; edges of a fifth of the
+/// contact ellipse miss less than a percent.
 #[test]
 fn the_force_does_not_depend_on_the_mesh() {
     for side in [Side::Outer, Side::Inner] {

@@ -99,7 +99,8 @@ fn ball_forces(
         row.middle_z_m + ball.axial_m,
     );
     let at = |p: &Vector2<f64>| e_r * p[0] + Vector3::z() * p[1];
-    // A ball that the inner ring does not press may lie as near to it as a step of the differences: it must not reach in.
+    // A ball that the inner ring does not press may lie as near to it as a step of the differences: it must not reach
+    // in.
     let pressed = ball.inner_load_n > 0.0;
     let apart = from_inner_circle(row, pose, &at(&place));
     let beyond = apart[0] >= 0.0;
@@ -164,8 +165,8 @@ fn ball_forces(
     (left, -Vector3::new(on_ring(0), on_ring(1), on_ring(2)))
 }
 
-/// Every ball and the ring are in equilibrium by the second formulation, from rest to twice the speed at which the first
-/// balls reach the edge of the inner groove; balls beyond it that it does not press do not touch it.
+/// Every ball and the ring are in equilibrium by the second formulation, from rest to twice the speed at which the
+/// first balls reach the edge of the inner groove; balls beyond it that it does not press do not touch it.
 #[test]
 fn rings_with_dropped_balls_are_in_equilibrium() {
     let (bearing, row) = (bearing(LARGE), row());
@@ -283,7 +284,8 @@ fn fast_bearings_drawn_at_random_are_in_equilibrium() {
     many(1, 40);
 }
 
-/// `BEARINGS=1000 BEARINGS_SEED=2 cargo test --workspace --test equilibrium -- --ignored --nocapture many_fast_bearings`
+/// `BEARINGS=1000 BEARINGS_SEED=2 cargo test --workspace --test equilibrium -- --ignored --nocapture
+/// many_fast_bearings`
 #[test]
 #[ignore = "minutes"]
 fn many_fast_bearings_are_in_equilibrium() {

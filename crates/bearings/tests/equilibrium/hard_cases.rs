@@ -391,8 +391,8 @@ fn balls_that_just_touch_rest_in_the_outer_groove_at_speed() {
     println!("then loaded by 1000 N: force of the bearing off by {worst_ring:.1e} (allowed 1e-9)");
 }
 
-/// Rings that hardly touch the balls, or press them hard, at any speed: every ball is found, and carries its centrifugal
-/// force.
+/// Rings that hardly touch the balls, or press them hard, at any speed: every ball is found, and carries its
+/// centrifugal force.
 #[test]
 fn balls_are_found_from_no_load_to_heavy_load_at_all_speeds() {
     let (mut balls, mut heaviest_n, mut worst) = (0, 0.0_f64, 0.0_f64);

@@ -1,4 +1,5 @@
-//! Equilibria against tools/reference/bearings.py, which shares no code with this workspace (scipy's roots of all unknowns at once).
+//! Equilibria against tools/reference/bearings.py, which shares no code with this workspace (scipy's roots of all
+//! unknowns at once).
 
 use crate::common::{B218, B6205, ROLLERS, bearing, close};
 use gearmesh_bearings::quasi_static::RowLoads;
@@ -71,7 +72,8 @@ fn the_218_under_thrust_at_10000_rpm() {
         [1452.06997, 1924.1603, 0.872825208, 0.545604062, 642.406882],
     );
     close(ball.gyroscopic_nm, 1.48215023, 1e-6);
-    // The invariants of REFERENCES §2; the outer race carries the whole gyroscopic moment, so that the inner loads alone balance the thrust.
+    // The invariants of REFERENCES §2; the outer race carries the whole gyroscopic moment, so that the inner loads
+    // alone balance the thrust.
     let rest = 0.724344157;
     assert!(ball.outer_contact_angle_rad < rest && rest < ball.inner_contact_angle_rad);
     assert!(ball.inner_load_n < 1678.87 && ball.outer_load_n > 1678.88);

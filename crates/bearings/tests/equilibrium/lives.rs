@@ -39,7 +39,8 @@ fn static_factors_of_balls_are_those_of_the_table() {
     }
 }
 
-/// Every ball carries the same under pure thrust: L10r = (Q_c/Q)³ with Q_c of both races together, as Lundberg and Palmgren have it.
+/// Every ball carries the same under pure thrust: L10r = (Q_c/Q)³ with Q_c of both races together, as Lundberg and
+/// Palmgren have it.
 #[test]
 fn even_load_gives_the_theoretical_life() {
     let definition = definition(B218);
@@ -158,8 +159,8 @@ fn lubrication_changes_life_within_its_bounds() {
     }
 }
 
-/// A ring that turns against the load carries it all round (power 3), one that stands carries it at one place (10/3); rings that both turn have 3 each. One that rocks on
-/// its springs stands.
+/// A ring that turns against the load carries it all round (power 3), one that stands carries it at one place (10/3);
+/// rings that both turn have 3 each. One that rocks on its springs stands.
 #[test]
 fn lives_ask_which_rings_turn() {
     let definition = definition(B6205);

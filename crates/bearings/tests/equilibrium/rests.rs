@@ -282,8 +282,8 @@ fn tapered_rollers_and_races_share_an_apex() {
     }
 }
 
-/// The unloaded row of a pair of tapered bearings at speed: every roller carries its centrifugal force on the outer race
-/// and the rib.
+/// The unloaded row of a pair of tapered bearings at speed: every roller carries its centrifugal force on the outer
+/// race and the rib.
 #[test]
 fn unpressed_tapered_rollers_are_in_equilibrium() {
     let pair = bearing(&format!(

@@ -88,8 +88,8 @@ fn check(
         if ring.load.norm() < 1.0 {
             continue;
         }
-        // Where a ball or lamina is about to touch, its stiffness rises with an infinite slope, and no difference across that place says anything:
-        // of such states the differences disagree with each other.
+        // Where a ball or lamina is about to touch, its stiffness rises with an infinite slope, and no difference
+        // across that place says anything: of such states the differences disagree with each other.
         let by_steps =
             [1e-8, 3e-9, 1e-9, 3e-10].map(|h| differences(&bearing, &pose, operation, arm, h));
         let mut best = f64::INFINITY;

@@ -18,10 +18,11 @@ const LEAST_STEP: f64 = 0.02;
 pub(super) struct BodyTable {
     /// Bore.
     bore_diameter_mm: f64,
-    /// How far the cones of toe and heel go on below the teeth's roots; the whole depth of the teeth at the heel where not given.
+    /// How far the cones of toe and heel go on below the teeth's roots; the whole depth of the teeth at the heel where
+    /// not given.
     rim_mm: Option<f64>,
-    /// z of the hub's faces at the bore, on the toe's and the heel's side, from the pitch apex; level with the ends of the rim where not
-    /// given.
+    /// z of the hub's faces at the bore, on the toe's and the heel's side, from the pitch apex; level with the ends of
+    /// the rim where not given.
     hub_z_mm: Option<[f64; 2]>,
     /// Web between rim and hub: points from the bore outwards, straight between them; none where not given.
     #[serde(default)]

@@ -19,7 +19,8 @@ pub(super) struct GaugeTable {
     tooth: usize,
     /// Side of the tooth: "right" faces clockwise about the axis from apex to heel.
     side: Flank,
-    /// Angle between the fillet's tangent and the tooth's centre line, in the section normal to the tooth; 30 where not given.
+    /// Angle between the fillet's tangent and the tooth's centre line, in the section normal to the tooth; 30 where not
+    /// given.
     tangent_deg: Option<Bounded<RootTangent>>,
     /// Length along the profile.
     length_mm: f64,

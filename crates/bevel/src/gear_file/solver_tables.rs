@@ -21,7 +21,8 @@ pub(super) struct MeshTable {
     fillet_mm: Option<f64>,
     /// Largest element length in the body; 1.2 mean modules where not given.
     body_mm: Option<f64>,
-    /// Element length along the pitch cone, at most a slice, two of quadratic elements; where not given three quarters of that, at most a twelfth of the face.
+    /// Element length along the pitch cone, at most a slice, two of quadratic elements; where not given three quarters
+    /// of that, at most a twelfth of the face.
     along_mm: Option<f64>,
     /// Smallest scaled Jacobian that is accepted; 0.2 where not given.
     min_scaled_jacobian: Option<Bounded<LeastQuality>>,
@@ -52,7 +53,8 @@ impl MeshTable {
             keys.require(key, size_mm, fits, &allowed)?;
             Ok::<f64, InputError>(size_mm * MM)
         };
-        // Longer elements cannot tell the load of one slice from its neighbours': pressure beside edges comes out too high.
+        // Longer elements cannot tell the load of one slice from its neighbours': pressure beside edges comes out too
+        // high.
         let per_slice = if element == Element::Hex20 { 2.0 } else { 1.0 };
         let longest_mm = (per_slice * width_mm / slices as f64).max(least_mm);
         let along_mm = (0.75 * longest_mm).min(width_mm / 12.0).max(least_mm);

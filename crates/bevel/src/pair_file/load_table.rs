@@ -22,8 +22,8 @@ pub struct LoadTable {
     pub slices: Option<Count<3, 100>>,
     /// Positions over a pitch, 24 where not given.
     pub positions_per_pitch: Option<Count<4, 500>>,
-    /// Reduced models (.h5) of pinion and gear, relative to this file. Where not given, the gears are rigid, and their surfaces
-    /// deflect as half spaces do.
+    /// Reduced models (.h5) of pinion and gear, relative to this file. Where not given, the gears are rigid, and their
+    /// surfaces deflect as half spaces do.
     pub models: Option<[PathBuf; 2]>,
     /// Coefficient of friction of the teeth, for the efficiency; none printed where not given.
     pub friction: Option<Bounded<Within<0, 1>>>,

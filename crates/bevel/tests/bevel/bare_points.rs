@@ -5,8 +5,8 @@ use gearmesh_bevel::FlankSide;
 use crate::common::near;
 use crate::points::{Desk, MARGIN, analysed, cut, distance_m, table};
 
-/// Of flanks through places alone: distance from the flank between the points \[m\], and what it changes of the transmission error
-/// \[rad\].
+/// Of flanks through places alone: distance from the flank between the points \[m\], and what it changes of the
+/// transmission error \[rad\].
 const NINE: (f64, f64) = (0.6e-6, 20e-6);
 const FIFTEEN: (f64, f64) = (0.02e-6, 2e-6);
 
@@ -90,7 +90,8 @@ fn tables_with_swapped_places(text: &str) -> String {
     lines.join("\n")
 }
 
-/// A table of another origin on the axis: both flanks together say so, and by how much it is off; with 3 mm points lie off the tooth.
+/// A table of another origin on the axis: both flanks together say so, and by how much it is off; with 3 mm points lie
+/// off the tooth.
 #[test]
 fn a_wrong_origin_shows_in_the_thickness_or_off_the_tooth() {
     let (file, design) = cut();

@@ -34,8 +34,8 @@ fn cloud(flank: &Flank) -> Vec<Located> {
     points
 }
 
-/// The least gap of two flanks at turns: of all points of each, the distance of the foot on the other flank along its normal.
-/// Points whose foot lies beyond the other flank's ends do not count.
+/// The least gap of two flanks at turns: of all points of each, the distance of the foot on the other flank along its
+/// normal. Points whose foot lies beyond the other flank's ends do not count.
 fn least_gap_m(
     flanks: [&Flank; 2],
     clouds: &[Vec<Located>; 2],
@@ -84,7 +84,8 @@ fn is_at_edge(kind: ContactKind) -> bool {
     kind != ContactKind::Flanks
 }
 
-/// At the turns that contact analysis states the flanks touch: no point is deeper than the points are coarse, none gap wider.
+/// At the turns that contact analysis states the flanks touch: no point is deeper than the points are coarse, none gap
+/// wider.
 fn touches(
     flanks: [&Flank; 2],
     blank: &PairBlank,
@@ -124,8 +125,8 @@ fn analysed(
     )
 }
 
-/// Pairs as designed and in assemblies far off: mate at the wrong cone distance, heavy misalignment, shaft angle 60 degrees, ratio
-/// 1:6 with 8 teeth. Flanks touch where the analysis says, edges and corners included.
+/// Pairs as designed and in assemblies far off: mate at the wrong cone distance, heavy misalignment, shaft angle 60
+/// degrees, ratio 1:6 with 8 teeth. Flanks touch where the analysis says, edges and corners included.
 #[test]
 fn dense_points_touch_where_contact_analysis_says() {
     let right = AssemblyError::default();

@@ -402,7 +402,8 @@ fn bad_teeth_are_refused_with_their_place() {
     ));
 }
 
-/// A formate gear of 35 teeth: whether the pinion of 13 is undercut at its toe depends on the contact that is asked for.
+/// A formate gear of 35 teeth: whether the pinion of 13 is undercut at its toe depends on the contact that is asked
+/// for.
 #[test]
 fn the_mate_of_a_formate_gear_is_undercut_by_what_is_asked() {
     let path = format!(

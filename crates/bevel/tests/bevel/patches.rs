@@ -34,7 +34,8 @@ fn patches_are_the_flanks() {
                         worst[1] = worst[1].max((found.n - turned(exact.n)).norm());
                     }
                 }
-                // Worst at the lower end of concave flanks, close to which the envelope turns back; convex ones 1e-13 m.
+                // Worst at the lower end of concave flanks, close to which the envelope turns back; convex ones 1e-13
+                // m.
                 assert!(worst[0] < 1e-9, "{name} {m} {side:?}: {:e} m", worst[0]);
                 assert!(worst[1] < 1e-4, "{name} {m} {side:?}: {:e}", worst[1]);
                 check_cells(&patch);
@@ -64,8 +65,9 @@ fn patches_are_the_flanks() {
     }
 }
 
-/// Eight teeth on 48, no undercut but close to it: the pinion has no surface 0.03 mm below its fillets' beginning, which bows by 0.08 mm. Its patch
-/// ends there. It comes so close to the turn of the envelope that polynomials follow less well: 0.03 um at that end, 5 nm above.
+/// Eight teeth on 48, no undercut but close to it: the pinion has no surface 0.03 mm below its fillets' beginning,
+/// which bows by 0.08 mm. Its patch ends there. It comes so close to the turn of the envelope that polynomials follow
+/// less well: 0.03 um at that end, 5 nm above.
 #[test]
 fn patches_end_where_the_flank_does() {
     let path = format!(
@@ -105,7 +107,8 @@ fn patches_end_where_the_flank_does() {
     }
 }
 
-/// The polynomials of cells are the series of the whole patch: places to far below a picometre, with the derivatives that tangents need.
+/// The polynomials of cells are the series of the whole patch: places to far below a picometre, with the derivatives
+/// that tangents need.
 fn check_cells(patch: &FlankPatch) {
     let [[s_low, s_high], [v_low, v_high]] = *patch.domain();
     let mut worst = [0.0f64; 3];

@@ -19,8 +19,8 @@ fn shipped() -> String {
     )
 }
 
-/// A table of sectors × heights with a margin at all ends, normals out of the material, places rounded to so many digits of a
-/// millimetre; `added_um` by the shares along and up.
+/// A table of sectors × heights with a margin at all ends, normals out of the material, places rounded to so many
+/// digits of a millimetre; `added_um` by the shares along and up.
 pub(crate) fn table(
     flank: &Flank,
     size: [usize; 2],
@@ -108,7 +108,8 @@ pub(crate) fn analysed(flanks: [&Flank; 2], file: &PairFile) -> ToothContact {
     tooth_contact(flanks, &file.blank, &TcaRequest::default()).unwrap()
 }
 
-/// The largest distance of two flanks, each with its mean point on +x, over the part that the mate reaches less a margin.
+/// The largest distance of two flanks, each with its mean point on +x, over the part that the mate reaches less a
+/// margin.
 pub(crate) fn distance_m(a: &Flank, b: &Flank, margin: f64) -> f64 {
     let blank = &a.blank;
     let mut worst = 0.0f64;
@@ -125,8 +126,8 @@ pub(crate) fn distance_m(a: &Flank, b: &Flank, margin: f64) -> f64 {
     worst
 }
 
-/// Points of the 35-tooth gear, 9 × 5 as measuring machines write and 15 × 9: the flank comes back within what the fit states,
-/// beyond the points as well, and the pair meshes as the one that was cut.
+/// Points of the 35-tooth gear, 9 × 5 as measuring machines write and 15 × 9: the flank comes back within what the fit
+/// states, beyond the points as well, and the pair meshes as the one that was cut.
 #[test]
 fn a_flank_through_points_is_the_flank() {
     let (file, design) = cut();
@@ -256,8 +257,8 @@ fn noise(seed: u64) -> impl FnMut() -> f64 {
     move || (0..12).map(|_| even()).sum::<f64>() - 6.0
 }
 
-/// Points that a machine measured with 1 µm of noise, beside nominal normals: the flank is off by no more than the noise, and does not
-/// wave between the points.
+/// Points that a machine measured with 1 µm of noise, beside nominal normals: the flank is off by no more than the
+/// noise, and does not wave between the points.
 #[test]
 fn noise_of_the_machine_does_not_make_waves() {
     let (_, design) = cut();

@@ -133,7 +133,8 @@ fn what_figures_are_taken_over_is_told() {
     }
 }
 
-/// Of a bevel pair under load, columns under load have a number for each torque, those without load one number and say so.
+/// Of a bevel pair under load, columns under load have a number for each torque, those without load one number and say
+/// so.
 #[test]
 fn what_is_without_load_stands_once() {
     let desk = Desk::new();
@@ -285,7 +286,8 @@ fn a_scene_with_a_python_function_is_refused() {
     assert!(!out.exists());
 }
 
-/// A table that a file of the study names has its part in the names of the results: other contents are computed anew, those of before are found again.
+/// A table that a file of the study names has its part in the names of the results: other contents are computed anew,
+/// those of before are found again.
 #[test]
 fn another_table_under_the_same_name_is_another_case() {
     let desk = Desk::new();

@@ -18,8 +18,9 @@ fn centre(result: &SceneResult) -> [f64; 2] {
     [sums[1] / sums[0], sums[2] / sums[0]]
 }
 
-/// Assembly errors move the loaded pattern along the tooth and up the flank in the directions that the tooth contact analysis tells of the mean contact without
-/// load, both ways; of rigid gears whose surfaces deflect, and of reduced ones.
+/// Assembly errors move the loaded pattern along the tooth and up the flank in the directions that the tooth contact
+/// analysis tells of the mean contact without load, both ways; of rigid gears whose surfaces deflect, and of reduced
+/// ones.
 #[test]
 fn assembly_errors_move_the_loaded_pattern() {
     const ERRORS: [(&str, &str, f64); 4] = [
@@ -96,8 +97,8 @@ fn assembly_errors_move_the_loaded_pattern() {
     }
 }
 
-/// Reduced members where it is hard: the contact at toe and heel, teeth that lift off and strike both sides, a torque that changes its sign. All numbers are finite,
-/// energies balance.
+/// Reduced members where it is hard: the contact at toe and heel, teeth that lift off and strike both sides, a torque
+/// that changes its sign. All numbers are finite, energies balance.
 #[test]
 fn reduced_members_where_it_is_hard() {
     let run = |name: &str, text: &str, most_error: f64| {
@@ -160,7 +161,8 @@ fn reduced_members_where_it_is_hard() {
         "joint = \"pinion shaft\"\nspeed_rpm = -600.0",
         "joint = \"pinion shaft\"\nspeed_rpm = { sum = [-600.0, { sine = { amplitude = 60.0, frequency_Hz = 400.0 } }] }",
     );
-    // Strikes of 10 kN: what the energies miss, 2e-4 of the work, does not depend on the step; forces at half the step are the same within 0.2 %.
+    // Strikes of 10 kN: what the energies miss, 2e-4 of the work, does not depend on the step; forces at half the step
+    // are the same within 0.2 %.
     let result = run("shaking", &shaking, 5e-4);
     let both = sides.map(|side| force(&result, side));
     assert!(both.iter().all(|force| force.iter().any(|f| *f > 200.0)));

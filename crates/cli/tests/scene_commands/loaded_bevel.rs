@@ -1,7 +1,8 @@
-//! A bevel pair from gear files to loads at rest and in motion: coarse members of 13/35 are reduced, the pair is loaded at rest and run slowly.
+//! A bevel pair from gear files to loads at rest and in motion: coarse members of 13/35 are reduced, the pair is loaded
+//! at rest and run slowly.
 //!
-//! What is asserted holds on any mesh: moments balance, motion at low speed goes through positions at rest, no load is the tooth contact
-//! analysis.
+//! What is asserted holds on any mesh: moments balance, motion at low speed goes through positions at rest, no load is
+//! the tooth contact analysis.
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -134,8 +135,8 @@ fn urad(result: &SceneResult, values_m: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// At rest the moments of all contacts about the gear's axis are the stated torque, those about the pinion's 13/35 of it; analyses are repeated to the last
-/// digit.
+/// At rest the moments of all contacts about the gear's axis are the stated torque, those about the pinion's 13/35 of
+/// it; analyses are repeated to the last digit.
 #[test]
 fn loads_at_rest_balance() {
     let text = loaded("[50.0, 200.0]", "");
@@ -168,8 +169,8 @@ fn loads_at_rest_balance() {
     }
 }
 
-/// Without load the pair stands where the tooth contact analysis says: behind it by what a slice's middle misses of the contact, half the ellipse's curvature
-/// times the square of half a slice, and nowhere ahead.
+/// Without load the pair stands where the tooth contact analysis says: behind it by what a slice's middle misses of the
+/// contact, half the ellipse's curvature times the square of half a slice, and nowhere ahead.
 #[test]
 fn no_load_is_the_tooth_contact_analysis() {
     let text = loaded("[0.01]", "");
@@ -253,8 +254,8 @@ fn interpolated(curve: &[(f64, f64)], pitch: f64, turn: f64) -> f64 {
     a.1 + (b.1 - a.1) * (at - a.0) / (b.0 - a.0)
 }
 
-/// Motion at low speed goes through the positions at rest: the transmission error by the turns of the bodies, the mesh force, the ratio. The same scene gives the
-/// same numbers.
+/// Motion at low speed goes through the positions at rest: the transmission error by the turns of the bodies, the mesh
+/// force, the ratio. The same scene gives the same numbers.
 #[test]
 fn slow_motion_goes_through_positions_at_rest() {
     let folder = members();
@@ -298,7 +299,8 @@ fn slow_motion_goes_through_positions_at_rest() {
     let total = |position: PressedPosition<'_>| position.pressing().map(|at| at.force_n).sum();
     let force = curve(found.even_positions_of(0).map(total).collect());
 
-    // There the mean point of the flank stands in the plane of the axes at turn 0, here the middle of tooth 0; turns count from first touch.
+    // There the mean point of the flank stands in the plane of the axes at turn 0, here the middle of tooth 0; turns
+    // count from first touch.
     let flank = &flanks()[0];
     let start = flank.azimuth_rad(flank.mean);
     let first = interpolated(&without, pitch, start);
@@ -320,8 +322,8 @@ fn slow_motion_goes_through_positions_at_rest() {
     assert!(rms < 0.5 && worst < 2.5, "{rms} {worst} µrad");
     assert!(worst_force < 0.05, "{worst_force}");
 
-    // Gauges in motion read what they read at rest while their tooth goes through the mesh. At rest turns count from where their tooth meets its mate's; which pitch of the
-    // motion that is, a whole number, is sought.
+    // Gauges in motion read what they read at rest while their tooth goes through the mesh. At rest turns count from
+    // where their tooth meets its mate's; which pitch of the motion that is, a whole number, is sought.
     for gear in [1, 2] {
         let of = found.strain.iter().find(|s| s.gear == gear).unwrap();
         events_are_read_in_their_pitch(&found, of);

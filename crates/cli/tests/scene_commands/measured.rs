@@ -219,8 +219,8 @@ fn rows_in_time_have_an_even_axis_and_tables_without_an_axis_are_refused() {
     assert_eq!(names_in(&desk.path("")), before);
 }
 
-/// Two turns of gear 2 as a rig writes them: semicolons, decimal commas, a line of units; time, angle, an angular transmission error and a
-/// strain in per mille.
+/// Two turns of gear 2 as a rig writes them: semicolons, decimal commas, a line of units; time, angle, an angular
+/// transmission error and a strain in per mille.
 fn rig_file(angle: impl Fn(f64) -> f64) -> String {
     let mut text = String::from("# rig 3\nt;phi;TE;root\ns;rad;arcsec;mm/m\n");
     for k in 0..1000 {
@@ -312,8 +312,8 @@ fn a_rigs_table_becomes_a_record_in_the_units_of_records() {
     let by_angle = [&radius[..], &["--angle", "phi"]].concat();
     let answer = made(&clockwise, &by_angle);
     assert!(answer.stderr.contains("its sign is changed"), "{answer:#?}");
-    // An angle that begins anew after a turn goes on, either way round; of several values at one angle the mean is taken; strain that
-    // grows all the time does not repeat.
+    // An angle that begins anew after a turn goes on, either way round; of several values at one angle the mean is
+    // taken; strain that grows all the time does not repeat.
     let data = |name: &str, angle: &dyn Fn(f64) -> f64, note: &str| {
         let answer = made(&desk.file(name, rig_file(angle)), &turn);
         assert!(answer.stderr.contains(note), "{answer:#?}");

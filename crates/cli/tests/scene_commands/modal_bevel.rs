@@ -34,7 +34,8 @@ fn run(name: &str, text: &str) -> SystemResult {
     SystemResult::open(&output).unwrap()
 }
 
-/// At low speed a pair with modes is the pair of reduced gears; its modal coordinates are written, gauges read the same.
+/// At low speed a pair with modes is the pair of reduced gears; its modal coordinates are written, gauges read the
+/// same.
 #[test]
 fn slow_modal_members_are_reduced_ones() {
     let reduced = run(

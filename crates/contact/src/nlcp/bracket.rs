@@ -1,10 +1,10 @@
 //! The last resort for a given load: a bracket on the deflection.
 //!
-//! Where `b` is not parallel to `w` and the compliance is nearly singular, `dT/dx` may turn negative on a piece of the path,
-//! and neither the active set method nor the descent is sure to arrive. But at given `y` the forces always exist, and
-//! `T(y) = Σ b_i F_i(y)` is continuous, zero at `y = 0` and unbounded, so that a bracket closes on a solution. Near it the
-//! forces may change a lot within the last digits of `y`; each point is therefore handed to the bordered active set
-//! method, which has forces and deflection as separate unknowns and needs only the right slices to start from.
+//! Where `b` is not parallel to `w` and the compliance is nearly singular, `dT/dx` may turn negative on a piece of the
+//! path, and neither the active set method nor the descent is sure to arrive. But at given `y` the forces always exist,
+//! and `T(y) = Σ b_i F_i(y)` is continuous, zero at `y = 0` and unbounded, so that a bracket closes on a solution. Near
+//! it the forces may change a lot within the last digits of `y`; each point is therefore handed to the bordered active
+//! set method, which has forces and deflection as separate unknowns and needs only the right slices to start from.
 
 use super::active_set::active_set;
 use super::effort::Effort;

@@ -14,15 +14,15 @@
 //! a_w = (L/2) e^(−1/2) = κ q/(E* δ),     κ = 2/(π √e) = 0.386
 //! ```
 //!
-//! Without tilt the half width is Hertz's, `a_H² = 4qρ/(πE*)`; a rounded edge keeps at least its own, `a_e² = 4qρ_e/(πE*)`.
-//! In between
+//! Without tilt the half width is Hertz's, `a_H² = 4qρ/(πE*)`; a rounded edge keeps at least its own, `a_e² =
+//! 4qρ_e/(πE*)`. In between
 //!
 //! ```text
 //! a² = a_H² (u + e)/(1 + u),   u = a_w²/a_H² = F/F₁,   F₁ = 4 E* ρ δ² b_s/(π κ²),   e = ρ_e/ρ
 //! ```
 //!
-//! which tends to `a_H` for `δ → 0`, to `a_e` for light loads, and to `1/a² = 1/a_H² + 1/a_w²` for a sharp edge. As the local
-//! deflection goes with `−2β F ln a`, the edge adds
+//! which tends to `a_H` for `δ → 0`, to `a_e` for light loads, and to `1/a² = 1/a_H² + 1/a_w²` for a sharp edge. As the
+//! local deflection goes with `−2β F ln a`, the edge adds
 //!
 //! ```text
 //! δ_e(F) = β F ln[(1 + u)/(e + u)] = β F ∫ₑ¹ dt/(t + u),     δ_e'(F) = β ∫ₑ¹ t dt/(t + u)²  > 0
@@ -35,9 +35,9 @@ use std::f64::consts::{FRAC_2_PI, PI};
 
 /// κ = 2/(π√e) of `a_w = κ q/(E* δ)`, no unit.
 ///
-/// Two half planes. At tooth tips of a resolved plane-strain solution (tools/reference/off_path.py; z 50, m 3 mm, 15 to 175
-/// N/mm, tilts of 0.1° to 3°, measured against a Hertz pressure of half width 0.03 m cut off at the corner, as the calibration
-/// has it) the fit is κ = 0.37 with 0.97 times the logarithm.
+/// Two half planes. At tooth tips of a resolved plane-strain solution (tools/reference/off_path.py; z 50, m 3 mm, 15 to
+/// 175 N/mm, tilts of 0.1° to 3°, measured against a Hertz pressure of half width 0.03 m cut off at the corner, as the
+/// calibration has it) the fit is κ = 0.37 with 0.97 times the logarithm.
 pub const WEDGE_WIDTH: f64 = FRAC_2_PI * 0.606_530_659_712_633_4;
 
 /// An edge that presses on a flank at an angle, for one slice.
@@ -50,8 +50,8 @@ pub struct EdgeContact {
 }
 
 impl EdgeContact {
-    /// The edge of a contact that without tilt is `contact`, tilted by `tilt_rad`; `edge_relative_radius_m` is the relative
-    /// radius ρ_e of the rounded edge and the flank. None without tilt.
+    /// The edge of a contact that without tilt is `contact`, tilted by `tilt_rad`; `edge_relative_radius_m` is the
+    /// relative radius ρ_e of the rounded edge and the flank. None without tilt.
     pub fn new(contact: &LineContact, tilt_rad: f64, edge_relative_radius_m: f64) -> Option<Self> {
         let compliance = contact.plane_strain_compliance();
         let wedge_force_n = 4.0 * contact.relative_radius_m * tilt_rad.powi(2) * contact.width_m

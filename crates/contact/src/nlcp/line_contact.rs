@@ -73,8 +73,8 @@ impl LineContact {
         Ok((alpha, beta))
     }
 
-    /// Derivative of α \[m/N\] where the depth in one body grows by the share `depth_growth` of itself and the relative radius by
-    /// `radius_growth`, both per unit of whatever moves the contact.
+    /// Derivative of α \[m/N\] where the depth in one body grows by the share `depth_growth` of itself and the relative
+    /// radius by `radius_growth`, both per unit of whatever moves the contact.
     pub fn alpha_rate(&self, body: usize, depth_growth: f64, radius_growth: f64) -> f64 {
         let per_force =
             |body: &ContactBody| 2.0 * body.plane_strain_compliance() / (PI * self.width_m);

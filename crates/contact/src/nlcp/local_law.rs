@@ -262,8 +262,9 @@ impl LocalLaw {
         energy
     }
 
-    /// Derivative of the complementary energy at constant force where α changes by `alpha_rate` and the cap by `cap_rate`:
-    /// ½ F² α′ − ½ (β/F_c) (F − F_c)² F_c′ beyond the cap. Exact below the floor as well; an edge is left out.
+    /// Derivative of the complementary energy at constant force where α changes by `alpha_rate` and the cap by
+    /// `cap_rate`: ½ F² α′ − ½ (β/F_c) (F − F_c)² F_c′ beyond the cap. Exact below the floor as well; an edge is left
+    /// out.
     pub fn complementary_energy_rate(&self, force_n: f64, alpha_rate: f64, cap_rate: f64) -> f64 {
         let below = 0.5 * force_n * force_n * alpha_rate;
         if !self.is_above_cap(force_n) {
@@ -273,8 +274,8 @@ impl LocalLaw {
         below - 0.5 * self.beta / self.cap_n * beyond * beyond * cap_rate
     }
 
-    /// Derivative of the complementary energy by `β` at constant force, α and cap: the energy of the law with α = 0 and β = 1, because it
-    /// is linear in both. An edge is left out.
+    /// Derivative of the complementary energy by `β` at constant force, α and cap: the energy of the law with α = 0 and
+    /// β = 1, because it is linear in both. An edge is left out.
     pub fn complementary_energy_by_beta(&self, force_n: f64) -> f64 {
         Self::continued(0.0, 1.0, self.floor_n, self.cap_n).complementary_energy(force_n)
     }

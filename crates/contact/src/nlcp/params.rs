@@ -10,7 +10,8 @@ pub struct Params {
     /// Default 1e-10, sensible range 1e-13 to 1e-6. The iteration is quadratic at its end, so that most solves end
     /// near 1e-15; below 1e-13 the rounding of long rows may stand in the way.
     pub tolerance: f64,
-    /// Newton corrections of the active set method before the descent takes over. Default 60; a warm solve needs 1 to 4.
+    /// Newton corrections of the active set method before the descent takes over. Default 60; a warm solve needs 1
+    /// to 4.
     pub max_corrections: usize,
 }
 

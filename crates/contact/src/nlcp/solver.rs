@@ -37,8 +37,8 @@ pub struct Info {
 /// Forces, gaps and tangent are left in `work`. If no slice touches, all forces are zero and the tangent vanishes.
 ///
 /// # Errors
-/// [`NlcpError`] if the workspace is too small, the tolerance not positive, the approach not finite, the active block not positive definite, or the
-/// tolerance is not reached.
+/// [`NlcpError`] if the workspace is too small, the tolerance not positive, the approach not finite, the active block
+/// not positive definite, or the tolerance is not reached.
 pub fn solve_position(
     problem: &Problem,
     approach_m: f64,
@@ -69,8 +69,8 @@ pub fn solve_position(
 /// the first slice touches.
 ///
 /// # Errors
-/// [`NlcpError`] if the workspace is too small, the tolerance not positive, the load negative or not finite, there is no slice to carry it, the
-/// active block is not positive definite, or the tolerance is not reached.
+/// [`NlcpError`] if the workspace is too small, the tolerance not positive, the load negative or not finite, there is
+/// no slice to carry it, the active block is not positive definite, or the tolerance is not reached.
 pub fn solve_load(
     problem: &Problem,
     load: f64,

@@ -174,8 +174,8 @@ impl Workspace {
         self.weigh(problem, &self.per_approach)
     }
 
-    /// Borders the correction: adds `Δy (C + diag δ')⁻¹ w` such that the corrected forces carry `missing` \[N·m\] more, and
-    /// adds `Δy` to the deflection. False, and nothing changed, if the slices listed cannot balance a load.
+    /// Borders the correction: adds `Δy (C + diag δ')⁻¹ w` such that the corrected forces carry `missing` \[N·m\] more,
+    /// and adds `Δy` to the deflection. False, and nothing changed, if the slices listed cannot balance a load.
     pub(super) fn balance_correction(&mut self, problem: &Problem, missing: f64) -> bool {
         let stiffness = self.differentiate(problem);
         if !(stiffness.is_finite() && stiffness != 0.0) {

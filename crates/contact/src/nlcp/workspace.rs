@@ -75,7 +75,8 @@ impl Workspace {
         self.factored.clear();
     }
 
-    /// Lets the next position solve, which must be of as many slices, start from these forces \[N\]; slices without force start open.
+    /// Lets the next position solve, which must be of as many slices, start from these forces \[N\]; slices without
+    /// force start open.
     ///
     /// # Panics
     /// If there are more forces than the capacity.

@@ -14,8 +14,8 @@ pub(super) enum Part {
     Rates,
 }
 
-/// A loop over coupled places, to be compiled for what the processor has: everything in it is part of it (`inline(always)`), for a function that is called was compiled
-/// for every processor.
+/// A loop over coupled places, to be compiled for what the processor has: everything in it is part of it
+/// (`inline(always)`), for a function that is called was compiled for every processor.
 pub(super) struct Filling<'a>(pub Part, pub &'a mut SliceContact);
 
 impl pulp::NullaryFnOnce for Filling<'_> {
@@ -32,7 +32,8 @@ impl pulp::NullaryFnOnce for Filling<'_> {
 }
 
 impl SliceContact {
-    /// Whether patches in a row at one u share what they have in common: not where each has a place along the tooth of its own.
+    /// Whether patches in a row at one u share what they have in common: not where each has a place along the tooth of
+    /// its own.
     pub(super) fn shares_places(&self) -> bool {
         matches!(self.elastic, Elastic::Reduced(_)) && self.along.iter().all(Vec::is_empty)
     }
@@ -45,7 +46,8 @@ impl SliceContact {
         }
     }
 
-    /// Where a patch stands on both gears, how deep its local laws reach, and Young's modulus \[Pa\] and Poisson's ratio.
+    /// Where a patch stands on both gears, how deep its local laws reach, and Young's modulus \[Pa\] and Poisson's
+    /// ratio.
     pub(super) fn stand(
         &self,
         patch: &ContactPatch,
@@ -84,7 +86,8 @@ impl SliceContact {
         }
     }
 
-    /// Slices of one line feel each other, lines do not. A slice that touches in part counts as a whole one, and its local law with its part.
+    /// Slices of one line feel each other, lines do not. A slice that touches in part counts as a whole one, and its
+    /// local law with its part.
     fn fill_half_spaces(&mut self) {
         let Elastic::HalfSpaces(bodies) = &self.elastic else {
             return;
@@ -137,8 +140,8 @@ impl SliceContact {
         }
     }
 
-    /// Fills the changes of C with the places between the patches that carry: of the others nobody feels them. Those of half spaces are known
-    /// with C.
+    /// Fills the changes of C with the places between the patches that carry: of the others nobody feels them. Those of
+    /// half spaces are known with C.
     pub(super) fn fill_rates(&mut self) {
         self.arch.dispatch(Filling(Part::Rates, self));
     }
@@ -195,7 +198,8 @@ impl SliceContact {
         }
     }
 
-    /// No local term takes the force of a slice that touches in part only to zero with its share: the slice's own compliance grows instead.
+    /// No local term takes the force of a slice that touches in part only to zero with its share: the slice's own
+    /// compliance grows instead.
     pub(super) fn divide_by_shares(&mut self) {
         self.own_compliance.clear();
         if self.local_contact != LocalContact::None {

@@ -1,5 +1,5 @@
-//! How the complementary energy of the patches changes at constant forces as they walk over the teeth, or as the share of a slice that touches
-//! grows: what a mesh feels as a force besides those along the normals.
+//! How the complementary energy of the patches changes at constant forces as they walk over the teeth, or as the share
+//! of a slice that touches grows: what a mesh feels as a force besides those along the normals.
 //!
 //! ```text
 //! E* = ½ FᵀCF + Σ∫δ dF          ∂E*/∂u_i = F_i Σ_j ∂_i C_ij F_j + ∂/∂u_i ∫δ_i dF
@@ -10,7 +10,8 @@ use crate::local_contact::{LawRate, LocalContact};
 use super::{Run, SliceContact, dot};
 
 impl SliceContact {
-    /// ∂E*/∂u \[J per u\] at the forces of the last solve as a patch walks over the flank of gear 0 or 1. Prepare with rates.
+    /// ∂E*/∂u \[J per u\] at the forces of the last solve as a patch walks over the flank of gear 0 or 1. Prepare with
+    /// rates.
     ///
     /// # Panics
     /// If there is no such patch.
@@ -28,8 +29,8 @@ impl SliceContact {
         sum
     }
 
-    /// ∂E*/∂v \[J per v\] at the forces of the last solve as a patch walks along the tooth of gear 0 or 1; zero on gears on which
-    /// slices do not walk that way. Prepare with rates.
+    /// ∂E*/∂v \[J per v\] at the forces of the last solve as a patch walks along the tooth of gear 0 or 1; zero on
+    /// gears on which slices do not walk that way. Prepare with rates.
     ///
     /// # Panics
     /// If there is no such patch.

@@ -1,12 +1,14 @@
-//! Compliance of patches that have hardly moved since it was computed, as the iterates of one step ask for it: to the first order of where they stand.
+//! Compliance of patches that have hardly moved since it was computed, as the iterates of one step ask for it: to the
+//! first order of where they stand.
 //!
 //! ```text
 //! C_ij ≈ C⁰_ij + X_ij + X_ji        X_ij = Σ_gears ∂_i C_ij δu_i + ∂C_ij/∂v_i δv_i
 //! ```
 //!
-//! Between stations the compliance is smooth, and its slope changes by some times itself over a flank or a slice: moves of at most [`FARTHEST_U`] and
-//! [`FARTHEST_SLICES`] leave out 1e-8 of it, 1e-13 m of teeth that deflect by 10 µm. A patch that has come over a station is not near any more. Rates between
-//! patches that carry are computed where they stand, as always.
+//! Between stations the compliance is smooth, and its slope changes by some times itself over a flank or a slice: moves
+//! of at most [`FARTHEST_U`] and [`FARTHEST_SLICES`] leave out 1e-8 of it, 1e-13 m of teeth that deflect by 10 µm. A
+//! patch that has come over a station is not near any more. Rates between patches that carry are computed where they
+//! stand, as always.
 
 use super::compliance::{Filling, Part};
 use super::{Elastic, Run, SliceContact};
@@ -104,7 +106,8 @@ impl KeptCompliance {
 }
 
 impl SliceContact {
-    /// As [`Self::prepare`] with rates, for patches at which [`Self::prepare_nearby`] may follow: all rates are computed, also those that nobody feels here.
+    /// As [`Self::prepare`] with rates, for patches at which [`Self::prepare_nearby`] may follow: all rates are
+    /// computed, also those that nobody feels here.
     ///
     /// # Errors
     /// As [`Self::prepare`].
@@ -138,8 +141,8 @@ impl SliceContact {
         Ok(())
     }
 
-    /// The same for patches next to the last ones of [`Self::prepare_to_keep`], from whose compliance; of others as that does. Returns whether they are next to them:
-    /// the forces of the last solve are then a good start.
+    /// The same for patches next to the last ones of [`Self::prepare_to_keep`], from whose compliance; of others as
+    /// that does. Returns whether they are next to them: the forces of the last solve are then a good start.
     ///
     /// # Errors
     /// As [`Self::prepare`].

@@ -21,7 +21,8 @@ pub enum Family {
     Loads,
     /// Compliances over twelve decades in one problem.
     TwelveDecades,
-    /// Friction whose sign turns within the slices: lever arms on both sides of the frictionless one, some exactly on it.
+    /// Friction whose sign turns within the slices: lever arms on both sides of the frictionless one, some exactly on
+    /// it.
     FrictionTurns,
 }
 

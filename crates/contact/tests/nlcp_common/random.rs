@@ -158,7 +158,8 @@ pub struct Case {
 /// One random problem of up to `largest` slices.
 ///
 /// The mean force is uniform in its logarithm from 1e-3 N to 1e6 N; separations are of the size of the deflection, all
-/// equal, or a million times larger; every third problem has a lever arm that differs from `w` by a friction-like share.
+/// equal, or a million times larger; every third problem has a lever arm that differs from `w` by a friction-like
+/// share.
 pub fn case(largest: usize, random: &mut Random) -> Case {
     let n = 1 + random.below(largest);
     let kind = KINDS[random.below(KINDS.len())];

@@ -138,7 +138,8 @@ pub fn made_up_gear(tooth: &ToothGeometry, face_width_m: f64, slices: usize) -> 
     }
 }
 
-/// 31/40 teeth with this helix angle (degrees, positive right on gear 1), at the centre distance of equal clearance for every angle.
+/// 31/40 teeth with this helix angle (degrees, positive right on gear 1), at the centre distance of equal clearance for
+/// every angle.
 pub fn helical(helix_deg: f64, flank: Flank) -> ContactLines {
     let gear = |teeth: usize, helix_deg: f64| {
         let mut d = tooth(teeth, 0.0, 0.0);

@@ -56,8 +56,8 @@ fn largest_step(curve: &[f64]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// On the rigid path the transmission error jumps where a pair enters or leaves, however small the step; on the extended
-/// path the largest step shrinks with the step.
+/// On the rigid path the transmission error jumps where a pair enters or leaves, however small the step; on the
+/// extended path the largest step shrinks with the step.
 #[test]
 fn the_transmission_error_is_continuous_over_a_pitch() {
     for lines in [lines(), relieved(lines(), 12e-6)] {

@@ -1,4 +1,5 @@
-//! Hard problems of the contact solver: residual of every answer from the definition, agreement with solvers of other kinds.
+//! Hard problems of the contact solver: residual of every answer from the definition, agreement with solvers of other
+//! kinds.
 #![allow(clippy::unwrap_used, clippy::needless_range_loop, clippy::print_stdout)] // test code; the figures of the run are its output
 
 use crate::nlcp_common;
@@ -84,7 +85,8 @@ impl Figures {
     }
 }
 
-/// Solves problems of a family by load, cold and from the unrelated answer of the one before, and by the approach found.
+/// Solves problems of a family by load, cold and from the unrelated answer of the one before, and by the approach
+/// found.
 fn run(family: Family, count: usize, projected_every: usize) -> Figures {
     let mut work = Workspace::new(20);
     let params = Params::default();
@@ -250,9 +252,10 @@ fn force_difference(a: &[f64], b: &[f64]) -> f64 {
         / largest
 }
 
-/// Duplicate and nearly dependent slices, gaps of zero and of one size, one slice alone, all pressed, forces from 1e-9 to 1e9 N,
-/// compliances over twelve decades, friction that turns within the slices: every residual at most 1e-10 of its row, the gaps those of
-/// Lemke's pivoting, the forces those of projected Gauss-Seidel where they are unique, no force before the first contact.
+/// Duplicate and nearly dependent slices, gaps of zero and of one size, one slice alone, all pressed, forces from 1e-9
+/// to 1e9 N, compliances over twelve decades, friction that turns within the slices: every residual at most 1e-10 of
+/// its row, the gaps those of Lemke's pivoting, the forces those of projected Gauss-Seidel where they are unique, no
+/// force before the first contact.
 #[test]
 fn families_of_hard_contact_problems() {
     let count = std::env::var("NLCP_PROBLEMS").map_or(PROBLEMS, |text| text.parse().unwrap());
@@ -276,7 +279,8 @@ fn families_of_hard_contact_problems() {
     }
 }
 
-/// The load given, slices of gears: approach and forces are those of projected Gauss-Seidel with a bracket on the approach.
+/// The load given, slices of gears: approach and forces are those of projected Gauss-Seidel with a bracket on the
+/// approach.
 #[test]
 fn given_load_agrees_with_projected_gauss_seidel() {
     let mut random = Random::new(3);
@@ -349,8 +353,8 @@ fn of_linear_problem(m: &[f64], q: &[f64]) -> (Data, f64) {
     (data, -least)
 }
 
-/// Fathi's problems: M = L Lᵀ with ones on the diagonal of L and twos below, q = −1, symmetric and positive
-/// definite. The answer is zᵀ = (1, 0, …, 0); on such problems the number of pivots of Lemke's and Murty's methods grows
+/// Fathi's problems: M = L Lᵀ with ones on the diagonal of L and twos below, q = −1, symmetric and positive definite.
+/// The answer is zᵀ = (1, 0, …, 0); on such problems the number of pivots of Lemke's and Murty's methods grows
 /// exponentially with n (Y. Fathi, Math. Program. 17 (1979) 335-344).
 fn of_fathi(n: usize) -> (Vec<f64>, Vec<f64>) {
     let below = |i: usize, j: usize| match i.cmp(&j) {

@@ -115,8 +115,8 @@ fn slope_and_energy_are_derivative_and_integral() {
     assert_eq!(law.stored_energy(0.0), 0.0);
 }
 
-/// A slice that touches over a share of its width: the complementary energy changes with the share at constant force as the rate says, below
-/// the floor, on the logarithm and beyond the cap.
+/// A slice that touches over a share of its width: the complementary energy changes with the share at constant force as
+/// the rate says, below the floor, on the logarithm and beyond the cap.
 #[test]
 fn the_energy_grows_with_the_width_as_the_rate_says() {
     let share = 0.37;
@@ -212,8 +212,8 @@ fn calibrated_law_follows_the_logarithm_until_its_slope_is_used_up() {
     assert!(law.cap_n() < zero && law.cap_n() > 0.99 * zero);
 }
 
-/// An edge shrinks the half width from Hertz's to the wedge's and the rounded edge's; the deflection is that of the smooth
-/// contact with the smaller half width, grows with the force, and its energy is its integral.
+/// An edge shrinks the half width from Hertz's to the wedge's and the rounded edge's; the deflection is that of the
+/// smooth contact with the smaller half width, grows with the force, and its energy is its integral.
 #[test]
 fn an_edge_shrinks_the_half_width() {
     let contact = contact();
@@ -292,7 +292,8 @@ fn alpha_moves_with_depths_and_radius_as_its_rate_says() {
     }
 }
 
-/// K. L. Johnson, Contact Mechanics, section 4.2(c): a² = 4 q ρ/(π E*), p₀² = q E*/(π ρ), and the load is the pressure's integral π a p₀/2.
+/// K. L. Johnson, Contact Mechanics, section 4.2(c): a² = 4 q ρ/(π E*), p₀² = q E*/(π ρ), and the load is the
+/// pressure's integral π a p₀/2.
 #[test]
 fn hertz_pressure_carries_the_load() {
     let (q, radius, modulus) = (150e3_f64, 8e-3, 115e9);

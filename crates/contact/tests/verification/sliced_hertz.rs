@@ -1,5 +1,5 @@
-//! Slices of a point contact against Hertz: an ellipsoid on a half space, two crossed cylinders. docs/theory/sliced_contact.md has the curves that
-//! are computed here.
+//! Slices of a point contact against Hertz: an ellipsoid on a half space, two crossed cylinders.
+//! docs/theory/sliced_contact.md has the curves that are computed here.
 
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{

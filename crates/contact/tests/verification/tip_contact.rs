@@ -8,8 +8,8 @@ use gearmesh_geometry::{GearPair, Microgeometry, Misalignment};
 use pair_common::{extended, pair, ring_pair, tooth};
 use proptest::prelude::*;
 
-/// A point of a right flank in a frame with gear 1's axis at the origin and gear 2's on +x, from the tooth's own geometry
-/// and the definition of the angles only.
+/// A point of a right flank in a frame with gear 1's axis at the origin and gear 2's on +x, from the tooth's own
+/// geometry and the definition of the angles only.
 fn placed(pair: &GearPair, gear: usize, turned_rad: f64, roll_rad: f64) -> [f64; 2] {
     let tooth = [&pair.gear_1, &pair.gear_2][gear - 1];
     let side = pair.flank_of(gear - 1);
@@ -273,8 +273,8 @@ fn beyond_its_ends_the_path_continues() {
     }
 }
 
-/// No pair is lost or counted twice: each pair number appears once, in the order of the teeth, and the extended path holds
-/// all pairs of the path.
+/// No pair is lost or counted twice: each pair number appears once, in the order of the teeth, and the extended path
+/// holds all pairs of the path.
 #[test]
 fn a_pair_is_on_the_path_or_at_one_tip() {
     let lines = extended(pair(&tooth(31, 0.2, 0.2e-3), &tooth(47, 0.1, 0.0)), 50e-6);

@@ -1,7 +1,7 @@
 //! Kinematics of a bevel pair: which teeth face each other at a pose, where they are nearest.
 //!
-//! Frames of the gears: origin in the pitch apex, z towards the heel, the middle of tooth 0 on +x at the mean point. Each
-//! pair of teeth makes one patch, a point that is nearest.
+//! Frames of the gears: origin in the pitch apex, z towards the heel, the middle of tooth 0 on +x at the mean point.
+//! Each pair of teeth makes one patch, a point that is nearest.
 
 use std::cell::Cell;
 use std::f64::consts::TAU;
@@ -50,7 +50,8 @@ pub struct BevelMesh {
     is_apart: [bool; 2],
     /// Points of flanks that were computed, by this mesh and all copies of it.
     pub(super) points: Arc<AtomicU64>,
-    /// Whether the stiffness of contacts follows their curvature; that at the mean points of right and left flanks over E*.
+    /// Whether the stiffness of contacts follows their curvature; that at the mean points of right and left flanks over
+    /// E*.
     hertz: Option<[f64; 2]>,
     /// Right and left flanks of gear 1 as facets.
     facets: Option<[Facets; 2]>,
@@ -148,8 +149,8 @@ impl BevelMesh {
         self
     }
 
-    /// Takes the flanks of gear 1 as facets against the smooth ones of gear 2: the approach of a pair of teeth is then measured by all that is covered
-    /// of them. It does not depend on how fine they are, once the contact spans some.
+    /// Takes the flanks of gear 1 as facets against the smooth ones of gear 2: the approach of a pair of teeth is then
+    /// measured by all that is covered of them. It does not depend on how fine they are, once the contact spans some.
     ///
     /// # Errors
     /// [`DrivetrainError::Value`] for edges that are not positive, longer than an eighth of the flank, or too short.
@@ -173,7 +174,8 @@ impl BevelMesh {
         self.points.fetch_add(points, Ordering::Relaxed);
     }
 
-    /// Points of flanks that were computed so far at all poses, by this mesh and all copies of it: the effort of the search.
+    /// Points of flanks that were computed so far at all poses, by this mesh and all copies of it: the effort of the
+    /// search.
     #[must_use]
     pub fn computed_points(&self) -> u64 {
         self.points.load(Ordering::Relaxed)
@@ -206,8 +208,8 @@ impl BevelMesh {
         self.sides[side as usize].patches[gear].point(at).r
     }
 
-    /// Corners of the flanks of gear 1 and gear 2 \[m\]: cone distance and height above the pitch cone of lower line and tip at the toe, tip and lower line at
-    /// the heel. Those of right flanks; left ones have the same.
+    /// Corners of the flanks of gear 1 and gear 2 \[m\]: cone distance and height above the pitch cone of lower line
+    /// and tip at the toe, tip and lower line at the heel. Those of right flanks; left ones have the same.
     #[must_use]
     pub fn flank_corners_m(&self) -> [[[f64; 2]; 4]; 2] {
         let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
@@ -241,8 +243,8 @@ impl BevelMesh {
             let moved_m = back * pose.displacement_m;
             guesses[number] = side.guesses(candidate.angle_1_rad, &moved_m, &rotation);
         }
-        // What guesses may miss at most, for a gap changes by no more than the axes move: only of those that stand so far open
-        // is nothing computed.
+        // What guesses may miss at most, for a gap changes by no more than the axes move: only of those that stand so
+        // far open is nothing computed.
         let moved_m = pose.displacement_m.norm()
             + self.mean_cone_m * (angle_of(&pose.axis_2()) - self.shaft_angle_rad).abs();
         let gaps = guesses.iter().filter_map(Guesses::gap_m);
@@ -302,7 +304,8 @@ impl BevelMesh {
         list.is_empty()
     }
 
-    /// Flanks that no sphere brings together, by their mean points: for gears that are still to be turned until they touch.
+    /// Flanks that no sphere brings together, by their mean points: for gears that are still to be turned until they
+    /// touch.
     pub(super) fn push_apart(&self, pose: &Pose, flank: Flank, found: &mut FlankContacts) {
         let side = &self.sides[flank as usize];
         let Some(nearest) = self.candidates(pose, flank).next() else {

@@ -20,8 +20,8 @@ impl BevelSlices {
     /// The contact of two reduced gears on one side of the teeth.
     ///
     /// # Errors
-    /// [`DrivetrainError::OtherBevel`] where a model is not that of its member of this pair, [`DrivetrainError::Contact`] where it has no
-    /// loads on the side or no calibration that `local` needs.
+    /// [`DrivetrainError::OtherBevel`] where a model is not that of its member of this pair,
+    /// [`DrivetrainError::Contact`] where it has no loads on the side or no calibration that `local` needs.
     pub fn reduced_contact(
         &self,
         side: Flank,
@@ -54,7 +54,8 @@ impl BevelSlices {
         SliceContact::of_half_spaces(layout, HalfSpaces::new(materials), lines)
     }
 
-    /// The teeth of one side; `nominal_force_n`: normal force of the nominal load, which sets the floor of the local law's logarithm.
+    /// The teeth of one side; `nominal_force_n`: normal force of the nominal load, which sets the floor of the local
+    /// law's logarithm.
     ///
     /// # Errors
     /// As [`Self::reduced_contact`] and [`ReducedTeeth::of_flanks`].

@@ -14,8 +14,8 @@ const DEEPEST: f64 = 0.1;
 const SLACK: f64 = 1e-9;
 
 /// An edge along the face: the tip of a member, or the lower line of one whose patch ends there, as those of flanks do
-/// that turn back close below. A mate that reaches deeper touches that line: its contact would else be lost with all its
-/// force.
+/// that turn back close below. A mate that reaches deeper touches that line: its contact would else be lost with all
+/// its force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct LongEdge {
     pub member: usize,
@@ -252,8 +252,8 @@ pub(crate) fn nearest(
     }
     let start = inside.map_or(foot.at, |found| found.at);
     let elsewhere: Cell<Option<Nearest>> = Cell::new(None);
-    // Those that the contact of the surfaces has passed first, or, where none was found, those towards which the gap shrinks;
-    // the others only where none of them holds.
+    // Those that the contact of the surfaces has passed first, or, where none was found, those towards which the gap
+    // shrinks; the others only where none of them holds.
     let passed = |limits: Limits| match (inside, limits.long, limits.end) {
         (Some(found), ..) => !limits.none_passed(&found.at),
         (None, Some(edge), _) => {

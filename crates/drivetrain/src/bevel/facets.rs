@@ -1,16 +1,18 @@
 //! Flanks of gear 1 divided into triangles or quadrilaterals: how deep they stand in gear 2's, whatever their number.
 //!
-//! Every place x of a facet that gear 2's flank covers by h = (x − p₂)·n₂ > 0, p₂ the foot of x on it, stores ½h² on a unit of area, as an elastic
-//! foundation does. With W the integral over all facets, the approach of a pair of teeth is that of the paraboloid that would store the same,
+//! Every place x of a facet that gear 2's flank covers by h = (x − p₂)·n₂ > 0, p₂ the foot of x on it, stores ½h² on a
+//! unit of area, as an elastic foundation does. With W the integral over all facets, the approach of a pair of teeth is
+//! that of the paraboloid that would store the same,
 //!
 //! ```text
 //! δ³ = C W,   C = 3 √(ρ₁ρ₂)/π,   3 ∂δ/δ = ∂W/W + ∂(ln C)
 //! ∂W = −∫ h G dA,   G = (n₂, a × n₂),   a = x − u
 //! ```
 //!
-//! with the principal relative curvatures ρ where the smooth flanks are nearest. There is one force for a pair of teeth, K δ^1.5, with a potential; a
-//! sum of such forces over facets would grow with their number. Facets end at the toe, the heel and the tip of gear 1; those of gear 2 end what counts
-//! over the width of a facet. docs/theory/bevel_gears.md, "Flanks as facets".
+//! with the principal relative curvatures ρ where the smooth flanks are nearest. There is one force for a pair of
+//! teeth, K δ^1.5, with a potential; a sum of such forces over facets would grow with their number. Facets end at the
+//! toe, the heel and the tip of gear 1; those of gear 2 end what counts over the width of a facet.
+//! docs/theory/bevel_gears.md, "Flanks as facets".
 
 use std::f64::consts::PI;
 
@@ -30,7 +32,8 @@ const MOST_FACETS: f64 = 2e5;
 const LEAST_FACETS: f64 = 8.0;
 /// Gear 2's flank ends over so many facets of gear 1's.
 const FADE: f64 = 1.0;
-/// Newton's steps to a foot, and the step that ends them, flanks being 1 long: what is left is of the order of its square.
+/// Newton's steps to a foot, and the step that ends them, flanks being 1 long: what is left is of the order of its
+/// square.
 const MOST_STEPS: usize = 12;
 const CLOSE: f64 = 1e-6;
 /// Gauss's places of two points between 0 and 1.
@@ -99,8 +102,8 @@ impl Facets {
     /// Divides the flank of gear 1 that faces that of gear 2.
     ///
     /// # Errors
-    /// [`DrivetrainError::Value`] where an edge is not positive, longer than an eighth of the flank, or so short that there would be more than
-    /// two hundred thousand facets.
+    /// [`DrivetrainError::Value`] where an edge is not positive, longer than an eighth of the flank, or so short that
+    /// there would be more than two hundred thousand facets.
     pub(super) fn new(
         [own, mate]: &[FlankPatch; 2],
         size: FacetSize,
@@ -196,7 +199,8 @@ impl Facets {
         })
     }
 
-    /// Integrals over the cells around the nearest point: a rectangle of them grows until its borders are covered nowhere.
+    /// Integrals over the cells around the nearest point: a rectangle of them grows until its borders are covered
+    /// nowhere.
     fn stored(&self, bodies: &[Placed<'_>; 2], point: &Nearest) -> Stored {
         let mut sum = Stored {
             axes: bodies[0].rotation(),
@@ -235,7 +239,8 @@ impl Facets {
         }
     }
 
-    /// Adds what is covered in cells from the first to before the second number along the face and up the flank; whether anything is.
+    /// Adds what is covered in cells from the first to before the second number along the face and up the flank;
+    /// whether anything is.
     fn add(
         &self,
         bodies: &[Placed<'_>; 2],
@@ -300,7 +305,8 @@ impl Facets {
         true
     }
 
-    /// How much of gear 2 there is at a place of its flank, from 1 inside to 0 beyond toe, heel and tip, and its derivatives by s and v.
+    /// How much of gear 2 there is at a place of its flank, from 1 inside to 0 beyond toe, heel and tip, and its
+    /// derivatives by s and v.
     fn ends(&self, [s, v]: [f64; 2]) -> (f64, [f64; 2]) {
         let ramp = |inside: f64, width: f64| {
             let share = 0.5 + inside / width;
@@ -314,8 +320,8 @@ impl Facets {
     }
 }
 
-/// A corner of the grid: aside of the flank, so that the facets lie on it in the mean. The middles of chords lie off by their sagittas, two thirds of
-/// which are the mean.
+/// A corner of the grid: aside of the flank, so that the facets lie on it in the mean. The middles of chords lie off by
+/// their sagittas, two thirds of which are the mean.
 fn corner(patch: &FlankPatch, at: [f64; 2], steps: [f64; 2]) -> Vector3<f64> {
     let here = patch.point(at);
     let off: f64 = (0..2)

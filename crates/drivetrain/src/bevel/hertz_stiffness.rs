@@ -1,13 +1,15 @@
 //! Stiffness of a bevel contact after Hertz, from the curvatures of both flanks where they touch.
 //!
-//! F = K δ^1.5 with K = E* k(κ_1, κ_2), κ the principal relative curvatures (`gearmesh_geometry::point_contact`). K changes
-//! along the path; with the energy K δ^2.5/2.5 its change is a force, too, so that an undamped pair keeps its energy:
+//! F = K δ^1.5 with K = E* k(κ_1, κ_2), κ the principal relative curvatures (`gearmesh_geometry::point_contact`). K
+//! changes along the path; with the energy K δ^2.5/2.5 its change is a force, too, so that an undamped pair keeps its
+//! energy:
 //!
 //! ```text
 //! ∂(ln k)/∂pose = Σ ∂(ln k)/∂q ∂q/∂pose + ∂(ln k)/∂ϑ,   ϑ the turn of gear 2
 //! ```
 //!
-//! The derivatives of ln k are differences. An edge counts with the curvature of its flank: how sharp it is is not known.
+//! The derivatives of ln k are differences. An edge counts with the curvature of its flank: how sharp it is is not
+//! known.
 
 use gearmesh_bevel::PatchPoint;
 use gearmesh_contact::{RelativeCurvature, SurfaceCurvature};

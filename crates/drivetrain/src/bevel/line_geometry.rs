@@ -1,8 +1,8 @@
 //! The line on which two bevel flanks nearly touch: how long it is in a slice, and how curved the flanks are across it.
 //!
-//! Both are those of the pair as designed, over the place (s, v) on gear 1's flank: ln of the relative radius across the line
-//! and of the line's length per unit of s, as polynomials of s and v that are fitted to samples. At a pose off the design the
-//! same place of gear 1 meets a place of gear 2 nearby, whose curvature differs little.
+//! Both are those of the pair as designed, over the place (s, v) on gear 1's flank: ln of the relative radius across
+//! the line and of the line's length per unit of s, as polynomials of s and v that are fitted to samples. At a pose off
+//! the design the same place of gear 1 meets a place of gear 2 nearby, whose curvature differs little.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,7 +1,9 @@
-//! The sections of a bevel pair in slices once more, at a pose next to the one at which they were searched: as the iterates of a step ask for them.
+//! The sections of a bevel pair in slices once more, at a pose next to the one at which they were searched: as the
+//! iterates of a step ask for them.
 //!
-//! Each contact goes from its place q by (∂q/∂pose) δ to the first order and is solved there as in a search. Guesses over the turn of the pinion, and the
-//! question which sections are within reach, are left out; ∂q/∂pose, with which slowly changing energies push, stays as it was.
+//! Each contact goes from its place q by (∂q/∂pose) δ to the first order and is solved there as in a search. Guesses
+//! over the turn of the pinion, and the question which sections are within reach, are left out; ∂q/∂pose, with which
+//! slowly changing energies push, stays as it was.
 
 use std::cell::Cell;
 
@@ -17,7 +19,8 @@ use super::tooth_side::placed;
 use crate::flank_contacts::{FlankContacts, TeethLine};
 use crate::pose::{Pose, Vector6, stacked};
 
-/// How far gear 2 may have moved \[m\]. A search looks so much farther that no section comes within reach that was out of it.
+/// How far gear 2 may have moved \[m\]. A search looks so much farther that no section comes within reach that was out
+/// of it.
 pub(super) const NEARBY_M: f64 = 2e-6;
 
 /// Sections that stand open by more do not touch at poses nearby.
@@ -89,8 +92,8 @@ impl Searched {
 }
 
 impl BevelSlices {
-    /// Solves all sections of the last search once more, `list` and `found` being what it has found; `false` if one is no longer there, and what was found
-    /// is then of no use.
+    /// Solves all sections of the last search once more, `list` and `found` being what it has found; `false` if one is
+    /// no longer there, and what was found is then of no use.
     pub(super) fn find_again(
         &self,
         pose: &Pose,

@@ -1,7 +1,8 @@
 //! Where two smooth patches with edges are nearest to each other, or deepest in each other: Newton's method on
 //! stationary distances, of faces, edges and corners.
 //!
-//! d = r₂ − r₁, t the tangents ∂r/∂(s, v), n the normals into the material. Four unknowns (s, v on both), four equations:
+//! d = r₂ − r₁, t the tangents ∂r/∂(s, v), n the normals into the material. Four unknowns (s, v on both), four
+//! equations:
 //!
 //! ```text
 //! inside both        d·t₂ = 0 (2),   t₁·n₂ = 0 (2)
@@ -10,8 +11,9 @@
 //! edge across edge   d·t = 0 along both edges,  two coordinates at their ends
 //! ```
 //!
-//! The gap g = d·N, N the normal of the face (of both edges where edges cross), goes over from one to the next without a
-//! jump, and so does its gradient: at the change both have one common normal. Which of them holds: `contact_limits.rs`.
+//! The gap g = d·N, N the normal of the face (of both edges where edges cross), goes over from one to the next without
+//! a jump, and so does its gradient: at the change both have one common normal. Which of them holds:
+//! `contact_limits.rs`.
 
 use std::cell::Cell;
 
@@ -24,8 +26,8 @@ use super::tooth_side::about_z;
 const MOST_STEPS: usize = 15;
 /// Longest step of a coordinate, flanks being 1 long.
 const LONGEST: f64 = 0.3;
-/// A step below ends the iteration: what is left is of the order of its square, and points at its end follow from those at
-/// its start by their derivatives.
+/// A step below ends the iteration: what is left is of the order of its square, and points at its end follow from those
+/// at its start by their derivatives.
 const CLOSE: f64 = 1e-7;
 
 /// A patch in space: turned about its own axis, then r = A r_own + origin.

@@ -1,5 +1,5 @@
-//! Where the flanks of one pair of teeth are nearest in the pair as designed, over the turn of the pinion: the guess from
-//! which every pose begins.
+//! Where the flanks of one pair of teeth are nearest in the pair as designed, over the turn of the pinion: the guess
+//! from which every pose begins.
 //!
 //! Turned back to tooth 0 of gear 1, a pose and the nominal one next to it differ by a small step δ = (u, ϑ) of gear 2.
 //! Gap and places follow to the first order:
@@ -49,7 +49,8 @@ pub(crate) struct Guess {
 }
 
 impl NominalContacts {
-    /// Over `reach` pitches to either side: the rotation of gear 2 against gear 1 at each of [`Self::angles`], and what is nearest there.
+    /// Over `reach` pitches to either side: the rotation of gear 2 against gear 1 at each of [`Self::angles`], and what
+    /// is nearest there.
     pub(crate) fn new(
         pitch_rad: f64,
         reach: f64,
@@ -88,7 +89,8 @@ impl NominalContacts {
         Some((entry.limits, entry.at))
     }
 
-    /// The guess for a tooth at an angle; gear 2 in the frame of gear 1's tooth. None where nothing is nearest nominally.
+    /// The guess for a tooth at an angle; gear 2 in the frame of gear 1's tooth. None where nothing is nearest
+    /// nominally.
     pub(crate) fn guess(
         &self,
         angle_rad: f64,
@@ -100,8 +102,8 @@ impl NominalContacts {
         self.guess_from(number, displacement_m, rotation)
     }
 
-    /// The same from the entry nearby where there is none at the angle: sections reach the mate in a few pitches only, and a little earlier or
-    /// later where the gears stand off the design.
+    /// The same from the entry nearby where there is none at the angle: sections reach the mate in a few pitches only,
+    /// and a little earlier or later where the gears stand off the design.
     pub(crate) fn guess_nearby(
         &self,
         angle_rad: f64,
@@ -139,8 +141,8 @@ impl NominalContacts {
         })
     }
 
-    /// What may hold the contact of a guess, the likeliest first: that of the nominal contact, then those of the next ones
-    /// that differ, on either side.
+    /// What may hold the contact of a guess, the likeliest first: that of the nominal contact, then those of the next
+    /// ones that differ, on either side.
     pub(crate) fn limits(&self, guess: &Guess) -> impl Iterator<Item = Limits> + use<'_> {
         let own = guess.number;
         let of = move |number: usize| self.entries[number].as_ref().map(|entry| entry.limits);

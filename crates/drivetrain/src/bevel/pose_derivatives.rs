@@ -1,7 +1,7 @@
 //! How a contact of two patches changes with the pose: places, gradient of the gap, directions of sliding.
 //!
-//! E(q; pose) = 0 are the equations of nearest_points.rs. A step (δu, ϑ) of gear 2 moves its points by δu + ϑ × (r₂ − u)
-//! and turns its tangents and normals by ϑ ×; the contact follows by dq = −E_q⁻¹ E_pose. With the arm a = r₂ − u,
+//! E(q; pose) = 0 are the equations of nearest_points.rs. A step (δu, ϑ) of gear 2 moves its points by δu + ϑ × (r₂ −
+//! u) and turns its tangents and normals by ϑ ×; the contact follows by dq = −E_q⁻¹ E_pose. With the arm a = r₂ − u,
 //!
 //! ```text
 //! gradient of the gap G = (N, a × N),   dG = (dN, da × N + a × dN),   da = ϑ × a + t₂ dq₂
@@ -147,8 +147,8 @@ impl PoseDerivatives {
         normal.load(&self.arm()).1
     }
 
-    /// The two tangents as the flanks of gear 1 and gear 2 see them: up the profile, and along the tooth at right angles to it, as the loads of reduced
-    /// gears.
+    /// The two tangents as the flanks of gear 1 and gear 2 see them: up the profile, and along the tooth at right
+    /// angles to it, as the loads of reduced gears.
     fn tangents_on_flanks(&self) -> [[[f64; 2]; 2]; 2] {
         let [normal, tangent] = self.normal_and_tangent().map(|moving| moving.value);
         let first = (tangent - normal * normal.dot(&tangent)).normalize();
@@ -171,8 +171,8 @@ impl PoseDerivatives {
     }
 }
 
-/// The contacts of one side that were found last, in the order of its patches: what a mesh is asked of them beyond their gaps. Zero for patches that
-/// were not found.
+/// The contacts of one side that were found last, in the order of its patches: what a mesh is asked of them beyond
+/// their gaps. Zero for patches that were not found.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct MovingContacts(pub Vec<PoseDerivatives>);
 

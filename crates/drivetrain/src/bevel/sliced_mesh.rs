@@ -1,9 +1,10 @@
-//! Kinematics of a bevel pair in slices: every pair of teeth touches in a row of sections across gear 1's tooth, even along its face.
+//! Kinematics of a bevel pair in slices: every pair of teeth touches in a row of sections across gear 1's tooth, even
+//! along its face.
 //!
 //! A slice stands for a stretch of gear 1's face; its patch is where its middle section is nearest to gear 2
-//! (`section_points.rs`), and the row of patches is the line on which the flanks nearly touch, whatever its slant. Where gear
-//! 2's face ends within a slice, the slice touches over a share of its length. Only sections near enough to touch are
-//! computed: a guess from the pair as designed tells them.
+//! (`section_points.rs`), and the row of patches is the line on which the flanks nearly touch, whatever its slant.
+//! Where gear 2's face ends within a slice, the slice touches over a share of its length. Only sections near enough to
+//! touch are computed: a guess from the pair as designed tells them.
 
 use std::cell::Cell;
 
@@ -31,7 +32,8 @@ use crate::slice_plane::Matrix6;
 
 /// What a guess of a gap may miss \[m\] at the pair as designed: half a step of the table of nominal contacts.
 const MARGIN_M: f64 = 3e-6;
-/// Sections that stand open by more than this many times the deepest overlap do not touch, see `OUT_OF_REACH` of the hybrid model.
+/// Sections that stand open by more than this many times the deepest overlap do not touch, see `OUT_OF_REACH` of the
+/// hybrid model.
 const REACH: f64 = 3.0;
 /// Sections of pairs at rest that stand open by more are not looked at, however far the gears approach each other
 /// \[m\].
@@ -108,7 +110,8 @@ impl BevelSlices {
         })
     }
 
-    /// Finds all patches that stand open by less than this \[m\]: for pairs at rest, whose approach is not known at the pose.
+    /// Finds all patches that stand open by less than this \[m\]: for pairs at rest, whose approach is not known at the
+    /// pose.
     #[must_use]
     pub fn reaching(mut self, reach_m: f64) -> Self {
         self.reach_m = reach_m;
@@ -121,7 +124,8 @@ impl BevelSlices {
         &self.pair
     }
 
-    /// Largest relative misfit of radius and length of the line of contact on a side, against the samples that they were fitted to.
+    /// Largest relative misfit of radius and length of the line of contact on a side, against the samples that they
+    /// were fitted to.
     #[must_use]
     pub fn line_misfit(&self, side: Flank) -> f64 {
         self.sides[side as usize].line.misfit
@@ -213,7 +217,8 @@ impl BevelSlices {
         list.is_empty()
     }
 
-    /// What guesses of gaps may miss, poses nearby included \[m\]: the square of how far gear 2 stands off the design counts against the radius across the line.
+    /// What guesses of gaps may miss, poses nearby included \[m\]: the square of how far gear 2 stands off the design
+    /// counts against the radius across the line.
     fn margin_m(&self, pose: &Pose, flank: Flank) -> f64 {
         let tilt = angle_of(&pose.axis_2()) - self.pair.shaft_angle_rad;
         let moved_m = pose.displacement_m.norm() + self.pair.mean_cone_m * tilt.abs();
@@ -310,7 +315,8 @@ impl BevelSlices {
     }
 }
 
-/// Share of a slice that stands on gear 2's face, its middle at s there and `covered` of the face long, and its derivative by s.
+/// Share of a slice that stands on gear 2's face, its middle at s there and `covered` of the face long, and its
+/// derivative by s.
 fn share_on_face(s: f64, covered: f64) -> (f64, f64) {
     let over = |beyond: f64| match beyond {
         x if x <= 0.0 => (0.0, 0.0),

@@ -1,5 +1,5 @@
-//! One side of the teeth of a bevel pair in slices: contacts of every section of gear 1's flank in the pair as designed, and the
-//! line that they make.
+//! One side of the teeth of a bevel pair in slices: contacts of every section of gear 1's flank in the pair as
+//! designed, and the line that they make.
 
 use std::cell::Cell;
 use std::f64::consts::TAU;

@@ -43,7 +43,8 @@ pub(super) struct Side {
     pub spheres: [BoundingSpheres; 2],
     /// Contacts of the pair as designed.
     pub nominal: NominalContacts,
-    /// Contacts beside those, where a pair of teeth touches in two places (on the flank and on an edge): either may become the nearer one.
+    /// Contacts beside those, where a pair of teeth touches in two places (on the flank and on an edge): either may
+    /// become the nearer one.
     pub rivals: Option<NominalContacts>,
     /// Azimuth of the mean points of tooth 0 \[rad\].
     pub azimuths_rad: [f64; 2],
@@ -92,7 +93,8 @@ impl Side {
         })
     }
 
-    /// Where the tables expect the contacts of a pair of teeth at an angle of gear 1's; gear 2 in the frame of that tooth.
+    /// Where the tables expect the contacts of a pair of teeth at an angle of gear 1's; gear 2 in the frame of that
+    /// tooth.
     pub fn guesses(
         &self,
         angle_1_rad: f64,
@@ -108,8 +110,8 @@ impl Side {
         }
     }
 
-    /// The contact of the least gap near these guesses; searched over the flanks where none is there. None where flanks do not face each other, or stand
-    /// farther apart than `far_m`.
+    /// The contact of the least gap near these guesses; searched over the flanks where none is there. None where flanks
+    /// do not face each other, or stand farther apart than `far_m`.
     pub fn contact(
         &self,
         bodies: &[Placed<'_>; 2],
@@ -148,8 +150,8 @@ impl Guesses {
     }
 }
 
-/// Contacts of the pair as designed at neighbouring poses, those of the least gap and others beside them: each searched over the flanks and on their edges, and
-/// followed from those of the pose before and after, for a search may miss one.
+/// Contacts of the pair as designed at neighbouring poses, those of the least gap and others beside them: each searched
+/// over the flanks and on their edges, and followed from those of the pose before and after, for a search may miss one.
 fn designed_contacts(
     patches: &[FlankPatch; 2],
     spheres: &[BoundingSpheres; 2],
@@ -221,7 +223,8 @@ fn edge_contacts(bodies: &[Placed<'_>; 2], far_m: f64, mut add: impl FnMut(Neare
     }
 }
 
-/// Both flanks of a side in the frame of gear 1, turned about their own axes; gear 2 with its axes and its origin \[m\] there.
+/// Both flanks of a side in the frame of gear 1, turned about their own axes; gear 2 with its axes and its origin \[m\]
+/// there.
 pub(super) fn placed<'a>(
     patches: &'a [FlankPatch; 2],
     turns_rad: [f64; 2],
@@ -238,7 +241,8 @@ pub(super) fn placed<'a>(
     })
 }
 
-/// Nearest points without a guess, beginning at the two nearest of all bounding spheres, and, where that finds none, at the section of the least gap.
+/// Nearest points without a guess, beginning at the two nearest of all bounding spheres, and, where that finds none, at
+/// the section of the least gap.
 pub(super) fn searched(
     bodies: &[Placed<'_>; 2],
     spheres: &[BoundingSpheres; 2],

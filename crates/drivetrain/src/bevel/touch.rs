@@ -1,4 +1,5 @@
-//! How two bevel flanks lie against each other where they touch: relative curvature, and the ellipse under a load as each flank sees it.
+//! How two bevel flanks lie against each other where they touch: relative curvature, and the ellipse under a load as
+//! each flank sees it.
 
 use gearmesh_contact::RelativeCurvature;
 use gearmesh_geometry::point_contact::PointContact;

@@ -6,7 +6,8 @@ use super::check_tooth;
 use crate::error::DrivetrainError;
 use crate::flank_error::{FlankError, FlankPoint, Removed};
 
-/// No flank above a roll angle on one tooth, both sides. The force of a pair that reaches the edge ends abruptly, as it does.
+/// No flank above a roll angle on one tooth, both sides. The force of a pair that reaches the edge ends abruptly, as it
+/// does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BrokenTooth {
     tooth: usize,

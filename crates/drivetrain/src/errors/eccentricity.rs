@@ -1,5 +1,5 @@
-//! Eccentricity: the gear's own axis stands beside, or tilted to, the axis about which its body turns. Not a deviation of the flanks but
-//! a place of the gear on its body: runout and wobble follow from the kinematics.
+//! Eccentricity: the gear's own axis stands beside, or tilted to, the axis about which its body turns. Not a deviation
+//! of the flanks but a place of the gear on its body: runout and wobble follow from the kinematics.
 
 use gearmesh_dynamics::{BodyId, Marker};
 use nalgebra::{UnitQuaternion, Vector3};

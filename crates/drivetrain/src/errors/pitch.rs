@@ -5,7 +5,8 @@ use gearmesh_geometry::Flank;
 use crate::error::DrivetrainError;
 use crate::flank_error::{FlankError, FlankPoint, Removed, most_added_m};
 
-/// Cumulative pitch deviations of the flanks of one side, given as material removed: a flank that stands back by f has +f.
+/// Cumulative pitch deviations of the flanks of one side, given as material removed: a flank that stands back by f
+/// has +f.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PitchErrors {
     side: Flank,

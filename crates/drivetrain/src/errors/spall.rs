@@ -20,8 +20,8 @@ pub struct SpallPatch {
     pub z_m: [f64; 2],
     /// Depth \[m\].
     pub depth_m: f64,
-    /// Length along the profile over which the edges fall to the depth, in roll angle \[rad\]: with it the contact goes in and out
-    /// without a step.
+    /// Length along the profile over which the edges fall to the depth, in roll angle \[rad\]: with it the contact goes
+    /// in and out without a step.
     pub edge_rad: f64,
 }
 
@@ -36,7 +36,8 @@ impl Spall {
     /// Puts the patch on a gear.
     ///
     /// # Errors
-    /// [`DrivetrainError::Tooth`], or [`DrivetrainError::Value`] for a depth or edge that is not positive, or limits out of order.
+    /// [`DrivetrainError::Tooth`], or [`DrivetrainError::Value`] for a depth or edge that is not positive, or limits
+    /// out of order.
     pub fn new(gear: &ToothGeometry, patch: SpallPatch) -> Result<Self, DrivetrainError> {
         let owner = "spall";
         check_tooth(owner, patch.tooth, gear.teeth)?;

@@ -15,7 +15,8 @@ pub enum FaceEnd {
     Negative,
 }
 
-/// No flank above a line that runs from the tip, `length` inside the face, to a depth `height` below the tip on the face itself.
+/// No flank above a line that runs from the tip, `length` inside the face, to a depth `height` below the tip on the
+/// face itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipChip {
     tooth: usize,

@@ -4,17 +4,17 @@
 //! c_pair(ξ₁, ξ₂) = c₁(ξ₁) + c₂(ξ₂) + c_h,   c_h = 2/(π b) Σ (1 − ν²)/E          F = −gap/c_pair where gap < 0
 //! ```
 //!
-//! Helical teeth are thin spur slices, each at its own roll angle in the transverse section and free of its neighbours. A force F along
-//! the normal bends them by its transverse part F cos β_b and moves the flank along the normal by cos β_b of that; the line of Hertz's
-//! contact is longer by 1/cos β_b:
+//! Helical teeth are thin spur slices, each at its own roll angle in the transverse section and free of its neighbours.
+//! A force F along the normal bends them by its transverse part F cos β_b and moves the flank along the normal by cos
+//! β_b of that; the line of Hertz's contact is longer by 1/cos β_b:
 //!
 //! ```text
 //! c_pair = cos²β_b (c₁ + c₂) + cos β_b c_h
 //! ```
 //!
-//! Pairs share the load by their gaps only: the foundation does not couple neighbouring teeth, which makes the mesh too soft by their
-//! common part where two pairs carry. Sources: tooth_compliance.rs; Hertz linearised, Yang and Lin (1987); slices: Z. Wan,
-//! H. Cao, Y. Zi, W. He, Y. Chen, Mech. Mach. Theory 92 (2015) 447-463.
+//! Pairs share the load by their gaps only: the foundation does not couple neighbouring teeth, which makes the mesh too
+//! soft by their common part where two pairs carry. Sources: tooth_compliance.rs; Hertz linearised, Yang and Lin
+//! (1987); slices: Z. Wan, H. Cao, Y. Zi, W. He, Y. Chen, Mech. Mach. Theory 92 (2015) 447-463.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -61,7 +61,8 @@ pub struct BeamTeeth {
 }
 
 impl BeamTeeth {
-    /// Tabulates the teeth of two gears shared by `slices`; both sides of the teeth are alike. `cracks` are (tooth, crack) of each gear.
+    /// Tabulates the teeth of two gears shared by `slices`; both sides of the teeth are alike. `cracks` are (tooth,
+    /// crack) of each gear.
     ///
     /// # Errors
     /// [`DrivetrainError::Tooth`] for a crack in a tooth that does not exist, [`DrivetrainError::Value`] for a crack

@@ -1,17 +1,18 @@
-//! `hybrid`: two reduced gears, their slices coupled through bodies, teeth and neighbouring teeth, and the complementarity problem.
+//! `hybrid`: two reduced gears, their slices coupled through bodies, teeth and neighbouring teeth, and the
+//! complementarity problem.
 //!
 //! ```text
 //! C F + δ(F) + gap ≥ 0,   F ≥ 0,   K = (C + diag δ′)⁻¹ on the slices that touch
 //! ```
 //!
-//! The same solver as the static contact's, with the gaps of the pose instead of those of a driver angle. The compliance moves with the
-//! roll angles: its part of the generalised force, ½ Fᵀ(∂C/∂ξ)F and that of the local laws, is included, so that undamped teeth keep
-//! their energy. The tangent leaves out how C itself moves the forces, about 1e-3 of it.
-//! Helical slices stand each at their own roll angle; on the rigid path those at its ends touch over a share of their width, and the change of
-//! the energy with the share is included, too.
-//! Of gears with vibration modes the compliance is C less Σ φφᵀ/ω², what their modes deflect at rest.
-//! A root crack adds to C where its tooth is in contact, by the tooth's number.
-//! Right and left flanks are solved one by one: a tooth wedged on both flanks at once does not feel itself across.
+//! The same solver as the static contact's, with the gaps of the pose instead of those of a driver angle. The
+//! compliance moves with the roll angles: its part of the generalised force, ½ Fᵀ(∂C/∂ξ)F and that of the local laws,
+//! is included, so that undamped teeth keep their energy. The tangent leaves out how C itself moves the forces, about
+//! 1e-3 of it. Helical slices stand each at their own roll angle; on the rigid path those at its ends touch over a
+//! share of their width, and the change of the energy with the share is included, too. Of gears with vibration modes
+//! the compliance is C less Σ φφᵀ/ω², what their modes deflect at rest. A root crack adds to C where its tooth is in
+//! contact, by the tooth's number. Right and left flanks are solved one by one: a tooth wedged on both flanks at once
+//! does not feel itself across.
 
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{
@@ -32,7 +33,8 @@ mod joint;
 use joint::JointShare;
 
 /// A slice that is open by more than this many times the deepest penetration of all is left out. No unit. What loaded
-/// teeth make of other flanks' gaps is at most their own deflection times √(C_ii/C_jj), which stays below 3 on one gear.
+/// teeth make of other flanks' gaps is at most their own deflection times √(C_ii/C_jj), which stays below 3 on one
+/// gear.
 pub(crate) const OUT_OF_REACH: f64 = 3.0;
 
 /// A contact that is left out.
@@ -83,8 +85,8 @@ impl KnownForces {
 }
 
 impl ReducedTeeth {
-    /// The contact of two models on one side of the teeth, gears that do not stand displaced along their axes. `nominal_force_n`: normal force of the
-    /// nominal load, which sets the floor of the local law's logarithm.
+    /// The contact of two models on one side of the teeth, gears that do not stand displaced along their axes.
+    /// `nominal_force_n`: normal force of the nominal load, which sets the floor of the local law's logarithm.
     ///
     /// # Errors
     /// As [`Self::displaced`].
@@ -98,11 +100,12 @@ impl ReducedTeeth {
         Self::displaced(pair, side, models, (local, 0.0), nominal_force_n)
     }
 
-    /// The same with the slices where the faces overlap with gear 2's mid-face `displacement_m` from gear 1's along the axes: the reference from
-    /// which the gears may move by a slice's width.
+    /// The same with the slices where the faces overlap with gear 2's mid-face `displacement_m` from gear 1's along the
+    /// axes: the reference from which the gears may move by a slice's width.
     ///
     /// # Errors
-    /// [`DrivetrainError::Contact`] when the models do not fit the pair, each other or the side, [`DrivetrainError::Value`].
+    /// [`DrivetrainError::Contact`] when the models do not fit the pair, each other or the side,
+    /// [`DrivetrainError::Value`].
     pub fn displaced(
         pair: &GearPair,
         side: Flank,
@@ -248,8 +251,8 @@ impl ReducedTeeth {
         }
     }
 
-    /// F_placeᵀ ∂φ Ω⁻² φᵀF of one gear: the modes' share in the change of the complementary energy, for a section whose shapes change by these slopes,
-    /// up the flank or along the tooth.
+    /// F_placeᵀ ∂φ Ω⁻² φᵀF of one gear: the modes' share in the change of the complementary energy, for a section whose
+    /// shapes change by these slopes, up the flank or along the tooth.
     fn modal_energy(
         &self,
         (flanks, slopes): (&FlankContacts, &[f64]),

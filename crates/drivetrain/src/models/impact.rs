@@ -1,9 +1,9 @@
-//! `impact`: F = K δ^e + STEP(δ, 0, 0, d_max, C_max) δ̇ on each pair of teeth, never pulling; δ is the penetration of rigid flanks along
-//! the real line of action, on helical teeth along the flanks' normal. K is that of a pair over its whole width: where slices of a helical
-//! pair are off the path, the others carry their share alone.
+//! `impact`: F = K δ^e + STEP(δ, 0, 0, d_max, C_max) δ̇ on each pair of teeth, never pulling; δ is the penetration of
+//! rigid flanks along the real line of action, on helical teeth along the flanks' normal. K is that of a pair over its
+//! whole width: where slices of a helical pair are off the path, the others carry their share alone.
 //!
-//! Source: the IMPACT function of MSC Adams, as used in seeds 002 and 003. The stiffness has the unit N/m^e: its exponent is part of the
-//! value. Damping is part of this law; friction is added by the mesh.
+//! Source: the IMPACT function of MSC Adams, as used in seeds 002 and 003. The stiffness has the unit N/m^e: its
+//! exponent is part of the value. Damping is part of this law; friction is added by the mesh.
 
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::FlankContacts;
@@ -66,7 +66,8 @@ pub struct Impact {
 }
 
 impl Impact {
-    /// Stiffness, largest damping C_max \[N·s/m\], depth d_max \[m\] from which it acts in full; shared by so many slices.
+    /// Stiffness, largest damping C_max \[N·s/m\], depth d_max \[m\] from which it acts in full; shared by so many
+    /// slices.
     ///
     /// # Errors
     /// [`DrivetrainError::Value`] if the damping is negative or d_max not positive.

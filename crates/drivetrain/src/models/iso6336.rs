@@ -1,5 +1,5 @@
-//! `iso6336`: one spring for the whole mesh, c_γ b, after ISO 6336-1 method B, constant or with a sine over the mesh cycle; or the tangent to
-//! the static curve of the pair itself (pair_curve.rs).
+//! `iso6336`: one spring for the whole mesh, c_γ b, after ISO 6336-1 method B, constant or with a sine over the mesh
+//! cycle; or the tangent to the static curve of the pair itself (pair_curve.rs).
 //!
 //! ```text
 //! q′ = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 − 0.00635 x₁ − 0.11654 x₁/z_n1 − 0.00193 x₂ − 0.24188 x₂/z_n2 + 0.00529 x₁² + 0.00182 x₂²
@@ -7,10 +7,12 @@
 //! c′ falls with the fourth root of the load below 100 N/mm,   c_γα = c′ (0.75 ε_α + 0.25)
 //! ```
 //!
-//! in N/(mm·µm). The spring acts on the gap of the ideal flanks in the pitch point, which all pairs have in common, and knows no single
-//! tooth: flank errors are refused with it. Force and energy are functions of the pose alone, whatever pair of teeth is nearest: on tilted
-//! helical gears pairs differ in their gaps, and a spring that went from one to the next would make energy. Friction acts where the pair on
-//! the path is; on helical teeth each slice has its own phase of the sine. c_γα is a force over an arc of the base circle, both in the transverse plane: along the normal the spring is c_γα b/cos²β_b.
+//! in N/(mm·µm). The spring acts on the gap of the ideal flanks in the pitch point, which all pairs have in common, and
+//! knows no single tooth: flank errors are refused with it. Force and energy are functions of the pose alone, whatever
+//! pair of teeth is nearest: on tilted helical gears pairs differ in their gaps, and a spring that went from one to the
+//! next would make energy. Friction acts where the pair on the path is; on helical teeth each slice has its own phase
+//! of the sine. c_γα is a force over an arc of the base circle, both in the transverse plane: along the normal the
+//! spring is c_γα b/cos²β_b.
 
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::{FlankContacts, Section};
@@ -97,7 +99,8 @@ pub struct MeshSpring {
     operating: Option<OperatingPoint>,
     slices: f64,
     middle_roll_rad: f64,
-    /// Roll angle of each slice's section less that at whose phase the curves are taken \[rad\]; none where that is its own.
+    /// Roll angle of each slice's section less that at whose phase the curves are taken \[rad\]; none where that is its
+    /// own.
     ahead_rad: Vec<f64>,
 }
 
@@ -111,8 +114,8 @@ struct SpringAt {
 }
 
 impl MeshSpring {
-    /// A spring of `stiffness_n_per_m` shared by `slices`; `middle_roll_rad` is the roll angle at the pitch point, the same on both
-    /// gears: about half-way of the path.
+    /// A spring of `stiffness_n_per_m` shared by `slices`; `middle_roll_rad` is the roll angle at the pitch point, the
+    /// same on both gears: about half-way of the path.
     ///
     /// # Errors
     /// [`DrivetrainError::Value`].
@@ -146,15 +149,16 @@ impl MeshSpring {
         }
     }
 
-    /// Takes the curves of all slices at one phase, that at mid-face: for curves of the mesh as a whole on helical teeth. `ahead_rad`: roll
-    /// angle of each slice's section on gear 1 less that at mid-face.
+    /// Takes the curves of all slices at one phase, that at mid-face: for curves of the mesh as a whole on helical
+    /// teeth. `ahead_rad`: roll angle of each slice's section on gear 1 less that at mid-face.
     #[must_use]
     pub fn with_phase_of_mid_face(mut self, ahead_rad: Vec<f64>) -> Self {
         self.ahead_rad = ahead_rad;
         self
     }
 
-    /// Turns a stiffness in the transverse plane, as ISO 6336-1 states it, into that along the normal of helical flanks: over cos²β_b.
+    /// Turns a stiffness in the transverse plane, as ISO 6336-1 states it, into that along the normal of helical
+    /// flanks: over cos²β_b.
     #[must_use]
     pub fn on_base_helix(mut self, base_helix_angle_rad: f64) -> Self {
         let cos = base_helix_angle_rad.cos();
@@ -263,8 +267,8 @@ impl TeethModel for MeshSpring {
 mod tests {
     use super::*;
 
-    /// ISO/TR 6336-30 example 1: m_n 8, z 17/103, β 15.8°, x 0.145/0, α_n 20°, h_fP 1.4 m. Published: c′_th 17.85584, c′ 12.37047,
-    /// c_γα 17.46485 N/(mm·µm), with ε_α 1.5489.
+    /// ISO/TR 6336-30 example 1: m_n 8, z 17/103, β 15.8°, x 0.145/0, α_n 20°, h_fP 1.4 m. Published: c′_th 17.85584,
+    /// c′ 12.37047, c_γα 17.46485 N/(mm·µm), with ε_α 1.5489.
     #[test]
     fn the_published_example() {
         let beta = 15.8f64.to_radians();

@@ -26,8 +26,8 @@ pub struct TeethLoads {
     pub stiffness_n_per_m: Vec<f64>,
     /// D = −∂F/∂(gap rate) \[N·s/m\], row: force.
     pub damping_n_s_per_m: Vec<f64>,
-    /// ∂E*/∂ξ at constant forces \[J/rad\] for each section, gear 1 and gear 2: how the complementary energy of the teeth changes as the
-    /// contacts walk over them. The mesh feels it as a generalised force.
+    /// ∂E*/∂ξ at constant forces \[J/rad\] for each section, gear 1 and gear 2: how the complementary energy of the
+    /// teeth changes as the contacts walk over them. The mesh feels it as a generalised force.
     pub energy_by_roll: Vec<[f64; 2]>,
     /// The same as they walk along the teeth \[J/m\].
     pub energy_by_height: Vec<[f64; 2]>,
@@ -92,8 +92,9 @@ impl TeethLoads {
 
 /// A model of the teeth of one side.
 pub trait TeethModel: Send {
-    /// Normal forces at given gaps and gap rates, into `loads`, which has been sized and is all zero; stiffness and damping at least where
-    /// `tangents`. Must depend on its arguments only, but for rounding: a warm start from what was last remembered is allowed.
+    /// Normal forces at given gaps and gap rates, into `loads`, which has been sized and is all zero; stiffness and
+    /// damping at least where `tangents`. Must depend on its arguments only, but for rounding: a warm start from what
+    /// was last remembered is allowed.
     ///
     /// # Errors
     /// Whatever keeps the model from giving forces.
@@ -104,12 +105,12 @@ pub trait TeethModel: Send {
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError>;
 
-    /// Says of the next evaluations how their motions stand to each other: what changes slowly may be kept from [`Iterate::First`] for the
-    /// [`Iterate::Correction`]s that follow.
+    /// Says of the next evaluations how their motions stand to each other: what changes slowly may be kept from
+    /// [`Iterate::First`] for the [`Iterate::Correction`]s that follow.
     fn expect(&mut self, _iterate: Iterate) {}
 
-    /// K d: how much the forces of the last evaluation fall when the gaps open by d \[m\], into `forces`. For models that fill the
-    /// stiffness in every evaluation, as those with a spring of its own for each contact do.
+    /// K d: how much the forces of the last evaluation fall when the gaps open by d \[m\], into `forces`. For models
+    /// that fill the stiffness in every evaluation, as those with a spring of its own for each contact do.
     fn apply_stiffness(
         &mut self,
         _flanks: &FlankContacts,
@@ -165,8 +166,8 @@ pub trait TeethModel: Send {
         ([1.0, 0.0], 0.0)
     }
 
-    /// Takes the forces of the last evaluation as the start of the next ones. Not called after evaluations for output: a run must not
-    /// depend on when it is looked at.
+    /// Takes the forces of the last evaluation as the start of the next ones. Not called after evaluations for output:
+    /// a run must not depend on when it is looked at.
     fn remember(&mut self) {}
 
     /// Appends what is remembered, always as many numbers, so that a run that is resumed repeats bit by bit.

@@ -61,9 +61,9 @@ pub struct DigitalFlank {
 }
 
 impl DigitalFlank {
-    /// Cuts a flank of tooth 0 into patches no longer than these, as many along the face in each slice. `point(s, u)`: its point \[m\] at a share along the
-    /// face from the toe and a place
-    /// up the flank between `ends`, that of the lower line and that of the tip.
+    /// Cuts a flank of tooth 0 into patches no longer than these, as many along the face in each slice. `point(s, u)`:
+    /// its point \[m\] at a share along the face from the toe and a place up the flank between `ends`, that of the
+    /// lower line and that of the tip.
     ///
     /// # Errors
     /// [`DrivetrainError::Value`] for edges that are not positive, longer than a quarter of the flank, or so short

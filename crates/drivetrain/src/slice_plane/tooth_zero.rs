@@ -1,4 +1,5 @@
-//! The flanks of tooth 0 in a slice plane: what all pairs of teeth share there, and from which each follows by its pitches.
+//! The flanks of tooth 0 in a slice plane: what all pairs of teeth share there, and from which each follows by its
+//! pitches.
 
 use std::f64::consts::PI;
 

@@ -5,8 +5,8 @@ use gearmesh_model::{Flank, ReducedGear, RootCrack};
 
 use super::made_up_gear;
 
-/// The body of [`made_up_gear`] with a crack that adds `share` of the tooth's own compliance near its tip for loads on its right side, a
-/// little less at one face than at the other, and next to nothing on its neighbours.
+/// The body of [`made_up_gear`] with a crack that adds `share` of the tooth's own compliance near its tip for loads on
+/// its right side, a little less at one face than at the other, and next to nothing on its neighbours.
 pub fn cracked_gear(tooth: &ToothGeometry, cracked: usize, share: f64) -> ReducedGear {
     let gear = made_up_gear(tooth);
     let (rolls, z_m) = (&gear.grid.roll_angles_rad, &gear.grid.z_m);

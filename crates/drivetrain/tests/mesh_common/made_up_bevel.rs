@@ -126,8 +126,8 @@ pub fn made_up_bevel(flanks: &BevelSlices, member: usize) -> ReducedGear {
     }
 }
 
-/// The same with modes of a ring whose static share is in its compliance: along the normal, up the profile and along the tooth, stronger
-/// towards the heel.
+/// The same with modes of a ring whose static share is in its compliance: along the normal, up the profile and along
+/// the tooth, stronger towards the heel.
 pub fn modal_bevel(flanks: &BevelSlices, member: usize) -> ReducedGear {
     let mut gear = made_up_bevel(flanks, member);
     let (teeth, loads, along) = (gear.teeth, gear.grid.len(), gear.grid.z_m.len());

@@ -280,9 +280,9 @@ pub fn mesh(name: &str, pair: &GearPair, kinematics: MeshKinematics) -> GearMesh
     with_own_modes(name, pair, mesh)
 }
 
-/// Gear 1 turned by θ₁ from pair 0 at the pitch point, its flanks of `side` leading, gear 2 behind by the transmission error; parallel
-/// axes at the pair's centre distance, gear 2 on +x of the world. A ring and the gear inside touch on the far side of
-/// that gear.
+/// Gear 1 turned by θ₁ from pair 0 at the pitch point, its flanks of `side` leading, gear 2 behind by the transmission
+/// error; parallel axes at the pair's centre distance, gear 2 on +x of the world. A ring and the gear inside touch on
+/// the far side of that gear.
 pub fn angles(pair: &GearPair, side: Flank, theta_1: f64, te_m: f64) -> [f64; 2] {
     let alpha = pair.working_pressure_angle_rad;
     let inv = involute::involute_function(alpha);
@@ -307,7 +307,8 @@ pub fn about(axis: Vector3<f64>, angle: f64) -> Matrix3<f64> {
         .matrix()
 }
 
-/// The pose of two gears whose bodies stand at polar angles φ in the world, gear 2 displaced and tilted from its place on +x.
+/// The pose of two gears whose bodies stand at polar angles φ in the world, gear 2 displaced and tilted from its place
+/// on +x.
 pub fn pose(pair: &GearPair, phi: [f64; 2], shift: Vector3<f64>, tilt: Vector3<f64>) -> Pose {
     let [from_1, from_2] = phi.map(|angle| about(Vector3::z(), angle));
     let to_1 = from_1.transpose();
@@ -377,8 +378,8 @@ pub fn disc(
     }
 }
 
-/// Two gears on fixed axes, gear 1 turning clockwise at `speed_1` with gear 2 at its ratio, torques `torque_2` on gear 2 against its
-/// motion and the balancing one on gear 1, right flanks pressed together by `-te_m`.
+/// Two gears on fixed axes, gear 1 turning clockwise at `speed_1` with gear 2 at its ratio, torques `torque_2` on gear
+/// 2 against its motion and the balancing one on gear 1, right flanks pressed together by `-te_m`.
 pub fn two_gears(
     pair: &GearPair,
     mesh: GearMesh,

@@ -1,4 +1,5 @@
-//! A made-up gear that vibrates: the body of the contact tests and modes of a ring on top of it, whose static share is in C_hub.
+//! A made-up gear that vibrates: the body of the contact tests and modes of a ring on top of it, whose static share is
+//! in C_hub.
 
 use gearmesh_drivetrain::{GearMesh, MeshLoad, ModalMotion, Pose};
 use gearmesh_geometry::ToothGeometry;
@@ -20,8 +21,8 @@ pub const MODES: [(f64, usize, bool); 6] = [
 /// Gauges on as many teeth.
 pub const GAUGES: usize = 8;
 
-/// φ of a mode at a load: strongest at the tip, pairs of equal frequency turned against each other, so that the gear looks the same from
-/// each tooth.
+/// φ of a mode at a load: strongest at the tip, pairs of equal frequency turned against each other, so that the gear
+/// looks the same from each tooth.
 pub fn shape(mode: usize, tooth: usize, teeth: usize, side: f64, height: f64) -> f64 {
     let (_, diameters, sine) = MODES[mode];
     let angle = TAU * (diameters * tooth) as f64 / teeth as f64;

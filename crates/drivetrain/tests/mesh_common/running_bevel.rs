@@ -1,4 +1,5 @@
-//! The bevel pair of seed 001 at 600 rpm on fixed axes, 100 N·m on the gear: the scene dynamics_bevel_20_20_hybrid.toml at constant speed.
+//! The bevel pair of seed 001 at 600 rpm on fixed axes, 100 N·m on the gear: the scene dynamics_bevel_20_20_hybrid.toml
+//! at constant speed.
 
 use std::f64::consts::TAU;
 

@@ -124,7 +124,8 @@ pub fn calibrated_gear(tooth: &ToothGeometry) -> ReducedGear {
     }
 }
 
-/// The teeth of one side: `hybrid` with damping proportional to stiffness, or `impact`, which has its own and one plane.
+/// The teeth of one side: `hybrid` with damping proportional to stiffness, or `impact`, which has its own and one
+/// plane.
 fn teeth(name: &str, pair: &GearPair, side: Flank) -> Box<dyn TeethModel> {
     if name == "impact" {
         let law = PowerStiffness::n_per_mm_e(4e6, 1.5).unwrap();
@@ -162,7 +163,8 @@ pub fn running_mesh(name: &str, pair: &GearPair) -> GearMesh {
         .unwrap()
 }
 
-/// The system; gear 1 drives with the torque that gear 2 is braked with, over the ratio. So many gauges are read on gear 2.
+/// The system; gear 1 drives with the torque that gear 2 is braked with, over the ratio. So many gauges are read on
+/// gear 2.
 pub fn running_pair(pair: &GearPair, mesh: GearMesh, gauges: usize) -> SystemBuilder {
     let ratio = pair.gear_1.base_radius_m / pair.gear_2.base_radius_m;
     let phi = angles(pair, Flank::Right, 0.0, -12e-6);

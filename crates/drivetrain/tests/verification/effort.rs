@@ -8,7 +8,8 @@ use std::ops::ControlFlow;
 use gearmesh_dynamics::{Simulation, System};
 use mesh_common::running_pair::*;
 
-/// Six-degree bodies at 600 rpm and 50 steps a mesh period: Newton's corrections and factorisations a step, and what is called.
+/// Six-degree bodies at 600 rpm and 50 steps a mesh period: Newton's corrections and factorisations a step, and what is
+/// called.
 #[test]
 fn steps_take_few_evaluations() {
     let (spur, helical) = (pair_a(), helical_pair_a());
@@ -56,7 +57,8 @@ fn steps_take_few_evaluations() {
     }
 }
 
-/// The bevel pair of seed 001 in 15 slices: corrections a step, factorisations, and points of flanks that a call of the mesh computes.
+/// The bevel pair of seed 001 in 15 slices: corrections a step, factorisations, and points of flanks that a call of the
+/// mesh computes.
 #[test]
 fn bevel_steps_take_few_evaluations() {
     for (name, kind, most) in [

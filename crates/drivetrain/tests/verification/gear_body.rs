@@ -10,7 +10,8 @@ use mesh_common::*;
 
 const STEEL_DENSITY: f64 = 7850.0;
 
-/// Between discs of root and tip radius, near that of the reference radius; a web and openings take away what rings and circles hold.
+/// Between discs of root and tip radius, near that of the reference radius; a web and openings take away what rings and
+/// circles hold.
 #[test]
 fn bodies_have_the_mass_of_their_parts() {
     let pair = spur_pair();
@@ -74,7 +75,8 @@ fn bodies_have_the_mass_of_their_parts() {
     assert!(slotted.centre_xy_m[0] < 0.0 && slotted.centre_xy_m[1].abs() < 1e-15);
 }
 
-/// From a model file: inertia brought from the reference point to the centre of mass, whose own Steiner part brings it back.
+/// From a model file: inertia brought from the reference point to the centre of mass, whose own Steiner part brings it
+/// back.
 #[test]
 fn bodies_come_from_the_model_file() {
     let mut gear = crate::mesh_common::pair_common::made_up_models::small_reduced_gear();

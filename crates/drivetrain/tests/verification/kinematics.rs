@@ -1,4 +1,5 @@
-//! Gaps, roll angles and their derivatives against the static scene's kinematics, against points on the flanks, and against differences.
+//! Gaps, roll angles and their derivatives against the static scene's kinematics, against points on the flanks, and
+//! against differences.
 
 use crate::mesh_common;
 
@@ -42,8 +43,8 @@ fn microgeometry(gear: &gearmesh_geometry::ToothGeometry) -> Microgeometry {
     }
 }
 
-/// Half a turn of gear 1, where the polar angle of the tilted centre line is π in some slices and −π in others: 15 pitches, so that all is as at
-/// the start.
+/// Half a turn of gear 1, where the polar angle of the tilted centre line is π in some slices and −π in others: 15
+/// pitches, so that all is as at the start.
 #[test]
 fn half_a_turn_leaves_no_slice_behind() {
     let pair = spur_pair();
@@ -161,7 +162,8 @@ fn gaps_are_those_of_the_static_scene() {
             let errors = [&lines.microgeometry_1, &lines.microgeometry_2]
                 .map(|m| vec![Arc::new(m.clone()) as Arc<dyn FlankError>]);
             let kinematics = kinematics_with(&pair, errors, PathEnds::LineOfAction);
-            // Gear 2 tilts about the pitch point: away from gear 1 with z, and across so that loaded flanks open with z.
+            // Gear 2 tilts about the pitch point: away from gear 1 with z, and across so that loaded flanks open with
+            // z.
             let circles = pair.circles();
             let opens = 1f64.copysign(circles.sum_m()) * circles.hand(side);
             let tilt = Vector3::new(
@@ -293,7 +295,8 @@ fn check_derivatives(pair: &GearPair) {
     }
 }
 
-/// The second derivative of the gap of ideal flanks: exact on parallel axes, displaced ones too; what is left out falls with the tilt.
+/// The second derivative of the gap of ideal flanks: exact on parallel axes, displaced ones too; what is left out falls
+/// with the tilt.
 #[test]
 fn the_curvature_is_right_to_first_order_of_the_tilt() {
     for pair in spur_families() {
@@ -342,7 +345,8 @@ fn check_curvature(pair: &GearPair) {
     assert!((8.0..12.0).contains(&(more / some)), "{some:e} {more:e}");
 }
 
-/// Beyond the end of the path the parabola is the exact gap of the tip edge, to second order: its relative error falls with the angle.
+/// Beyond the end of the path the parabola is the exact gap of the tip edge, to second order: its relative error falls
+/// with the angle.
 #[test]
 fn tip_edges_have_the_exact_gap_to_second_order() {
     for pair in spur_families() {

@@ -20,9 +20,10 @@ fn right_only(pair: &GearPair, errors: [FlankErrors; 2]) -> GearMesh {
     GearMesh::new(kinematics, Flank::Right, reduced_teeth(pair, Flank::Right)).unwrap()
 }
 
-/// Same transmission error as the static scene. That one takes compliance at the roll angle that gear 2 has without load, and has no
-/// force from the walking of the contacts, so that the two differ by deflection over pitch: the relative difference falls with the load,
-/// and at one hundredth of it (0.2 µm) the transmission errors agree to 1e-12 m.
+/// Same transmission error as the static scene. That one takes compliance at the roll angle that gear 2 has without
+/// load, and has no force from the walking of the contacts, so that the two differ by deflection over pitch: the
+/// relative difference falls with the load, and at one hundredth of it (0.2 µm) the transmission errors agree to 1e-12
+/// m.
 #[test]
 fn transmission_error_is_that_of_the_static_scene() {
     for pair in spur_families() {
@@ -61,8 +62,8 @@ fn check_transmission_error(pair: &GearPair) {
     assert!(hundredth < 1e-12, "{hundredth:e}");
 }
 
-/// One spring on the pair's own curve is at rest where the pair is, but for the harmonics that are left out; spur and helical, and from gear 2's
-/// torque alone, as what the walking of the contact adds is a load on gear 1.
+/// One spring on the pair's own curve is at rest where the pair is, but for the harmonics that are left out; spur and
+/// helical, and from gear 2's torque alone, as what the walking of the contact adds is a load on gear 1.
 #[test]
 fn a_spring_on_the_own_curve_has_the_pairs_transmission_error() {
     for pair in pairs() {
@@ -80,8 +81,9 @@ fn a_spring_on_the_own_curve_has_the_pairs_transmission_error() {
     }
 }
 
-/// Mates of unequal width with other slices each: both computations agree as on equal ones, the narrower gear makes the pair softer, and one that is
-/// moved up or down along the axis by as much is softer alike, for these bodies are their own mirror images.
+/// Mates of unequal width with other slices each: both computations agree as on equal ones, the narrower gear makes the
+/// pair softer, and one that is moved up or down along the axis by as much is softer alike, for these bodies are their
+/// own mirror images.
 #[test]
 fn mates_of_unequal_width_agree_with_the_static_scene() {
     let pair = spur_pair();
@@ -131,7 +133,8 @@ fn mates_of_unequal_width_agree_with_the_static_scene() {
     }
 }
 
-/// A flank that stands back by f carries when its neighbours have given way by f: the unloaded transmission error shows the errors.
+/// A flank that stands back by f carries when its neighbours have given way by f: the unloaded transmission error shows
+/// the errors.
 #[test]
 fn pitch_errors_are_the_unloaded_transmission_error() {
     let pair = spur_pair();
@@ -233,8 +236,8 @@ fn cracks_soften_their_tooth() {
     assert!(stiffness(-1.0).is_err());
 }
 
-/// The analytic tooth: parts positive, softer towards the tip, and the sizes that the literature gives (foundation and bending of the
-/// same order).
+/// The analytic tooth: parts positive, softer towards the tip, and the sizes that the literature gives (foundation and
+/// bending of the same order).
 #[test]
 fn analytic_teeth_soften_towards_the_tip() {
     let pair = spur_pair();

@@ -17,7 +17,8 @@ use gearmesh_geometry::microgeometry::{ReliefShape, TipRelief};
 use gearmesh_geometry::{Flank, GearPair, Microgeometry, ToothGeometry};
 use mesh_common::*;
 
-/// √(k/m_eq), m_eq = I₁I₂/(I₁r_b2² + I₂r_b1²), with a constant stiffness; the other mode is the free turning of the pair.
+/// √(k/m_eq), m_eq = I₁I₂/(I₁r_b2² + I₂r_b1²), with a constant stiffness; the other mode is the free turning of the
+/// pair.
 #[test]
 fn two_gears_swing_at_the_closed_form() {
     let pair = spur_pair();
@@ -59,9 +60,9 @@ fn relieved(gear: &ToothGeometry) -> Arc<dyn FlankError> {
     })
 }
 
-/// Frictionless, undamped gears under constant torques keep their energy: the error of the balance falls with h². Tip relief and a light
-/// load let the hybrid's slices come and go smoothly; its compliance has kinks at the roll stations, so that its error falls with h² in the
-/// mean only.
+/// Frictionless, undamped gears under constant torques keep their energy: the error of the balance falls with h². Tip
+/// relief and a light load let the hybrid's slices come and go smoothly; its compliance has kinks at the roll stations,
+/// so that its error falls with h² in the mean only.
 #[test]
 fn undamped_pairs_keep_their_energy() {
     let pair = spur_pair();
@@ -89,7 +90,8 @@ fn undamped_pairs_keep_their_energy() {
         };
         let errors = [8e-6, 4e-6, 2e-6, 1e-6, 5e-7].map(error);
         let order = (errors[0] / errors[4]).log2() / 4.0;
-        // Seen: 2.00, 1.98 and, on the piecewise linear compliance of the reduced gears, 1.85 with halvings by 1.5 to 9.
+        // Seen: 2.00, 1.98 and, on the piecewise linear compliance of the reduced gears, 1.85 with halvings by 1.5
+        // to 9.
         let least = if name == "hybrid" { 1.6 } else { 1.95 };
         assert!((least..2.4).contains(&order), "{name} {order} {errors:?}");
         // Elastic energy of the mean load: T²/(2 k r_b2²), about 3 mJ.
@@ -129,8 +131,8 @@ fn seed_003() -> GearPair {
     pair_common::pair(&tooth(17), &tooth(25))
 }
 
-/// 3000 deg/s and 450 N·m after a ramp: mean ratio 25/17 = 1.470588, mesh frequency 17 · 8.333 = 141.67 Hz, mean normal force
-/// 450/(0.125 cos 20°) = 3831 N (not the 3600 N of the text, which is the tangential force).
+/// 3000 deg/s and 450 N·m after a ramp: mean ratio 25/17 = 1.470588, mesh frequency 17 · 8.333 = 141.67 Hz, mean normal
+/// force 450/(0.125 cos 20°) = 3831 N (not the 3600 N of the text, which is the tangential force).
 #[test]
 fn the_pair_of_seed_003() {
     let pair = seed_003();
@@ -175,7 +177,8 @@ fn the_pair_of_seed_003() {
     let system = builder.build().unwrap();
     let inertia_2 = system.bodies()[1].inertia_kg_m2[(2, 2)];
     let mesh_period = TAU / 17.0 / speed;
-    // One turn of the pinion is 17 mesh periods and exactly 12000 steps, which meet the changes of pairs at ever new phases.
+    // One turn of the pinion is 17 mesh periods and exactly 12000 steps, which meet the changes of pairs at ever new
+    // phases.
     let (settle_steps, step_s) = (6000, 1e-5);
     let (periods, count) = (17.0, 12_000);
     assert!((periods * mesh_period / step_s - count as f64).abs() < 1e-6);

@@ -1,7 +1,7 @@
 //! Timoshenko beam between two markers, along z of both, as a bushing that turns with its first end.
 //!
-//! End B is seen from the frame of end A, so the element follows any rigid motion and spins freely; bending, shear, torsion and
-//! stretch are small. Relative to A the beam is a cantilever, whose 6×6 stiffness at the tip is exact:
+//! End B is seen from the frame of end A, so the element follows any rigid motion and spins freely; bending, shear,
+//! torsion and stretch are small. Relative to A the beam is a cantilever, whose 6×6 stiffness at the tip is exact:
 //!
 //! ```text
 //! [w ]   [L³/3EI + L/κGA   L²/2EI] [P]
@@ -9,9 +9,9 @@
 //! stretch EA/L,   torsion G I_t/L
 //! ```
 //!
-//! The forces at A are in balance with those at B in the deformed position, so the 12×12 stiffness has the six rigid motions as
-//! its null space. Mass is lumped in the bodies at the ends. Source: J. S. Przemieniecki, *Theory of Matrix Structural Analysis*,
-//! 1968, section 5.6.
+//! The forces at A are in balance with those at B in the deformed position, so the 12×12 stiffness has the six rigid
+//! motions as its null space. Mass is lumped in the bodies at the ends. Source: J. S. Przemieniecki, *Theory of Matrix
+//! Structural Analysis*, 1968, section 5.6.
 
 use nalgebra::{Matrix2, Matrix6, Vector3};
 

@@ -4,8 +4,8 @@
 //! e = (u − u₀, θ),  Q = exp(θ)          (f, μ) = −(k_u, T⁻¹(θ) k_θ) − C (u̇, ω),   (k_u, k_θ) = K e
 //! ```
 //!
-//! T⁻¹(θ) makes the moment the gradient of ½ eᵀK e. Rotations must stay below half a turn; a bushing that is stiff or loaded
-//! against large rotations has no physical meaning long before.
+//! T⁻¹(θ) makes the moment the gradient of ½ eᵀK e. Rotations must stay below half a turn; a bushing that is stiff or
+//! loaded against large rotations has no physical meaning long before.
 
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 

@@ -6,7 +6,8 @@
 //! ∂load/∂x_i ≈ (load(x + h_i e_i) − load(x)) / h_i,   h = 1e-8 (m, rad) and 1e-6 (m/s, rad/s)
 //! ```
 //!
-//! which makes twelve further calls wherever tangents are wanted. Differences that are somewhat wrong cost iterations, not accuracy.
+//! which makes twelve further calls wherever tangents are wanted. Differences that are somewhat wrong cost iterations,
+//! not accuracy.
 
 use std::sync::Arc;
 

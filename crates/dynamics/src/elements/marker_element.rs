@@ -35,7 +35,8 @@ pub trait Law: Send {
     /// Derivatives of the load.
     fn tangent(&self, motion: &RelativeMotion) -> LawTangent;
 
-    /// What the axes of marker A are called in the names of channels, with `_` behind; nothing where they have no name of their own.
+    /// What the axes of marker A are called in the names of channels, with `_` behind; nothing where they have no name
+    /// of their own.
     fn axes(&self) -> &'static str {
         ""
     }
@@ -58,8 +59,8 @@ pub trait Law: Send {
     fn restore(&mut self, _numbers: &[f64]) {}
 }
 
-/// What an element between two markers shows of its load on body 2: force and moment, A axes, and the force in world axes; where A's axes
-/// have a name (with `_` behind), the force across z, too. Nine or ten channels.
+/// What an element between two markers shows of its load on body 2: force and moment, A axes, and the force in world
+/// axes; where A's axes have a name (with `_` behind), the force across z, too. Nine or ten channels.
 #[must_use]
 pub fn load_channels(axes: &str) -> Vec<Channel> {
     let three = |head: &str, (end, unit), what: &str| {
@@ -83,7 +84,8 @@ pub fn load_channels(axes: &str) -> Vec<Channel> {
     channels
 }
 
-/// A law at its place. Channels: force and moment on B, A axes, and the force in world axes; where A's axes have a name, the force across z, too.
+/// A law at its place. Channels: force and moment on B, A axes, and the force in world axes; where A's axes have a
+/// name, the force across z, too.
 #[derive(Debug, Clone)]
 pub struct MarkerElement<L> {
     name: String,

@@ -1,14 +1,16 @@
 //! Bearing of a whole 5×5 stiffness and damping matrix about an operating point; spins freely about its axis.
 //!
-//! A sits in the housing, B on the shaft, z is the axis. With c the z axis of B seen in A and W(c) the rows (c_z, 0, −c_x) and (0, c_z, −c_y),
+//! A sits in the housing, B on the shaft, z is the axis. With c the z axis of B seen in A and W(c) the rows (c_z, 0,
+//! −c_x) and (0, c_z, −c_y),
 //!
 //! ```text
 //! e = (u, −c_y, c_x),   ė = (u̇, W ω)
 //! q = q₀ − K (e − e₀) − C ė,   f = (q₁, q₂, q₃),   μ = Wᵀ (q₄, q₅)
 //! ```
 //!
-//! W ω is the rate of (−c_y, c_x), because dc = φ × c, so that the load does the work qᵀė; Wᵀ q is across c, so that B turns freely. K need not be
-//! symmetric: the tangent of a bearing at speed is not, and what it does is then work from outside.
+//! W ω is the rate of (−c_y, c_x), because dc = φ × c, so that the load does the work qᵀė; Wᵀ q is across c, so that B
+//! turns freely. K need not be symmetric: the tangent of a bearing at speed is not, and what it does is then work from
+//! outside.
 
 use nalgebra::{Matrix2x3, Matrix5, Matrix6, SMatrix, Vector2, Vector3, Vector5};
 

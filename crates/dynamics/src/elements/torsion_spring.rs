@@ -1,7 +1,7 @@
 //! Torsion spring and damper about z of marker A, over any number of turns: τ = −(k (a − a₀) + c ȧ), μ = τ j on B.
 //!
-//! a is the angle of `relative_angle.rs`, j its gradient, so that the torque does the work −k(a − a₀) da even where the axes are not
-//! aligned.
+//! a is the angle of `relative_angle.rs`, j its gradient, so that the torque does the work −k(a − a₀) da even where the
+//! axes are not aligned.
 
 use nalgebra::SMatrix;
 

@@ -1,10 +1,11 @@
-//! Andrews' squeezing mechanism: seven bodies in a plane, driven by a constant torque, here in space with ten revolute joints.
+//! Andrews' squeezing mechanism: seven bodies in a plane, driven by a constant torque, here in space with ten revolute
+//! joints.
 //!
 //! Each of the three loops of revolute joints has three redundant equations, so the mechanism also tries those.
 //!
-//! Data and reference solution: W. Schiehlen (ed.), *Multibody Systems Handbook*, 1990; E. Hairer, G. Wanner, *Solving Ordinary
-//! Differential Equations II*, 2nd ed., section VII.7; test set for initial value problems (Bari), problem `andrews`. The positions
-//! at the end are computed anew by tools/reference/andrews.py.
+//! Data and reference solution: W. Schiehlen (ed.), *Multibody Systems Handbook*, 1990; E. Hairer, G. Wanner, *Solving
+//! Ordinary Differential Equations II*, 2nd ed., section VII.7; test set for initial value problems (Bari), problem
+//! `andrews`. The positions at the end are computed anew by tools/reference/andrews.py.
 
 use gearmesh_dynamics::elements::{AppliedLoad, Axes, LoadKind, SpringDamper};
 use gearmesh_dynamics::{

@@ -1,4 +1,5 @@
-//! A chain of alike links on revolute joints with parallel axes, released level: as many bodies as wanted, two joints to a body.
+//! A chain of alike links on revolute joints with parallel axes, released level: as many bodies as wanted, two joints
+//! to a body.
 
 use gearmesh_dynamics::{Body, GROUND, Joint, JointKind, Marker, System};
 use nalgebra::Vector3;

@@ -1,4 +1,5 @@
-//! A Maxwell element along x between the ground and a body: a spring in series with a damper, whose length is a coordinate of the element.
+//! A Maxwell element along x between the ground and a body: a spring in series with a damper, whose length is a
+//! coordinate of the element.
 
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, Power, View};
 use gearmesh_dynamics::{BodyId, ElementFailure, Unknown};

@@ -64,8 +64,8 @@ fn driven_rotor(speed_rad_per_s: f64) -> System {
 /// M_x = −m x z φ̈ + m g_y z cos φ,     M_y = −m x z φ̇² − m g_y z sin φ − m g x
 /// ```
 ///
-/// What Newton's iteration leaves, at most 1e-8 of the step's increment φ̇ h, stands in the reactions as an acceleration
-/// of 1e-8 φ̇/(β h): 1.1e-8 s/h of the moment with φ̇ = 1.5 rad/s and β = 0.31.
+/// What Newton's iteration leaves, at most 1e-8 of the step's increment φ̇ h, stands in the reactions as an
+/// acceleration of 1e-8 φ̇/(β h): 1.1e-8 s/h of the moment with φ̇ = 1.5 rad/s and β = 0.31.
 #[test]
 fn reactions_hold_though_the_body_turns_far_from_where_the_matrix_was_made() {
     let (m, x, z, side, down) = (20.0, 0.4, 0.8, 1.0, 9.81);
@@ -215,7 +215,8 @@ fn a_force_that_is_no_number_ends_the_run() {
     }
 }
 
-/// A mass thrown round on a stiff spring: the adaptive step, half a second at most, shortens until it follows the spring.
+/// A mass thrown round on a stiff spring: the adaptive step, half a second at most, shortens until it follows the
+/// spring.
 #[test]
 fn an_adaptive_step_finds_the_length_that_a_stiff_spring_needs() {
     let mut builder = System::builder();

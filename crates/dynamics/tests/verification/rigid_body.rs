@@ -86,8 +86,8 @@ fn jacobi(u: f64, m: f64) -> [f64; 3] {
     [phi.sin(), phi.cos(), (1.0 - m * phi.sin().powi(2)).sqrt()]
 }
 
-/// Angular velocity of a free body with moments I₁ < I₂ < I₃ that starts with (p, 0, r), L² > 2EI₂. Source: L. D. Landau, E. M. Lifshitz,
-/// *Mechanics*, § 37.
+/// Angular velocity of a free body with moments I₁ < I₂ < I₃ that starts with (p, 0, r), L² > 2EI₂. Source: L. D.
+/// Landau, E. M. Lifshitz, *Mechanics*, § 37.
 fn free_top(i: [f64; 3], p: f64, r: f64, time: f64) -> Vector3<f64> {
     let twice_energy = i[0] * p * p + i[2] * r * r;
     let square = (i[0] * p).powi(2) + (i[2] * r).powi(2);

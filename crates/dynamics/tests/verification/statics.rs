@@ -332,7 +332,8 @@ impl ForceElement for SmallTurns {
     }
 }
 
-/// Where no equilibrium lies within what an element can follow, the message names the motion that nothing holds, not the element's limit alone.
+/// Where no equilibrium lies within what an element can follow, the message names the motion that nothing holds, not
+/// the element's limit alone.
 #[test]
 fn a_search_that_leaves_what_an_element_follows_says_which_motion_went_too_far() {
     let settle = |torque_nm: f64| {

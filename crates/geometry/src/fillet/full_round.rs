@@ -1,8 +1,8 @@
 //! A root of one radius: the arc that touches both flanks of a tooth space and the root circle, as broaches have it.
 //!
-//! Its centre lies on the middle of the space at r_f − ρ of a ring, and the distance to the flank is ρ. The curve at the
-//! distance ρ from an involute is an involute of the same base circle, turned by ρ/r_b; hence ρ of a space of half angle
-//! ψ_s on the base circle solves
+//! Its centre lies on the middle of the space at r_f − ρ of a ring, and the distance to the flank is ρ. The curve at
+//! the distance ρ from an involute is an involute of the same base circle, turned by ρ/r_b; hence ρ of a space of half
+//! angle ψ_s on the base circle solves
 //!
 //! ψ_s − ρ/r_b − inv α(r_f − ρ) = 0.
 //!

@@ -151,13 +151,14 @@ pub(super) struct MeshedTable {
     length_unit: Option<LengthUnit>,
     /// Set of nodes or elements on the bore; "bore" where not given.
     bore_set: Option<String>,
-    /// Sets on the flanks, {tooth} and {side} standing for number and side; "tooth{tooth}_{side}_flank" where not given.
+    /// Sets on the flanks, {tooth} and {side} standing for number and side; "tooth{tooth}_{side}_flank" where not
+    /// given.
     flank_sets: Option<String>,
 }
 
-/// Thinnest wall, web, step or opening of a body over the module. Elements are about a module long: thinner ones would be more than a thousand
-/// times as long as thick, which takes the square of that, six of sixteen digits, from their stiffness; the checks of every reduction ask
-/// for nine, and a tolerance of a lathe is coarser.
+/// Thinnest wall, web, step or opening of a body over the module. Elements are about a module long: thinner ones would
+/// be more than a thousand times as long as thick, which takes the square of that, six of sixteen digits, from their
+/// stiffness; the checks of every reduction ask for nine, and a tolerance of a lathe is coarser.
 pub(super) const LEAST_WALL: f64 = 1e-3;
 
 /// What the teeth leave for the body.

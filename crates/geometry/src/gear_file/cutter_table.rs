@@ -10,8 +10,8 @@ use serde::Deserialize;
 #[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CutterTable {
-    /// Number of teeth; where not given the fewest, from a third of the ring's on, whose involute reaches the ring's tip
-    /// and whose tip runs clear of it.
+    /// Number of teeth; where not given the fewest, from a third of the ring's on, whose involute reaches the ring's
+    /// tip and whose tip runs clear of it.
     teeth: Option<usize>,
     /// Profile shift coefficient in modules; 0 where not given.
     profile_shift: Option<Bounded<Within<-2, 2>>>,

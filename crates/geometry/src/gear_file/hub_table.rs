@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Deserialize, Serialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub struct HubTable {
-    /// "fixed", or "reference-point": rigid, with six degrees of freedom, on the axis at mid-face, of bevel gears at the pitch apex; "fixed" where not given.
+    /// "fixed", or "reference-point": rigid, with six degrees of freedom, on the axis at mid-face, of bevel gears at
+    /// the pitch apex; "fixed" where not given.
     #[serde(default)]
     support: HubSupport,
 }

@@ -74,8 +74,8 @@ pub enum ReliefWord {
 }
 
 impl MicrogeometryTable {
-    /// The microgeometry in SI units of a gear with this profile and face width \[m\]. The table stands at the dotted `path`;
-    /// files are relative to `folder`, none where only this document will be kept.
+    /// The microgeometry in SI units of a gear with this profile and face width \[m\]. The table stands at the dotted
+    /// `path`; files are relative to `folder`, none where only this document will be kept.
     ///
     /// # Errors
     /// [`InputError`] at the key, or in a file.
@@ -120,7 +120,8 @@ impl MicrogeometryTable {
         })
     }
 
-    /// Checks what can be said without the teeth: amounts that are allowed, and beside each the diameter or length that it needs.
+    /// Checks what can be said without the teeth: amounts that are allowed, and beside each the diameter or length that
+    /// it needs.
     ///
     /// # Errors
     /// [`InputError`] at the key.
@@ -234,7 +235,8 @@ impl SideTable<'_> {
         TableKeys::new(self.document, &place).require("", value, ok, allowed)
     }
 
-    /// An amount \[m\] and the length in millimetres that belongs to it; none where neither is given, nor any of `others`.
+    /// An amount \[m\] and the length in millimetres that belongs to it; none where neither is given, nor any of
+    /// `others`.
     fn together(
         &self,
         (amount_key, amount_um): (&str, Option<Amount>),

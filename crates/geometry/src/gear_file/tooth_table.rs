@@ -24,8 +24,8 @@ pub(super) struct ToothTable {
     profile_shift: Option<Bounded<Within<-2, 2>>>,
     /// Addendum of the tip in modules; 1 where not given. Not with tip_diameter_mm.
     addendum: Option<f64>,
-    /// Dedendum in modules: addendum of the cutting rack; 1.25 where not given. Not where a pinion cutter makes the root
-    /// of internal teeth.
+    /// Dedendum in modules: addendum of the cutting rack; 1.25 where not given. Not where a pinion cutter makes the
+    /// root of internal teeth.
     dedendum: Option<Bounded<Positive>>,
     /// Tip radius of the cutting rack in modules; 0.38 where not given. External teeth only.
     rack_tip_radius: Option<Bounded<NotNegative>>,

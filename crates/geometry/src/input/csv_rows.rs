@@ -50,8 +50,8 @@ pub fn shown_field(field: &str) -> String {
     shown
 }
 
-/// What a complaint about a row adds where its fields stand between other signs than commas, as decimal commas go with them;
-/// nothing where they do not.
+/// What a complaint about a row adds where its fields stand between other signs than commas, as decimal commas go with
+/// them; nothing where they do not.
 pub fn separator_hint(fields: &csv::StringRecord) -> &'static str {
     let has = |sign: char| fields.iter().any(|field| field.contains(sign));
     if has(';') {

@@ -1,5 +1,5 @@
-//! Tables whose keys belong to a kind: a tag, such as `kind = "linear"`, says which keys stand beside it. A key of another
-//! kind is refused with the kind that knows it.
+//! Tables whose keys belong to a kind: a tag, such as `kind = "linear"`, says which keys stand beside it. A key of
+//! another kind is refused with the kind that knows it.
 //!
 //! serde reads such tables, too, but forgets where it is as soon as it has seen the tag. Here complaints keep the key.
 
@@ -174,7 +174,8 @@ fn one_of(names: &[String]) -> String {
     }
 }
 
-/// Stands before and behind the path of a complaint that lies deeper than its reader knows; in no text that people write.
+/// Stands before and behind the path of a complaint that lies deeper than its reader knows; in no text that people
+/// write.
 const MARK: char = '\u{1f}';
 /// Between the parts of such a path.
 const PART: char = '\u{1e}';

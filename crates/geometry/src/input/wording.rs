@@ -88,7 +88,8 @@ fn allowed_type(allowed: &str) -> &str {
     }
 }
 
-/// For serde's "unknown field `a_m`, expected one of `a_mm`, ...": the expected key with the same stem, else the one that is written most alike.
+/// For serde's "unknown field `a_m`, expected one of `a_mm`, ...": the expected key with the same stem, else the one
+/// that is written most alike.
 fn hint(message: &str) -> Option<String> {
     let rest = message.strip_prefix("unknown field `")?;
     let (found, expected) = rest.split_once('`')?;

@@ -153,7 +153,8 @@ fn volume(mesh: &BevelMesh) -> f64 {
     six / 6.0
 }
 
-/// Webs with steep walls: rows would be too poor, the meridian is meshed freely instead. The teeth stay as they are, the volume is the same, the bore is round.
+/// Webs with steep walls: rows would be too poor, the meridian is meshed freely instead. The teeth stay as they are,
+/// the volume is the same, the bore is round.
 #[test]
 fn steep_webs_are_meshed_freely() {
     for (pair, member, bore, web) in [

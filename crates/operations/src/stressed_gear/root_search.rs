@@ -1,5 +1,6 @@
-//! Which of many loads strains the root of a tooth most: by a row of made-up gauges along the fillet, where its tangent stands at 30° to the tooth's centre line, as rating takes
-//! the critical section. The rows' readings under all unit loads are found at once, so that a run of thousands of rows costs little more than one field.
+//! Which of many loads strains the root of a tooth most: by a row of made-up gauges along the fillet, where its tangent
+//! stands at 30° to the tooth's centre line, as rating takes the critical section. The rows' readings under all unit
+//! loads are found at once, so that a run of thousands of rows costs little more than one field.
 //!
 //! Of a body whose openings make teeth differ the readings are those of tooth 0, and of a bore that is not held those
 //! of a held one. What is found picks the moment that is drawn; what is drawn is solved for all loads of that moment.
@@ -26,7 +27,8 @@ const LENGTH: f64 = 0.05;
 /// Root strain by unit loads.
 pub struct RootSearch<'a> {
     gear: &'a StressedGear,
-    /// `[side][gauge on tooth 0][tooth][component][load]` \[1/N\]; empty on a side that nothing loads, or whose fillet has no such tangent.
+    /// `[side][gauge on tooth 0][tooth][component][load]` \[1/N\]; empty on a side that nothing loads, or whose fillet
+    /// has no such tangent.
     readings: [Vec<Vec<f64>>; 2],
 }
 
@@ -46,7 +48,8 @@ impl<'a> RootSearch<'a> {
         Ok(Self { gear, readings })
     }
 
-    /// The largest strain of a root on the side that is pressed; of a fillet without the tangent the largest force on one tooth.
+    /// The largest strain of a root on the side that is pressed; of a fillet without the tangent the largest force on
+    /// one tooth.
     fn largest(&self, forces: &[PlacedForce]) -> Result<f64> {
         let (teeth, loads) = (self.gear.teeth(), self.gear.grid.len());
         let on_grid = self.gear.grid_forces(forces)?;

@@ -168,7 +168,8 @@ fn constant_amplitude_fails_at_its_own_life() {
     assert_eq!(none.life_h(1.0), f64::INFINITY);
 }
 
-/// The largest amplitude is the most damaging one, though only half a cycle of it is counted and a smaller one does more in all.
+/// The largest amplitude is the most damaging one, though only half a cycle of it is counted and a smaller one does
+/// more in all.
 #[test]
 fn the_most_damaging_cycle_is_that_of_the_shortest_life() {
     let curve = SnCurve::basquin(point(2e6, 300.0), 6.0, BelowTable::LastSlope).unwrap();

@@ -1,7 +1,8 @@
 //! A strain gauge in the root of a bevel tooth as one row of nodal weights.
 //!
-//! The gauge follows the fillet: its middle is where the fillet's tangent makes the asked angle with the tooth's centre line in the section normal to the
-//! tooth, in every section. Its direction is normal to the tooth in the surface, its width runs along the tooth.
+//! The gauge follows the fillet: its middle is where the fillet's tangent makes the asked angle with the tooth's centre
+//! line in the section normal to the tooth, in every section. Its direction is normal to the tooth in the surface, its
+//! width runs along the tooth.
 
 use gearmesh_bevel::{BevelError, BevelGauge, BevelGear};
 use gearmesh_fe::FeModel;
@@ -21,7 +22,8 @@ const LOOKS: usize = 48;
 /// The row of a gauge, placed on `tooth` instead of its own tooth.
 ///
 /// # Errors
-/// [`ReductionError::NoGaugePlace`] where the fillet has no such tangent, [`ReductionError::EmptyGauge`] when no face lies under it.
+/// [`ReductionError::NoGaugePlace`] where the fillet has no such tangent, [`ReductionError::EmptyGauge`] when no face
+/// lies under it.
 pub fn bevel_gauge_row(
     gear: &BevelGear,
     mesh: &BevelMesh,

@@ -1,8 +1,9 @@
 //! Unit loads on a bevel flank, spread by hats over a grid of shares up the flank and along it.
 //!
-//! Load (i, j) has the density h_i(u) h_j(s) a(u, s)/g(s) per du ds along the inward normal, a = |∂r/∂s × ∂r/∂u| the flank's area, g(s) = ∫₀¹ a du:
-//! over the profile hats are weighted by the area, along the tooth equally, so that slices of equal force make an even load along s.
-//! Places, areas and normals are those of the flank itself, shape functions those of the faces.
+//! Load (i, j) has the density h_i(u) h_j(s) a(u, s)/g(s) per du ds along the inward normal, a = |∂r/∂s × ∂r/∂u| the
+//! flank's area, g(s) = ∫₀¹ a du: over the profile hats are weighted by the area, along the tooth equally, so that
+//! slices of equal force make an even load along s. Places, areas and normals are those of the flank itself, shape
+//! functions those of the faces.
 
 use gearmesh_bevel::{BevelGear, FlankPatch};
 use gearmesh_geometry::Flank;

@@ -1,8 +1,9 @@
 //! The calibration of a bevel tooth's near field, in sections normal to the tooth.
 //!
-//! A contact line of a bevel flank runs nearly along the tooth; what a load on it does close by is a plane problem in the section across it. Both halves of the
-//! calibration are made there as for cylindrical gears: c₀ on a fine section with the true outlines, W on the tooth's own mesh seen along the tooth
-//! (`BevelSection`), under its own hats. The tooth tapers, so that there are several sections along it.
+//! A contact line of a bevel flank runs nearly along the tooth; what a load on it does close by is a plane problem in
+//! the section across it. Both halves of the calibration are made there as for cylindrical gears: c₀ on a fine section
+//! with the true outlines, W on the tooth's own mesh seen along the tooth (`BevelSection`), under its own hats. The
+//! tooth tapers, so that there are several sections along it.
 
 use faer::Mat;
 use gearmesh_bevel::{BevelGear, FlankPatch};
@@ -156,7 +157,8 @@ impl SmoothLine {
     }
 }
 
-/// Distances along the normal to the opposite side \[m\] at shares up the flanks, flank by flank, in the section at a share of the face.
+/// Distances along the normal to the opposite side \[m\] at shares up the flanks, flank by flank, in the section at a
+/// share of the face.
 ///
 /// # Errors
 /// [`ReductionError::Mesh`] where the tool leaves no surface.

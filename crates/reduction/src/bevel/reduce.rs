@@ -19,8 +19,8 @@ use crate::{GearBody, Progress, ReductionError};
 /// Reduces a bevel gear to its compliance at the flanks. The finite element model is handed back for pictures.
 ///
 /// # Errors
-/// [`ReductionError`] when the gear cannot be meshed or held, a gauge covers nothing, or an identity is violated by more
-/// than round-off explains.
+/// [`ReductionError`] when the gear cannot be meshed or held, a gauge covers nothing, or an identity is violated by
+/// more than round-off explains.
 pub fn reduce_bevel(
     gear: &BevelGear,
     options: ReductionOptions,

@@ -70,8 +70,8 @@ fn stress(body: &GearBody<BevelMesh>, faces: &[SkinFace], field: &Field) -> Vec<
     von_mises_on_faces(&body.model, faces, field.displacement_m.as_flattened()).unwrap()
 }
 
-/// The field of the ring by repetition is that of one factorisation of all of it; gauges read of it what their rows in the reduced model say;
-/// close to a gauge the stress of the surface is E times the strain that it reads.
+/// The field of the ring by repetition is that of one factorisation of all of it; gauges read of it what their rows in
+/// the reduced model say; close to a gauge the stress of the surface is E times the strain that it reads.
 #[test]
 fn fields_are_those_of_the_whole_and_gauges_read_them() {
     let tables = format!("{COARSE}symmetry = \"SYMMETRY\"\n{GAUGE}");
@@ -237,8 +237,8 @@ fn product_of(matrix: &SparseMatrix, x: &[f64], of: impl Fn(f64) -> f64) -> Vec<
     sum
 }
 
-/// Natural modes of the ring by harmonics against one eigenvalue problem of all of it; shapes have modal mass 1 and are orthogonal in M and K of the
-/// whole; the model file's rows are products of loads, gauges and rigid motions with them.
+/// Natural modes of the ring by harmonics against one eigenvalue problem of all of it; shapes have modal mass 1 and are
+/// orthogonal in M and K of the whole; the model file's rows are products of loads, gauges and rigid motions with them.
 #[test]
 fn modes_are_those_of_the_whole() {
     let tables = format!("{COARSEST}symmetry = \"SYMMETRY\"\n[modes]\ncount = 6\n{GAUGE}");
@@ -288,7 +288,8 @@ fn modes_are_those_of_the_whole() {
     rows_are_products(&model, ring, fields);
 }
 
-/// Rows of the first mode, alone at its frequency or not: sums of squares over pairs of equal frequency do not depend on how the pair lies.
+/// Rows of the first mode, alone at its frequency or not: sums of squares over pairs of equal frequency do not depend
+/// on how the pair lies.
 fn rows_are_products(model: &ReducedGear, ring: &GearBody<BevelMesh>, fields: &[Vec<f64>]) {
     let basis = model.modes.as_ref().unwrap();
     assert_eq!(basis.count(), fields.len());
@@ -313,7 +314,8 @@ fn rows_are_products(model: &ReducedGear, ring: &GearBody<BevelMesh>, fields: &[
     );
 }
 
-/// Rigid motions of the free body cost no energy, so that a body on a reference point moves as one: K R = 0 over all degrees of freedom.
+/// Rigid motions of the free body cost no energy, so that a body on a reference point moves as one: K R = 0 over all
+/// degrees of freedom.
 #[test]
 fn rigid_motions_cost_nothing() {
     let gear = gear(COARSE);

@@ -57,8 +57,8 @@ fn adjoint(
     model.gauges[gauge].adjoint[3 * at + component]
 }
 
-/// Strain across the tooth where the fillet's tangent makes the asked angle with the tooth's centre line, averaged over the gauge's width: from the displacements
-/// of nodes in the root alone.
+/// Strain across the tooth where the fillet's tangent makes the asked angle with the tooth's centre line, averaged over
+/// the gauge's width: from the displacements of nodes in the root alone.
 fn strain_in_the_root(gear: &BevelGear, body: &GearBody<BevelMesh>, u: &[f64]) -> f64 {
     let mesh = &body.mesh;
     let (sin, cos) = gear.blank().pitch_angle_rad.sin_cos();
@@ -112,8 +112,9 @@ fn strain_in_the_root(gear: &BevelGear, body: &GearBody<BevelMesh>, u: &[f64]) -
     sum / f64::from(count)
 }
 
-/// One factorisation of the whole gear under loads of both components, on both flanks: the gauge's row reads of it what the model foretells (to rounding), and so does a strain
-/// from displacements of root nodes alone (within what a gauge's length and the elements leave).
+/// One factorisation of the whole gear under loads of both components, on both flanks: the gauge's row reads of it what
+/// the model foretells (to rounding), and so does a strain from displacements of root nodes alone (within what a
+/// gauge's length and the elements leave).
 #[test]
 fn a_direct_solution_has_the_strain_that_gauges_read() {
     let mesh = "flank_mm = 2.0\nfillet_mm = 0.25\nbody_mm = 12.0\nalong_mm = 2.0\n";
@@ -186,8 +187,8 @@ fn gauges_on_other_teeth_read_the_same() {
     assert!((first.iter().zip(other)).all(|(a, b)| (a - b).abs() < 1e-9 * largest));
 }
 
-/// On the gear of the other hand the gauge in the left root reads what the one in the right root reads: loads along the normal and up the profile are mirrored, those along
-/// the tooth too, towards the heel.
+/// On the gear of the other hand the gauge in the left root reads what the one in the right root reads: loads along the
+/// normal and up the profile are mirrored, those along the tooth too, towards the heel.
 #[test]
 fn gauges_of_the_other_hand_are_mirrored() {
     let (_, one, _) = reduced("right", COARSE, &gauge("root", 0, "right"));

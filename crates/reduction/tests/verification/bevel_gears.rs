@@ -1,5 +1,5 @@
-//! Reduction of bevel gears: identities, the ring against one factorisation, mirror images, mass, gauges, the deflection of a tooth
-//! against another program's.
+//! Reduction of bevel gears: identities, the ring against one factorisation, mirror images, mass, gauges, the
+//! deflection of a tooth against another program's.
 
 use gearmesh_bevel::BevelGear;
 use gearmesh_geometry::input::InputDocument;
@@ -104,7 +104,8 @@ fn a_finer_mesh_comes_closer_to_quadratic_elements() {
     assert!(fine < 0.5 * coarse && fine < 0.03, "{coarse} {fine}");
 }
 
-/// Both flanks carry loads and both are loaded alike by their own: C_hub is symmetric over all teeth and flanks, and positive.
+/// Both flanks carry loads and both are loaded alike by their own: C_hub is symmetric over all teeth and flanks, and
+/// positive.
 #[test]
 fn betti_holds_between_all_teeth_and_flanks() {
     let model = coarse();
@@ -132,7 +133,8 @@ fn betti_holds_between_all_teeth_and_flanks() {
     assert!(at(0, 3) > at(0, 2) && at(0, 2) > at(1, 2) && at(1, 2) > at(2, 2).abs());
 }
 
-/// A left-hand gear is the mirror image of a right-hand one: right flanks are its left ones, teeth are counted the other way.
+/// A left-hand gear is the mirror image of a right-hand one: right flanks are its left ones, teeth are counted the
+/// other way.
 #[test]
 fn the_other_hand_is_the_mirror_image() {
     let folder = tempfile::tempdir().unwrap();
@@ -257,8 +259,9 @@ fn has_the_mass_of_its_surfaces(gear: &BevelGear, mesh: &BevelMesh) {
     assert!(error.abs() < 1e-3, "{mass} {exact}");
 }
 
-/// A gauge reads strain: nothing of a rigid motion, and tension on the loaded side for loads high on its own flank. Method 2 and method 1 agree
-/// where the near field of the load is gone: on other teeth exactly, near the tip of the own one within a part of the reading.
+/// A gauge reads strain: nothing of a rigid motion, and tension on the loaded side for loads high on its own flank.
+/// Method 2 and method 1 agree where the near field of the load is gone: on other teeth exactly, near the tip of the
+/// own one within a part of the reading.
 #[test]
 fn gauges_read_tension_on_the_loaded_side() {
     let more = format!(
@@ -284,8 +287,9 @@ fn gauges_read_tension_on_the_loaded_side() {
     plane_sections_stand_for_the_tooth(&model);
 }
 
-/// W of the section in the middle against the three-dimensional submodel of the tooth under a load along all of it, read in the middle: the tooth is some three times as long as
-/// thick, its ends are free and it tapers, so that a plane problem in the section normal to it is near the truth but not the truth.
+/// W of the section in the middle against the three-dimensional submodel of the tooth under a load along all of it,
+/// read in the middle: the tooth is some three times as long as thick, its ends are free and it tapers, so that a plane
+/// problem in the section normal to it is near the truth but not the truth.
 fn plane_sections_stand_for_the_tooth(model: &ReducedGear) {
     let field = model.bevel.as_ref().unwrap().near_field.as_ref().unwrap();
     let (stations, along) = (model.grid.roll_angles_rad.len(), model.grid.z_m.len());
@@ -317,7 +321,8 @@ fn plane_sections_stand_for_the_tooth(model: &ReducedGear) {
     }
 }
 
-/// Deflection of a tooth under patch loads against scikit-fem's tetrahedra over the same surface (tools/reference/bevel_tooth.py).
+/// Deflection of a tooth under patch loads against scikit-fem's tetrahedra over the same surface
+/// (tools/reference/bevel_tooth.py).
 #[test]
 fn tooth_deflection_is_that_of_another_program() {
     // On the default lengths it is up to 2.2 % stiffer than the reference.

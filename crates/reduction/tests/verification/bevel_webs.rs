@@ -108,7 +108,8 @@ fn identities_hold() {
     }
 }
 
-/// Largest difference between what a load does at another place of another tooth and flank, and the other way round, relative to the largest compliance.
+/// Largest difference between what a load does at another place of another tooth and flank, and the other way round,
+/// relative to the largest compliance.
 fn betti(model: &ReducedGear) -> f64 {
     let n = model.grid.len();
     let mut largest = 0.0_f64;
@@ -128,7 +129,8 @@ fn betti(model: &ReducedGear) -> f64 {
     largest / model.c_hub.iter().fold(0.0_f64, |m, v| m.max(v.abs()))
 }
 
-/// Deflection under a load over the whole width in the middle of the flank, at the loaded tooth, the next one and the one opposite \[m/N\].
+/// Deflection under a load over the whole width in the middle of the flank, at the loaded tooth, the next one and the
+/// one opposite \[m/N\].
 fn deflections(grid: BodyGrid, along_mm: f64) -> Vec<f64> {
     let lengths = format!(
         "[mesh]\nflank_mm = 2.0\nfillet_mm = 0.5\nbody_mm = {}\nalong_mm = {along_mm}\n[reduction]\nprofile_stations = 3\nslices = 2\nflanks = [\"right\"]\n",
@@ -152,7 +154,8 @@ fn deflections(grid: BodyGrid, along_mm: f64) -> Vec<f64> {
     [0, 1, 10].map(|tooth: usize| all[tooth]).to_vec()
 }
 
-/// Both ways of meshing the body come to the same: with equal teeth, what differs comes of the body alone, and falls as elements get shorter along the teeth and in the body.
+/// Both ways of meshing the body come to the same: with equal teeth, what differs comes of the body alone, and falls as
+/// elements get shorter along the teeth and in the body.
 #[test]
 fn both_ways_of_meshing_come_to_the_same() {
     // Four and eight elements along the teeth: an even number in both.

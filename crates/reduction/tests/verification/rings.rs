@@ -194,10 +194,10 @@ fn lugs_are_held_from_edge_to_edge() {
     }
 }
 
-/// Right flanks of all teeth pressed and left ones pulled alike twist the rim. An annulus in plane strain under the torque
-/// T, held outside at R, turns by T/(4πG b) (1/r² − 1/R²) at r (from τ = T/(2π r² b)): rings with two outsides differ by
-/// T/(4πG b) (1/R_1² − 1/R_2²) and by nothing else once the ripple of the teeth has died away, (r_f/R)^z: 1e-3 at the
-/// smaller one.
+/// Right flanks of all teeth pressed and left ones pulled alike twist the rim. An annulus in plane strain under the
+/// torque T, held outside at R, turns by T/(4πG b) (1/r² − 1/R²) at r (from τ = T/(2π r² b)): rings with two outsides
+/// differ by T/(4πG b) (1/R_1² − 1/R_2²) and by nothing else once the ripple of the teeth has died away, (r_f/R)^z:
+/// 1e-3 at the smaller one.
 #[test]
 fn all_teeth_together_twist_the_rim_as_an_annulus() {
     let fine = "plane_strain = true\nbody_mm = 1.5\n";
@@ -217,8 +217,8 @@ fn all_teeth_together_twist_the_rim_as_an_annulus() {
     );
 }
 
-/// Deflection of tooth 0's right flank less that of its left one where all right flanks carry 1 N and all left ones −1 N,
-/// at one station of their grid \[m/N\].
+/// Deflection of tooth 0's right flank less that of its left one where all right flanks carry 1 N and all left ones −1
+/// N, at one station of their grid \[m/N\].
 fn twist(model: &ReducedGear) -> f64 {
     let grid = &model.grid;
     let load = grid.load(1, 1);

@@ -30,9 +30,9 @@ const FUNCTIONS: [(&str, &str, Option<&str>); 3] = [
     ("windows", "speed_rad_per_s", Some("up")),
 ];
 
-/// Gives the functions of a table to `take`, one after the other: its columns of numbers over the axis, each torque or way
-/// of a sweep by itself. Values that are not there, and functions of less than two values, are left out; a table without
-/// an axis (contact, modes, ratings) has none. Axis and one column are in memory.
+/// Gives the functions of a table to `take`, one after the other: its columns of numbers over the axis, each torque or
+/// way of a sweep by itself. Values that are not there, and functions of less than two values, are left out; a table
+/// without an axis (contact, modes, ratings) has none. Axis and one column are in memory.
 ///
 /// # Errors
 /// [`ExportError::File`] if a column cannot be read; those of `take`.

@@ -1,5 +1,5 @@
-//! Channels of a CSV file as measuring programs write them: units in the heads or in a line of their own; comma, semicolon or tab between the
-//! fields; a decimal comma where no comma separates them.
+//! Channels of a CSV file as measuring programs write them: units in the heads or in a line of their own; comma,
+//! semicolon or tab between the fields; a decimal comma where no comma separates them.
 
 use super::unit::is_known;
 use super::{Channel, MeasuredError};
@@ -28,7 +28,8 @@ pub fn decoded(bytes: Vec<u8>) -> (String, Option<&'static str>) {
     }
 }
 
-/// The channels over the first column, or over the one called `axis`. Lines before the heads, as measuring programs write them, are passed over.
+/// The channels over the first column, or over the one called `axis`. Lines before the heads, as measuring programs
+/// write them, are passed over.
 ///
 /// # Errors
 /// [`MeasuredError::Table`] with the line; [`MeasuredError::NoChannel`] for an `axis` that is not there.
@@ -104,8 +105,9 @@ pub fn csv_channels(text: &str, axis: Option<&str>) -> Result<Vec<Channel>, Meas
     Ok(channels.collect())
 }
 
-/// Heads with their units, and the first row of numbers: the first one with an axis and a channel. The heads are the row before it, or the one
-/// before that where units stand between; where there is none, columns have numbers for names.
+/// Heads with their units, and the first row of numbers: the first one with an axis and a channel. The heads are the
+/// row before it, or the one before that where units stand between; where there is none, columns have numbers for
+/// names.
 fn heads_of(
     rows: &[(u64, Vec<String>)],
     delimiter: u8,
@@ -186,7 +188,8 @@ fn no_numbers(rows: &[(u64, Vec<String>)], delimiter: u8) -> MeasuredError {
     )
 }
 
-/// What separates the numbers: tabs, else semicolons, else commas; as in the first line that begins with a number, or the last line.
+/// What separates the numbers: tabs, else semicolons, else commas; as in the first line that begins with a number, or
+/// the last line.
 fn delimiter_of(text: &str) -> u8 {
     let begins = |line: &&str| {
         let line = line.trim_start_matches(['"', ' ', '+', '-']);

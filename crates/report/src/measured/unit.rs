@@ -82,8 +82,8 @@ pub(super) const TIME_S: Units = Units {
 };
 
 impl Units {
-    /// Value of one of these units, or of a part of it such as `rev/1024` (a pulse of an encoder); none where it is of another
-    /// quantity.
+    /// Value of one of these units, or of a part of it such as `rev/1024` (a pulse of an encoder); none where it is of
+    /// another quantity.
     pub fn factor(&self, unit: &str) -> Option<f64> {
         // German: a degree. In small letters it may be that or a gon, and is asked for.
         let unit = plain(if unit.trim() == "Grad" { "deg" } else { unit });

@@ -1,4 +1,5 @@
-//! The surface of a gear: the exact outline of the teeth over the height with faces and bore of a solid disc, or that of its finite elements.
+//! The surface of a gear: the exact outline of the teeth over the height with faces and bore of a solid disc, or that
+//! of its finite elements.
 
 use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve, ToothGeometry};
 use std::f64::consts::TAU;
@@ -40,7 +41,8 @@ enum Flanks {
 /// A face of finite elements on a flank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankFace {
-    /// Least and largest place along the profile: roll angle \[rad\], on a bevel gear the share of the way up the flank.
+    /// Least and largest place along the profile: roll angle \[rad\], on a bevel gear the share of the way up the
+    /// flank.
     pub along_profile: [f64; 2],
     /// Least and largest height \[m\], as [`super::FlankLoad::height_m`].
     pub heights_m: [f64; 2],
@@ -142,7 +144,8 @@ impl GearSurface {
         }
     }
 
-    /// The surface of a mesh of finite elements: points \[m\], corners, the tooth of each face, and the faces that right and left flanks are made of.
+    /// The surface of a mesh of finite elements: points \[m\], corners, the tooth of each face, and the faces that
+    /// right and left flanks are made of.
     #[must_use]
     pub fn of_elements(
         points_m: Vec<[f64; 3]>,
@@ -209,8 +212,8 @@ pub fn flank_directions(
     [turned(t.flank_normal(side, roll_rad)), turned([x, y, 0.0])]
 }
 
-/// The outline of tooth 0 from the middle of one tooth space to the next \[m\]; its last point is left to the next tooth, whose first
-/// one it is.
+/// The outline of tooth 0 from the middle of one tooth space to the next \[m\]; its last point is left to the next
+/// tooth, whose first one it is.
 #[must_use]
 pub fn tooth_outline(tooth: &ToothGeometry) -> Vec<[f64; 2]> {
     mirrored(&half_outline(tooth).0)
@@ -237,7 +240,8 @@ fn mirrored(right: &[[f64; 2]]) -> Vec<[f64; 2]> {
     right.iter().copied().chain(left).collect()
 }
 
-/// The right half of a tooth's outline from the middle of the space to that of the tip land, and how many quadrilaterals lie before the flank.
+/// The right half of a tooth's outline from the middle of the space to that of the tip land, and how many
+/// quadrilaterals lie before the flank.
 fn half_outline(tooth: &ToothGeometry) -> (Vec<[f64; 2]>, usize) {
     let curve = ProfileCurve::new(tooth);
     let mut points = Vec::new();

@@ -28,8 +28,8 @@ pub fn pair_surfaces(loaded: &LoadedScene, gears: [&GearDefinition; 2]) -> [Gear
     })
 }
 
-/// Angles by which both gears are turned about z at a torque and driver angle \[rad\], gear 2 beside gear 1 on +x: at zero the
-/// flanks of both teeth 0 touch at the pitch point.
+/// Angles by which both gears are turned about z at a torque and driver angle \[rad\], gear 2 beside gear 1 on +x: at
+/// zero the flanks of both teeth 0 touch at the pitch point.
 #[must_use]
 pub fn pair_turns(
     pair: &GearPair,
@@ -64,8 +64,8 @@ pub fn touching_points_m(pair: &GearPair, result: &SceneResult) -> Vec<[f64; 2]>
     places.roll_1_rad.iter().enumerate().map(point).collect()
 }
 
-/// Gear 1 stands at the origin, gear 2 beside it on +x; both turn about z as the transmission error says. Misalignment and axes beside the bores
-/// are too small to be seen and left out.
+/// Gear 1 stands at the origin, gear 2 beside it on +x; both turn about z as the transmission error says. Misalignment
+/// and axes beside the bores are too small to be seen and left out.
 #[must_use]
 pub fn pair_moment(
     loaded: &LoadedScene,

@@ -1,7 +1,7 @@
 //! A moment as a VTU file (VTK XML, unstructured grid of quadrilaterals and triangles), the series as a PVD file.
 //!
-//! Source: VTK file formats, docs.vtk.org, "XML file formats": binary arrays are base64, compressed ones preceded by a header of their own
-//! (number of blocks, size of a block, size of the last one where it is shorter, compressed sizes).
+//! Source: VTK file formats, docs.vtk.org, "XML file formats": binary arrays are base64, compressed ones preceded by a
+//! header of their own (number of blocks, size of a block, size of the last one where it is shorter, compressed sizes).
 
 use super::{GearSurface, Moment};
 use base64::Engine;
@@ -65,7 +65,8 @@ impl<'a> Series<'a> {
         }
     }
 
-    /// The file of a moment. Forces of several slices in one quadrilateral add up; of line loads and pressures the largest is kept.
+    /// The file of a moment. Forces of several slices in one quadrilateral add up; of line loads and pressures the
+    /// largest is kept.
     #[must_use]
     pub fn moment_text(&self, moment: &Moment) -> String {
         let mut points = Vec::with_capacity(12 * self.points);

@@ -1,4 +1,5 @@
-//! Balls and cages of bearings whose balls move: loads over the angle, the way of the cage's middle, how fast it turns and whirls.
+//! Balls and cages of bearings whose balls move: loads over the angle, the way of the cage's middle, how fast it turns
+//! and whirls.
 
 use gearmesh_model::FileError;
 use gearmesh_scene::system_run::SystemResult;

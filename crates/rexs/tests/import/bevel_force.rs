@@ -4,7 +4,8 @@ use gearmesh_rexs::bevel::BevelStage;
 use gearmesh_rexs::bevel_force::{Line, mean_force};
 use gearmesh_rexs::placement::{cross, dot};
 
-/// Seed 001's pair: 20/20, 3.5 mm, 35 degrees, 100 N m; F_t 3367 N, axially 2725 and radially -609 N, or the other way round.
+/// Seed 001's pair: 20/20, 3.5 mm, 35 degrees, 100 N m; F_t 3367 N, axially 2725 and radially -609 N, or the other way
+/// round.
 fn pair(is_right_hand: bool) -> BevelStage {
     BevelStage {
         pinion: 0,

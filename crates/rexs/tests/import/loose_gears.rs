@@ -1,4 +1,5 @@
-//! Gears that turn loose on their shafts, gears at the place of others, brakes, shafts that point against each other, collars.
+//! Gears that turn loose on their shafts, gears at the place of others, brakes, shafts that point against each other,
+//! collars.
 
 use crate::other_gearboxes::{Relation, component, demand_all_listed, model, shaft};
 use crate::{file, read};
@@ -38,8 +39,8 @@ fn load(id: usize, name: &str, torque: Option<&str>) -> String {
     component(id, "external_load", name, &values)
 }
 
-/// Two shafts with two pairs of gears, 20/40 at u = 60 and 30/30 at u = 120 mm; `further` components and relations, one of which
-/// seats the wheels 22 and 23 on the second shaft.
+/// Two shafts with two pairs of gears, 20/40 at u = 60 and 30/30 at u = 120 mm; `further` components and relations, one
+/// of which seats the wheels 22 and 23 on the second shaft.
 fn two_pairs(
     gear_in_use: &str,
     u_second: &str,

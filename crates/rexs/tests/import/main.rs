@@ -1,5 +1,5 @@
-//! REXS files in all containers, versions and states of repair. The gearbox is the shipped one, whose bearing forces are
-//! known by hand; the program's tests run what is imported here.
+//! REXS files in all containers, versions and states of repair. The gearbox is the shipped one, whose bearing forces
+//! are known by hand; the program's tests run what is imported here.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
 mod bad_files;

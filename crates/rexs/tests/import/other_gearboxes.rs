@@ -1,5 +1,5 @@
-//! Gearboxes that differ from the shipped one: a bevel and a cylindrical stage behind a coupling, with a load spectrum; a planetary stage. Every value
-//! of each file stands in one of the three lists.
+//! Gearboxes that differ from the shipped one: a bevel and a cylindrical stage behind a coupling, with a load spectrum;
+//! a planetary stage. Every value of each file stands in one of the three lists.
 
 use crate::{GEARBOX, file, names, read};
 use gearmesh_rexs::{Entry, Import};
@@ -298,7 +298,8 @@ fn nothing_is_dropped_in_silence() {
     }
 }
 
-/// Sun 20, planets 22, ring 64: planetary stages are not represented; what is not is told value by value, and what there is beside them is imported.
+/// Sun 20, planets 22, ring 64: planetary stages are not represented; what is not is told value by value, and what
+/// there is beside them is imported.
 #[test]
 fn of_a_planetary_stage_everything_is_told() {
     let gear = |teeth, place| {

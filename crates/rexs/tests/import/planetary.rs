@@ -5,8 +5,9 @@ use crate::other_gearboxes::{component, demand_all_listed, model, shaft};
 use crate::{file, read};
 use gearmesh_rexs::{Import, Meshes, Running, import_to_run};
 
-/// Sun 20, three planets 22, ring 64, as an industry program writes them: pins without a relation of their own, carriers in two
-/// halves. `brake` is what the ring's shaft is joined to: the casing, or nothing; `ring_load` a load on that shaft.
+/// Sun 20, three planets 22, ring 64, as an industry program writes them: pins without a relation of their own,
+/// carriers in two halves. `brake` is what the ring's shaft is joined to: the casing, or nothing; `ring_load` a load on
+/// that shaft.
 fn gearbox(held: &str, loads: &[(&str, usize, &str)]) -> String {
     gearbox_of([0.0, 120.0, 240.0], held, loads)
 }

@@ -1,5 +1,5 @@
-//! What files of programs hold besides what the schema shows: values that were not computed, empty arrays, comments, infinite stiffness,
-//! packed arrays, containers of several files, load cases of several spectra.
+//! What files of programs hold besides what the schema shows: values that were not computed, empty arrays, comments,
+//! infinite stiffness, packed arrays, containers of several files, load cases of several spectra.
 
 use crate::containers::zipped;
 use crate::{GEARBOX, changed, demand_same, file, message, names, read, small};
@@ -17,7 +17,8 @@ fn assumed(made: &Import, words: &str) -> bool {
 
 const PRESSURE_ANGLE: &str = "<attribute id=\"normal_module\"";
 
-/// Values that a program has not computed stand as NaN, or as arrays of nothing: they count as not given, and are listed.
+/// Values that a program has not computed stand as NaN, or as arrays of nothing: they count as not given, and are
+/// listed.
 #[test]
 fn values_that_are_none() {
     let plain = read(&small());
@@ -208,7 +209,8 @@ fn places_from_components_that_are_not_there_are_told() {
     ));
 }
 
-/// Two spectra whose cases have the same numbers: a scene for each case, and values of components that are not there are reported.
+/// Two spectra whose cases have the same numbers: a scene for each case, and values of components that are not there
+/// are reported.
 #[test]
 fn cases_of_several_spectra() {
     let case = |id: usize, torque: &str| {

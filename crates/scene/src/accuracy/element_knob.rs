@@ -33,8 +33,8 @@ enum Choice {
     Quadratic,
 }
 
-/// The knob of all reduced gears of a scene together; none without reduced gears, or where one of them has a mesh that is not made of
-/// hexahedra by this program.
+/// The knob of all reduced gears of a scene together; none without reduced gears, or where one of them has a mesh that
+/// is not made of hexahedra by this program.
 pub(super) fn of_gears(base: &BaseScene, folder: &Path, shelf: &ModelShelf) -> Option<Knob> {
     let mut gears: Vec<(String, GearDefinition)> = Vec::new();
     let in_pair = (1..=2).map(|gear| format!("pair.gear_{gear}"));

@@ -134,7 +134,8 @@ pub(super) fn of_bevel(file: &PairFile) -> Vec<Knob> {
             load.positions,
             4..=500,
         ));
-        // Models allow no more than their own, and half spaces are cut off in slices that are too short: none finer than stated.
+        // Models allow no more than their own, and half spaces are cut off in slices that are too short: none finer
+        // than stated.
         if let Some(own) = load.slices {
             let counts = [own / 4, own / 2, own];
             knobs.push(Knob::of("load.slices", allowed(&counts, 3..=100)));

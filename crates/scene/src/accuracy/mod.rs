@@ -1,5 +1,5 @@
-//! What accuracy costs in time, for a scene of the user's own: every knob that the scene has, one at a time and together,
-//! against a reference with all of them at the top.
+//! What accuracy costs in time, for a scene of the user's own: every knob that the scene has, one at a time and
+//! together, against a reference with all of them at the top.
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
@@ -13,7 +13,8 @@
 //! | what is judged where nothing is named | | `default_columns.rs` |
 //! | the lines to paste | | `paste.rs` |
 //!
-//! Errors are those against the reference of the same program: what no knob of the scene changes (its shafts, its loads) is in none of them.
+//! Errors are those against the reference of the same program: what no knob of the scene changes (its shafts, its
+//! loads) is in none of them.
 
 mod bench;
 mod chosen;

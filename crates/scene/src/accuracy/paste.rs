@@ -4,8 +4,8 @@ use toml::Value;
 
 use super::knobs::Knob;
 
-/// Keys and values of a setting. Keys of the `[[list]]` tables are grouped behind a comment with the table's name, which `name_of` tells; keys
-/// of gear files behind one that names the file's key.
+/// Keys and values of a setting. Keys of the `[[list]]` tables are grouped behind a comment with the table's name,
+/// which `name_of` tells; keys of gear files behind one that names the file's key.
 pub(super) fn to_paste(
     knobs: &[Knob],
     rungs: &[usize],
@@ -49,7 +49,8 @@ pub(super) fn to_paste(
     grouped.into_iter().flat_map(of_group).collect()
 }
 
-/// Puts a key into the table that stands there already, or behind the others: `model = { ... }` takes no `model.slices` beside it.
+/// Puts a key into the table that stands there already, or behind the others: `model = { ... }` takes no `model.slices`
+/// beside it.
 fn add(lines: &mut Vec<(String, Value)>, key: &str, value: &Value) {
     if let Some((parent, last)) = key.split_once('.') {
         let table = lines.iter_mut().find(|(known, _)| known == parent);

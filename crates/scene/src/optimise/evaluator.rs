@@ -31,7 +31,8 @@ pub struct Trial {
     pub yielding: Option<ColumnPressure>,
 }
 
-/// A term, looked up: place of its column among those that are wanted, place of its torque (all of them where none), weight.
+/// A term, looked up: place of its column among those that are wanted, place of its torque (all of them where none),
+/// weight.
 type Term = (usize, Option<usize>, f64);
 
 /// The wanted columns, a row for each torque, and the column under whose pressure steel yields.

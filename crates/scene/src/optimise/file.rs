@@ -39,7 +39,8 @@ pub struct OptimiseTables {
     /// What manufacture and mounting add.
     #[serde(default)]
     pub scatter: Vec<ScatterTable>,
-    /// With `[[scatter]]`: how many pairs of the workshop a choice is tried on, always the same ones; 8 where not given.
+    /// With `[[scatter]]`: how many pairs of the workshop a choice is tried on, always the same ones; 8 where not
+    /// given.
     pub scatter_samples: Option<usize>,
     /// With `[[scatter]]`: what of these pairs counts; "mean" where not given.
     pub judged_by: Option<Judged>,

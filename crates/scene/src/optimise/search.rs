@@ -1,8 +1,9 @@
 //! Which choices are tried: a particle swarm, then a simplex from its best, for each weighting of the objectives.
 //!
-//! Several objectives f_k are weighed as max_k w_k (f_k − least_k)/(largest_k − least_k) plus a hundredth of the mean, least and
-//! largest from the searches for each alone (augmented Chebyshev scalarisation: Steuer and Choo, Mathematical
-//! Programming 26 (1983) 326-344), which reaches hollow parts of the front, too. Every trial of every search counts for the front.
+//! Several objectives f_k are weighed as max_k w_k (f_k − least_k)/(largest_k − least_k) plus a hundredth of the mean,
+//! least and largest from the searches for each alone (augmented Chebyshev scalarisation: Steuer and Choo, Mathematical
+//! Programming 26 (1983) 326-344), which reaches hollow parts of the front, too. Every trial of every search counts for
+//! the front.
 
 use argmin::core::{CostFunction, Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
@@ -111,7 +112,8 @@ fn values_at(problem: &Optimisation, shares: &[f64]) -> Vec<f64> {
 /// of how many searches are done.
 ///
 /// # Errors
-/// [`StudyError`] for a file whose keys, columns or torques the scene does not have, and where no choice can be computed.
+/// [`StudyError`] for a file whose keys, columns or torques the scene does not have, and where no choice can be
+/// computed.
 pub fn optimise(
     problem: &Optimisation,
     scratch: &Path,
@@ -221,8 +223,8 @@ fn weighing(number: usize, count: usize, ends: &[Trial], all: usize) -> Weighing
     Weighing::Between((0..count).map(of).collect())
 }
 
-/// Weights of a search between the objectives: of two evenly spaced, of more by Kronecker's sequence of the golden ratio and its
-/// likes, spread over the simplex.
+/// Weights of a search between the objectives: of two evenly spaced, of more by Kronecker's sequence of the golden
+/// ratio and its likes, spread over the simplex.
 fn between(number: usize, count: usize, searches: usize) -> Vec<f64> {
     if count == 2 {
         let share = (number + 1) as f64 / (searches + 1) as f64;

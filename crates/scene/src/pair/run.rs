@@ -100,8 +100,8 @@ pub struct LoadedScene {
     pub condensed: CondensedPairs,
 }
 
-/// Where models are not there yet, the gear files of the same names beside them say whether the gears run together: told
-/// before minutes go into reducing them.
+/// Where models are not there yet, the gear files of the same names beside them say whether the gears run together:
+/// told before minutes go into reducing them.
 ///
 /// # Errors
 /// [`InputError`] for gears that do not run together, as two of one hand.

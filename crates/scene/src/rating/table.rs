@@ -73,12 +73,12 @@ pub struct NominalTable {
     pub from_s: Option<f64>,
     /// Multibody scenes: name of a `[[gear_mesh]]`.
     pub mesh: Option<String>,
-    /// Where the whole force acts on the tooth for Lewis's stress: "highest-single-contact", or "tip", safer and for any
-    /// contact ratio; the former where not given.
+    /// Where the whole force acts on the tooth for Lewis's stress: "highest-single-contact", or "tip", safer and for
+    /// any contact ratio; the former where not given.
     #[serde(default)]
     pub load_point: LoadPointWord,
-    /// Tolerance class of ISO 1328-1, 0 to 12, the worse one of both gears: with 4 or better teeth of a virtual contact ratio above 2.05 have a deep tooth
-    /// factor Y_DT below 1 (ISO 6336-3). 1 where not given.
+    /// Tolerance class of ISO 1328-1, 0 to 12, the worse one of both gears: with 4 or better teeth of a virtual contact
+    /// ratio above 2.05 have a deep tooth factor Y_DT below 1 (ISO 6336-3). 1 where not given.
     pub tolerance_class: Option<Count<0, 12>>,
 }
 

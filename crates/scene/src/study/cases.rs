@@ -161,8 +161,8 @@ pub struct StudyScenes {
 }
 
 impl StudyScenes {
-    /// Makes the scenes of all cases: a wrong key is reported before the first run, not after it. `out`: the folder of the
-    /// study, of which only the name is used.
+    /// Makes the scenes of all cases: a wrong key is reported before the first run, not after it. `out`: the folder of
+    /// the study, of which only the name is used.
     ///
     /// # Errors
     /// [`InputError`] for the first scene that is wrong.
@@ -203,12 +203,12 @@ impl StudyScenes {
         })
     }
 
-    /// Checks the columns that the study asks for: those of the scene as it is; and that its results are not larger than
-    /// is allowed.
+    /// Checks the columns that the study asks for: those of the scene as it is; and that its results are not larger
+    /// than is allowed.
     ///
     /// # Errors
-    /// [`StudyError`] for a column that is not there, with near names, for a scene that cannot be loaded, and for results
-    /// that are too large.
+    /// [`StudyError`] for a column that is not there, with near names, for a scene that cannot be loaded, and for
+    /// results that are too large.
     pub fn check_columns(&self, study: &Study, rest: &RestCases) -> Result<(), StudyError> {
         let (known, kinds) = known_columns(&self.base, rest)?;
         for (number, one) in study.wanted().iter().enumerate() {

@@ -12,8 +12,8 @@ use gearmesh_model::read_reduced_gear;
 use super::subject::is_bearing;
 use crate::scene_file::InputKind;
 
-/// Checks a changed gear, bevel pair or bearing file, so that a wrong key is reported before anything is computed; files of other kinds are left
-/// to who reads them.
+/// Checks a changed gear, bevel pair or bearing file, so that a wrong key is reported before anything is computed;
+/// files of other kinds are left to who reads them.
 ///
 /// # Errors
 /// [`InputError`] with the key, what was found and what is allowed.

@@ -7,7 +7,8 @@
 //! | `latin-hypercube` | as many as `samples` says; each parameter has one of them in each of as many shares of equal probability, in a random order (McKay, Beckman, Conover, Technometrics 21 (1979) 239-245) |
 //! | `random` | as many as `samples` says, drawn one by one; more samples leave the first ones as they were |
 //!
-//! What is random depends on the seed and on the parameter's name alone: a further parameter changes none of the others.
+//! What is random depends on the seed and on the parameter's name alone: a further parameter changes none of the
+//! others.
 
 use fastrand::Rng;
 use schemars::JsonSchema;

@@ -1,8 +1,9 @@
 //! The cases of a study for computers that have only what they are sent, and the table of what came back.
 //!
-//! One computer lists the cases ([`StudyCases`]); each has the name of the file that the study will look for. Others run them
-//! ([`CaseRunner`]), where the files that a scene names may lie elsewhere. [`gather_study`] makes the table of what lies in
-//! the folder then. A case has the same file, byte by byte as far as it can, as if [`super::run_study`] had made it.
+//! One computer lists the cases ([`StudyCases`]); each has the name of the file that the study will look for. Others
+//! run them ([`CaseRunner`]), where the files that a scene names may lie elsewhere. [`gather_study`] makes the table of
+//! what lies in the folder then. A case has the same file, byte by byte as far as it can, as if [`super::run_study`]
+//! had made it.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -125,8 +126,8 @@ impl CaseRunner {
         system_cases::is_there(&file, &case.identity)
     }
 
-    /// Runs a case into a folder unless its file is there: true where it was computed, none where it was stopped. `places`:
-    /// where files lie here that lie elsewhere where the case comes from.
+    /// Runs a case into a folder unless its file is there: true where it was computed, none where it was stopped.
+    /// `places`: where files lie here that lie elsewhere where the case comes from.
     ///
     /// # Errors
     /// [`StudyError`]: what keeps the case from being run.
@@ -166,8 +167,8 @@ fn relocated(
     Ok(InputDocument::new(case.title.clone(), text))
 }
 
-/// Makes the table of a study from what lies in its folder; nothing is computed. `failures`: why cases have failed, by the
-/// names of their files.
+/// Makes the table of a study from what lies in its folder; nothing is computed. `failures`: why cases have failed, by
+/// the names of their files.
 ///
 /// # Errors
 /// As [`super::run_study`] for the study as a whole.

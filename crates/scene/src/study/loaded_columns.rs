@@ -42,8 +42,8 @@ pub(crate) fn is_without_load(column: &str) -> bool {
 }
 
 impl RestFigures {
-    /// All columns of a bevel pair, and its result under the torques of its `[load]`, if it has any. Models are those of
-    /// the shelf, which reads each once.
+    /// All columns of a bevel pair, and its result under the torques of its `[load]`, if it has any. Models are those
+    /// of the shelf, which reads each once.
     ///
     /// # Errors
     /// [`StudyError`] where the flanks cannot be made or do not touch, a model cannot be read or is not that of the

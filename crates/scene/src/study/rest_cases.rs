@@ -1,5 +1,5 @@
-//! The cases of what is studied at rest, a gear pair, a bevel pair or a bearing: all columns of each in a small file, so that a further
-//! column asks for no further computation, and models that are read and condensed once.
+//! The cases of what is studied at rest, a gear pair, a bevel pair or a bearing: all columns of each in a small file,
+//! so that a further column asks for no further computation, and models that are read and condensed once.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -103,7 +103,8 @@ impl SpacedTable {
 mod tests {
     use super::*;
 
-    /// Quantiles of the standard normal distribution: Abramowitz and Stegun, Handbook of Mathematical Functions, table 26.5.
+    /// Quantiles of the standard normal distribution: Abramowitz and Stegun, Handbook of Mathematical Functions,
+    /// table 26.5.
     #[test]
     fn quantiles_are_those_of_the_tables() {
         let normal = NormalTable {

@@ -23,8 +23,8 @@ use crate::system_run::MOST_RESULT_BYTES;
 pub struct StudyTables {
     /// Title in prints.
     pub title: String,
-    /// What is varied, relative to this file: a scene of a gear pair, a multibody scene of any run, a bevel pair (its tooth contact
-    /// analysis) or a bearing.
+    /// What is varied, relative to this file: a scene of a gear pair, a multibody scene of any run, a bevel pair (its
+    /// tooth contact analysis) or a bearing.
     pub scene: PathBuf,
     /// With a bearing: what it carries. Its keys vary as "operation.load_N.2".
     pub operation: Option<OperationTable>,
@@ -35,8 +35,8 @@ pub struct StudyTables {
     pub samples: Option<usize>,
     /// With design = "latin-hypercube" or "random": other seeds give other samples; 0 where not given.
     pub seed: Option<u64>,
-    /// Columns whose figures are listed: of gear pairs, bevel pairs, bearings and natural frequencies those that docs/scene.md names, otherwise
-    /// columns of the result, or COLUMN:FIGURE for one number of them.
+    /// Columns whose figures are listed: of gear pairs, bevel pairs, bearings and natural frequencies those that
+    /// docs/scene.md names, otherwise columns of the result, or COLUMN:FIGURE for one number of them.
     pub columns: Vec<String>,
     /// Run "transient": the figures are those from this time on; 0 where not given.
     #[serde(default)]

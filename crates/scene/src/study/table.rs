@@ -7,8 +7,8 @@ use gearmesh_model::csv_cell;
 use super::cases::{CaseResult, Selected, SelectedValue};
 use super::study_file::Study;
 
-/// A line for each case, of gear pairs for each case and torque, with the columns side by side where each is a single number; otherwise a line for
-/// each case and column.
+/// A line for each case, of gear pairs for each case and torque, with the columns side by side where each is a single
+/// number; otherwise a line for each case and column.
 pub(super) fn table(study: &Study, results: &[CaseResult]) -> String {
     let found = results
         .iter()

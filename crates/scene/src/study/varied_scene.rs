@@ -61,8 +61,8 @@ pub struct BaseScene {
 }
 
 impl BaseScene {
-    /// Reads the scene and begins the microgeometry that `keys` vary and that the scene leaves to the gear files. `operation` is what a
-    /// bearing carries, whose keys stand behind those of its file.
+    /// Reads the scene and begins the microgeometry that `keys` vary and that the scene leaves to the gear files.
+    /// `operation` is what a bearing carries, whose keys stand behind those of its file.
     ///
     /// # Errors
     /// [`InputError`] for a scene that is wrong as it is, and for a gear file that cannot be read.
@@ -118,8 +118,8 @@ impl BaseScene {
         &self.document.file
     }
 
-    /// The value that stands at a key of the scene; none where the scene does not state it. A key that was a word in a former form and is a
-    /// table now is the table.
+    /// The value that stands at a key of the scene; none where the scene does not state it. A key that was a word in a
+    /// former form and is a table now is the table.
     #[must_use]
     pub fn value(&self, key: &str) -> Option<toml::Value> {
         match found_at(&self.begun, key) {
@@ -128,8 +128,8 @@ impl BaseScene {
         }
     }
 
-    /// The value that stands at a key of the scene, or of a file that it names (`FILE-KEY:KEY`); none where it is not stated, or the file
-    /// cannot be read.
+    /// The value that stands at a key of the scene, or of a file that it names (`FILE-KEY:KEY`); none where it is not
+    /// stated, or the file cannot be read.
     #[must_use]
     pub fn stated(&self, key: &str) -> Option<toml::Value> {
         let Some((file, inner)) = key.split_once(':') else {

@@ -101,7 +101,8 @@ impl SystemResult {
         Ok(found)
     }
 
-    /// Gears with gauges that go round less than once in some window of a speed sweep, in words; axes are taken to stand.
+    /// Gears with gauges that go round less than once in some window of a speed sweep, in words; axes are taken to
+    /// stand.
     #[must_use]
     pub fn incomplete_windows(&self) -> Vec<String> {
         let Some(sweep) = &self.sweep else {
@@ -197,8 +198,8 @@ impl SystemResult {
     }
 }
 
-/// How many stretches of (turning \[rad/s\], time \[s\]) hold less than a revolution, and the fewest revolutions; none where
-/// all hold one.
+/// How many stretches of (turning \[rad/s\], time \[s\]) hold less than a revolution, and the fewest revolutions; none
+/// where all hold one.
 fn short_of_a_revolution(stretches: impl Iterator<Item = (f64, f64)>) -> Option<(usize, f64)> {
     let turns = stretches.map(|(rad_per_s, seconds)| rad_per_s.abs() * seconds / TAU);
     let short = turns.filter(|turns| *turns < 1.0 - ROUNDING);

@@ -124,8 +124,8 @@ fn a_stated_matrix_is_the_bearings_stiffness() {
     }
 }
 
-/// The tangent of a bearing file: the shaft rests where it does on the balls themselves, vibrates as it does there, and the notes say how often the
-/// tangent was taken.
+/// The tangent of a bearing file: the shaft rests where it does on the balls themselves, vibrates as it does there, and
+/// the notes say how often the tangent was taken.
 #[test]
 fn a_tangent_is_that_of_the_operating_point() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,5 @@
-//! The rotor of seed 002, sound and with spalls, its gear rig, and the bearing pair of seed 000, all shorter than shipped.
+//! The rotor of seed 002, sound and with spalls, its gear rig, and the bearing pair of seed 000, all shorter than
+//! shipped.
 
 use std::sync::atomic::AtomicBool;
 
@@ -19,8 +20,9 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Three turns of the rotor: balls go round at the fundamental train frequency of its table 2, 0.399 of the shaft's 10 Hz, and cages with them. With a spall on the outer
-/// or the inner race of the loaded bearing its ring shakes at BPFO or BPFI, 3.5913 and 5.4087 times the shaft's frequency, and not without.
+/// Three turns of the rotor: balls go round at the fundamental train frequency of its table 2, 0.399 of the shaft's 10
+/// Hz, and cages with them. With a spall on the outer or the inner race of the loaded bearing its ring shakes at BPFO
+/// or BPFI, 3.5913 and 5.4087 times the shaft's frequency, and not without.
 #[test]
 fn the_rotor_of_seed_002_turns_in_its_bearings_and_shows_their_spalls() {
     let scene = changed(&text("rotor_9_balls.toml"), "end_s = 1.0", "end_s = 0.3");
@@ -100,8 +102,9 @@ fn amplitude(values: &[f64], middle: f64, frequency_hz: f64) -> f64 {
     2.0 * sum[0].hypot(sum[1]) / weights
 }
 
-/// Seed 002's gear rig, load brought up within 20 ms: the mesh shows at 250 Hz and its multiples in the transmission error and in the vertical force on a bearing (its
-/// vertical contact force), the bearings of a shaft carry what the mesh and its weight ask for, and friction that turns round within 1 mm/s is no obstacle to steps of 5 us.
+/// Seed 002's gear rig, load brought up within 20 ms: the mesh shows at 250 Hz and its multiples in the transmission
+/// error and in the vertical force on a bearing (its vertical contact force), the bearings of a shaft carry what the
+/// mesh and its weight ask for, and friction that turns round within 1 mm/s is no obstacle to steps of 5 us.
 #[test]
 fn the_gear_rig_of_seed_002_shows_its_mesh_frequency() {
     let scene = changed(
@@ -150,8 +153,9 @@ fn the_gear_rig_of_seed_002_shows_its_mesh_frequency() {
     );
 }
 
-/// Seed 000's pair at 500 N and 6000 rpm with its cages, a hundredth of a second: without load but the preload all balls carry alike, 500 N/(18 sin α) and what
-/// their centrifugal force changes; balls go round as they roll, cages with them.
+/// Seed 000's pair at 500 N and 6000 rpm with its cages, a hundredth of a second: without load but the preload all
+/// balls carry alike, 500 N/(18 sin α) and what their centrifugal force changes; balls go round as they roll, cages
+/// with them.
 #[test]
 fn the_pair_of_seed_000_runs_with_its_cages() {
     let whole = text("spindle_6000_rpm.toml");

@@ -1,4 +1,5 @@
-//! Bevel teeth in motion where it is hard: edges, few teeth, light loads, lift-off, reversal, wrong mounting. Every run is made with two steps.
+//! Bevel teeth in motion where it is hard: edges, few teeth, light loads, lift-off, reversal, wrong mounting. Every run
+//! is made with two steps.
 
 use std::f64::consts::{PI, TAU};
 
@@ -216,7 +217,8 @@ fn contact_jumps_from_pair_to_pair_under_a_light_load() {
     println!("mean normal force {mean:.1} N (allowed 33.7 to 50.5 N)");
 }
 
-/// The shaft angle 24 mrad off, the gear 0.8 mm too far out: contact at the edges of the path, and no more. The other way the teeth jam, which is reported.
+/// The shaft angle 24 mrad off, the gear 0.8 mm too far out: contact at the edges of the path, and no more. The other
+/// way the teeth jam, which is reported.
 #[test]
 fn wrong_angle_and_wrong_cone_distance() {
     let at = |position: f64, angle: f64| {
@@ -245,7 +247,8 @@ fn wrong_angle_and_wrong_cone_distance() {
     }
 }
 
-/// A drive that shakes at 400 Hz tears the teeth apart and drives them against both sides; a ramp without load does it once.
+/// A drive that shakes at 400 Hz tears the teeth apart and drives them against both sides; a ramp without load does it
+/// once.
 #[test]
 fn teeth_lift_off_and_come_back() {
     let shaking = "{ sum = [1500.0, { sine = { amplitude = 300.0, frequency_Hz = 400.0 } }] }";
@@ -348,7 +351,8 @@ fn axes_at_60_degrees() {
     );
 }
 
-/// Angles at which teeth stand in teeth are refused before the run, also where a tooth stands in the middle of a tooth and neither side finds its mate.
+/// Angles at which teeth stand in teeth are refused before the run, also where a tooth stands in the middle of a tooth
+/// and neither side finds its mate.
 #[test]
 fn teeth_in_teeth_are_refused() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,5 @@
-//! The hard cases of bevel teeth in motion once more, the contact in slices on rigid gears whose surfaces deflect. Every run is made with two steps.
+//! The hard cases of bevel teeth in motion once more, the contact in slices on rigid gears whose surfaces deflect.
+//! Every run is made with two steps.
 
 use std::f64::consts::TAU;
 
@@ -28,7 +29,8 @@ fn largest_loads(shown: &Shown) -> Vec<f64> {
     (1..=COUNT).map(largest).collect()
 }
 
-/// Offsets of half a millimetre push the load to the slice at the toe or to that at the heel; the other half of the face is free.
+/// Offsets of half a millimetre push the load to the slice at the toe or to that at the heel; the other half of the
+/// face is free.
 #[test]
 fn slices_carry_at_toe_and_heel() {
     for (offset, at_toe) in [(0.5, true), (-0.5, false)] {
@@ -54,7 +56,8 @@ fn slices_carry_at_toe_and_heel() {
     }
 }
 
-/// The shaft angle 24 mrad too large, the gear 0.8 mm too far out: the ratio stays. The other way the teeth jam, which is reported.
+/// The shaft angle 24 mrad too large, the gear 0.8 mm too far out: the ratio stays. The other way the teeth jam, which
+/// is reported.
 #[test]
 fn slices_at_a_wrong_angle_and_cone_distance() {
     let at = |position: f64, angle: f64| {
@@ -83,7 +86,8 @@ fn slices_at_a_wrong_angle_and_cone_distance() {
     }
 }
 
-/// Under a newton metre one or two pairs carry and the mean force is that of statics, although single pairs lift off as the next one takes over.
+/// Under a newton metre one or two pairs carry and the mean force is that of statics, although single pairs lift off as
+/// the next one takes over.
 #[test]
 fn slices_under_a_light_load() {
     let shown = run(&pair(), &in_slices(&at_3000_rpm(1.0)), 0.02);
@@ -105,7 +109,8 @@ fn slices_under_a_light_load() {
 fn slices_lift_off_and_come_back() {
     let shaking = "{ sum = [1500.0, { sine = { amplitude = 300.0, frequency_Hz = 400.0 } }] }";
     let light = "{ step = { start_s = 0.0, from = 0.0, end_s = 0.003, to = 3.0 } }";
-    // The gear flies from side to side, 6.5 mrad apart: when it strikes depends on the step a little, and with it the mean and the last angle.
+    // The gear flies from side to side, 6.5 mrad apart: when it strikes depends on the step a little, and with it the
+    // mean and the last angle.
     let shaken = in_slices(&scene(shaking, light, 0.012));
     let shown = run_within(&pair(), &shaken, [0.05, 3e-4]);
     let force = shown.force();

@@ -97,7 +97,8 @@ fn seed_001_has_its_forces_ratio_and_mesh_lines() {
     }
 }
 
-/// The shipped scene in slices: the forces of statics, the load over the slices, the transmission error of the pair at rest.
+/// The shipped scene in slices: the forces of statics, the load over the slices, the transmission error of the pair at
+/// rest.
 #[test]
 fn slices_of_seed_001_carry_its_load() {
     let scene = changed(
@@ -171,8 +172,8 @@ fn a_pair_of_another_shaft_angle_turns_at_its_ratio() {
     );
 }
 
-/// The pinion as facets: the same motion however fine they are. Tips carry here; facets end there, so that the pair sinks in deeper than the smooth one, whose
-/// contact counts as a whole ellipse.
+/// The pinion as facets: the same motion however fine they are. Tips carry here; facets end there, so that the pair
+/// sinks in deeper than the smooth one, whose contact counts as a whole ellipse.
 #[test]
 fn flanks_as_facets_run_like_smooth_ones() {
     let smooth = changed(&at_speed(), "end_s = 0.026", "end_s = 0.004");

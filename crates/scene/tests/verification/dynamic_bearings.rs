@@ -211,7 +211,8 @@ fn a_resumed_run_on_balls_in_equilibrium_is_the_same() {
     assert_same(&whole, &stopped);
 }
 
-/// `start = "equilibrium"`: the shaft begins where it rests on balls in equilibrium at speed, and every ball with its load there.
+/// `start = "equilibrium"`: the shaft begins where it rests on balls in equilibrium at speed, and every ball with its
+/// load there.
 #[test]
 fn a_run_begins_in_equilibrium() {
     let folder = folder();

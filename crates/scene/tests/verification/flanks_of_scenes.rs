@@ -1,5 +1,5 @@
-//! Microgeometry and slices belong to the scene: one reduced model, many flanks. Against the closed form of rigid gears and against
-//! the same keys in the gear file.
+//! Microgeometry and slices belong to the scene: one reduced model, many flanks. Against the closed form of rigid gears
+//! and against the same keys in the gear file.
 
 use std::path::Path;
 
@@ -38,8 +38,8 @@ fn at_rest(torque_nm: f64, flanks: &str, folder: &Path) -> SceneResult {
     result_of(&scene_text(torque_nm, "", flanks), folder).unwrap()
 }
 
-/// Transmission error of rigid gears at a driver angle: the pair whose flanks stand farthest out touches, in the slice where they do.
-/// `removed_m` of each gear at its roll angle and z, written out here.
+/// Transmission error of rigid gears at a driver angle: the pair whose flanks stand farthest out touches, in the slice
+/// where they do. `removed_m` of each gear at its roll angle and z, written out here.
 fn rigid_te_m(theta: f64, removed_m: &dyn Fn(usize, f64, f64) -> f64) -> f64 {
     let (cos, a) = (20f64.to_radians().cos(), 0.1068);
     let base = [30.0, 41.0].map(|z| 0.5 * 3e-3 * z * cos);
@@ -76,8 +76,8 @@ fn way(x: f64, from: f64, to: f64) -> f64 {
     ((x - from) / (to - from)).max(0.0)
 }
 
-/// One model file, every law: first touch of the flanks, and the transmission error under a load that bends nothing, are those of rigid
-/// gears; the model is not written again.
+/// One model file, every law: first touch of the flanks, and the transmission error under a load that bends nothing,
+/// are those of rigid gears; the model is not written again.
 #[test]
 fn unloaded_curves_are_those_of_rigid_gears_whatever_the_flanks() {
     let folder = tempfile::tempdir().unwrap();
@@ -103,7 +103,8 @@ fn unloaded_curves_are_those_of_rigid_gears_whatever_the_flanks() {
             }),
         ),
         (
-            // Along the whole path, so that no position is without it: 2 mm of roll length for 600 um turn the arc by a third of a radian.
+            // Along the whole path, so that no position is without it: 2 mm of roll length for 600 um turn the arc by a
+            // third of a radian.
             "[gear_1.microgeometry]\ntip_relief_um = 600.0\ntip_relief_start_diameter_mm = 86.0\ntip_relief_shape = \"arc\"\n",
             on_1(
                 |x, _, [start, tip, base]| {
@@ -381,9 +382,9 @@ fn what_would_be_ignored_is_refused() {
     }
 }
 
-/// A crowned, tilted pair on models with twelve slices of their own: twice as many slices come three times nearer to those of the
-/// finest layout that the models resolve. Beyond the models' own, the edge of the contact, which lies in one slice or the next,
-/// leaves less than 1 %.
+/// A crowned, tilted pair on models with twelve slices of their own: twice as many slices come three times nearer to
+/// those of the finest layout that the models resolve. Beyond the models' own, the edge of the contact, which lies in
+/// one slice or the next, leaves less than 1 %.
 #[test]
 fn transmission_error_converges_with_the_slices() {
     let folder = tempfile::tempdir().unwrap();

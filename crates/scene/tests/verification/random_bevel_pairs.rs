@@ -310,8 +310,8 @@ fn check_motion(
         let built = match built {
             Ok(built) => built,
             Err(error) => {
-                // Their patches reach over the whole flank, which may be undercut where the path never comes; teeth that
-                // overlap by nearly what is allowed do so by more at some turn.
+                // Their patches reach over the whole flank, which may be undercut where the path never comes; teeth
+                // that overlap by nearly what is allowed do so by more at some turn.
                 let words = error.to_string();
                 let jams = pair.jam.is_some() && words.contains("in each other");
                 assert!(jams || words.contains("undercut"), "{words}\n{text}");

@@ -200,7 +200,8 @@ fn bad_bearing_files_are_told() {
     assert!(told.contains("radial_stiffness_N_per_mm"), "{told}");
 }
 
-/// A shaft between two single rows that turns freely rests as one that a torsion spring holds: nothing that is rounding resists its turn.
+/// A shaft between two single rows that turns freely rests as one that a torsion spring holds: nothing that is rounding
+/// resists its turn.
 #[test]
 fn a_free_shaft_between_two_rows_comes_to_rest() {
     let tapered = "name = \"tapered\"\nkind = \"tapered-roller\"\nrollers = 17\nroller_diameter_mm = 10.0\nroller_length_mm = 15.0\n\

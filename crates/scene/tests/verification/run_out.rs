@@ -1,4 +1,5 @@
-//! Gears that stand beside the axes about which they turn, or askew: the transmission error that a mesh tells is that of the bodies' turns.
+//! Gears that stand beside the axes about which they turn, or askew: the transmission error that a mesh tells is that
+//! of the bodies' turns.
 
 use gearmesh_scene::system_run::RunJob;
 

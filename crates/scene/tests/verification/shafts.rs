@@ -233,8 +233,8 @@ body = "pinion"
 torque_Nm = 40.0
 "#;
 
-/// A pinion cut into its shaft: the core is in the gear, once. The shaft's mass is that beyond the faces, 40 and 50 mm of it, and so is its
-/// twist; what the core twists is in the reduced gear. No station may lie within the face.
+/// A pinion cut into its shaft: the core is in the gear, once. The shaft's mass is that beyond the faces, 40 and 50 mm
+/// of it, and so is its twist; what the core twists is in the reduced gear. No station may lie within the face.
 #[test]
 fn the_core_of_a_pinion_cut_into_its_shaft_counts_once() {
     let folder = tempfile::tempdir().unwrap();

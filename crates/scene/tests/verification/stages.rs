@@ -147,7 +147,8 @@ fn springs_at_rest_do_not_hide_power_that_does_not_balance() {
     assert_eq!(told(&with(&of("pinion"), -10.0)), None);
 }
 
-/// The largest force of the equilibria is rated: 100 N m on the wheel's base circle, beside the load factor of one half.
+/// The largest force of the equilibria is rated: 100 N m on the wheel's base circle, beside the load factor of one
+/// half.
 #[test]
 fn equilibria_have_nominal_ratings() {
     let model = "{ kind = \"iso6336\", slices = 5 }";

@@ -115,8 +115,8 @@ fn a_tilted_pair_between_two_torques_comes_to_rest() {
     }
 }
 
-/// A load that turns the wheel away from the only flanks that the mesh has is named by its sense, as in a run in time; the
-/// gears were sent round until their axes were said to be tilted.
+/// A load that turns the wheel away from the only flanks that the mesh has is named by its sense, as in a run in time;
+/// the gears were sent round until their axes were said to be tilted.
 #[test]
 fn a_load_against_the_only_flanks_is_named() {
     for model in ["iso6336", "analytic"] {
@@ -136,8 +136,9 @@ fn a_load_against_the_only_flanks_is_named() {
     }
 }
 
-/// Teeth that are open by micrometres at the start come together, at whatever angle the gears stand. What rounding leaves of a free turn in the equations
-/// of its joint was taken for a resistance; 19 of 160 such starts sent the wheel the wrong way.
+/// Teeth that are open by micrometres at the start come together, at whatever angle the gears stand. What rounding
+/// leaves of a free turn in the equations of its joint was taken for a resistance; 19 of 160 such starts sent the wheel
+/// the wrong way.
 #[test]
 fn open_teeth_come_together_wherever_the_gears_stand() {
     // T/r_b2: 40 teeth, module 3 mm. Corrections end at 1e-12 rad, 3e-6 of the deflection.

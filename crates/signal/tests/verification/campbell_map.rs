@@ -101,8 +101,8 @@ fn mean_and_trend_are_no_lines() {
     for row in &map {
         let (line, found) = row.spectrum.peak(0.0, 40.0).unwrap();
         assert!((row.spectrum.at(line) - 17.0).abs() < 1e-12 && (found - 30.0).abs() < 0.1);
-        // A straight line in time bends over the angle: by ¼ · ½ · |d²t/dn²| of the block's turns squared where 10 turns a
-        // second become more by 4 in each. A line of the spectrum has at most twice that.
+        // A straight line in time bends over the angle: by ¼ · ½ · |d²t/dn²| of the block's turns squared where 10
+        // turns a second become more by 4 in each. A line of the spectrum has at most twice that.
         let bent = 2e-3 * RATE_HZ * 0.125 * (4.0 / 10_f64.powi(3)) * 4_f64.powi(2);
         let (_, beside) = row.spectrum.peak(0.0, 15.0).unwrap();
         assert!(beside < 2.0 * bent, "{beside} {bent}");

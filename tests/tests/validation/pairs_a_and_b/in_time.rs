@@ -1,7 +1,7 @@
 //! Pairs A and B at 10 rpm against rest: the same multibody scene as a series of equilibria, and the pair at rest.
 //!
-//! On the extended path, where no force jumps. (On the rigid path it jumps where a pair leaves under load: gear 2 rings however
-//! slow it turns, and 0.6 µm of a jump became 2 µm peak to peak with hardly any damping.)
+//! On the extended path, where no force jumps. (On the rigid path it jumps where a pair leaves under load: gear 2 rings
+//! however slow it turns, and 0.6 µm of a jump became 2 µm peak to peak with hardly any damping.)
 
 use super::{TEETH, document, models, pair, swing};
 use gearmesh_geometry::input::InputDocument;
@@ -79,14 +79,16 @@ fn swings(name: &str, moves: bool) -> [f64; 3] {
     [of("elements/mesh/transmission_error_m"), a, b]
 }
 
-/// How far a swing can be off where gear 2 is met a little further along its flank: each end by the curve's steepest part.
+/// How far a swing can be off where gear 2 is met a little further along its flank: each end by the curve's steepest
+/// part.
 fn shifted(curve: &[f64], step_rad: f64, shift_rad: f64) -> f64 {
     let steps = curve.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     2.0 * steps.fold(0.0, f64::max) * shift_rad / step_rad
 }
 
-/// Within one per cent in time and as equilibria of the same scene. The pair at rest takes gear 2's flank where it stands without load;
-/// under load it stands x = −TE behind and is met x further along, so that its curves are shifted by that much at most.
+/// Within one per cent in time and as equilibria of the same scene. The pair at rest takes gear 2's flank where it
+/// stands without load; under load it stands x = −TE behind and is met x further along, so that its curves are shifted
+/// by that much at most.
 fn at_rest_and_in_time(rest: &str, moving: &str) {
     let [still, moved] = [false, true].map(|moves| swings(moving, moves));
     for (what, (still, moved)) in ["TE", GAUGES[0], GAUGES[1]]

@@ -1,9 +1,9 @@
-//! Pairs A and B of seed 004 (docs/sources.md) as `cargo xtask demo` runs them: against the records that were computed independently
-//! (`reference/pair_a`, `reference/pair_b`), in time at 10 rpm against rest, and against the figures that docs/demo.md
-//! prints.
+//! Pairs A and B of seed 004 (docs/sources.md) as `cargo xtask demo` runs them: against the records that were computed
+//! independently (`reference/pair_a`, `reference/pair_b`), in time at 10 rpm against rest, and against the figures that
+//! docs/demo.md prints.
 //!
-//! A record's jumps where pairs come and go make its figures those of its own positions, so ours are computed at the same
-//! ones, 48 a pitch. Bounds are what both sides state: our mesh error and the record's uncertainty.
+//! A record's jumps where pairs come and go make its figures those of its own positions, so ours are computed at the
+//! same ones, 48 a pitch. Bounds are what both sides state: our mesh error and the record's uncertainty.
 
 mod in_time;
 mod pages;

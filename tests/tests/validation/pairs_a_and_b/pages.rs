@@ -75,7 +75,8 @@ fn table(heading: &str) -> Vec<(String, Vec<f64>)> {
         .collect()
 }
 
-/// What of a printed table is not its figures, to half of the last digit printed and as much for another processor's rounding.
+/// What of a printed table is not its figures, to half of the last digit printed and as much for another processor's
+/// rounding.
 fn misprints(heading: &str, computed: &[(String, Vec<f64>)], digits: &[usize]) -> Vec<String> {
     println!("{heading}");
     for (name, values) in computed {
@@ -163,8 +164,8 @@ fn the_page_of_lightweight_gears_prints_what_is_computed() {
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
-/// The pair of teeth 0 and 0 of pair A at 300 N·m, every sixth of a pitch: relative radius, force, line load, half width,
-/// pressure, and how far the flanks would overlap if they were rigid.
+/// The pair of teeth 0 and 0 of pair A at 300 N·m, every sixth of a pitch: relative radius, force, line load, half
+/// width, pressure, and how far the flanks would overlap if they were rigid.
 fn along_the_path(r: &SceneResult) -> Vec<(String, Vec<f64>)> {
     let torque = 5;
     let pitch = std::f64::consts::TAU / TEETH as f64;

@@ -18,8 +18,8 @@ const STRAIN_WITHIN: f64 = 0.01;
 const OVER_SLOTS: f64 = 0.0075;
 
 /// Transmission error of one torque. What the mesh gets wrong is a share of the elastic part: that bounds its mean, its
-/// swing and each of its orders. To them comes the record's uncertainty; an order has at most half of the swing's, times 4/π
-/// where the difference is a rectangle.
+/// swing and each of its orders. To them comes the record's uncertainty; an order has at most half of the swing's,
+/// times 4/π where the difference is a rectangle.
 fn transmission_error(it: &SeriesComparison, (result, k): (&SceneResult, usize), share: f64) {
     let te = result.curve(&result.te_m, k);
     let elastic: Vec<f64> = te

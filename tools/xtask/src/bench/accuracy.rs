@@ -1,4 +1,5 @@
-//! `cargo xtask accuracy-cost`: what accuracy costs in time, by `gearmesh accuracy` on scenes of every kind, in one page and one picture.
+//! `cargo xtask accuracy-cost`: what accuracy costs in time, by `gearmesh accuracy` on scenes of every kind, in one
+//! page and one picture.
 //!
 //! Processor time counts: it hardly changes where other work shares the machine.
 
@@ -209,7 +210,8 @@ const MODELS: [(&str, &str); 13] = [
     ("wheel_47_drilled", "pair_23_47"),
 ];
 
-/// Tries all scenes, writes the page and the picture. A scene that fails is told in its place, and the command fails at the end.
+/// Tries all scenes, writes the page and the picture. A scene that fails is told in its place, and the command fails at
+/// the end.
 ///
 /// # Errors
 /// [`XtaskError`] where the program does not build, a gear is not reduced or a file cannot be written.
@@ -319,8 +321,8 @@ fn reduce(bench: &Bench, gear: &str, folder: &str) -> Result<(), XtaskError> {
     })
 }
 
-/// What `gearmesh accuracy` says of a scene, or has said before where neither program, scene nor arguments have changed since: a page that was
-/// broken off goes on where it was.
+/// What `gearmesh accuracy` says of a scene, or has said before where neither program, scene nor arguments have changed
+/// since: a page that was broken off goes on where it was.
 fn tried(bench: &Bench, subject: &Subject) -> Result<Value, String> {
     let scene = scene_file(bench, subject)?;
     let arguments = arguments(&scene, subject);

@@ -146,7 +146,8 @@ fn by_quantity(found: &[Tried<'_>]) -> String {
           [benchmarks/elements.md](benchmarks/elements.md), bearings and chains of bodies in [benchmarks/bearings.md](benchmarks/bearings.md) and [benchmarks/chain.md](benchmarks/chain.md).\n"
 }
 
-/// One line for each scene and goal: the setting that is recommended, its error when it was run again, and how much faster it is.
+/// One line for each scene and goal: the setting that is recommended, its error when it was run again, and how much
+/// faster it is.
 fn summary(found: &[Tried<'_>]) -> String {
     let mut table = "\n## Recommended settings, tried\n\n\
         | scene | reference s | for 1 %: error % | s | times faster | for 0.1 %: error % | s | times faster | last step of the reference % |\n\

@@ -53,7 +53,8 @@ impl Beside {
         loads().sum::<f64>() / loads().count() as f64
     }
 
-    /// Largest and root mean square difference of a ball's load, in percent of the mean load, and largest of the cage's speed in percent.
+    /// Largest and root mean square difference of a ball's load, in percent of the mean load, and largest of the cage's
+    /// speed in percent.
     fn apart(&self, other: &Self) -> [f64; 3] {
         let pairs = || {
             let samples = self.inner_n.iter().zip(&other.inner_n);

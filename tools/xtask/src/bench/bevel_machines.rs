@@ -1,4 +1,5 @@
-//! `cargo xtask accuracy-cost bevel-machines`: seed 000's machines with every fidelity of their bearings, what each costs and what it changes.
+//! `cargo xtask accuracy-cost bevel-machines`: seed 000's machines with every fidelity of their bearings, what each
+//! costs and what it changes.
 
 mod flexibility;
 

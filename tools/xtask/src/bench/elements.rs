@@ -1,4 +1,5 @@
-//! `cargo xtask accuracy-cost elements`: error and cost of every element, mesh size and local term, in one table and one plot.
+//! `cargo xtask accuracy-cost elements`: error and cost of every element, mesh size and local term, in one table and
+//! one plot.
 //!
 //! Each case is the program itself, as a user runs it: `reduce`, then `compliance` at seven radii and two half widths
 //! for each local term, then a short `run` of the gear against itself. What a program does not know (an element of a

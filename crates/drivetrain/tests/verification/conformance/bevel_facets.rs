@@ -1,4 +1,5 @@
-//! Bevel flanks as triangles and quadrilaterals: the force does not depend on how fine they are, and the suite of all families holds.
+//! Bevel flanks as triangles and quadrilaterals: the force does not depend on how fine they are, and the suite of all
+//! families holds.
 
 use gearmesh_drivetrain::flank_contacts::FlankContacts;
 use gearmesh_drivetrain::*;
@@ -27,7 +28,8 @@ fn approach_m(mesh: &BevelMesh, pose: &Pose) -> f64 {
     -found.contacts[0].gap_m
 }
 
-/// Approaches of facets with halved edges, over that of the smooth flanks, less 1: the worst of four places inside the flanks.
+/// Approaches of facets with halved edges, over that of the smooth flanks, less 1: the worst of four places inside the
+/// flanks.
 fn off_smooth<const N: usize>(pair: &Pair, meshes: &[BevelMesh; N], depth_m: f64) -> [f64; N] {
     let pitch = std::f64::consts::TAU / 20.0;
     let error = assembly(AS_DESIGNED);
@@ -45,7 +47,8 @@ fn off_smooth<const N: usize>(pair: &Pair, meshes: &[BevelMesh; N], depth_m: f64
     off
 }
 
-/// The approach settles with the square of the edges, to that of a paraboloid as far as the flanks are one: the rest grows with the depth.
+/// The approach settles with the square of the edges, to that of a paraboloid as far as the flanks are one: the rest
+/// grows with the depth.
 #[test]
 fn the_approach_of_facets_does_not_depend_on_their_number() {
     let pair = pair("bevel_20_20.toml");

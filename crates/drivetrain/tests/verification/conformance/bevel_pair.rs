@@ -316,8 +316,8 @@ pub(crate) fn steel_pa() -> f64 {
     contact_modulus_pa((206e9, 0.3), (206e9, 0.3))
 }
 
-/// K of contacts after Hertz is that of the curvatures which the exact surfaces have in the tooth contact analysis: F = K
-/// δ^1.5 there, and it differs along the path.
+/// K of contacts after Hertz is that of the curvatures which the exact surfaces have in the tooth contact analysis: F =
+/// K δ^1.5 there, and it differs along the path.
 #[test]
 fn bevel_contacts_have_the_stiffness_of_their_curvatures() {
     let pair = pair("bevel_13_35.toml");

@@ -165,7 +165,8 @@ fn bodies(flanks: &BevelSlices) -> [ReducedGear; 2] {
     [0, 1].map(|member| made_up_bevel(flanks, member))
 }
 
-/// Reduced gears feel where slices stand up the flank and along the teeth; so do members of unequal faces and teeth, of the other hand.
+/// Reduced gears feel where slices stand up the flank and along the teeth; so do members of unequal faces and teeth, of
+/// the other hand.
 #[test]
 fn reduced_bevel_slices_conform() {
     for name in ["bevel_20_20.toml", "bevel_13_35.toml"] {
@@ -178,8 +179,8 @@ fn check_reduced(name: &str) {
     let flanks = slices(&pair, ALONG);
     let bodies = bodies(&flanks);
     let mut poses = poses(&pair, 12e-6);
-    // What tangents leave out, the change of the compliance, grows with the force: on these soft bodies it is 0.6 % of them, more where an error of assembly
-    // presses teeth without backlash on both sides.
+    // What tangents leave out, the change of the compliance, grows with the force: on these soft bodies it is 0.6 % of
+    // them, more where an error of assembly presses teeth without backlash on both sides.
     poses.retain(|pose| {
         Flank::ALL
             .iter()
@@ -213,8 +214,8 @@ fn check_reduced(name: &str) {
     }
 }
 
-/// Iterates next to a first guess, which take from there what hardly changes, have the loads of their poses by themselves, from fewer points of flanks; far
-/// ones are computed anew.
+/// Iterates next to a first guess, which take from there what hardly changes, have the loads of their poses by
+/// themselves, from fewer points of flanks; far ones are computed anew.
 #[test]
 fn iterates_of_bevel_slices_have_the_loads_of_their_poses() {
     let pair = pair("bevel_20_20.toml");

@@ -1,4 +1,5 @@
-//! Flanks that are no involutes run through the same models and must do what follows: two crowned cylinders whose axes cross at 60°.
+//! Flanks that are no involutes run through the same models and must do what follows: two crowned cylinders whose axes
+//! cross at 60°.
 
 use std::f64::consts::FRAC_PI_3;
 use std::sync::Arc;

@@ -1,5 +1,5 @@
-//! Gear 1 and gear 2 exchanged: the same loads on the same bodies, whatever the pair, its faces, its pose and the model. Without friction, which
-//! acts on gear 1's flank: it differs by the deflection over the radius.
+//! Gear 1 and gear 2 exchanged: the same loads on the same bodies, whatever the pair, its faces, its pose and the
+//! model. Without friction, which acts on gear 1's flank: it differs by the deflection over the radius.
 
 use gearmesh_contact::{LocalContact, SliceLayout};
 use gearmesh_drivetrain::pose::Vector6;

@@ -1,4 +1,5 @@
-//! Gaps of bevel teeth followed over a pitch and more: from inside to edges, corners and the next pair of teeth none jumps, and none that overlaps is lost.
+//! Gaps of bevel teeth followed over a pitch and more: from inside to edges, corners and the next pair of teeth none
+//! jumps, and none that overlaps is lost.
 
 use std::f64::consts::TAU;
 
@@ -129,8 +130,9 @@ fn contacts_of_hard_pairs_are_not_lost() {
             AS_DESIGNED,
             [0.0, 2.5e-5 * module, -1.25e-5 * module, -2e-3],
         ] {
-            // Steps of 0.004 of a pitch: gaps depart from their gradients as in the test above, in lengths of the module. Where two contacts of misaligned teeth
-            // change over off the tabled turns, the gap jumps by 5 um in 15/16 and by 1.2 um in 24/53 (docs/limits.md).
+            // Steps of 0.004 of a pitch: gaps depart from their gradients as in the test above, in lengths of the
+            // module. Where two contacts of misaligned teeth change over off the tabled turns, the gap jumps by 5 um in
+            // 15/16 and by 1.2 um in 24/53 (docs/limits.md).
             let touches_twice = matches!(hard.teeth, [15, 16] | [24, 53]);
             let jump_m = match touches_twice && errors != AS_DESIGNED {
                 true => 6e-6,

@@ -1,5 +1,5 @@
-//! Gaps of any pair at any pose, looked at from elsewhere: mirrored, turned over, some teeth further on, and slid along the axes. Exchange of the
-//! gears is in exchange.rs, with the loads.
+//! Gaps of any pair at any pose, looked at from elsewhere: mirrored, turned over, some teeth further on, and slid along
+//! the axes. Exchange of the gears is in exchange.rs, with the loads.
 
 use gearmesh_contact::SliceLayout;
 use gearmesh_drivetrain::flank_contacts::FlankContacts;

@@ -5,8 +5,8 @@ use gearmesh_drivetrain::*;
 use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
-/// Secant stiffness over a mesh cycle at a deflection of 10 µm: of the same order for all models of one pair. The numbers are stated;
-/// impact and iso6336 have theirs as parameters (impact: 2e6 N/mm^1.5 a pair).
+/// Secant stiffness over a mesh cycle at a deflection of 10 µm: of the same order for all models of one pair. The
+/// numbers are stated; impact and iso6336 have theirs as parameters (impact: 2e6 N/mm^1.5 a pair).
 #[test]
 fn stiffnesses_are_of_one_order() {
     let pair = spur_pair();
@@ -57,8 +57,8 @@ fn stiffnesses_are_of_one_order() {
     assert!((found[1] / 3e8 - 1.0).abs() < 1e-3, "{}", found[1]);
 }
 
-/// One spring for the mesh carries alike over the whole cycle, also where the path of contact lies so far to one side of the pitch point that
-/// the pair nearest to that point is a tip edge beyond the end of its flank.
+/// One spring for the mesh carries alike over the whole cycle, also where the path of contact lies so far to one side
+/// of the pitch point that the pair nearest to that point is a tip edge beyond the end of its flank.
 #[test]
 fn one_spring_never_stands_on_a_tip_edge() {
     let pair = pair_common::pair(

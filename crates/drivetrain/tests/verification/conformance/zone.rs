@@ -69,8 +69,8 @@ fn displaced_pose(pair: &GearPair, displacement_m: f64, theta: f64) -> Pose {
     pose(pair, screwed, shift, Vector3::new(1e-4, -0.5e-4, 0.0))
 }
 
-/// The load is minus the gradient of the energy wherever the faces overlap: the zone's width and place, the leads below it, and the screw of helical
-/// teeth are all in it.
+/// The load is minus the gradient of the energy wherever the faces overlap: the zone's width and place, the leads below
+/// it, and the screw of helical teeth are all in it.
 #[test]
 fn loads_follow_from_the_energy_on_faces_that_overlap_in_part() {
     let models = [
@@ -109,8 +109,8 @@ fn loads_follow_from_the_energy_on_faces_that_overlap_in_part() {
     }
 }
 
-/// On parallel axes the force of teeth that are pressed together evenly goes through the middle of the overlap, whichever gear is the wider, and
-/// shrinks with it.
+/// On parallel axes the force of teeth that are pressed together evenly goes through the middle of the overlap,
+/// whichever gear is the wider, and shrinks with it.
 #[test]
 fn the_force_stands_in_the_middle_of_the_overlap() {
     let pair = spur_pair();
@@ -156,8 +156,9 @@ fn the_force_stands_in_the_middle_of_the_overlap() {
     }
 }
 
-/// Over a revolution of tilted gears nothing is won or lost: the loads' work is the change of the energy, which comes back with every pitch. `iso6336` made
-/// 1e-4 of the energy of the teeth a pitch on helical gears while its spring went from pair to pair.
+/// Over a revolution of tilted gears nothing is won or lost: the loads' work is the change of the energy, which comes
+/// back with every pitch. `iso6336` made 1e-4 of the energy of the teeth a pitch on helical gears while its spring went
+/// from pair to pair.
 #[test]
 fn a_revolution_of_tilted_gears_makes_no_energy() {
     for pair in pairs() {

@@ -64,8 +64,8 @@ fn random_pose(pair: &GearPair, number: usize, tilt_rad: f64) -> Pose {
     )
 }
 
-/// The load is minus the gradient of the energy, at both ends of the path: what the walking of the contacts and the shrinking of the slices
-/// at the ends store is felt as force.
+/// The load is minus the gradient of the energy, at both ends of the path: what the walking of the contacts and the
+/// shrinking of the slices at the ends store is felt as force.
 #[test]
 fn loads_follow_from_the_energy() {
     let external = helical_pair(17.0);
@@ -116,8 +116,8 @@ fn loads_follow_from_the_energy() {
     }
 }
 
-/// On parallel axes: F_axial = F_t tan β_b towards the side that the hand says, torques in the ratio of the base radii, however the slices
-/// share the load, up to what the walking of the contacts adds.
+/// On parallel axes: F_axial = F_t tan β_b towards the side that the hand says, torques in the ratio of the base radii,
+/// however the slices share the load, up to what the walking of the contacts adds.
 #[test]
 fn torques_and_axial_force_balance() {
     for helix_deg in [12.0, -30.0] {
@@ -144,7 +144,8 @@ fn torques_and_axial_force_balance() {
                             walking += *force * contact.gradient;
                         }
                     }
-                    // Right-hand gear 2 is a left-hand gear 1's mate: pushed to +z by right flanks of a right-hand gear 1.
+                    // Right-hand gear 2 is a left-hand gear 1's mate: pushed to +z by right flanks of a right-hand
+                    // gear 1.
                     let sigma = side.mirror();
                     assert!((walking[2] - sigma * sin * normal).abs() < 1e-12 * normal);
                     assert!((walking[5] - sigma * cos * r2 * normal).abs() < 1e-12 * normal);
@@ -164,9 +165,9 @@ fn torques_and_axial_force_balance() {
     }
 }
 
-/// Same transmission error as the static contact on the rigid path, all local contacts. That one takes compliance at the roll angle that
-/// gear 2 has without load and has no force from the walking of the contacts and the shrinking of slices: the two differ by deflection
-/// over pitch, so that the difference falls with the square of the load.
+/// Same transmission error as the static contact on the rigid path, all local contacts. That one takes compliance at
+/// the roll angle that gear 2 has without load and has no force from the walking of the contacts and the shrinking of
+/// slices: the two differ by deflection over pitch, so that the difference falls with the square of the load.
 #[test]
 fn at_rest_it_is_the_static_contact() {
     let pair = helical_pair(20.0);
@@ -214,7 +215,8 @@ fn at_rest_it_is_the_static_contact() {
     }
 }
 
-/// A helix of a billionth of a degree is a spur pair. On parallel axes: spur slices have the roll angle at mid-face, helical ones their own.
+/// A helix of a billionth of a degree is a spur pair. On parallel axes: spur slices have the roll angle at mid-face,
+/// helical ones their own.
 #[test]
 fn a_vanishing_helix_is_a_spur_pair() {
     let (spur, almost) = (helical_pair(0.0), helical_pair(1e-9));
@@ -237,8 +239,8 @@ fn a_vanishing_helix_is_a_spur_pair() {
     }
 }
 
-/// The torque at a given transmission error runs through the changes of pairs: its largest step falls with the steps of the angle, at both ends
-/// of the path, while that of a spur pair on the rigid path does not.
+/// The torque at a given transmission error runs through the changes of pairs: its largest step falls with the steps of
+/// the angle, at both ends of the path, while that of a spur pair on the rigid path does not.
 #[test]
 fn forces_are_continuous() {
     let largest_step = |pair: &GearPair, ends: PathEnds, points: usize| {
@@ -255,7 +257,8 @@ fn forces_are_continuous() {
     for (pair, ends, least, most) in [
         (&spur, PathEnds::LineOfAction, 0.8, 1.1),
         (&spur, PathEnds::Extended, 0.0, 0.1),
-        // In a corner a line begins with a slice's edge under load: the energy per width of that edge is a force along the path, 1e-3 of all.
+        // In a corner a line begins with a slice's edge under load: the energy per width of that edge is a force along
+        // the path, 1e-3 of all.
         (&helical, PathEnds::LineOfAction, 0.0, 0.2),
         (&helical, PathEnds::Extended, 0.0, 0.1),
     ] {
@@ -269,8 +272,8 @@ fn forces_are_continuous() {
     }
 }
 
-/// A constant c_γα of ISO 6336-1, a force over an arc of the base circle, carries T = c_γα b TE r_b2 whatever the helix and the place in the
-/// mesh cycle.
+/// A constant c_γα of ISO 6336-1, a force over an arc of the base circle, carries T = c_γα b TE r_b2 whatever the helix
+/// and the place in the mesh cycle.
 #[test]
 fn the_spring_of_iso_6336_is_that_of_the_transverse_plane() {
     for helix_deg in [0.0, 15.0, 31.0] {

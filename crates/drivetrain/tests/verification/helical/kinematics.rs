@@ -1,4 +1,5 @@
-//! Gaps, roll angles, shares and their derivatives of helical pairs: against the static scene, points and normals of the flanks, differences.
+//! Gaps, roll angles, shares and their derivatives of helical pairs: against the static scene, points and normals of
+//! the flanks, differences.
 
 use std::sync::Arc;
 
@@ -13,8 +14,8 @@ use nalgebra::Vector3;
 const SIDES: [Flank; 2] = [Flank::Right, Flank::Left];
 const ENDS: [PathEnds; 2] = [PathEnds::LineOfAction, PathEnds::Extended];
 
-/// On the rigid path the same slices with the same shares and roll angles as in the static scene, both hands, both sides; the gap is that of
-/// the bases times cos β_b.
+/// On the rigid path the same slices with the same shares and roll angles as in the static scene, both hands, both
+/// sides; the gap is that of the bases times cos β_b.
 #[test]
 fn slices_are_those_of_the_static_scene() {
     for pair in helical_families() {
@@ -78,8 +79,9 @@ fn slices_are_those_of_the_static_scene() {
     }
 }
 
-/// Points and normals of the two helicoids themselves: at the heights and roll angles found the points lie on the line of action, the
-/// transverse gap apart, and gear 2's inward normal there is the direction of the force. The gears stand shifted along the axis, too.
+/// Points and normals of the two helicoids themselves: at the heights and roll angles found the points lie on the line
+/// of action, the transverse gap apart, and gear 2's inward normal there is the direction of the force. The gears stand
+/// shifted along the axis, too.
 #[test]
 fn the_gap_is_that_of_the_helicoids() {
     let families = helical_families().map(|pair| SIDES.map(|side| (pair.clone(), side)));
@@ -146,7 +148,8 @@ fn crowned(gear: &ToothGeometry) -> Arc<dyn FlankError> {
     })
 }
 
-/// Gradients of gaps, roll angles and shares against central differences, tilted, displaced, on modified flanks, at both ends of the path.
+/// Gradients of gaps, roll angles and shares against central differences, tilted, displaced, on modified flanks, at
+/// both ends of the path.
 #[test]
 fn gradients_agree_with_differences() {
     let pairs = [

@@ -1,4 +1,5 @@
-//! Vibrating bevel gears: what holds of cylindrical ones, with slices that walk along the teeth of gear 2 and friction in the tangent plane.
+//! Vibrating bevel gears: what holds of cylindrical ones, with slices that walk along the teeth of gear 2 and friction
+//! in the tangent plane.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -85,7 +86,8 @@ fn pose_at(
     placed(turn_2)
 }
 
-/// Both sides loaded, one and more pairs of teeth, as designed and off it: contacts that walk along the teeth of gear 2, and at its ends.
+/// Both sides loaded, one and more pairs of teeth, as designed and off it: contacts that walk along the teeth of gear
+/// 2, and at its ends.
 fn bevel_poses(flanks: &BevelSlices) -> Vec<(Flank, Pose)> {
     let none = (Vector3::zeros(), Vector3::zeros());
     let off = (
@@ -106,8 +108,8 @@ fn bevel_poses(flanks: &BevelSlices) -> Vec<(Flank, Pose)> {
     .to_vec()
 }
 
-/// At rest the loads are those of `reduced` gears, with all modes or some, and so is the energy: the share of the modes in the compliance is
-/// taken out with the very shares that slices have on both flanks.
+/// At rest the loads are those of `reduced` gears, with all modes or some, and so is the energy: the share of the modes
+/// in the compliance is taken out with the very shares that slices have on both flanks.
 #[test]
 fn modal_bevel_gears_at_rest_are_reduced_gears() {
     let flanks = flanks(ALONG);
@@ -175,7 +177,8 @@ fn modal_tangents_of_bevel_gears_agree_with_differences() {
     }
 }
 
-/// Friction acts against the sliding of the vibrating flanks in their tangent plane: it takes out of gears and modes what it spends.
+/// Friction acts against the sliding of the vibrating flanks in their tangent plane: it takes out of gears and modes
+/// what it spends.
 #[test]
 fn power_of_friction_on_modal_bevel_gears_balances() {
     let flanks = flanks(ALONG);
@@ -191,7 +194,8 @@ fn power_of_friction_on_modal_bevel_gears_balances() {
     }
 }
 
-/// Flanks that stand open as rigid ones and touch because they are bent are found: the loads are those of a search that looks everywhere.
+/// Flanks that stand open as rigid ones and touch because they are bent are found: the loads are those of a search that
+/// looks everywhere.
 #[test]
 fn bevel_flanks_that_touch_when_bent_are_found() {
     let flanks = flanks(ALONG);
@@ -226,7 +230,8 @@ fn bevel_flanks_that_touch_when_bent_are_found() {
     assert!(closed > 3, "{closed}");
 }
 
-/// Modal bevel gears without friction and damping keep their energy: the error of the balance falls with h² in the mean.
+/// Modal bevel gears without friction and damping keep their energy: the error of the balance falls with h² in the
+/// mean.
 #[test]
 fn running_modal_bevel_gears_keep_their_energy() {
     let flanks = flanks(6);
@@ -253,7 +258,8 @@ fn running_modal_bevel_gears_keep_their_energy() {
     assert!(per_step < 6.0, "{per_step}");
 }
 
-/// Friction towards the tips, as gauges and modes take it, is that along differences of points up the flanks, of teeth that need not be turned.
+/// Friction towards the tips, as gauges and modes take it, is that along differences of points up the flanks, of teeth
+/// that need not be turned.
 #[test]
 fn friction_towards_the_tips_of_bevel_gears_follows_their_flanks() {
     let flanks = flanks(ALONG);

@@ -34,8 +34,8 @@ fn frequency_squared(mode: usize) -> f64 {
     (TAU * MODES[mode].0).powi(2)
 }
 
-/// Sum of what a shape is at the hats of the roll stations, by its height there, with their shares of a force at a roll angle; and its
-/// derivative by that angle.
+/// Sum of what a shape is at the hats of the roll stations, by its height there, with their shares of a force at a roll
+/// angle; and its derivative by that angle.
 fn at_hats(gear: &ReducedGear, roll_rad: f64, shape: impl Fn(f64) -> f64) -> (f64, f64) {
     let stations = &gear.grid.roll_angles_rad;
     let place = ProfileHats::of_involute(stations).place(roll_rad);
@@ -99,8 +99,8 @@ fn bent_by_friction(mesh: &GearMesh, model: &ReducedGear, gear: usize, modes: us
     eta
 }
 
-/// With friction a `modal` gear at rest is a `reduced` one whose flanks have the shape that friction gives its modes: what teeth deflect
-/// along the normal under a force along the profile is in no reduced gear. Loads and gauges to 1e-9.
+/// With friction a `modal` gear at rest is a `reduced` one whose flanks have the shape that friction gives its modes:
+/// what teeth deflect along the normal under a force along the profile is in no reduced gear. Loads and gauges to 1e-9.
 #[test]
 fn modal_gears_with_friction_at_rest_are_bent_reduced_gears() {
     for pair in pairs() {
@@ -169,8 +169,9 @@ fn modal_gears_with_friction_at_rest_are_bent_reduced_gears() {
     }
 }
 
-/// Where the whole gear turns as one mode, φ = σ r_b and φ_t = σ r_b ξ on its flanks, friction's force on the mode is its moment about
-/// the axis: exactly on gear 1, on whose flank the contact lies; on gear 2 but for the deflection over the radius.
+/// Where the whole gear turns as one mode, φ = σ r_b and φ_t = σ r_b ξ on its flanks, friction's force on the mode is
+/// its moment about the axis: exactly on gear 1, on whose flank the contact lies; on gear 2 but for the deflection over
+/// the radius.
 #[test]
 fn friction_on_a_turning_mode_is_its_moment() {
     for pair in pairs() {
@@ -239,8 +240,8 @@ fn motion(seed: usize) -> (Vector6, Vec<f64>) {
     (rates, (0..2 * COUNT).map(|i| 0.03 * value(6 + i)).collect())
 }
 
-/// Friction spends energy, and exactly what it takes out of the motion of the gears and of their modes; where μ does not change with the
-/// speed, its force on each rate is minus the change of the power with it.
+/// Friction spends energy, and exactly what it takes out of the motion of the gears and of their modes; where μ does
+/// not change with the speed, its force on each rate is minus the change of the power with it.
 #[test]
 fn power_of_friction_on_gears_and_modes_balances() {
     for pair in pairs() {
@@ -305,8 +306,8 @@ pub fn check_power_of_friction(
     }
 }
 
-/// Gears whose modes without nodal diameters friction moves, one against the other: Σ φ φ_tᵀ/ω² = 0, so that at rest no flank deflects
-/// to a force along the profile, as in `reduced` gears.
+/// Gears whose modes without nodal diameters friction moves, one against the other: Σ φ φ_tᵀ/ω² = 0, so that at rest no
+/// flank deflects to a force along the profile, as in `reduced` gears.
 fn gears_that_bend_to_friction_in_motion_only(pair: &GearPair) -> [ReducedGear; 2] {
     models(pair).map(|mut gear| {
         let loads = gear.grid.len();
@@ -325,9 +326,10 @@ fn gears_that_bend_to_friction_in_motion_only(pair: &GearPair) -> [ReducedGear; 
     })
 }
 
-/// At low speed a `modal` gear is a `reduced` one with friction, too: transmission error and both methods' strain at the gauges differ by
-/// the square of the speed, and hardly more than without friction (1e-4 of the transmission error's peak-to-peak value and 7e-3 of the
-/// strain's at 2 rad/s, where the strain bends as pairs come and go). μ is the same at the same angle for all speeds.
+/// At low speed a `modal` gear is a `reduced` one with friction, too: transmission error and both methods' strain at
+/// the gauges differ by the square of the speed, and hardly more than without friction (1e-4 of the transmission
+/// error's peak-to-peak value and 7e-3 of the strain's at 2 rad/s, where the strain bends as pairs come and go). μ is
+/// the same at the same angle for all speeds.
 #[test]
 fn slow_modal_gears_with_friction_are_reduced_gears() {
     let pair = spur_pair();

@@ -13,7 +13,8 @@ use crate::mesh_common::modal_gear::MODES;
 use crate::mesh_common::*;
 use crate::modal_bodies::vibrating_pair::*;
 
-/// Frictionless, undamped modal gears keep their energy: the error of the balance falls with h² in the mean, as for rigid ones.
+/// Frictionless, undamped modal gears keep their energy: the error of the balance falls with h² in the mean, as for
+/// rigid ones.
 #[test]
 fn vibrating_pairs_keep_their_energy() {
     let pair = spur_pair();
@@ -67,8 +68,8 @@ fn resumed_runs_with_modes_repeat() {
         assert_eq!(whole.state(), resumed.state());
     }
 }
-/// Channels of the mesh over a mesh period at a prescribed slow speed, gears with so many modes: transmission error and strain of gauges of
-/// gear 2, a row a step.
+/// Channels of the mesh over a mesh period at a prescribed slow speed, gears with so many modes: transmission error and
+/// strain of gauges of gear 2, a row a step.
 pub fn slow_run(
     pair: &GearPair,
     (models, modes): (&[ReducedGear; 2], [usize; 2]),
@@ -129,7 +130,8 @@ pub fn difference(one: &[Vec<f64>], other: &[Vec<f64>], column: usize) -> [f64; 
     [high - low, off.fold(0.0, f64::max)]
 }
 
-/// At low speed a `modal` gear is a `reduced` one: the difference in transmission error vanishes as the square of the speed.
+/// At low speed a `modal` gear is a `reduced` one: the difference in transmission error vanishes as the square of the
+/// speed.
 #[test]
 fn slow_modal_gears_are_reduced_gears() {
     let pair = spur_pair();
@@ -148,7 +150,8 @@ fn slow_modal_gears_are_reduced_gears() {
     }
 }
 
-/// Gear 2 is held at its bore and struck by a tooth of gear 1, which bounces off: all modes ring at the frequencies of the model, 0.1 %.
+/// Gear 2 is held at its bore and struck by a tooth of gear 1, which bounces off: all modes ring at the frequencies of
+/// the model, 0.1 %.
 #[test]
 fn a_struck_gear_rings_at_its_own_frequencies() {
     let pair = spur_pair();

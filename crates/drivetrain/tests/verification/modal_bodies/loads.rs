@@ -20,7 +20,8 @@ fn loads_on_modes_follow_from_the_energy() {
     }
 }
 
-/// Loads on bodies and modes, both gears with all modes, are minus the slopes of the energy beside the equilibrium of the modes.
+/// Loads on bodies and modes, both gears with all modes, are minus the slopes of the energy beside the equilibrium of
+/// the modes.
 pub fn check_energy(mesh: &mut GearMesh, at: &Pose) {
     let (mut eta, _) = at_rest(mesh, at, [COUNT, COUNT]);
     for (i, eta) in eta.iter_mut().enumerate() {
@@ -62,7 +63,8 @@ pub fn check_energy(mesh: &mut GearMesh, at: &Pose) {
     }
 }
 
-/// Tangents by place and speed of bodies and modes against central differences, with damping, without friction and with it.
+/// Tangents by place and speed of bodies and modes against central differences, with damping, without friction and with
+/// it.
 #[test]
 fn modal_tangents_agree_with_differences() {
     for pair in pairs() {

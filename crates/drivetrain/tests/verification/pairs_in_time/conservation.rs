@@ -10,8 +10,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::mesh_common::*;
 use crate::pairs_in_time::scene::*;
 
-/// Largest error of the energy balance \[J\] of a frictionless undamped `hybrid` pair at a full load with a step, up to an end; root mean
-/// square over as many runs that begin differently.
+/// Largest error of the energy balance \[J\] of a frictionless undamped `hybrid` pair at a full load with a step, up to
+/// an end; root mean square over as many runs that begin differently.
 pub fn energy_error_j(
     pair: &GearPair,
     ends: PathEnds,
@@ -42,10 +42,11 @@ pub fn energy_error_j(
     (squares.sum::<f64>() / runs as f64).sqrt()
 }
 
-/// Unmodified teeth at a full load, nothing damped: pairs come and go at tip edges, where the force has a kink, and
-/// the compliance has kinks at the roll stations. A kink within a step costs the balance h² times the change of slope times a factor that
-/// depends on where in the step it falls, so that the largest error of one run is a matter of luck, up or down by two; the root mean
-/// square over runs that begin differently falls with h². On the rigid path a pair's elastic energy is lost with its jump, whatever the step.
+/// Unmodified teeth at a full load, nothing damped: pairs come and go at tip edges, where the force has a kink, and the
+/// compliance has kinks at the roll stations. A kink within a step costs the balance h² times the change of slope times
+/// a factor that depends on where in the step it falls, so that the largest error of one run is a matter of luck, up or
+/// down by two; the root mean square over runs that begin differently falls with h². On the rigid path a pair's elastic
+/// energy is lost with its jump, whatever the step.
 #[test]
 fn energy_of_a_hybrid_pair_at_full_load() {
     let pair = spur_pair();
@@ -53,7 +54,8 @@ fn energy_of_a_hybrid_pair_at_full_load() {
     let errors = [8e-6, 4e-6, 1e-6].map(|step_s| error(PathEnds::Extended, step_s));
     let order = (errors[0] / errors[2]).log2() / 3.0;
     println!("{errors:?} {order}");
-    // Of 20 mJ in the teeth. Seen: 4.9e-5, 1.2e-5 and 1.2e-6 J, and 2.1e-7 J at 0.5 µs: order 1.8 to here, 2.0 to there.
+    // Of 20 mJ in the teeth. Seen: 4.9e-5, 1.2e-5 and 1.2e-6 J, and 2.1e-7 J at 0.5 µs: order 1.8 to here, 2.0 to
+    // there.
     assert!(
         (1.5..2.5).contains(&order) && errors[1] < 0.4 * errors[0],
         "{errors:?}"
@@ -64,9 +66,9 @@ fn energy_of_a_hybrid_pair_at_full_load() {
     assert!((5e-3..50e-3).contains(&lost), "{lost}");
 }
 
-/// With damping proportional to stiffness the balance closes to what the stiffness changes within τ ġ, where a pair begins to carry: the same at
-/// any step. Seen: 3.6e-6 and 3.4e-6 J at 0.25 and 0.125 µs of 3.1 mJ of heat; 1.25e-5 J at both where the stored energy is that of the
-/// felt gaps to first order.
+/// With damping proportional to stiffness the balance closes to what the stiffness changes within τ ġ, where a pair
+/// begins to carry: the same at any step. Seen: 3.6e-6 and 3.4e-6 J at 0.25 and 0.125 µs of 3.1 mJ of heat; 1.25e-5 J
+/// at both where the stored energy is that of the felt gaps to first order.
 #[test]
 fn energy_of_a_damped_hybrid_pair_at_full_load() {
     let pair = spur_pair();

@@ -1,4 +1,5 @@
-//! Motions that are hard to compute: each runs to its end, against a closed form where there is one, and converges with the step.
+//! Motions that are hard to compute: each runs to its end, against a closed form where there is one, and converges with
+//! the step.
 
 use std::f64::consts::TAU;
 
@@ -31,7 +32,8 @@ pub fn damped_on(
         .unwrap()
 }
 
-/// Undamped pairs of teeth that touch in the middle of the face, on the rigid path: the one at the pitch point is alone at any depth.
+/// Undamped pairs of teeth that touch in the middle of the face, on the rigid path: the one at the pitch point is alone
+/// at any depth.
 pub fn power_law(pair: &GearPair, stiffness: PowerStiffness) -> GearMesh {
     let law = Impact::new(stiffness, 0.0, 1e-6, 1).unwrap();
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
@@ -76,9 +78,10 @@ pub fn root(f: impl Fn(f64) -> f64, most: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Start out of contact and impact at K up to 1e7 N/mm^1.5: gear 2 falls through a gap g under a force F along the line of action, hits,
-/// and comes back. Closed form with m = I₂/r_b2²: first touch after √(2 g m/F), K δ^2.5/2.5 = F (g + δ) at the deepest point (a peak
-/// that goes with K^0.4 where the fall outweighs the depth), and without damping the gap g again.
+/// Start out of contact and impact at K up to 1e7 N/mm^1.5: gear 2 falls through a gap g under a force F along the line
+/// of action, hits, and comes back. Closed form with m = I₂/r_b2²: first touch after √(2 g m/F), K δ^2.5/2.5 = F (g +
+/// δ) at the deepest point (a peak that goes with K^0.4 where the fall outweighs the depth), and without damping the
+/// gap g again.
 #[test]
 fn a_fall_through_backlash_and_a_hard_impact() {
     let pair = spur_pair();
@@ -114,7 +117,8 @@ fn a_fall_through_backlash_and_a_hard_impact() {
         };
         let errors = [20.0, 40.0, 80.0, 160.0].map(|steps| run(contact_s / steps));
         println!("K {k_n_per_mm_e:e}: peak {peak} N, errors of peak and return {errors:?}");
-        // Seen: peak 4e-3 to 9e-3 off with the first step and 2e-5 to 3e-4 with the last, gap 6e-4 to 6e-3 and 1e-6 to 3e-6.
+        // Seen: peak 4e-3 to 9e-3 off with the first step and 2e-5 to 3e-4 with the last, gap 6e-4 to 6e-3 and 1e-6 to
+        // 3e-6.
         let [[peak_first, back_first], _, _, [peak_last, back_last]] = errors;
         assert!(
             peak_first < 1e-2 && peak_last < peak_first / 16.0,
@@ -144,8 +148,8 @@ pub fn converges(what: &str, values: &[f64], last_change: f64, least_order: f64)
     );
 }
 
-/// The torque turns round while the gears run: right flanks let go, gear 2 flies through the backlash, left flanks carry. Both ends have
-/// the mean force of the torque; landing and its peak converge.
+/// The torque turns round while the gears run: right flanks let go, gear 2 flies through the backlash, left flanks
+/// carry. Both ends have the mean force of the torque; landing and its peak converge.
 #[test]
 fn torque_turns_round_through_backlash() {
     let pair = spur_pair();
@@ -172,7 +176,8 @@ fn torque_turns_round_through_backlash() {
             (peak, backlash - end.te_m, samples[landed].time_s)
         };
         let found = [8e-6, 4e-6, 2e-6, 1e-6].map(run);
-        // Seen at the last halving: 2e-3 of the peak, 8 to 14 times the force of the torque; 1e-5 of the depth at the end.
+        // Seen at the last halving: 2e-3 of the peak, 8 to 14 times the force of the torque; 1e-5 of the depth at the
+        // end.
         converges(&format!("{name} peak"), &found.map(|f| f.0), 3e-3, 1.5);
         let depths = found.map(|f| f.1);
         assert!(
@@ -187,8 +192,8 @@ fn torque_turns_round_through_backlash() {
 /// Speed of a push \[m/s\].
 const START_M_PER_S: f64 = 40e-3;
 
-/// Speed at which a mass comes back from the spring of 3e8 N/m with a damping of 1e-5 s, full at 1 µm: m δ̈ = −max(0, K (δ + τ s(δ) δ̇)),
-/// by the classical Runge-Kutta method in steps of 10 ns.
+/// Speed at which a mass comes back from the spring of 3e8 N/m with a damping of 1e-5 s, full at 1 µm: m δ̈ = −max(0, K
+/// (δ + τ s(δ) δ̇)), by the classical Runge-Kutta method in steps of 10 ns.
 fn speed_after_blow(speed_m_per_s: f64, mass_kg: f64) -> f64 {
     let acceleration = |depth: f64, rate: f64| {
         let x = (depth / 1e-6).clamp(0.0, 1.0);
@@ -212,8 +217,8 @@ fn speed_after_blow(speed_m_per_s: f64, mass_kg: f64) -> f64 {
     -rate
 }
 
-/// No torque at all: gear 2 floats in the backlash, and nothing touches it. Given a push it hits the flanks in turn and, its damping at
-/// work, ever more slowly.
+/// No torque at all: gear 2 floats in the backlash, and nothing touches it. Given a push it hits the flanks in turn
+/// and, its damping at work, ever more slowly.
 #[test]
 fn zero_torque() {
     let pair = spur_pair();
@@ -344,12 +349,14 @@ fn a_thousandth_of_a_newton_metre() {
             "transmission error {share:.2} of the static {te:.2e} m (allowed 0.5 to 1.5), last change {change:.1e} (allowed 1e-2)"
         );
         assert!((last / before - 1.0).abs() < 1e-2, "{name} {found:?}");
-        // A load put on at once swings the teeth between nothing and twice their deflection; half of that, at least, is damped away.
+        // A load put on at once swings the teeth between nothing and twice their deflection; half of that, at least, is
+        // damped away.
         assert!((0.5..1.5).contains(&(last / te)), "{name} {te:e} {found:?}");
     }
 }
 
-/// Gear 2's axis is tilted in the plane of action by 5 mrad, 20 µm from slice to slice: one slice carries all, the others stand open.
+/// Gear 2's axis is tilted in the plane of action by 5 mrad, 20 µm from slice to slice: one slice carries all, the
+/// others stand open.
 #[test]
 fn misalignment_leaves_one_slice() {
     let pair = spur_pair();
@@ -395,8 +402,8 @@ fn misalignment_leaves_one_slice() {
     }
 }
 
-/// A minute at 10 rpm, 300 mesh periods in steps of 1/80 of one, and nothing drifts: the last period repeats the second, and the
-/// transmission error is the static one.
+/// A minute at 10 rpm, 300 mesh periods in steps of 1/80 of one, and nothing drifts: the last period repeats the
+/// second, and the transmission error is the static one.
 #[test]
 fn a_minute_at_ten_rpm() {
     let pair = spur_pair();
@@ -409,7 +416,8 @@ fn a_minute_at_ten_rpm() {
         ..Scene::new(&pair).driven_at(speed).loaded_by(torque)
     };
     let system = scene.system(damped_mesh("hybrid", &pair, 1e-6));
-    // The pair's own vibration is 90 times as fast as a step: what the changes of pairs stir of it is to die out at once.
+    // The pair's own vibration is 90 times as fast as a step: what the changes of pairs stir of it is to die out at
+    // once.
     let params = Params {
         rho_infinity: 0.5,
         ..Params::fixed(step_s)
@@ -430,7 +438,8 @@ fn a_minute_at_ten_rpm() {
     assert!(info.largest_violation < 1e-12, "{info:?}");
 }
 
-/// Steps from 2 to 60 µs, the longest a sixth of the period of the pair's own vibration: all run, and what they say converges.
+/// Steps from 2 to 60 µs, the longest a sixth of the period of the pair's own vibration: all run, and what they say
+/// converges.
 #[test]
 fn steps_over_a_factor_of_thirty() {
     let pair = spur_pair();

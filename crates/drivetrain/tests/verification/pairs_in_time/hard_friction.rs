@@ -10,9 +10,10 @@ use crate::mesh_common::*;
 use crate::pairs_in_time::hard_cases::{converges, damped_mesh, damped_on};
 use crate::pairs_in_time::scene::*;
 
-/// Friction of 0.3 reverses where the pair passes the pitch point and where the drive turns round, with every start and end of sticking
-/// in the regularised law. Loss over a cycle in closed form but for one integral: gear 2 carries F (r_b2 ± μ ρ₂) = T + I₂ θ̈₂, ρ₂ its
-/// radius of curvature, and the loss is ∮ μ F |v| dt with v = (1 + r_b1/r_b2) s φ̇₁, s the way from the pitch point.
+/// Friction of 0.3 reverses where the pair passes the pitch point and where the drive turns round, with every start and
+/// end of sticking in the regularised law. Loss over a cycle in closed form but for one integral: gear 2 carries F
+/// (r_b2 ± μ ρ₂) = T + I₂ θ̈₂, ρ₂ its radius of curvature, and the loss is ∮ μ F |v| dt with v = (1 + r_b1/r_b2) s φ̇₁,
+/// s the way from the pitch point.
 #[test]
 fn friction_turns_round() {
     let pair = spur_pair();
@@ -70,8 +71,8 @@ fn friction_turns_round() {
         };
         let found = [4e-4, 2e-4, 1e-4].map(run);
         println!("{name} {found:?}");
-        // The closed form is for rigid teeth. Elastic ones move gear 2 while friction turns round, in proportion to the deflection:
-        // 4.1e-3 of the loss with 4.1 µm (`impact`), 0.7e-3 with 0.7 µm.
+        // The closed form is for rigid teeth. Elastic ones move gear 2 while friction turns round, in proportion to the
+        // deflection: 4.1e-3 of the loss with 4.1 µm (`impact`), 0.7e-3 with 0.7 µm.
         let most = if name == "hybrid" { 1e-3 } else { 5e-3 };
         assert!(found.iter().all(|f| f.0.abs() < most), "{name} {found:?}");
         assert!((found[2].0 - found[0].0).abs() < 3e-6, "{name} {found:?}");

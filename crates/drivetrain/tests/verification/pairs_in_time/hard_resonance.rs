@@ -4,8 +4,9 @@
 //! m ẍ = F (1 + B cos Ωt) − N,   N = k (1 + A cos Ωt) x + c ẋ  where x > 0 and N > 0, else 0          m = I₂/r_b2²,  Ω = z₁ ω₁
 //! ```
 //!
-//! solved here by the classical Runge-Kutta rule, but for A = 0, where its loss of contact has a closed form. The oscillator, its softening jump, its super- and subharmonics: A. Kahraman, R. Singh,
-//! J. Sound Vib. 142 (1990) 49-75 and 146 (1991) 135-156; G. W. Blankenship, A. Kahraman, J. Sound Vib. 185 (1995) 743-765.
+//! solved here by the classical Runge-Kutta rule, but for A = 0, where its loss of contact has a closed form. The
+//! oscillator, its softening jump, its super- and subharmonics: A. Kahraman, R. Singh, J. Sound Vib. 142 (1990) 49-75
+//! and 146 (1991) 135-156; G. W. Blankenship, A. Kahraman, J. Sound Vib. 185 (1995) 743-765.
 
 use std::f64::consts::TAU;
 
@@ -31,7 +32,8 @@ struct Oscillator {
     load_amplitude: f64,
 }
 
-/// Over the last mesh periods: peak to peak of x \[m\], least force \[N\], and the amplitudes \[m\] of ½, 1 and 2 times the mesh frequency.
+/// Over the last mesh periods: peak to peak of x \[m\], least force \[N\], and the amplitudes \[m\] of ½, 1 and 2 times
+/// the mesh frequency.
 #[derive(Debug, Clone, Copy)]
 struct Response {
     swing_m: f64,
@@ -210,8 +212,8 @@ fn the_primary_resonance() {
     }
 }
 
-/// Sweeps down and up through the main resonance. The resonance leans to lower speeds because the pair lifts off: it jumps up at another
-/// speed than down, and both branches are the oscillator's.
+/// Sweeps down and up through the main resonance. The resonance leans to lower speeds because the pair lifts off: it
+/// jumps up at another speed than down, and both branches are the oscillator's.
 #[test]
 fn jumps_and_loss_of_contact() {
     let pair = spur_pair();
@@ -259,14 +261,15 @@ fn jumps_and_loss_of_contact() {
     }
 }
 
-/// With a constant stiffness and a torque that varies the pair is linear until it lifts off, which it does where the varying part of the
-/// force has grown to the mean one:
+/// With a constant stiffness and a torque that varies the pair is linear until it lifts off, which it does where the
+/// varying part of the force has grown to the mean one:
 ///
 /// ```text
 /// B² (1 + 4ζ²Λ²) = (1 − Λ²)² + 4ζ²Λ²
 /// ```
 ///
-/// One per cent above it jumps up, because the resonance of lifting teeth leans to lower speeds (Comparin and Singh, J. Sound Vib. 134 (1989) 259-290).
+/// One per cent above it jumps up, because the resonance of lifting teeth leans to lower speeds (Comparin and Singh, J.
+/// Sound Vib. 134 (1989) 259-290).
 #[test]
 fn linear_teeth_lift_off_where_they_must_and_then_jump() {
     let pair = spur_pair();
@@ -317,7 +320,8 @@ fn linear_teeth_lift_off_where_they_must_and_then_jump() {
     }
 }
 
-/// Near half of the natural frequency the second order resonates, near twice of it the half order grows until the teeth lift off.
+/// Near half of the natural frequency the second order resonates, near twice of it the half order grows until the teeth
+/// lift off.
 #[test]
 fn superharmonic_and_subharmonic() {
     let pair = spur_pair();

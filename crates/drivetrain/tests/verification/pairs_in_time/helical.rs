@@ -11,9 +11,10 @@ use crate::mesh_common::running_pair::{
 use crate::mesh_common::*;
 use crate::pairs_in_time::conservation::energy_error_j;
 
-/// A frictionless undamped `hybrid` pair at a full load keeps its energy on the rigid path as on the extended one: slices that leave give back
-/// what they store (spur teeth lose 19 mJ on the rigid path in 7 ms). Extended, the error of the balance falls with h² in the mean over runs; on
-/// the rigid path a line begins in its corner with a force along the path, 1e-3 of all, and a jump within a step costs h.
+/// A frictionless undamped `hybrid` pair at a full load keeps its energy on the rigid path as on the extended one:
+/// slices that leave give back what they store (spur teeth lose 19 mJ on the rigid path in 7 ms). Extended, the error
+/// of the balance falls with h² in the mean over runs; on the rigid path a line begins in its corner with a force along
+/// the path, 1e-3 of all, and a jump within a step costs h.
 #[test]
 fn helical_pairs_keep_their_energy() {
     let pair = helical_pair(18.0);
@@ -25,14 +26,16 @@ fn helical_pairs_keep_their_energy() {
         let errors = [8e-6, 4e-6, 2e-6].map(error);
         let order = (errors[0] / errors[2]).log2() / 2.0;
         println!("{ends:?} {errors:?} {order}");
-        // Of 20 mJ in the teeth. Seen in 7 ms and three runs: 1.1e-5, 2.9e-6, 7.8e-7 J, order 1.9; 2.6e-5, 1.2e-5, 6.3e-6 J, order 1.0.
+        // Of 20 mJ in the teeth. Seen in 7 ms and three runs: 1.1e-5, 2.9e-6, 7.8e-7 J,
+        // order 1.9; 2.6e-5, 1.2e-5, 6.3e-6 J, order 1.0.
         assert!(orders.contains(&order), "{ends:?} {errors:?} {order}");
         assert!(errors[2] < most_j, "{ends:?} {errors:?}");
     }
 }
 
-/// Six degrees of freedom on bearings at 600 rpm, gauges read at every step: the mean axial displacement is that of F_t tan β_b on the axial
-/// springs, gear 1 to −z and gear 2 to +z, and Newton's corrections stay as few as with spur teeth.
+/// Six degrees of freedom on bearings at 600 rpm, gauges read at every step: the mean axial displacement is that of F_t
+/// tan β_b on the axial springs, gear 1 to −z and gear 2 to +z, and Newton's corrections stay as few as with spur
+/// teeth.
 #[test]
 fn bearings_carry_the_axial_force() {
     let pair = helical_pair_a();

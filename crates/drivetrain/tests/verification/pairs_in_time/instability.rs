@@ -1,7 +1,9 @@
-//! Parametric instability of a gear mesh: Meissner's equation (square wave) and Mathieu's (sine), through the kinematics of the pair.
+//! Parametric instability of a gear mesh: Meissner's equation (square wave) and Mathieu's (sine), through the
+//! kinematics of the pair.
 //!
-//! Gear 1 turns at constant speed, so that the mesh stiffness is a function of time; a disturbance x of the loaded motion obeys
-//! m ẍ + k(t) x = 0. Its map over one mesh period is found from three runs; it grows where the trace exceeds 2 in magnitude.
+//! Gear 1 turns at constant speed, so that the mesh stiffness is a function of time; a disturbance x of the loaded
+//! motion obeys m ẍ + k(t) x = 0. Its map over one mesh period is found from three runs; it grows where the trace
+//! exceeds 2 in magnitude.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -20,7 +22,8 @@ const STEPS: usize = 400;
 const DEPTH: f64 = 50e-6;
 const DISTURBANCE: f64 = 1e-8;
 
-/// The mesh as one spring that is stiff over a part of the pitch, as with one and two pairs of teeth, and soft over the rest.
+/// The mesh as one spring that is stiff over a part of the pitch, as with one and two pairs of teeth, and soft over the
+/// rest.
 struct SquareWave {
     stiff: f64,
     soft: f64,
@@ -152,7 +155,8 @@ fn a_square_wave_is_unstable_where_meissner_says() {
                 "{part} {delta} {found} {exact}"
             );
         }
-        // The main region, twice the natural frequency, and the second; with half-and-half waves it is the third that is wide.
+        // The main region, twice the natural frequency, and the second; with half-and-half waves it is the third that
+        // is wide.
         let second = if part == 0.5 {
             [1.8, 2.25, 3.0]
         } else {
@@ -172,8 +176,9 @@ fn a_square_wave_is_unstable_where_meissner_says() {
     }
 }
 
-/// `iso6336` with its sine is Mathieu's equation, a = 4δ and q = A a/2: borders b₁, a₁, b₂ and a₂ as characteristic values solve
-/// a = a_r(A a/2), computed with scipy 1.15 (`scipy.special.mathieu_a`, `mathieu_b`, `scipy.optimize.brentq`).
+/// `iso6336` with its sine is Mathieu's equation, a = 4δ and q = A a/2: borders b₁, a₁, b₂ and a₂ as characteristic
+/// values solve a = a_r(A a/2), computed with scipy 1.15 (`scipy.special.mathieu_a`, `mathieu_b`,
+/// `scipy.optimize.brentq`).
 #[test]
 fn a_sine_is_unstable_where_mathieu_says() {
     let pair = spur_pair();

@@ -1,4 +1,5 @@
-//! What the end of Newton's iteration adds to the error of the step, with the default that goes by the step's own error.
+//! What the end of Newton's iteration adds to the error of the step, with the default that goes by the step's own
+//! error.
 
 use std::f64::consts::TAU;
 
@@ -8,8 +9,8 @@ use gearmesh_geometry::GearPair;
 use crate::mesh_common::*;
 use crate::pairs_in_time::scene::*;
 
-/// Transmission error \[m\] at four hundred times of two mesh periods, with so many steps between two of them, on a speed that lets the
-/// stiffness of the mesh excite it.
+/// Transmission error \[m\] at four hundred times of two mesh periods, with so many steps between two of them, on a
+/// speed that lets the stiffness of the mesh excite it.
 fn run(name: &str, pair: &GearPair, steps: usize, newton_tolerance: Option<f64>) -> Vec<f64> {
     let speed = 60.0;
     let scene = Scene {
@@ -33,7 +34,8 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     (square / a.len() as f64).sqrt()
 }
 
-/// Second order with the defaults, where the force is smooth; and everywhere an iteration error ten times below the step's own.
+/// Second order with the defaults, where the force is smooth; and everywhere an iteration error ten times below the
+/// step's own.
 #[test]
 fn newton_adds_less_than_a_tenth_to_the_error_of_a_step() {
     let pair = spur_pair();

@@ -10,8 +10,9 @@ use crate::mesh_common::*;
 use crate::pairs_in_time::hard_cases::{backlash_m, damped_mesh};
 use crate::pairs_in_time::scene::*;
 
-/// A load of the other sign on teeth that have flanks on one side only: they would pass through those of the mate, half a base pitch deep, and
-/// the mesh would push out of nothing. The run ends before, with the side and the sign that it can carry. With both sides the left flanks carry.
+/// A load of the other sign on teeth that have flanks on one side only: they would pass through those of the mate, half
+/// a base pitch deep, and the mesh would push out of nothing. The run ends before, with the side and the sign that it
+/// can carry. With both sides the left flanks carry.
 #[test]
 fn teeth_do_not_pass_through_each_other_where_flanks_are_left_out() {
     let pair = spur_pair();
@@ -41,7 +42,8 @@ fn teeth_do_not_pass_through_each_other_where_flanks_are_left_out() {
         for word in words.iter().chain(&["`mesh`", "which the mesh leaves out"]) {
             assert!(message.contains(word), "`{word}` is not in {message}");
         }
-        // No more than the load's own work over what is allowed, and over the backlash where it starts on the other side of it.
+        // No more than the load's own work over what is allowed, and over the backlash where it starts on the other
+        // side of it.
         let free = [0.0, backlash_m(&pair)][usize::from(side == Flank::Right)];
         let way = free + 1.05 * depth;
         let work = torque.abs() * way / pair.gear_2.base_radius_m;

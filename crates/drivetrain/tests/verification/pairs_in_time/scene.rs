@@ -12,8 +12,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::mesh_common::{WIDTH, angles, disc};
 
-/// A pair of gears at its start. Speeds are positive in the sense of the drive (gear 1 clockwise), torques positive where they press
-/// the right flanks together.
+/// A pair of gears at its start. Speeds are positive in the sense of the drive (gear 1 clockwise), torques positive
+/// where they press the right flanks together.
 pub struct Scene<'a> {
     pub pair: &'a GearPair,
     pub width_m: f64,

@@ -1,9 +1,10 @@
-//! The parametric study of seed 003 (its table 4) with `impact`: in which direction load, speed, stiffness, damping and tip relief move the
-//! peak of the mesh force and the vibration. 17/25 teeth, module 10 mm, 100 mm wide; K 1e5…1e7 N/mm^1.5 (table 3).
+//! The parametric study of seed 003 (its table 4) with `impact`: in which direction load, speed, stiffness, damping and
+//! tip relief move the peak of the mesh force and the vibration. 17/25 teeth, module 10 mm, 100 mm wide; K 1e5…1e7
+//! N/mm^1.5 (table 3).
 //!
-//! The table's "stiffness: increase (sharper impacts)" holds for an impact (`hard_cases.rs`: 1.7, 2.7 and 5.3 kN after a fall). In the steady motion
-//! it does not: 9.7, 6.7 and 7.4 kN in the mean around the seed's speed for 1e5, 1e6 and 1e7 N/mm^1.5, C = 10 N s/mm, as K moves the
-//! resonances and a soft contact lets pairs enter deeper.
+//! The table's "stiffness: increase (sharper impacts)" holds for an impact (`hard_cases.rs`: 1.7, 2.7 and 5.3 kN after
+//! a fall). In the steady motion it does not: 9.7, 6.7 and 7.4 kN in the mean around the seed's speed for 1e5, 1e6 and
+//! 1e7 N/mm^1.5, C = 10 N s/mm, as K moves the resonances and a soft contact lets pairs enter deeper.
 
 use std::sync::Arc;
 
@@ -60,7 +61,8 @@ fn relieved(gear: &ToothGeometry, amount_um: f64) -> Arc<dyn FlankError> {
     })
 }
 
-/// The pair at constant speed under a constant torque, its right flanks open by `te_m` at the start, over so many mesh periods.
+/// The pair at constant speed under a constant torque, its right flanks open by `te_m` at the start, over so many mesh
+/// periods.
 fn run(case: Case, te_m: f64, periods: f64) -> Vec<Sample> {
     let pair = pair();
     let stiffness = PowerStiffness::n_per_mm_e(case.k_n_per_mm_e, 1.5).unwrap();
@@ -109,7 +111,8 @@ fn response(case: Case) -> [f64; 2] {
     [peak, square.sqrt()]
 }
 
-/// The mean response around the seed's speed: a single speed may meet a resonance with one parameter and none with the next.
+/// The mean response around the seed's speed: a single speed may meet a resonance with one parameter and none with the
+/// next.
 fn around(case: Case) -> [f64; 2] {
     let speeds = [1500.0, 2000.0, 2500.0, 3000.0, 3500.0, 4000.0, 5000.0];
     let of = |speed_deg_per_s| {
@@ -133,8 +136,8 @@ fn rises(what: &str, values: &[[f64; 2]]) {
 fn load_raises_both() {
     let found = [225.0, 450.0, 900.0].map(|torque_nm| response(Case { torque_nm, ..BASE }));
     rises("load", &found);
-    // "Approximately linear". At F ∝ δ^1.5 all but the mesh frequency over the pair's own scales with the load; the own frequency goes
-    // with its sixth root, by 1.26 here, and below resonance the response with it.
+    // "Approximately linear". At F ∝ δ^1.5 all but the mesh frequency over the pair's own scales with the load; the own
+    // frequency goes with its sixth root, by 1.26 here, and below resonance the response with it.
     let linear = found[2][0] / found[0][0] / 4.0;
     let detuned = 4f64.powf(1.0 / 6.0);
     assert!(linear < detuned && linear > 1.0 / detuned, "{linear}");
@@ -152,9 +155,10 @@ fn speed_raises_both_with_peaks_at_resonances() {
     rises("speed", &[slow, above, at]);
 }
 
-/// Up to C = 10 N s/mm, 1e-5 of K. Seen: 9886 2453, 7866 1773, 6744 1073 for 1, 3 and 10 N s/mm. Beyond, the peak rises (at 30: 9550,
-/// at 1000: 56 kN): a pair enters at its tip edge with some cm/s, and C times that is a blow. The seed's 0.1 to 1 % of K, 1e3 to 1e4
-/// N s/mm, lies there, and its direction is the reverse; tip relief takes the blow away (4409 N at 1, 4354 N at 1000).
+/// Up to C = 10 N s/mm, 1e-5 of K. Seen: 9886 2453, 7866 1773, 6744 1073 for 1, 3 and 10 N s/mm. Beyond, the peak rises
+/// (at 30: 9550, at 1000: 56 kN): a pair enters at its tip edge with some cm/s, and C times that is a blow. The
+/// seed's 0.1 to 1 % of K, 1e3 to 1e4 N s/mm, lies there, and its direction is the reverse; tip relief takes the blow
+/// away (4409 N at 1, 4354 N at 1000).
 #[test]
 fn damping_lowers_both_until_it_hits_itself() {
     let of = |c: f64, relief_um: f64| {

@@ -86,8 +86,8 @@ fn the_reference_solution_is_met_to_1e_6() {
     assert!(angles < 1e-6, "{angles} rad");
     // Rates reach 1424 rad/s, reactions 200 N.
     assert!(rates < 1e-6 * 1424.0, "{rates} rad/s");
-    // Rounding of the joint equations over βh² adds to the reactions: 1e-14 rad / (βh²) times 1e-5 kg m² over an arm of 0.03 m is 2e-5 N and
-    // some such meet in a joint; without it the second order would leave 1.3e-4 N.
+    // Rounding of the joint equations over βh² adds to the reactions: 1e-14 rad / (βh²) times 1e-5 kg m² over an arm
+    // of 0.03 m is 2e-5 N and some such meet in a joint; without it the second order would leave 1.3e-4 N.
     assert!(forces < 2e-6 * 200.0, "{forces} N");
     let info = simulation.info();
     assert!(info.largest_violation < 1e-12, "{info:?}");

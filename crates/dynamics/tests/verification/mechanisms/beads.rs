@@ -77,7 +77,8 @@ impl ForceElement for Beads {
     }
 }
 
-/// A mass inside an element is the same as a body that only its spring moves: path, energy, equilibrium and frequencies.
+/// A mass inside an element is the same as a body that only its spring moves: path, energy, equilibrium and
+/// frequencies.
 #[test]
 fn a_mass_inside_an_element_is_a_body() {
     let (mass_kg, stiffness) = (0.5, 600.0);
@@ -134,8 +135,8 @@ fn a_mass_inside_an_element_is_a_body() {
     }
 }
 
-/// Hundreds of coordinates in one element make a sparse matrix where it says which meet; n masses between the ground and a free end have
-/// ω_j = 2 √(k/m) sin((2j − 1)π/(4n + 2)).
+/// Hundreds of coordinates in one element make a sparse matrix where it says which meet; n masses between the ground
+/// and a free end have ω_j = 2 √(k/m) sin((2j − 1)π/(4n + 2)).
 #[test]
 fn an_element_with_hundreds_of_coordinates_is_sparse() {
     let system = |inside: usize| {

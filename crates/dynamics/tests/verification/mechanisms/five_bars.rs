@@ -1,8 +1,10 @@
-//! Five bars of two parallelograms in a row, released upright: three cranks on the ground, two couplers between their ends. They turn
-//! round and round, and whenever all lie in one line the joints are singular and other motions branch off.
+//! Five bars of two parallelograms in a row, released upright: three cranks on the ground, two couplers between their
+//! ends. They turn round and round, and whenever all lie in one line the joints are singular and other motions branch
+//! off.
 //!
-//! Reference: M. González, D. Dopico, U. Lugrís, J. Cuadrado, *A benchmarking system for MBS simulation software*, Multibody Syst. Dyn. 16
-//! (2006) 179-190 (double four-bar mechanism). Bars of 1 m and 1 kg, gravity 9.81 m/s², the ends of the cranks at 1 m/s at first.
+//! Reference: M. González, D. Dopico, U. Lugrís, J. Cuadrado, *A benchmarking system for MBS simulation software*,
+//! Multibody Syst. Dyn. 16 (2006) 179-190 (double four-bar mechanism). Bars of 1 m and 1 kg, gravity 9.81 m/s², the
+//! ends of the cranks at 1 m/s at first.
 //!
 //! On the branch of the parallelograms it is one pendulum: with the angle θ of the cranks from the horizontal
 //! T = ½ (3 · ⅓ + 2) m l² θ̇², V = (3 · ½ + 2) m g l sin θ, so that θ̈ = −(7/6) (g/l) cos θ.

@@ -68,8 +68,8 @@ fn sliding() -> System {
     builder.build().unwrap()
 }
 
-/// A block slides to rest after v²/(2 F/m), stays there, and creeps under a push below the limit as the law says, v = s·(P/F)/√(1 − (P/F)²). Whole corrections
-/// of Newton's method go to and fro between sliding one way and the other.
+/// A block slides to rest after v²/(2 F/m), stays there, and creeps under a push below the limit as the law says, v =
+/// s·(P/F)/√(1 − (P/F)²). Whole corrections of Newton's method go to and fro between sliding one way and the other.
 #[test]
 fn a_block_on_a_rough_floor_comes_to_rest_in_steps_that_are_long_for_it() {
     let mut simulation = Simulation::new(sliding(), Params::fixed(1e-3)).unwrap();
@@ -122,8 +122,8 @@ fn sticky(square: f64) -> [f64; 2] {
     [1.0 + 4.0 * share, -4.0 * (share / FALL_M_PER_S).powi(2)]
 }
 
-/// Friction that falls with the slip by more than h/m of a step has equations between whose solutions iterations get stuck: the step is made in parts, and whole again
-/// afterwards.
+/// Friction that falls with the slip by more than h/m of a step has equations between whose solutions iterations get
+/// stuck: the step is made in parts, and whole again afterwards.
 #[test]
 fn a_block_that_sticks_comes_to_rest_in_parts_of_a_step() {
     let mut builder = System::builder();

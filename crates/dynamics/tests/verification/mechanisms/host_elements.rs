@@ -1,4 +1,5 @@
-//! Elements and loads that the calling program computes: beside the same written as elements and functions of this crate.
+//! Elements and loads that the calling program computes: beside the same written as elements and functions of this
+//! crate.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

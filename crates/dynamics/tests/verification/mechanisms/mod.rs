@@ -1,5 +1,6 @@
 //! Mechanisms with loops: Andrews' squeezing mechanism, five bars that pass through their straight position; chains;
-//! force elements with coordinates of their own, and such whose model ends somewhere; any free system. One program, so that its libraries are linked once.
+//! force elements with coordinates of their own, and such whose model ends somewhere; any free system. One program, so
+//! that its libraries are linked once.
 #![allow(clippy::unwrap_used)] // test code
 
 mod andrews;

@@ -1,4 +1,5 @@
-//! Force elements with coordinates of their own: against closed forms, and against the same made of bodies or condensed.
+//! Force elements with coordinates of their own: against closed forms, and against the same made of bodies or
+//! condensed.
 
 use std::ops::ControlFlow;
 
@@ -99,7 +100,8 @@ fn a_maxwell_element_follows_its_closed_form_to_the_second_order() {
     }
 }
 
-/// Two hardening springs in series, along x between the ground and a body, with the node between them as coordinate or solved inside.
+/// Two hardening springs in series, along x between the ground and a body, with the node between them as coordinate or
+/// solved inside.
 struct Series {
     body: [BodyId; 1],
     condensed: bool,
@@ -223,7 +225,8 @@ fn an_inner_equilibrium_is_the_condensed_law() {
     assert!((f1 - 3.0).abs() < 1e-9 && (f2 - 3.0).abs() < 1e-9);
 }
 
-/// Poles of the Maxwell element: s² + (k/c) s + k/m = 0, and the damper that may stand anywhere; at rest beside a spring it carries nothing.
+/// Poles of the Maxwell element: s² + (k/c) s + k/m = 0, and the damper that may stand anywhere; at rest beside a
+/// spring it carries nothing.
 #[test]
 fn rates_take_part_in_natural_modes_and_equilibria() {
     let mut system = body_under(0.0, 0.0, |id| vec![maxwell(id)]);
@@ -294,7 +297,8 @@ fn a_resumed_run_with_own_coordinates_gives_the_same_bits() {
     }
 }
 
-/// Couplings that leave a tangent out, a scale that is none, and an equilibrium that nothing determines are refused by name.
+/// Couplings that leave a tangent out, a scale that is none, and an equilibrium that nothing determines are refused by
+/// name.
 #[test]
 fn what_an_element_gets_wrong_is_named() {
     struct Wrong(f64, bool);

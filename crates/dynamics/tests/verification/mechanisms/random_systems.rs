@@ -1,4 +1,5 @@
-//! What holds for the motion of any free system of bodies on joints, trees and loops: no force from outside, no damping.
+//! What holds for the motion of any free system of bodies on joints, trees and loops: no force from outside, no
+//! damping.
 
 use std::ops::ControlFlow;
 
@@ -275,8 +276,8 @@ const END_S: f64 = 0.1;
 proptest! {
     #![proptest_config(cases(12))]
 
-    /// The motion, momentum, angular momentum and energy converge with the second power of the step: to what they were at
-    /// the start, the last three. Without damping by the scheme.
+    /// The motion, momentum, angular momentum and energy converge with the second power of the step: to what they were
+    /// at the start, the last three. Without damping by the scheme.
     #[test]
     fn free_systems_converge_and_conserve(scene in scenes()) {
         let runs = [80, 160, 320].map(|steps| scene.run(&PLAIN, steps, 1.0));
@@ -298,8 +299,8 @@ proptest! {
         prop_assert!(order(energy, 1.0 + start.energy_j), "energy: {energy:?}");
     }
 
-    /// Turned, moved and in steady motion as a whole, a system moves as before, seen from there; so it does with its bodies
-    /// and joints in another order.
+    /// Turned, moved and in steady motion as a whole, a system moves as before, seen from there; so it does with its
+    /// bodies and joints in another order.
     #[test]
     fn motion_does_not_hang_on_the_view(
         scene in scenes(), turn in three(-3.0..3.0), shift in three(-2.0..2.0), boost in three(-2.0..2.0), reversed in any::<bool>(),

@@ -1,4 +1,5 @@
-//! The sparse solver against the dense one, on mechanisms that are hard for it: closed loops, redundant equations, contact that is lost.
+//! The sparse solver against the dense one, on mechanisms that are hard for it: closed loops, redundant equations,
+//! contact that is lost.
 
 use std::ops::ControlFlow;
 

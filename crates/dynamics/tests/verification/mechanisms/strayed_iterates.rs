@@ -88,8 +88,8 @@ fn stop(x: f64) -> [f64; 2] {
     }
 }
 
-/// The first guess of a step is a millimetre deep in a stop whose law ends at 0.3 mm, as the body itself never goes: it is met in parts of the step, at the
-/// first steps of a run as later.
+/// The first guess of a step is a millimetre deep in a stop whose law ends at 0.3 mm, as the body itself never goes: it
+/// is met in parts of the step, at the first steps of a run as later.
 #[test]
 fn a_guess_beyond_the_law_is_made_in_parts() {
     for before in [2.5e-3, 0.0505] {
@@ -110,7 +110,8 @@ fn a_guess_beyond_the_law_is_made_in_parts() {
     }
 }
 
-/// A spring that deflects: 10 N at most. Newton's whole correction from where it has hardly any stiffness left goes far beyond where it is known.
+/// A spring that deflects: 10 N at most. Newton's whole correction from where it has hardly any stiffness left goes far
+/// beyond where it is known.
 fn soft(x: f64) -> [f64; 2] {
     let (most_n, width_m) = (10.0 * std::f64::consts::FRAC_2_PI, 1e-4);
     let ratio = x / width_m;

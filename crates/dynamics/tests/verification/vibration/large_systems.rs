@@ -1,4 +1,5 @@
-//! Natural frequencies and equilibria of systems that are large enough for sparse matrices, against the dense solution and closed forms.
+//! Natural frequencies and equilibria of systems that are large enough for sparse matrices, against the dense solution
+//! and closed forms.
 
 use std::time::Instant;
 
@@ -11,7 +12,8 @@ use nalgebra::Vector3;
 
 use crate::vibration::{close, origin};
 
-/// A spinning, damped shaft of stations and beams on three bearings, free to turn, with a branch on a hinge: gyroscopic, with double frequencies.
+/// A spinning, damped shaft of stations and beams on three bearings, free to turn, with a branch on a hinge:
+/// gyroscopic, with double frequencies.
 fn rotor(stations: usize) -> System {
     let mut builder = System::builder();
     let section = BeamSection {
@@ -89,7 +91,8 @@ fn krylov_vectors_find_the_modes_of_the_dense_solution() {
         let size = b.natural_angular_frequency_rad_per_s();
         assert!((a.growth_per_s - b.growth_per_s).abs() < 1e-7 * size);
         assert!(a.damping_ratio() > 0.0);
-        // Forward and backward whirl differ, so shapes are unique but for their phase, which is fixed at the largest entry.
+        // Forward and backward whirl differ, so shapes are unique but for their phase, which is fixed at the largest
+        // entry.
         let product = |a: &NaturalMode, b: &NaturalMode| {
             let pairs = a.shape.iter().zip(&b.shape);
             let [re, im] = pairs.fold([0.0; 2], |[re, im], (x, y)| {

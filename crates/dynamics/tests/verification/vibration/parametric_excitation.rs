@@ -8,7 +8,8 @@ use gearmesh_dynamics::{
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-/// A spring along x whose stiffness jumps between two values, half a period each: an element as another crate would write it.
+/// A spring along x whose stiffness jumps between two values, half a period each: an element as another crate would
+/// write it.
 struct SquareWaveSpring {
     body: [BodyId; 1],
     stiffness: [f64; 2],
@@ -80,8 +81,8 @@ fn trace(stiffness: [f64; 2], period: f64) -> f64 {
 
 #[test]
 fn a_square_wave_stiffness_is_unstable_where_meissner_says() {
-    // ẍ + (δ ± ε) x = 0 with period 2π, ε = 0.4: unstable where the trace of the map exceeds 2 in magnitude. The first three
-    // regions lie at δ = 1/4, 1 and 9/4; the second is narrow for half-and-half waves.
+    // ẍ + (δ ± ε) x = 0 with period 2π, ε = 0.4: unstable where the trace of the map exceeds 2 in magnitude. The first
+    // three regions lie at δ = 1/4, 1 and 9/4; the second is narrow for half-and-half waves.
     let epsilon = 0.4;
     let exact = |delta: f64| {
         let [a, b] = [delta + epsilon, delta - epsilon].map(f64::sqrt);

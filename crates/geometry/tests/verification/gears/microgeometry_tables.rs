@@ -1,4 +1,5 @@
-//! `[microgeometry]` in gear files: every key, one side other than the other, tables over the flank, and what is refused.
+//! `[microgeometry]` in gear files: every key, one side other than the other, tables over the flank, and what is
+//! refused.
 
 use crate::gears::model;
 use gearmesh_geometry::gear_file::MicrogeometryTable;

@@ -18,7 +18,8 @@ const SLICES: usize = 15;
 pub(super) type BevelModels = [Arc<ReducedGear>; 2];
 
 impl SceneBevel<'_> {
-    /// The models of both members: those that the bodies name as their gears, else those that the mesh names; none where neither names any.
+    /// The models of both members: those that the bodies name as their gears, else those that the mesh names; none
+    /// where neither names any.
     pub(super) fn models(
         &self,
         bodies: &Bodies,

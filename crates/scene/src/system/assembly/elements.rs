@@ -1,4 +1,5 @@
-//! `[[load]]`, `[[spring]]`, `[[torsion_spring]]`, `[[bushing]]` and `[[python_element]]` to force elements; `bearings/` has those of `[[bearing]]`.
+//! `[[load]]`, `[[spring]]`, `[[torsion_spring]]`, `[[bushing]]` and `[[python_element]]` to force elements;
+//! `bearings/` has those of `[[bearing]]`.
 
 use gearmesh_dynamics::elements::{
     AppliedLoad, Axes, Bushing, HostElement, LoadKind, SpringDamper, TorsionSpring,

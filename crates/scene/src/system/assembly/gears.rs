@@ -1,4 +1,5 @@
-//! The gears that bodies name: teeth, body and, for models, static patterns; of bevel gears the model, whose teeth are those of their meshes.
+//! The gears that bodies name: teeth, body and, for models, static patterns; of bevel gears the model, whose teeth are
+//! those of their meshes.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -17,8 +17,8 @@ use super::parts_in_motion::{MovingParts, moving_parts, rows};
 use super::start::settle_phases;
 use crate::system::names::body_column;
 
-/// A body that is a gear. The frame of the body is that of the gear: z along the axis, tooth 0 on +x, the origin at mid-face or, of a bevel gear, in
-/// the pitch apex.
+/// A body that is a gear. The frame of the body is that of the gear: z along the axis, tooth 0 on +x, the origin at
+/// mid-face or, of a bevel gear, in the pitch apex.
 #[derive(Debug, Clone)]
 pub struct MovingGear {
     /// Body.

@@ -25,8 +25,8 @@ use crate::system::tables::mesh_model::MeshKind;
 /// itself is folded.
 pub(crate) const STEPS_A_PERIOD: f64 = 10.0;
 
-/// Origins that are nearer to each other across the axis than this \[m\] are those of bevel gears, apart by no more than
-/// their bearings deflect.
+/// Origins that are nearer to each other across the axis than this \[m\] are those of bevel gears, apart by no more
+/// than their bearings deflect.
 const LEAST_APART_M: f64 = 1e-3;
 
 /// How fast the line of centres turns about gear 1's axis \[rad/s\], from places and velocities of the two gears and

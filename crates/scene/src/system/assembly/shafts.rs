@@ -1,9 +1,9 @@
 //! `[[shaft]]` to bodies, and to the beams or fixed joints that hold them together.
 //!
 //! A beam shaft has a body at each station with half of the sections on either side, so that mass, centre of mass and
-//! polar inertia of the shaft are exact. A body on a seat takes the station's place. A gear that is cut into the shaft has the
-//! shaft's core in its own mass and stiffness: beams begin at its faces, one at each, and nothing of the shaft lies
-//! between them.
+//! polar inertia of the shaft are exact. A body on a seat takes the station's place. A gear that is cut into the shaft
+//! has the shaft's core in its own mass and stiffness: beams begin at its faces, one at each, and nothing of the shaft
+//! lies between them.
 
 use gearmesh_dynamics::elements::BeamSection;
 use gearmesh_dynamics::{Body, JointKind, MarkerPair};
@@ -305,7 +305,8 @@ fn sections(model: ShaftModel, radii: &[[f64; 2]]) -> Vec<BeamSection> {
     radii.iter().map(round).collect()
 }
 
-/// Ends of each section from the station before it \[m\]: the stations, and the faces of gears that are cut into the shaft.
+/// Ends of each section from the station before it \[m\]: the stations, and the faces of gears that are cut into the
+/// shaft.
 fn spans(
     table: &ShaftTable,
     keys: &TableKeys<'_>,

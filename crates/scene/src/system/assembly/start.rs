@@ -14,7 +14,8 @@ const TOUCHING_M: f64 = 1e-13;
 /// Overlap at least with which an equilibrium of a planetary set is looked for \[m\]: far above rounding, a small part
 /// of deflections.
 const PRESSED_M: f64 = UM;
-/// Overlap of the coast flanks while the others touch, from which teeth are said to jam: pairs without backlash have some rounding.
+/// Overlap of the coast flanks while the others touch, from which teeth are said to jam: pairs without backlash have
+/// some rounding.
 const JAMMED_M: f64 = UM;
 /// Part of a pitch that the gaps of both sides are together where a tooth stands in a tooth.
 const TOOTH_ON_TOOTH: f64 = 0.9;

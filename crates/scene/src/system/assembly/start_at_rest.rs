@@ -1,5 +1,5 @@
-//! `solver.start = "equilibrium"` where balls move: bodies start where they rest with the balls in equilibrium, balls in that equilibrium, cages in the
-//! middle of their outer rings.
+//! `solver.start = "equilibrium"` where balls move: bodies start where they rest with the balls in equilibrium, balls
+//! in that equilibrium, cages in the middle of their outer rings.
 
 use gearmesh_dynamics::{BodyMotion, DynamicsError, StaticParams, equilibrium};
 

@@ -22,8 +22,8 @@ pub struct BodyTable {
     /// Name by which the other tables know the body. "ground" is the world.
     pub name: String,
     /// A gear file (.toml) or a reduced gear (.h5), relative to the scene: mass, inertia and teeth. The body's frame is
-    /// the gear's: z along the axis, origin at mid-face, tooth 0 on +x. Of a bevel gear the reduced one: origin in the pitch apex, teeth by the
-    /// `bevel_pair` of its mesh.
+    /// the gear's: z along the axis, origin at mid-face, tooth 0 on +x. Of a bevel gear the reduced one: origin in the
+    /// pitch apex, teeth by the `bevel_pair` of its mesh.
     pub gear: Option<PathBuf>,
     /// Microgeometry of the gear in all its meshes, instead of all that the gear file states.
     pub microgeometry: Option<MicrogeometryTable>,

@@ -1,5 +1,5 @@
-//! `[[spring]]`, `[[torsion_spring]]` and `[[bushing]]`: forces between two bodies. Places and axes are those of the world
-//! at the start.
+//! `[[spring]]`, `[[torsion_spring]]` and `[[bushing]]`: forces between two bodies. Places and axes are those of the
+//! world at the start.
 
 use gearmesh_geometry::input::Beside;
 use schemars::JsonSchema;

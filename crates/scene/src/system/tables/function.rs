@@ -76,8 +76,8 @@ pub enum FunctionForm {
     Sum(Vec<FunctionTable>),
     /// Product of two functions; the second has no unit.
     Product([FunctionTable; 2]),
-    /// Name of a Python function, for runs from Python only (docs/python.md). A load's returns the value, a motion's the
-    /// value, its rate and its acceleration.
+    /// Name of a Python function, for runs from Python only (docs/python.md). A load's returns the value, a motion's
+    /// the value, its rate and its acceleration.
     Python(String),
 }
 

@@ -22,13 +22,15 @@ pub struct GearMeshTable {
     pub gear_1: String,
     /// Body of gear 2.
     pub gear_2: String,
-    /// A bevel pair file, relative to the scene: gear 1 is its pinion, gear 2 its gear. The origin of both bodies is the
-    /// pitch apex, z points from the apex to the heel, the middle of tooth 0 stands on +x. Models `impact` and `hybrid`.
+    /// A bevel pair file, relative to the scene: gear 1 is its pinion, gear 2 its gear. The origin of both bodies is
+    /// the pitch apex, z points from the apex to the heel, the middle of tooth 0 stands on +x. Models `impact` and
+    /// `hybrid`.
     pub bevel_pair: Option<PathBuf>,
-    /// With `bevel_pair` and kind `hybrid`: reduced models (.h5) of the pinion and the gear, relative to the scene; where the bodies name none as their
-    /// `gear`.
+    /// With `bevel_pair` and kind `hybrid`: reduced models (.h5) of the pinion and the gear, relative to the scene;
+    /// where the bodies name none as their `gear`.
     pub bevel_models: Option<[PathBuf; 2]>,
-    /// With `bevel_pair` and kind `impact`: flanks of the pinion divided into facets against the smooth ones of the gear; smooth on both where not given.
+    /// With `bevel_pair` and kind `impact`: flanks of the pinion divided into facets against the smooth ones of the
+    /// gear; smooth on both where not given.
     pub bevel_surface: Option<BevelSurfaceTable>,
     /// Model of the teeth.
     pub model: MeshModel,
@@ -46,8 +48,8 @@ pub struct GearMeshTable {
     pub microgeometry: Option<bool>,
 }
 
-/// `gear_mesh.bevel_surface`: what the pinion's flanks are divided into. Edges should be a fifth of the contact ellipse or less; at least eight facets along
-/// the face and up the flank, two hundred thousand on a flank at most.
+/// `gear_mesh.bevel_surface`: what the pinion's flanks are divided into. Edges should be a fifth of the contact ellipse
+/// or less; at least eight facets along the face and up the flank, two hundred thousand on a flank at most.
 #[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "BevelSurfaceTable")]

@@ -259,7 +259,8 @@ pub struct HybridTable {
     pub local: Option<LocalContact>,
     /// Bevel pairs, instead of reduced gears: rigid ones whose surfaces deflect as half spaces do; their material.
     pub half_space: Option<HertzTable>,
-    /// Slices over the overlap of the faces; those of the models where not given. Bevel pairs: along the face, 15 without models.
+    /// Slices over the overlap of the faces; those of the models where not given. Bevel pairs: along the face, 15
+    /// without models.
     pub slices: Option<usize>,
     /// Normal force to which the floor of the local law's logarithm belongs (a millionth of its mean slice force); 100
     /// N/mm times the face width where not given.

@@ -55,7 +55,8 @@ pub(super) fn flexibility(
     Ok(())
 }
 
-/// Makes the models of both members, of files with this end of their names, where the scenes look for them, unless they are there.
+/// Makes the models of both members, of files with this end of their names, where the scenes look for them, unless they
+/// are there.
 fn reduced_members(runner: &Runner, suffix: &str) -> Result<(), XtaskError> {
     for member in ["pinion", "gear"] {
         let gear = format!("bevel_{member}_20_20{suffix}.toml");

@@ -1,4 +1,5 @@
-//! `[[bearing]]` to parts of the system; one file for each kind of model, `cages.rs` and `housing.rs` for the bodies that bearings bring along.
+//! `[[bearing]]` to parts of the system; one file for each kind of model, `cages.rs` and `housing.rs` for the bodies
+//! that bearings bring along.
 
 pub(super) mod cages;
 mod dynamic;

@@ -1,8 +1,9 @@
 //! `tangent_of`: bearings that are linear about the operating point of their bearing file.
 //!
-//! The operating point is the static equilibrium under the loads of t = 0 with balls or rollers in equilibrium, at the speeds of the start. There load and
-//! tangent are taken; the equilibrium of the scene with these linear bearings is sought, and load and tangent are taken anew where the ring stands then,
-//! until they do not change. In exact numbers the first turn is the last: load and slope are those of the bearing itself.
+//! The operating point is the static equilibrium under the loads of t = 0 with balls or rollers in equilibrium, at the
+//! speeds of the start. There load and tangent are taken; the equilibrium of the scene with these linear bearings is
+//! sought, and load and tangent are taken anew where the ring stands then, until they do not change. In exact numbers
+//! the first turn is the last: load and slope are those of the bearing itself.
 
 use gearmesh_bearings::{BearingError, Control, Operation, QuasiStaticBearing, RingPose};
 use gearmesh_dynamics::{Marker, MarkerPair, State, System};

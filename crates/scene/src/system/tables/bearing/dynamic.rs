@@ -111,7 +111,8 @@ pub enum SurfaceTable {
 
 kinds!(SurfaceTable, "kind");
 
-/// `cage`: a body with six degrees of freedom, called `BEARING/cage`, of two rows `BEARING/cage_1` and `BEARING/cage_2`.
+/// `cage`: a body with six degrees of freedom, called `BEARING/cage`, of two rows `BEARING/cage_1` and
+/// `BEARING/cage_2`.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]

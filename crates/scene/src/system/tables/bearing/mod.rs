@@ -1,4 +1,5 @@
-//! `[[bearing]]`: where it is, and its model; one file for each kind of model. Places and axes are those of the world at the start.
+//! `[[bearing]]`: where it is, and its model; one file for each kind of model. Places and axes are those of the world
+//! at the start.
 
 mod dynamic;
 mod housing;
