@@ -24,6 +24,36 @@ const OPENS_FILES: [&str; 4] = [
     "crates/python/src/meshio_exchange.rs", // into a temporary folder
 ];
 
+/// Width of comments, as rustfmt.toml states it; tables, formulas and examples may be wider.
+const WIDTH: usize = 120;
+
+#[test]
+fn comments_stay_within_their_width() {
+    let mut faults = Vec::new();
+    for file in rust_files("") {
+        let mut is_fenced = false;
+        for (number, line) in read(&file).lines().enumerate() {
+            let Some(comment) = line.trim_start().strip_prefix("//") else {
+                is_fenced = false;
+                continue;
+            };
+            let text = comment.trim_start_matches(['/', '!']);
+            if text.trim_start().starts_with("```") {
+                is_fenced = !is_fenced;
+            }
+            let may_be_wide = is_fenced || text.starts_with("    ") || text.contains('|');
+            if !may_be_wide && line.chars().count() > WIDTH {
+                faults.push(format!(
+                    "{}:{}: a comment wider than {WIDTH} columns",
+                    relative(&file),
+                    number + 1
+                ));
+            }
+        }
+    }
+    assert_no_faults(&faults);
+}
+
 #[test]
 fn source_files_stay_short() {
     let faults: Vec<String> = rust_files("")
