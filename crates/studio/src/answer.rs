@@ -41,6 +41,29 @@ pub struct PairAnswer {
     pub orders: Vec<f64>,
     /// Amplitudes of the transmission error, `[T][N]`.
     pub amplitudes_um: Vec<f64>,
+    /// Where and how hard the flanks touch.
+    #[serde(flatten)]
+    pub contact: ContactAnswer,
+    /// Angles about z of both gears under the first torque, `[A][2]`.
+    pub turns_rad: Vec<f64>,
+    /// Centre distance.
+    pub centre_distance_mm: f64,
+    /// Mid-face of gear 2 from that of gear 1.
+    pub axial_offset_mm: f64,
+    /// Root strain of the gauges.
+    pub strain: Vec<GaugeCurve>,
+    /// Digests of the models: others have other shapes.
+    pub models: [String; 2],
+    /// Contact ratio in the transverse plane.
+    pub contact_ratio: f64,
+    /// Seconds of the solution and of the strain.
+    pub seconds: [f64; 2],
+}
+
+/// Lines of contact, position by position.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(non_snake_case)]
+pub struct ContactAnswer {
     /// L.
     pub slots: usize,
     /// S.
@@ -61,20 +84,6 @@ pub struct PairAnswer {
     pub width_mm: Vec<f64>,
     /// Its place in the axes of gear 1, `[A][L][S][2]`.
     pub point_mm: Vec<f64>,
-    /// Angles about z of both gears under the first torque, `[A][2]`.
-    pub turns_rad: Vec<f64>,
-    /// Centre distance.
-    pub centre_distance_mm: f64,
-    /// Mid-face of gear 2 from that of gear 1.
-    pub axial_offset_mm: f64,
-    /// Root strain of the gauges.
-    pub strain: Vec<GaugeCurve>,
-    /// Digests of the models: others have other shapes.
-    pub models: [String; 2],
-    /// Contact ratio in the transverse plane.
-    pub contact_ratio: f64,
-    /// Seconds of the solution and of the strain.
-    pub seconds: [f64; 2],
 }
 
 /// Strain of a gauge, `[T][A]`.
@@ -98,15 +107,7 @@ impl PairAnswer {
     pub fn new(loaded: &LoadedScene, result: &SceneResult) -> Result<Self, Problem> {
         let pair = &loaded.lines.pair;
         let width_mm = MM * loaded.layout.reference.width_m;
-        let places = result.places.clone().unwrap_or_default();
         let turns = (0..result.angles()).flat_map(|angle| pair_turns(pair, result, (0, angle)));
-        let base_mm = MM * pair.gear_1.base_radius_m;
-        let diameters = places.roll_1_rad.iter().zip(&places.width_m);
-        let diameter = |(roll, width): (&f64, &f64)| match *width > 0.0 {
-            true => 2.0 * base_mm * (1.0 + roll * roll).sqrt(),
-            false => 0.0,
-        };
-        let points = touching_points_m(pair, result);
         let (orders, amplitudes_um) = spectrum(result, pair.gear_1.teeth)?;
         Ok(Self {
             figures: pair_figures(result),
@@ -124,6 +125,30 @@ impl PairAnswer {
             secant_N_per_mm_um: scaled(&result.secant_n_per_m, 1e-6 / width_mm),
             orders,
             amplitudes_um,
+            contact: ContactAnswer::new(loaded, result),
+            turns_rad: turns.collect(),
+            centre_distance_mm: MM * pair.centre_distance_m,
+            axial_offset_mm: MM * loaded.scene.axial_offset_m,
+            strain: result.strain.iter().map(gauge).collect(),
+            models: loaded.model_digests.clone(),
+            contact_ratio: pair.contact_ratio(),
+            seconds: result.seconds,
+        })
+    }
+}
+
+impl ContactAnswer {
+    fn new(loaded: &LoadedScene, result: &SceneResult) -> Self {
+        let pair = &loaded.lines.pair;
+        let places = result.places.clone().unwrap_or_default();
+        let base_mm = MM * pair.gear_1.base_radius_m;
+        let diameters = places.roll_1_rad.iter().zip(&places.width_m);
+        let diameter = |(roll, width): (&f64, &f64)| match *width > 0.0 {
+            true => 2.0 * base_mm * (1.0 + roll * roll).sqrt(),
+            false => 0.0,
+        };
+        let points = touching_points_m(pair, result);
+        Self {
             slots: result.slots,
             slices: result.slices,
             pair: result.pair.clone(),
@@ -134,14 +159,7 @@ impl PairAnswer {
             z_mm: scaled(&places.z_m, MM),
             width_mm: scaled(&places.width_m, MM),
             point_mm: points.iter().flatten().map(|x| MM * x).collect(),
-            turns_rad: turns.collect(),
-            centre_distance_mm: MM * pair.centre_distance_m,
-            axial_offset_mm: MM * loaded.scene.axial_offset_m,
-            strain: result.strain.iter().map(gauge).collect(),
-            models: loaded.model_digests.clone(),
-            contact_ratio: pair.contact_ratio(),
-            seconds: result.seconds,
-        })
+        }
     }
 }
 

@@ -24,7 +24,7 @@ mod server;
 mod text_edit;
 mod waterfall;
 
-pub use answer::PairAnswer;
+pub use answer::{ContactAnswer, PairAnswer};
 pub use assets::{Asset, assets};
 pub use opened::Opened;
 pub use pair::{Change, PairSession};

@@ -243,13 +243,12 @@ impl NodeSurfaces {
                 }
             }
         }
-        let Some((number, foot)) = nearest else {
-            return;
-        };
-        if found.contacts.len() == first {
-            self.push(pose, side, pairing, (line, number, foot), search, found);
+        if let Some((number, foot)) = nearest {
+            if found.contacts.len() == first {
+                self.push(pose, side, pairing, (line, number, foot), search, found);
+            }
+            found.add_line(pairing.teeth, first, foot.gap_m);
         }
-        found.add_line(pairing.teeth, first, foot.gap_m);
     }
 
     fn push(
