@@ -90,7 +90,7 @@ fn assembly_errors_move_the_loaded_pattern() {
             parts.push(format!("{part:.2} at {key} = {error}"));
         }
         println!(
-            "{pair}: movement along the tooth over that of the contact without load (allowed 0.05 to 1): {}; least movement the told way \
+            "{pair}: movement along the tooth over that of the contact without load (allowed 0.05 to 1): {}; least movement in the direction foretold \
              {least:.1e} of the face or the flank's height (more than 0)",
             parts.join(", ")
         );
