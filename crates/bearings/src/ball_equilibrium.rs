@@ -1,4 +1,4 @@
-//! The equilibrium of one ball between two grooves, and what it does to the inner ring.
+//! The equilibrium of one ball between two grooves, and its load and stiffness on the inner ring.
 //!
 //! Each ball stays in its axial plane (the cage holds it there) and has two unknowns, the place of its centre b in
 //! that plane. A groove is half a torus: a circle of radius R, the line of the groove's centres, and round it the

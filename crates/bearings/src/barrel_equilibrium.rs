@@ -1,5 +1,5 @@
 //! The equilibrium of one barrel roller between groove and sphere, lamina by lamina, in the axial plane of the inner
-//! ring, and what all of a row do to that ring.
+//! ring, and the load and stiffness of a whole row on that ring.
 //!
 //! Three unknowns: the place (r, z) of its middle and the tilt φ from r towards z. Each lamina is a circle about the
 //! roller's axis: its outermost point meets the sphere, its innermost the groove. Forces have a potential, whose least
@@ -231,8 +231,8 @@ fn least_turn(a: &Vector3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
 }
 
 impl BarrelRow {
-    /// Adds what the row does to the ring, and hands every roller's load to `each`. The search of each roller begins at
-    /// its place in the inner ring's axes, which it leaves where it ends.
+    /// Adds the row's load and stiffness to the ring's, and hands the load of every roller to `each`. The search for a
+    /// roller begins at its place in the inner ring's axes, and writes there where it ends.
     ///
     /// # Errors
     /// [`BearingError::NoRollerEquilibrium`].

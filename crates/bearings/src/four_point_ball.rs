@@ -1,5 +1,5 @@
-//! The equilibrium of one ball between the four arcs of a four-point contact bearing, and what it and all of its row do
-//! to the inner ring.
+//! The equilibrium of one ball between the four arcs of a four-point contact bearing, and the load and stiffness of the
+//! ball and of its row on the inner ring.
 //!
 //! The ball stays in its axial plane and has two unknowns there. Every arc presses it as one groove of
 //! `ball_equilibrium.rs` does, or not at all. The centrifugal force is that of rolling at the nominal angle: with three
@@ -226,8 +226,8 @@ impl FourPointBall<'_> {
 }
 
 impl FourPointRow {
-    /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at its
-    /// place, which it leaves where it ends.
+    /// Adds the row's load and stiffness to the ring's, and hands the load of every ball to `each`. The search for a
+    /// ball begins at its place, and writes there where it ends.
     ///
     /// # Errors
     /// [`BearingError::NoBallEquilibrium`].

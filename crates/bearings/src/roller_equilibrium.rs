@@ -1,5 +1,5 @@
-//! The equilibrium of one roller under the forces of `roller_forces.rs`, and what it and all of its row do to both
-//! rings.
+//! The equilibrium of one roller under the forces of `roller_forces.rs`, and the load and stiffness of the roller and of
+//! its row on both rings.
 
 use nalgebra::{Matrix3, Matrix3x6, Matrix6x3, Vector2, Vector3};
 
@@ -314,8 +314,8 @@ impl RollerRow {
         (orbit, (w_i - orbit) * inner / (0.5 * self.diameter_m))
     }
 
-    /// Adds what the row does to the ring, and hands every roller's load to `each`. The search of each roller begins
-    /// at its place, which it leaves where it ends.
+    /// Adds the row's load and stiffness to the ring's, and hands the load of every roller to `each`. The search for a
+    /// roller begins at its place, and writes there where it ends.
     ///
     /// # Errors
     /// [`BearingError::NoRollerEquilibrium`].

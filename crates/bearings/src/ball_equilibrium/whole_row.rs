@@ -1,4 +1,4 @@
-//! What all balls of a row do to the inner ring.
+//! Load and stiffness of a whole row of balls on the inner ring.
 
 use nalgebra::Vector3;
 
@@ -13,8 +13,8 @@ use crate::ring_load::RingLoad;
 use crate::ring_pose::RingPose;
 
 impl BallRow {
-    /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at
-    /// its place, which it leaves where it ends.
+    /// Adds the row's load and stiffness to the ring's, and hands the load of every ball to `each`. The search for a
+    /// ball begins at its place, and writes there where it ends.
     ///
     /// # Errors
     /// [`BearingError::NoBallEquilibrium`], [`BearingError::PulledOut`].

@@ -9,8 +9,8 @@
 //! ∇∇δ: ee δ_ϱϱ, aa δ_ζζ, ea δ_ϱζ, tt δ_ψψ/ϱ² + δ_ϱ/ϱ, et δ_ϱψ/ϱ − δ_ψ/ϱ², at δ_ζψ/ϱ
 //! ```
 //!
-//! The force is that of a potential of these coordinates alone: what the fault does to a ball it does to the ring in
-//! reverse, and no energy is made.
+//! The force is that of a potential of these coordinates alone: ball and ring feel equal and opposite forces, and no
+//! energy is made.
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -127,19 +127,7 @@ fn slices_lift_off_and_come_back() {
         100.0 * free as f64 / shown.half.len() as f64,
         strikes.join(", ")
     );
-    let ramp = "{ step = { start_s = 0.001, from = 0.0, end_s = 0.011, to = 3000.0 } }";
-    let shown = run(&pair(), &in_slices(&scene(ramp, "1.0", 0.02)), 5e-3);
-    assert!(shown.force().contains(&0.0));
-    // At rest the gear stood at the coast flanks: it has crossed the backlash, 0.15 mm over a lever of 23 mm.
-    let behind = shown.turn("gear") + shown.turn("pinion");
-    assert!((behind - 6.5e-3).abs() < 0.6e-3, "{behind}");
-    let force = shown.force();
-    println!(
-        "ramp: no force in {} of {} rows (at least one), turns of gear and pinion then apart by {:.2} mrad (5.9 to 7.1)",
-        force.iter().filter(|force| **force == 0.0).count(),
-        force.len(),
-        1e3 * behind
-    );
+    a_ramp_crosses_the_backlash(in_slices);
 }
 
 /// The turn goes back under one torque, and the torque changes its sign under one speed: the other flanks then carry.
