@@ -366,3 +366,22 @@ def test_xarray_names_axes_and_shares_the_memory(result):
     assert np.shares_memory(data["force_N"].to_numpy(), result["force_N"])
     rows = gm.Scene(PENDULUM).run().to_xarray()
     assert rows["time_s"].dims == ("time_s",) and rows.sizes["time_s"] == 201
+
+
+def test_what_is_read_is_never_what_is_written(pinion, models, tmp_path):
+    for model in models:
+        shutil.copy(model.path, tmp_path)
+    scene = tmp_path / "pair.toml"
+    scene.write_text(
+        'title = "pair"\n[pair]\ngear_1 = "pinion.h5"\ngear_2 = "wheel.h5"\ncentre_distance_mm = 94.6\n'
+        '[mesh.model]\nkind = "hybrid"\nlocal = "weber-banaschek"\n[run]\ntorques_Nm = [50.0]\npitches = 1\npoints_per_pitch = 4\n'
+    )
+    before = (tmp_path / "wheel.h5").read_bytes()
+    with pytest.raises(gm.InputError, match="wheel.h5 is read by this command"):
+        gm.run(scene, tmp_path / "wheel.h5")
+    assert (tmp_path / "wheel.h5").read_bytes() == before
+    link = tmp_path / "link.h5"
+    link.symlink_to("wheel.h5")
+    with pytest.raises(gm.InputError, match="link"):
+        pinion.reduce(link, error_estimate=False, progress=False)
+    assert (tmp_path / "wheel.h5").read_bytes() == before

@@ -1,5 +1,5 @@
-//! The equilibrium of one roller under the forces of `roller_forces.rs`, and the load and stiffness of the roller and of
-//! its row on both rings.
+//! The equilibrium of one roller under the forces of `roller_forces.rs`, and the load and stiffness of the roller and
+//! of its row on both rings.
 
 use nalgebra::{Matrix3, Matrix3x6, Matrix6x3, Vector2, Vector3};
 

@@ -20,6 +20,17 @@ pub fn refuse(inputs: Vec<PathBuf>, outputs: &[PathBuf]) -> Result<()> {
     outputs.iter().try_for_each(|output| apart(output, &inputs))
 }
 
+/// As [`refuse`], of the files that a text in memory names, relative to `folder`, and of the file that it was read
+/// from.
+///
+/// # Errors
+/// [`Failure`] that names both.
+pub fn refuse_named(text: &str, [file, folder]: [&Path; 2], output: &Path) -> Result<()> {
+    let named = named_files(text, folder).into_values();
+    let inputs = named.chain([file.to_owned()]).collect();
+    refuse(inputs, &[output.to_owned()])
+}
+
 /// Refuses an output that is one of the inputs.
 ///
 /// # Errors

@@ -1,9 +1,10 @@
 //! The offline stage.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_operations::gear_file::GearFile;
+use gearmesh_operations::overwriting::refuse_named;
 use gearmesh_operations::reduce::{Reduction, reduce_to};
 use pyo3::prelude::*;
 
@@ -32,6 +33,8 @@ pub(crate) fn reduce(
     };
     let (progress, python) = (progress.as_ref(), Some(interpreter));
     watched(py, progress, OnInterrupt::Leave, python, move |watch| {
+        let folder = Path::new(&file).parent().unwrap_or(Path::new(""));
+        refuse_named(&text, [Path::new(&file), folder], &output)?;
         let gear = GearFile::of(&InputDocument::new(file, text), watch)?;
         reduce_to(&gear, how, &output, watch).map(|_| ())
     })

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
 use gearmesh_operations::Watch;
+use gearmesh_operations::overwriting::refuse_named;
 use gearmesh_operations::plan::plan as plan_scene;
 use gearmesh_operations::run::{self as operations, RunHow};
 use gearmesh_scene::SceneFile;
@@ -70,6 +71,9 @@ pub(crate) fn run(
     identity: String,
     most_result_gb: f64,
 ) -> PyResult<(NativeResult, Vec<String>, Cost)> {
+    if let Some(output) = &output {
+        refuse_named(&source, [Path::new(&file), &folder], output).map_err(raised)?;
+    }
     let functions = Functions::of(functions.as_ref())?;
     let host = functions.for_scene(identity);
     let scene = py.detach(move || with_functions(read(&source, &file, &folder)?, host))?;
