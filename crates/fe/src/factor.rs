@@ -192,7 +192,8 @@ impl Factor {
             .map_err(|_| FeError::OutOfMemory {
                 bytes: length.saturating_mul(size_of::<f64>()),
             })?;
-        values.resize(length, 0.0);
+        // The first touch of new memory takes as long as some factorisations of it.
+        values.par_extend(rayon::iter::repeat_n(0.0, length));
 
         let par = faer::get_global_parallelism();
         let request = symbolic

@@ -35,7 +35,6 @@ use crate::tooth_vectors::summed;
 use crate::toothed_mesh::ToothParts;
 use crate::{Progress, ReductionError, Within};
 use gearmesh_geometry::{Blank, Element, Flank, GearDefinition, MeshSettings};
-use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{FlankGrid, GaugeRows, ReducedGear, ReductionChecks};
 
 /// Ratio of the element lengths.
@@ -167,22 +166,33 @@ pub struct CoarserMeshes {
     safety: f64,
 }
 
-/// Solves the coarser meshes of a cylindrical gear.
-///
-/// # Errors
-/// [`ReductionError`] when a coarse mesh cannot be made or solved.
-pub fn coarser_meshes(
-    gear: &GearDefinition,
-    python: &PythonEnvironment,
-    grid: &FlankGrid,
-    progress: &dyn Progress,
-) -> Result<CoarserMeshes, ReductionError> {
+/// A cylindrical gear with the meshes that the estimate solves, from the finest to the coarsest.
+pub fn coarser_gears(gear: &GearDefinition) -> Vec<GearDefinition> {
     let one_step = gear.mesh.plane_strain || gear.mesh.element == Element::Tet10;
     let steps: &[Longer] = if one_step {
         &[Longer::All]
     } else {
         &[Longer::Teeth, Longer::All]
     };
+    let coarser = steps.iter().map(|&longer| GearDefinition {
+        // The estimate is that of the sound gear.
+        crack: None,
+        mesh: coarsened(&gear.mesh, longer),
+        ..gear.clone()
+    });
+    coarser.collect()
+}
+
+/// Solves the coarser meshes of a cylindrical gear, those of [`coarser_gears`].
+///
+/// # Errors
+/// [`ReductionError`] when a coarse mesh cannot be solved.
+pub(crate) fn coarser_meshes(
+    gear: &GearDefinition,
+    coarser: Vec<(GearDefinition, MeshedGear)>,
+    grid: &FlankGrid,
+    progress: &dyn Progress,
+) -> Result<CoarserMeshes, ReductionError> {
     let asked = Asked {
         grid,
         side: gear.reduction.flanks[0],
@@ -196,33 +206,31 @@ pub fn coarser_meshes(
         None => SAFETY,
         Some(_) => SAFETY_OF_OTHERS,
     };
-    each_mesh((steps, order, safety), progress, |longer, progress| {
-        let mut coarse = gear.clone();
-        // The estimate is that of the sound gear.
-        coarse.crack = None;
-        coarse.mesh = coarsened(&gear.mesh, longer);
-        let meshed = MeshedGear::new(&coarse, python, progress)?;
+    let figures = |(coarse, meshed): (GearDefinition, MeshedGear), progress: &dyn Progress| {
         let body = meshed.held(&coarse, progress)?;
         let loads = flank_loads(&coarse, &body.mesh, grid, 0, asked.side);
         let rows = (coarse.gauges.iter())
             .map(|gauge| gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
             .collect::<Result<_, _>>()?;
         mesh_figures(&asked, &body, (&loads, rows), progress)
-    })
+    };
+    each_mesh(coarser, (order, safety), progress, figures)
 }
 
-/// One mesh after the other; `steps`: which of their elements are longer.
-pub(crate) fn each_mesh(
-    (steps, order, safety): (&[Longer], i32, f64),
+/// One mesh after the other, from the finest to the coarsest.
+pub(crate) fn each_mesh<T>(
+    coarser: Vec<T>,
+    (order, safety): (i32, f64),
     progress: &dyn Progress,
-    mut coarse: impl FnMut(Longer, &dyn Progress) -> Result<Figures, ReductionError>,
+    mut figures_of: impl FnMut(T, &dyn Progress) -> Result<Figures, ReductionError>,
 ) -> Result<CoarserMeshes, ReductionError> {
-    let figures = steps.iter().enumerate().map(|(k, &longer)| {
+    let count = coarser.len();
+    let figures = coarser.into_iter().enumerate().map(|(k, coarse)| {
         let progress = Within {
             all: progress,
-            part: format!("error estimate, coarser mesh {} of {}", k + 1, steps.len()),
+            part: format!("error estimate, coarser mesh {} of {count}", k + 1),
         };
-        coarse(longer, &progress)
+        figures_of(coarse, &progress)
     });
     Ok(CoarserMeshes {
         figures: figures.collect::<Result<_, _>>()?,

@@ -3,7 +3,7 @@
 use crate::asked_gauges::AskedGauges;
 use crate::bore_patterns::{AskedMotions, FoundMotions};
 use crate::dynamics::DynamicsRequest;
-use crate::error_estimate::coarser_meshes;
+use crate::error_estimate::{coarser_gears, coarser_meshes};
 use crate::flank_loads::{flank_grid, flank_loads};
 use crate::gauge_row::{gauge_head, gauge_row};
 use crate::gear_body::{GearBody, MeshedGear};
@@ -12,11 +12,12 @@ use crate::reduction_steps::Reduction;
 use crate::root_crack::{CRACK_SYMMETRY, root_crack};
 use crate::shaft_faces::HeldFaces;
 use crate::stages::Stages;
-use crate::{Progress, ReductionError};
+use crate::{Progress, ReductionError, Silent};
 use gearmesh_geometry::{GearDefinition, ProfileCurve};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{FlankGrid, NearField, ReducedGear, StoredGear};
+use rayon::prelude::*;
 
 /// What a reduction does besides its main job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,12 +42,13 @@ pub fn reduce(
 ) -> Result<(ReducedGear, GearBody), ReductionError> {
     // Meshed first, so that a mesh that is refused is so at once; factorised after the coarser ones, so that factors of
     // two meshes never stand in memory side by side.
-    let meshed = MeshedGear::new(gear, python, progress)?;
+    let coarser = (options.estimate_error).then(|| coarser_gears(gear));
+    let (meshed, coarser) = meshed_at_once(gear, coarser, python, progress)?;
     let motions = AskedMotions::new(gear, &meshed.mesh)?;
     let grid = flank_grid(gear);
     let mut estimate = Stages::after(Vec::new());
-    let coarser = (options.estimate_error)
-        .then(|| coarser_meshes(gear, python, &grid, progress))
+    let coarser = coarser
+        .map(|coarser| coarser_meshes(gear, coarser, &grid, progress))
         .transpose()?;
     if coarser.is_some() {
         estimate.lap("error estimate");
@@ -104,6 +106,27 @@ pub fn reduce(
     add_crack(gear, faces.as_ref(), &mut found, progress)?;
     let (model, body) = found.finished();
     Ok((of_definition(gear, grid, near_field, model), body))
+}
+
+/// Gears with their meshes.
+type Meshed = Vec<(GearDefinition, MeshedGear)>;
+
+/// Meshes a gear, and beside it the coarser ones of the error estimate: a mesher uses one core.
+fn meshed_at_once(
+    gear: &GearDefinition,
+    coarser: Option<Vec<GearDefinition>>,
+    python: &PythonEnvironment,
+    progress: &dyn Progress,
+) -> Result<(MeshedGear, Option<Meshed>), ReductionError> {
+    let coarse = |gear: GearDefinition| {
+        let meshed = MeshedGear::new(&gear, python, &Silent)?;
+        Ok((gear, meshed))
+    };
+    let (meshed, coarser) = rayon::join(
+        || MeshedGear::new(gear, python, progress),
+        || coarser.map(|gears| gears.into_par_iter().map(coarse).collect()),
+    );
+    Ok((meshed?, coarser.transpose()?))
 }
 
 /// Adds the crack, where there is one.

@@ -26,20 +26,17 @@ pub(super) fn coarser_bevel_meshes(
         side: gear.reduction.flanks[0],
         gauge_teeth: gear.gauges.iter().map(|gauge| gauge.tooth).collect(),
     };
-    let steps = [Longer::Section, Longer::All];
-    each_mesh(
-        (&steps, WITH_EDGES, SAFETY),
-        progress,
-        |longer, progress| {
-            let mut coarse = gear.clone();
-            coarse.mesh = coarsened(&gear.mesh, longer);
-            let body = bevel_body_of(&coarse, body_grid, progress)?;
-            let patch = flank_patch(&coarse, asked.side)?;
-            let loads = bevel_loads(&body.mesh, &patch, asked.side, grid);
-            let rows = (coarse.gauges.iter())
-                .map(|gauge| bevel_gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
-                .collect::<Result<_, _>>()?;
-            mesh_figures(&asked, &body, (&loads, rows), progress)
-        },
-    )
+    let figures = |longer: Longer, progress: &dyn Progress| {
+        let mut coarse = gear.clone();
+        coarse.mesh = coarsened(&gear.mesh, longer);
+        let body = bevel_body_of(&coarse, body_grid, progress)?;
+        let patch = flank_patch(&coarse, asked.side)?;
+        let loads = bevel_loads(&body.mesh, &patch, asked.side, grid);
+        let rows = (coarse.gauges.iter())
+            .map(|gauge| bevel_gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
+            .collect::<Result<_, _>>()?;
+        mesh_figures(&asked, &body, (&loads, rows), progress)
+    };
+    let steps = vec![Longer::Section, Longer::All];
+    each_mesh(steps, (WITH_EDGES, SAFETY), progress, figures)
 }
