@@ -4,7 +4,7 @@ use std::fs::{self, File};
 
 use crate::console;
 use crate::error::XtaskError;
-use crate::venv::Venv;
+use crate::venv::{Unfinished, Venv};
 use crate::workspace::Workspace;
 use crate::{machine, python_module, system_libs};
 
@@ -24,9 +24,19 @@ pub fn prepare(workspace: &Workspace) -> Result<Venv, XtaskError> {
         lock.lock()
             .map_err(XtaskError::io(|| format!("locking {}", path.display())))?;
     }
-    let venv = Venv::ensure(workspace, &python)?;
+    let (venv, left) = Venv::begin(workspace, &python)?;
+    let (finished, built) = std::thread::scope(|scope| {
+        let finished = scope.spawn(|| left.map_or(Ok(()), Unfinished::finish));
+        let built = python_module::build(workspace, &venv);
+        let finished = finished.join();
+        (
+            finished.unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            built,
+        )
+    });
+    finished?;
     system_libs::ensure(&venv)?;
-    python_module::ensure(workspace, &venv)?;
+    python_module::install(workspace, &venv, &built?)?;
     Ok(venv)
 }
 

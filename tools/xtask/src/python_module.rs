@@ -16,11 +16,11 @@ use crate::steps::{BUILD, cargo, run_checked};
 use crate::venv::Venv;
 use crate::workspace::Workspace;
 
-/// Builds the module and installs it. The caller holds the preparation lock.
+/// Builds the module and all libraries; returns its file. The caller holds the preparation lock.
 ///
 /// # Errors
-/// [`XtaskError::Failed`] where the build fails, [`XtaskError::Io`] where the file cannot be copied.
-pub fn ensure(workspace: &Workspace, venv: &Venv) -> Result<(), XtaskError> {
+/// [`XtaskError::Failed`] where the build fails.
+pub fn build(workspace: &Workspace, venv: &Venv) -> Result<PathBuf, XtaskError> {
     let built = build_dir()?.join("libgearmesh_native.so");
     if !built.exists() {
         console::say(
@@ -28,15 +28,22 @@ pub fn ensure(workspace: &Workspace, venv: &Venv) -> Result<(), XtaskError> {
         );
     }
     run_checked(cargo(workspace, venv).args(BUILD))?;
+    Ok(built)
+}
 
+/// Installs the module that was built into the environment. The caller holds the preparation lock.
+///
+/// # Errors
+/// [`XtaskError::Io`] where a file cannot be copied.
+pub fn install(workspace: &Workspace, venv: &Venv, built: &Path) -> Result<(), XtaskError> {
     let site = site_packages(venv)?;
     let package = site.join("gearmesh");
     fs::create_dir_all(&package)
         .map_err(XtaskError::io(|| format!("making {}", package.display())))?;
     let mut files = sources(workspace)?;
-    files.push((built, OsString::from("_native.abi3.so")));
+    files.push((built.to_owned(), OsString::from("_native.abi3.so")));
     for (from, name) in &files {
-        install(from, &package.join(name))?;
+        replace(from, &package.join(name))?;
     }
     // A file that the package has no more would still be found; so would the module of former times.
     let kept = |name: &OsStr| files.iter().any(|(_, file)| file == name) || name == "__pycache__";
@@ -67,7 +74,7 @@ fn entries(folder: &Path) -> Result<Vec<fs::DirEntry>, XtaskError> {
 
 /// Copies a file where the other one has not the same content. Written beside and renamed: a Python that has the old
 /// file loaded keeps it.
-fn install(from: &Path, to: &Path) -> Result<(), XtaskError> {
+fn replace(from: &Path, to: &Path) -> Result<(), XtaskError> {
     let content =
         fs::read(from).map_err(XtaskError::io(|| format!("reading {}", from.display())))?;
     if fs::read(to).is_ok_and(|old| old == content) {

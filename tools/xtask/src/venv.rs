@@ -1,5 +1,6 @@
 //! The Python environment `.venv`, made from the hash-locked requirements and stamped with what it was made from.
 //!
+//! It is made in two steps, so that cargo need not wait for it: first what C sources are built with, then the rest.
 //! The stamp is written last. An environment without it, or with another one, is stale: half made by a killed run,
 //! made from an older lock or by another Python, or moved (its scripts name their interpreter by absolute path).
 //! A stale environment is removed and made again.
@@ -18,40 +19,75 @@ use crate::workspace::Workspace;
 
 const STAMP_NAME: &str = ".gearmesh-stamp";
 
-/// A finished environment.
+/// What C sources are built with.
+const BUILD_TOOLS: [&str; 2] = ["cmake", "ninja"];
+
+/// An environment.
 #[derive(Debug, Clone)]
 pub struct Venv {
     dir: PathBuf,
 }
 
+/// What is left to do in an environment.
+pub struct Unfinished {
+    venv: Venv,
+    requirements: PathBuf,
+    stamp: String,
+}
+
 impl Venv {
-    /// Returns `.venv`, making it first where it is absent or stale. The caller holds the preparation lock.
+    /// Returns `.venv` with what C sources are built with, and what is left to do; none where it is finished. One that
+    /// is stale is made anew. The caller holds the preparation lock.
     ///
     /// # Errors
     /// [`XtaskError::Io`] for files that cannot be read or written, [`XtaskError::Failed`] where pip fails.
-    pub fn ensure(workspace: &Workspace, python: &BasePython) -> Result<Self, XtaskError> {
-        Self::in_folder(workspace.venv_dir(), &workspace.requirements(), python)
+    pub fn begin(
+        workspace: &Workspace,
+        python: &BasePython,
+    ) -> Result<(Self, Option<Unfinished>), XtaskError> {
+        Self::begin_in(workspace.venv_dir(), &workspace.requirements(), python)
     }
 
-    /// The same of an environment in another folder, from another lock.
+    /// A finished environment in another folder, from another lock.
     ///
     /// # Errors
-    /// As [`Venv::ensure`].
+    /// As [`Venv::begin`].
     pub fn in_folder(
         dir: PathBuf,
         requirements: &Path,
         python: &BasePython,
     ) -> Result<Self, XtaskError> {
-        let lock = fs::read(requirements).map_err(XtaskError::io(|| {
+        let (venv, left) = Self::begin_in(dir, requirements, python)?;
+        left.map_or(Ok(()), Unfinished::finish)?;
+        Ok(venv)
+    }
+
+    fn begin_in(
+        dir: PathBuf,
+        requirements: &Path,
+        python: &BasePython,
+    ) -> Result<(Self, Option<Unfinished>), XtaskError> {
+        let lock = fs::read_to_string(requirements).map_err(XtaskError::io(|| {
             format!("reading {}", requirements.display())
         }))?;
         let venv = Self { dir };
-        let stamp = stamp_of(&lock, &python.version, &venv.dir);
+        let stamp = stamp_of(lock.as_bytes(), &python.version, &venv.dir);
         if venv.is_current(&stamp, &python.version) {
-            return Ok(venv);
+            return Ok((venv, None));
         }
-        venv.make(requirements, python, &stamp)?;
-        Ok(venv)
+        venv.make(python)?;
+        let tools = build_tools(&lock);
+        if !tools.is_empty() {
+            let path = venv.dir.join("build-tools.txt");
+            write(&path, &tools)?;
+            venv.install(&path)?;
+        }
+        let left = Unfinished {
+            venv: venv.clone(),
+            requirements: requirements.to_owned(),
+            stamp,
+        };
+        Ok((venv, Some(left)))
     }
 
     /// An environment in a folder, as it is.
@@ -76,12 +112,8 @@ impl Venv {
         written.trim() == stamp && machine::version_of(&self.python()).as_deref() == Some(version)
     }
 
-    fn make(
-        &self,
-        requirements: &Path,
-        python: &BasePython,
-        stamp: &str,
-    ) -> Result<(), XtaskError> {
+    /// Makes an environment without packages in place of what is there.
+    fn make(&self, python: &BasePython) -> Result<(), XtaskError> {
         console::say(&format!(
             "making {} with Python {} (.venv downloads about 200 MB)",
             self.dir.display(),
@@ -96,7 +128,11 @@ impl Venv {
             Command::new(&python.program)
                 .args(["-m", "venv"])
                 .arg(&self.dir),
-        )?;
+        )
+    }
+
+    /// Installs what a file lists.
+    fn install(&self, requirements: &Path) -> Result<(), XtaskError> {
         run_checked(
             Command::new(self.python())
                 .args([
@@ -112,12 +148,39 @@ impl Venv {
                 // Wheels only: a source build would need tools that nobody asked for.
                 .args(["--require-hashes", "--only-binary=:all:", "-r"])
                 .arg(requirements),
-        )?;
-        let stamp_path = self.dir.join(STAMP_NAME);
-        fs::write(&stamp_path, format!("{stamp}\n")).map_err(XtaskError::io(|| {
-            format!("writing {}", stamp_path.display())
-        }))
+        )
     }
+}
+
+impl Unfinished {
+    /// Installs all that is missing and stamps the environment.
+    ///
+    /// # Errors
+    /// As [`Venv::begin`].
+    pub fn finish(self) -> Result<(), XtaskError> {
+        self.venv.install(&self.requirements)?;
+        write(
+            &self.venv.dir.join(STAMP_NAME),
+            &format!("{}\n", self.stamp),
+        )
+    }
+}
+
+fn write(path: &Path, text: &str) -> Result<(), XtaskError> {
+    fs::write(path, text).map_err(XtaskError::io(|| format!("writing {}", path.display())))
+}
+
+/// The entries of a lock for [`BUILD_TOOLS`]: a line `name==version \`, then its hashes, indented.
+fn build_tools(lock: &str) -> String {
+    let mut is_tool = false;
+    let of_tools = lock.lines().filter(|line| {
+        if !line.starts_with([' ', '#']) {
+            let name = line.split("==").next().unwrap_or_default();
+            is_tool = BUILD_TOOLS.contains(&name);
+        }
+        is_tool && !line.trim_start().starts_with('#')
+    });
+    of_tools.map(|line| format!("{line}\n")).collect()
 }
 
 /// SHA-256 over the lock's content, the Python version and the environment's place, in hexadecimal.
@@ -162,6 +225,17 @@ mod tests {
         ];
         for other in others {
             assert_ne!(stamp, other);
+        }
+    }
+
+    #[test]
+    fn the_lock_names_the_tools_that_c_sources_are_built_with() {
+        let lock = "cmake-format==1 \\\n    --hash=a\ncmake==2 \\\n    --hash=b \\\n    --hash=c\n    # via x\nnumpy==3 \\\n    --hash=d\n";
+        let tools = "cmake==2 \\\n    --hash=b \\\n    --hash=c\n";
+        assert_eq!(build_tools(lock), tools);
+        let own = include_str!("../../python/requirements.txt");
+        for tool in BUILD_TOOLS {
+            assert!(build_tools(own).contains(&format!("{tool}==")), "{tool}");
         }
     }
 
