@@ -118,10 +118,8 @@ fn meshed_at_once(
     python: &PythonEnvironment,
     progress: &dyn Progress,
 ) -> Result<(MeshedGear, Option<Meshed>), ReductionError> {
-    let coarse = |gear: GearDefinition| {
-        let meshed = MeshedGear::new(&gear, python, &Silent)?;
-        Ok((gear, meshed))
-    };
+    let coarse =
+        |gear: GearDefinition| MeshedGear::new(&gear, python, &Silent).map(|meshed| (gear, meshed));
     let (meshed, coarser) = rayon::join(
         || MeshedGear::new(gear, python, progress),
         || coarser.map(|gears| gears.into_par_iter().map(coarse).collect()),
