@@ -127,8 +127,11 @@ fn check_against(name: &str, gear: &str, mesh: &str, of_quadratic: &str) {
         );
     }
     for [stated, found] in rows {
-        // Not below the true one, and no empty caution.
-        assert!(stated >= found && stated < 0.1, "{name}: {stated} {found}");
+        // Not below the true one, and without the factor of safety of 2 or 3 of its size.
+        assert!(
+            stated >= found && stated < 9.0 * found,
+            "{name}: {stated} {found}"
+        );
     }
 }
 

@@ -1,4 +1,4 @@
-//! The Rust tests, as many processes at a time as there are cores.
+//! The Rust tests, one process more at a time than there are cores.
 //!
 //! `cargo test` runs one binary after another, and while the last long test of a binary runs the other cores wait. Here
 //! cargo builds the binaries and names them; each is cut into parts, one for each module of tests, which share what
@@ -20,7 +20,9 @@ pub use binaries::{Binary, built};
 use part::{Length, Part, PartResult};
 
 /// Programs that take minutes. They start first, so that none is left alone at the end; the others in cargo's order.
-const LONG: [(&str, Length); 7] = [
+const LONG: [(&str, Length); 8] = [
+    // Ten million steps, one after another.
+    ("drivetrain allocation", Length::Long),
     ("reduction verification", Length::LongInModules),
     ("tests validation", Length::LongInModules),
     ("scene verification", Length::LongInModules),
@@ -128,9 +130,10 @@ pub fn run_named(
     Ok(finished)
 }
 
-/// Runs the parts, the first ones first, on as many threads as there are cores.
+/// Runs the parts, the first ones first, one more at a time than there are cores: each waits now and then, for a mesher
+/// or a file.
 fn run_side_by_side(parts: Vec<Part>, venv: &Venv) -> Result<Vec<PartResult>, XtaskError> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = 1 + std::thread::available_parallelism().map_or(1, usize::from);
     let waiting = Mutex::new(parts.into_iter());
     let next = || waiting.lock().ok().and_then(|mut parts| parts.next());
     let outcomes: Vec<Result<Vec<PartResult>, XtaskError>> = std::thread::scope(|scope| {
