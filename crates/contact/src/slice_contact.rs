@@ -111,8 +111,6 @@ pub struct SliceContact {
     /// The same along the teeth, of gears on which slices walk that way; else empty.
     along: [Vec<f64>; 2],
     kept: KeptCompliance,
-    /// Whether the rates are those of the patches that were prepared, without [`Self::fill_rates`].
-    rates_are_known: bool,
     /// Without a local law: compliance of each patch before it was divided by its share \[m/N\].
     own_compliance: Vec<f64>,
     local: Vec<LocalLaw>,
@@ -120,8 +118,16 @@ pub struct SliceContact {
     closing: Vec<f64>,
     lever_m: Vec<f64>,
     work: Workspace,
-    /// Whether the last [`Self::prepare`] asked for what energies change by.
-    with_rates: bool,
+    rates_of_patches: RatesOfPatches,
+}
+
+/// What is known of the rates of the patches that were prepared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum RatesOfPatches {
+    Unasked,
+    /// Asked for: a solve ends with [`SliceContact::fill_rates`].
+    Asked,
+    Known,
 }
 
 impl SliceContact {
@@ -203,14 +209,13 @@ impl SliceContact {
             rates: [square(), square()],
             along: walks.map(|walks| if walks { square() } else { Vec::new() }),
             kept: KeptCompliance::with_capacity(if keeps { capacity } else { 0 }),
-            rates_are_known: false,
             own_compliance: empty(),
             local: Vec::with_capacity(capacity),
             separation_m: empty(),
             closing: empty(),
             lever_m: empty(),
             work: Workspace::new(capacity),
-            with_rates: false,
+            rates_of_patches: RatesOfPatches::Unasked,
         }
     }
 
@@ -282,7 +287,7 @@ impl SliceContact {
     /// prepared.
     pub fn accept(&mut self, forces_n: &[f64]) {
         self.work.start_from(forces_n);
-        if self.with_rates && !self.rates_are_known {
+        if self.rates_of_patches == RatesOfPatches::Asked {
             self.fill_rates();
         }
     }
@@ -338,7 +343,6 @@ impl SliceContact {
     ) -> Result<(), ContactError> {
         self.take(patches, floor_n, with_rates)?;
         self.fill();
-        self.rates_are_known = false;
         self.divide_by_shares();
         Ok(())
     }
@@ -356,7 +360,10 @@ impl SliceContact {
                 most: self.capacity(),
             });
         }
-        self.with_rates = with_rates;
+        self.rates_of_patches = match with_rates {
+            true => RatesOfPatches::Asked,
+            false => RatesOfPatches::Unasked,
+        };
         for values in [
             &mut self.separation_m,
             &mut self.closing,
@@ -474,7 +481,7 @@ impl SliceContact {
             }
         }?;
         let first_contact = problem.first_contact();
-        if self.with_rates && !self.rates_are_known {
+        if self.rates_of_patches == RatesOfPatches::Asked {
             self.fill_rates();
         }
         Ok((first_contact, info))

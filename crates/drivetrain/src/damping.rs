@@ -62,9 +62,8 @@ impl Damping {
 }
 
 /// Elastic teeth with damping. Without damping use the model itself.
-#[derive(Debug, Clone)]
-pub struct Damped<M> {
-    teeth: M,
+pub struct Damped {
+    teeth: Box<dyn TeethModel>,
     damping: Damping,
     slices: usize,
     felt: FlankContacts,
@@ -75,14 +74,18 @@ pub struct Damped<M> {
     drag_n: Vec<f64>,
 }
 
-impl<M: TeethModel> Damped<M> {
+impl Damped {
     /// Adds damping to teeth that have `slices` slices.
     ///
     /// # Errors
     /// [`DrivetrainError::Value`].
-    pub fn new(teeth: M, damping: Damping, slices: usize) -> Result<Self, DrivetrainError> {
+    pub fn new(
+        teeth: impl Into<Box<dyn TeethModel>>,
+        damping: Damping,
+        slices: usize,
+    ) -> Result<Self, DrivetrainError> {
         Ok(Self {
-            teeth,
+            teeth: teeth.into(),
             damping: damping.validate()?,
             slices,
             felt: FlankContacts::default(),
@@ -182,7 +185,7 @@ impl<M: TeethModel> Damped<M> {
     }
 }
 
-impl<M: TeethModel> TeethModel for Damped<M> {
+impl TeethModel for Damped {
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,

@@ -65,7 +65,7 @@ impl GearMesh {
     pub fn new(
         kinematics: MeshKinematics,
         flank: Flank,
-        model: impl TeethModel + 'static,
+        model: impl Into<Box<dyn TeethModel>>,
     ) -> Result<Self, DrivetrainError> {
         Self::of_flanks(Box::new(InvoluteMesh::new(kinematics)), flank, model)
     }
@@ -77,7 +77,7 @@ impl GearMesh {
     pub fn of_flanks(
         kinematics: Box<dyn FlankKinematics>,
         flank: Flank,
-        model: impl TeethModel + 'static,
+        model: impl Into<Box<dyn TeethModel>>,
     ) -> Result<Self, DrivetrainError> {
         let mesh = Self {
             kinematics,
@@ -100,11 +100,12 @@ impl GearMesh {
     pub fn with_side(
         mut self,
         flank: Flank,
-        model: impl TeethModel + 'static,
+        model: impl Into<Box<dyn TeethModel>>,
     ) -> Result<Self, DrivetrainError> {
         if self.modal.count() > 0 {
             return Err(DrivetrainError::SideAfterModes);
         }
+        let model = model.into();
         if !model.resolves_teeth() && self.kinematics.has_errors() {
             return Err(DrivetrainError::UnusedFlankErrors);
         }
@@ -115,7 +116,7 @@ impl GearMesh {
         self.sides.retain(|side| side.flank != flank);
         self.sides.push(Side {
             flank,
-            model: Box::new(model),
+            model,
             found: FlankContacts::with_capacity(capacity),
             loads: TeethLoads::with_capacity(capacity),
             friction: Vec::with_capacity(capacity),

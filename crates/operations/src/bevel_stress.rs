@@ -42,7 +42,7 @@ pub fn section(
     let section = Section::new("Stress in the bodies").push(Text::paragraph(words));
     let mut made = (section, Vec::new());
     for (member, model) in models.iter().enumerate() {
-        let body = StressedGear::of_bevel(model, &result.model_files[member], watch)?;
+        let body = StressedGear::of_bevel(model, &result.source.model_files[member], watch)?;
         made = pictures(made, (angle_deg, result), (member, &body), watch)?;
     }
     Ok(made)
@@ -60,7 +60,8 @@ pub fn write_field(
 ) -> Result<()> {
     demand_bodies(result, "--field-gear")?;
     let (models, member) = (models_of(result)?, case.gear - 1);
-    let stressed = StressedGear::of_bevel(&models[member], &result.model_files[member], watch)?;
+    let stressed =
+        StressedGear::of_bevel(&models[member], &result.source.model_files[member], watch)?;
     let field = stressed.field(&pressed(result, case))?;
     let (gear, body) = bevel(&stressed)?;
     let file = (output, LengthUnit::M);
@@ -79,7 +80,7 @@ pub fn write_field(
 /// # Errors
 /// [`Failure`] for rigid gears.
 pub fn demand_bodies(result: &SceneResult, option: &str) -> Result<()> {
-    match result.model_files[0].is_empty() {
+    match result.source.model_files[0].is_empty() {
         false => Ok(()),
         true => Err(Failure::input(format!(
             "{option} needs the bodies of both members, these are rigid: name their reduced models, `models` of [load] in the pair file"
@@ -93,9 +94,9 @@ pub fn demand_bodies(result: &SceneResult, option: &str) -> Result<()> {
 /// [`Failure`] where one cannot be read, or has been made again.
 pub fn models_of(result: &SceneResult) -> Result<[ReducedGear; 2]> {
     let read = |i: usize| {
-        let file = &result.model_files[i];
+        let file = &result.source.model_files[i];
         let model = read_reduced_gear(Path::new(file)).map_err(Failure::input)?;
-        if model.input != result.gears[i] {
+        if model.input != result.source.gears[i] {
             return Err(Failure::input(format!(
                 "{file} has been made again from another gear file since the result was computed; run the pair again"
             )));
@@ -116,7 +117,7 @@ fn pressed(result: &SceneResult, case: FieldCase) -> Pressed {
         side: bevel.side,
         u: at.up(member),
         v_m: at.along_m(member),
-        width_m: bevel.face_widths_m[0] / result.slices as f64,
+        width_m: bevel.face_widths_m[0] / result.lines.slices as f64,
         normal_n: at.force_n,
         tangential_n: 0.0,
     };

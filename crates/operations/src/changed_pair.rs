@@ -60,9 +60,12 @@ impl ChangedPair {
     /// # Errors
     /// As [`ChangedPair::read`].
     pub fn of_result(shown: &Path, result: &SceneResult) -> Result<Self> {
-        let scene = InputDocument::new(shown.display().to_string(), result.scene_toml.clone());
+        let scene = InputDocument::new(
+            shown.display().to_string(),
+            result.source.scene_toml.clone(),
+        );
         let table = scene.table()?;
-        let models = result.model_files.clone();
+        let models = result.source.model_files.clone();
         let names = ["gear_1", "gear_2"].into_iter().zip(models);
         let names = names.filter_map(|(gear, model)| {
             let named = table.get("pair")?.get(gear)?.as_str()?;
@@ -137,7 +140,8 @@ impl ChangedPair {
                 None => Ok(definition(&*self.model(path)?, path)?.clone()),
             }
         };
-        Ok([gear(&scene.gear_1)?, gear(&scene.gear_2)?])
+        let [gear_1, gear_2] = &scene.gears;
+        Ok([gear(&gear_1.model)?, gear(&gear_2.model)?])
     }
 
     fn model(&self, path: &Path) -> Result<Arc<ReducedGear>> {
@@ -219,7 +223,9 @@ impl ChangedPair {
         }
         let mut files = MadeFiles::new();
         let scene = self.varied(&of_bodies, &mut files)?;
-        let models = GEARS.iter().zip([&scene.gear_1, &scene.gear_2]);
+        let models = GEARS
+            .iter()
+            .zip(scene.gears.each_ref().map(|gear| &gear.model));
         let models = models.filter(|(_, path)| files.contains_key(*path));
         let models = models.map(|(key, path)| ((*key).to_owned(), path.display().to_string()));
         let models = models.collect();

@@ -206,7 +206,7 @@ fn result(path: &Path) -> Result<Finding> {
     let result = match ResultFile::open(path).map_err(Failure::input)? {
         ResultFile::Pair(result) => {
             let (torques, angles) = (result.torque_nm.len(), result.angles());
-            return Ok(Finding::new("result", Some(&result.title)).sized(
+            return Ok(Finding::new("result", Some(&result.source.title)).sized(
                 format!("{torques} torques x {angles} angles"),
                 json!({ "torques": torques, "angles": angles }),
             ));

@@ -96,7 +96,7 @@ pub fn compare(a: &CompareRequest) -> Result<Compared> {
             refuse_options_of_systems(a)?;
             let record = record()?;
             let found = compare_scene(&result, &record).map_err(Failure::input)?;
-            (result.title, record, found)
+            (result.source.title, record, found)
         }
     };
     Ok(Compared {

@@ -37,7 +37,7 @@ impl FieldCase {
     ) -> Result<Self> {
         let torque = asked_torque(result, "--field-torque-Nm", torque_nm)?;
         let most_n = |angle: usize| {
-            let pairs = 0..result.slots;
+            let pairs = 0..result.lines.slots;
             let forces = pairs.map(|slot| result.forces(torque, angle, slot).iter().sum::<f64>());
             forces.fold(0.0, f64::max)
         };

@@ -8,7 +8,7 @@ use crate::{periods, ratings};
 pub fn table(result: &SceneResult) -> Vec<String> {
     let mut lines = vec![format!(
         "{}: {} positions per torque",
-        result.title,
+        result.source.title,
         result.angles()
     )];
     let mark = periods::mark(&result.contact_coverage);
@@ -22,9 +22,9 @@ pub fn table(result: &SceneResult) -> Vec<String> {
     }
     lines.push(format!(
         "contact {:.3} s ({:.1} us a position), strain {:.3} s",
-        result.seconds[0],
-        1e6 * result.seconds[0] / (result.angles() * result.torque_nm.len()) as f64,
-        result.seconds[1]
+        result.solution.seconds[0],
+        1e6 * result.solution.seconds[0] / (result.angles() * result.torque_nm.len()) as f64,
+        result.solution.seconds[1]
     ));
     lines.extend(periods::lines(result));
     lines.extend(ratings::lines(&result.ratings));

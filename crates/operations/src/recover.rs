@@ -88,7 +88,7 @@ pub fn figures(result: &SceneResult) -> Value {
         json!({"gear": series.gear, "gauge": series.name, "torque_Nm": row.torque_nm, "range_method_1": one, "range_method_2": two,
                "complete": series.coverage.has_extremes(), "mesh_error_relative": series.error_estimate()})
     });
-    json!({"rows": rows.collect::<Vec<_>>(), "coverage": coverage(result), "seconds": result.seconds[1]})
+    json!({"rows": rows.collect::<Vec<_>>(), "coverage": coverage(result), "seconds": result.solution.seconds[1]})
 }
 
 /// Reads all gauges of both models, and writes the result with their strain; and a field where one is asked for.
@@ -103,7 +103,7 @@ pub fn recover(a: &RecoverRequest, watch: &Watch<'_>) -> Result<SceneResult> {
         output_name::demand_mesh(path)?;
     }
     let mut result = SceneResult::read(&a.result).map_err(Failure::input)?;
-    let models = result.model_files.clone().map(PathBuf::from);
+    let models = result.source.model_files.clone().map(PathBuf::from);
     for output in std::iter::once(&a.output).chain(&a.field_output) {
         overwriting::apart(output, &models)?;
     }
@@ -126,7 +126,7 @@ pub fn recover(a: &RecoverRequest, watch: &Watch<'_>) -> Result<SceneResult> {
             result.strain = strain(models.each_ref(), &result, &all).map_err(Failure::work)?;
         }
     }
-    result.seconds[1] = clock.elapsed().as_secs_f64();
+    result.solution.seconds[1] = clock.elapsed().as_secs_f64();
     watch.go_on()?;
     result.write(&a.output)?;
     match (request, &scene) {
@@ -183,7 +183,7 @@ fn field(
     result: &SceneResult,
     watch: &Watch<'_>,
 ) -> Result<()> {
-    let definition = result.gears[case.gear - 1].definition_in("the result")?;
+    let definition = result.source.gears[case.gear - 1].definition_in("the result")?;
     let python = watch.python()?;
     let body = watch.offline(&definition.name, |told| {
         GearBody::new(definition, &python, told)

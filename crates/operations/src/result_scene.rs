@@ -9,11 +9,12 @@ use std::path::Path;
 pub fn scene_of(result: &SceneResult, path: &Path) -> Result<LoadedScene> {
     let document = InputDocument::new(
         format!("scene inside {}", path.display()),
-        result.scene_toml.clone(),
+        result.source.scene_toml.clone(),
     );
     let mut scene = Scene::from_document(document, Path::new(""))?.with_known_forces();
-    scene.gear_1 = result.model_files[0].clone().into();
-    scene.gear_2 = result.model_files[1].clone().into();
+    for (gear, file) in scene.gears.iter_mut().zip(&result.source.model_files) {
+        gear.model = file.into();
+    }
     let mut loaded = load(scene.clone())?;
     if scene.path_by_default && !loaded.has_lines_of(result) {
         // Written when the rigid path was the default.
@@ -27,10 +28,10 @@ pub fn scene_of(result: &SceneResult, path: &Path) -> Result<LoadedScene> {
         )));
     }
     for (k, model) in loaded.models.iter().enumerate() {
-        if model.input != result.gears[k] {
+        if model.input != result.source.gears[k] {
             return Err(Failure::input(format!(
                 "{} has been made again from another gear file since {} was computed; run the scene again",
-                result.model_files[k],
+                result.source.model_files[k],
                 path.display()
             )));
         }

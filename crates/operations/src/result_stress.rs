@@ -114,7 +114,7 @@ pub fn of_pair(
             all.push(pressed_at(&moment, gear));
         }
     }
-    let mut made = (head(&result.title), Vec::new());
+    let mut made = (head(&result.source.title), Vec::new());
     for (number, definition) in gears.into_iter().enumerate() {
         let name = &definition.name;
         if let Some(why) = no_pictures(definition) {

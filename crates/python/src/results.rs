@@ -61,7 +61,7 @@ impl NativeResult {
     #[getter]
     fn title(&self) -> &str {
         match &self.0 {
-            Kept::Pair(pair) => &pair.head.title,
+            Kept::Pair(pair) => &pair.head.source.title,
             Kept::System(result) => &result.head.title,
         }
     }
@@ -70,7 +70,7 @@ impl NativeResult {
     #[getter]
     fn scene_toml(&self) -> &str {
         match &self.0 {
-            Kept::Pair(pair) => &pair.head.scene_toml,
+            Kept::Pair(pair) => &pair.head.source.scene_toml,
             Kept::System(result) => &result.head.scene_toml,
         }
     }
@@ -79,7 +79,7 @@ impl NativeResult {
     #[getter]
     fn made(&self) -> (&str, &str) {
         match &self.0 {
-            Kept::Pair(pair) => (&pair.head.version, &pair.head.created_utc),
+            Kept::Pair(pair) => (&pair.head.source.version, &pair.head.source.created_utc),
             Kept::System(result) => (&result.version, &result.created_utc),
         }
     }

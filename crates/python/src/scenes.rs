@@ -163,7 +163,7 @@ fn shelved_models(scene: &Scene) -> Arc<RestCases> {
         Some((found.modified().ok()?, found.len()))
     };
     let mut held = SHELF.lock().unwrap_or_else(PoisonError::into_inner);
-    let paths = [scene.gear_1.clone(), scene.gear_2.clone()];
+    let paths = scene.gears.each_ref().map(|gear| gear.model.clone());
     let is_known = |shelf: &Shelf| {
         let same = |path: &PathBuf| shelf.stamps.get(path).is_none_or(|old| *old == stamp(path));
         paths.iter().all(same) && shelf.stamps.len() <= MOST_MODELS

@@ -12,22 +12,24 @@ const STRIPS_PER_POSITION: f64 = 0.7;
 
 /// Fields on the flank; `None` where an older program has not stored where the slices touch.
 pub(crate) fn section(r: &SceneResult) -> Option<Section> {
-    let places = r.places.as_ref()?;
+    let places = r.lines.places.as_ref()?;
     let up = match &r.bevel {
         Some(bevel) => Up::Share(bevel.flank_heights_m[0]),
-        None => Up::Roll(r.gears[0].definition()?.profile.base_radius_m),
+        None => Up::Roll(r.source.gears[0].definition()?.profile.base_radius_m),
     };
     let flank = Flank::new(r, places, up)?;
     let last = r.torque_nm.len() - 1;
-    let block = r.force_n.len() / r.torque_nm.len();
+    let block = r.lines.force_n.len() / r.torque_nm.len();
     let of = |values: &[f64], torque: usize| values[torque * block..(torque + 1) * block].to_vec();
     let line_load = |torque: usize| -> Vec<f64> {
-        let forces = of(&r.force_n, torque).into_iter().zip(&places.width_m);
+        let forces = of(&r.lines.force_n, torque)
+            .into_iter()
+            .zip(&places.width_m);
         forces
             .map(|(force, width)| if *width > 0.0 { force / width } else { 0.0 })
             .collect()
     };
-    let mut section = Section::new(format!("{}: contact pattern", r.title)).push(Text::paragraph(
+    let mut section = Section::new(format!("{}: contact pattern", r.source.title)).push(Text::paragraph(
         "The flank of gear 1 from mid-face, root below and tip above: at each place the largest value of all positions. What is not coloured \
          does not touch. Across is the axial place z, up the radius, of bevel gears the way up the flank.",
     ));
@@ -37,7 +39,7 @@ pub(crate) fn section(r: &SceneResult) -> Option<Section> {
     }
     for torque in shown {
         let at = format!("at {} N m", r.torque_nm[torque]);
-        let pressure = of(&r.pressure_pa, torque);
+        let pressure = of(&r.lines.pressure_pa, torque);
         let picture = flank.picture(
             places,
             format!("Largest Hertz pressure {at}"),
@@ -97,18 +99,19 @@ impl Flank {
         let strips = strips.clamp(4, MOST_STRIPS);
         let edges = (0..=strips).map(|k| low + (high - low) * k as f64 / strips as f64);
         if let Some(bevel) = &r.bevel {
-            let side = |k: usize| 1e3 * bevel.face_widths_m[0] * (k as f64 / r.slices as f64 - 0.5);
+            let side =
+                |k: usize| 1e3 * bevel.face_widths_m[0] * (k as f64 / r.lines.slices as f64 - 0.5);
             return Some(Self {
                 up,
-                slices: r.slices,
+                slices: r.lines.slices,
                 edges_rad: edges.collect(),
-                sides_mm: (0..=r.slices).map(side).collect(),
+                sides_mm: (0..=r.lines.slices).map(side).collect(),
             });
         }
         let width = places.width_m.iter().copied().fold(0.0, f64::max);
         let mut sides_mm = Vec::new();
-        for slice in 0..r.slices {
-            let own = (slice..places.z_m.len()).step_by(r.slices);
+        for slice in 0..r.lines.slices {
+            let own = (slice..places.z_m.len()).step_by(r.lines.slices);
             // A slice that is partly on the path touches beside its own middle.
             let whole = own.max_by(|a, b| places.width_m[*a].total_cmp(&places.width_m[*b]))?;
             let middle = places.z_m[whole];
@@ -119,7 +122,7 @@ impl Flank {
         }
         Some(Self {
             up,
-            slices: r.slices,
+            slices: r.lines.slices,
             edges_rad: edges.collect(),
             sides_mm,
         })

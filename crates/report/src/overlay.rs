@@ -49,7 +49,7 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
         table = table.column(head, Align::Right);
     }
     for ((name, r), texts) in results.iter().zip(shown.rows) {
-        table.push_row([vec![name.clone(), r.title.clone()], texts].concat());
+        table.push_row([vec![name.clone(), r.source.title.clone()], texts].concat());
     }
     let section = Section::new("Gear pairs side by side")
         .push(table)

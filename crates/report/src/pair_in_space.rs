@@ -29,8 +29,9 @@ pub(crate) fn view(r: &SceneResult) -> Option<SpaceView> {
 
 fn cylindrical_pair(r: &SceneResult) -> Option<Value> {
     let pair = r.gear_pair().ok()??;
-    let places = r.places.as_ref()?;
-    let [Some(first), Some(second)] = [0, 1].map(|gear: usize| r.gears[gear].definition()) else {
+    let places = r.lines.places.as_ref()?;
+    let [Some(first), Some(second)] = [0, 1].map(|gear: usize| r.source.gears[gear].definition())
+    else {
         return None;
     };
     let points = touching_points_m(&pair, r).into_iter().zip(&places.z_m);
@@ -78,7 +79,7 @@ fn contact(
     turns_rad: impl Fn(usize) -> Option<[f64; 2]>,
     points_m: &[[f64; 3]],
 ) -> Option<Value> {
-    let block = r.slots * r.slices;
+    let block = r.lines.slots * r.lines.slices;
     // From the least to the largest torque, where there are many only these two.
     let last = r.torque_nm.len() - 1;
     let torques: Vec<usize> = match last {
@@ -92,18 +93,20 @@ fn contact(
         .min(whole_pitches(r, room));
     let pressures = torques.iter().flat_map(|torque| {
         let from = torque * r.angles() * block;
-        r.pressure_pa[from..from + angles * block].iter().copied()
+        r.lines.pressure_pa[from..from + angles * block]
+            .iter()
+            .copied()
     });
     let turns: Option<Vec<[f64; 2]>> = (0..angles).map(turns_rad).collect();
     let points = &points_m[..angles * block];
     let across = points.iter().flat_map(|[x, y, _]| [*x, *y]);
-    let width_m = &r.places.as_ref()?.width_m[..angles * block];
+    let width_m = &r.lines.places.as_ref()?.width_m[..angles * block];
     Some(json!({
         "torques_Nm": torques.iter().map(|torque| r.torque_nm[*torque]).collect::<Vec<_>>(),
         "angle_deg": floats(r.angle_rad[..angles].iter().map(|angle| angle.to_degrees())),
         "turns_rad": floats(turns?.into_iter().flatten()),
-        "slots": r.slots,
-        "slices": r.slices,
+        "slots": r.lines.slots,
+        "slices": r.lines.slices,
         "pressure_MPa": scaled(pressures.map(|pressure| 1e-6 * pressure)),
         "point_mm": scaled_signed(across.map(|x| MM * x)),
         "z_mm": scaled_signed(points.iter().map(|[.., z]| MM * z)),

@@ -50,7 +50,8 @@ impl PairOrders {
                 openings: [0; 2],
             });
         }
-        let [Some(gear_1), Some(gear_2)] = result.gears.each_ref().map(StoredGear::definition)
+        let [Some(gear_1), Some(gear_2)] =
+            result.source.gears.each_ref().map(StoredGear::definition)
         else {
             return None;
         };

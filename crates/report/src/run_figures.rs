@@ -48,9 +48,9 @@ pub fn pair_figures(result: &SceneResult) -> Value {
         })
         .collect();
     json!({
-        "title": result.title, "rows": rows, "columns": columns, "means": result.means_over(), "errors": result.errors_in_words(),
+        "title": result.source.title, "rows": rows, "columns": columns, "means": result.means_over(), "errors": result.errors_in_words(),
         "stage": result.stage().ok().flatten(),
-        "coverage": coverage(result), "ratings": ratings(&result.ratings), "warnings": result.warnings, "seconds": result.seconds,
+        "coverage": coverage(result), "ratings": ratings(&result.ratings), "warnings": result.warnings, "seconds": result.solution.seconds,
     })
 }
 

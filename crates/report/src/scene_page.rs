@@ -86,7 +86,7 @@ pub fn scene_page(
     chapters: &[SceneChapter],
     systems: &[SystemChapter],
 ) -> Result<Page, ScenePageError> {
-    let pairs = chapters.iter().map(|c| c.result.title.as_str());
+    let pairs = chapters.iter().map(|c| c.result.source.title.as_str());
     let others = systems.iter().map(|c| c.result.head.title.as_str());
     let titles: Vec<&str> = pairs.chain(others).collect();
     let mut page = match &titles[..] {
@@ -108,7 +108,7 @@ pub fn scene_page(
     }
     let pairs = chapters
         .iter()
-        .map(|c| (&c.result.version, &c.result.created_utc));
+        .map(|c| (&c.result.source.version, &c.result.source.created_utc));
     let others = systems.iter().map(|c| &c.result);
     let others = others.map(|r| (&r.version, &r.created_utc));
     let made: Vec<String> = pairs
@@ -126,18 +126,18 @@ fn pair_sections(chapter: &SceneChapter, in_space: bool) -> Result<Vec<Section>,
     let r = &chapter.result;
     let mut all = vec![overview(r)];
     if let Some(view) = in_space.then(|| pair_in_space::view(r)).flatten() {
-        all.push(Section::new(format!("{}: pressure on the flanks", r.title)).push(view));
+        all.push(Section::new(format!("{}: pressure on the flanks", r.source.title)).push(view));
     }
     all.extend([transmission_error(chapter), contact(r)]);
     all.extend(contact_pattern::section(r));
     if !r.strain.is_empty() {
         all.push(root_strain(chapter));
     }
-    all.extend(ratings::section(&r.title, &r.ratings));
+    all.extend(ratings::section(&r.source.title, &r.ratings));
     if let Some(record) = &chapter.record {
         let table = comparison_table(&compare_scene(r, record)?);
         all.push(
-            Section::new(format!("{}: comparison", r.title))
+            Section::new(format!("{}: comparison", r.source.title))
                 .push(Text::paragraph(format!(
                     "Both sides went through the rig pipeline. The reference is {}: {}. {}",
                     record.kind, record.title, record.source
@@ -173,7 +173,7 @@ fn overview(r: &SceneResult) -> Section {
             "µε",
         );
     }
-    let mut section = Section::new(r.title.clone()).push(figures);
+    let mut section = Section::new(r.source.title.clone()).push(figures);
     section = section.push_all(torque_tables::tables(r, of_means));
     section = section.push(Text::paragraph(format!(
         "{}. Errors: {}. Curves are drawn over the even positions.",
@@ -183,7 +183,7 @@ fn overview(r: &SceneResult) -> Section {
     if let Ok(Some(stage)) = r.stage() {
         section = section.push(Text::paragraph(format!("Stage: {}.", stage.words())));
     }
-    for (number, words) in [1, 2].into_iter().zip(&r.microgeometry) {
+    for (number, words) in [1, 2].into_iter().zip(&r.source.microgeometry) {
         // Results of older programs do not say.
         if !words.is_empty() {
             section = section.push(Text::paragraph(format!(
@@ -268,7 +268,7 @@ fn transmission_error(chapter: &SceneChapter) -> Section {
     if r.bevel.is_some() {
         chart = chart.series(LineSeries::new("without load", micro(&r.unloaded_m)));
     }
-    let section = Section::new(format!("{}: transmission error", r.title))
+    let section = Section::new(format!("{}: transmission error", r.source.title))
         .push(Text::paragraph(format!("{what}{dashed}")))
         .push(chart);
     match order_spectrum(r) {
@@ -321,7 +321,8 @@ fn contact(r: &SceneResult) -> Section {
     let last = r.torque_nm.len() - 1;
     let mut pairs: Vec<i64> = (0..points)
         .flat_map(|a| {
-            (0..r.pair_count[a] as usize).map(move |slot| r.pair[a * r.slots + slot] as i64)
+            (0..r.lines.pair_count[a] as usize)
+                .map(move |slot| r.lines.pair[a * r.lines.slots + slot] as i64)
         })
         .collect();
     pairs.sort_unstable();
@@ -335,8 +336,8 @@ fn contact(r: &SceneResult) -> Section {
     for pair in pairs {
         let values = (0..points)
             .map(|a| {
-                (0..r.pair_count[a] as usize)
-                    .filter(|slot| r.pair[a * r.slots + slot] as i64 == pair)
+                (0..r.lines.pair_count[a] as usize)
+                    .filter(|slot| r.lines.pair[a * r.lines.slots + slot] as i64 == pair)
                     .map(|slot| r.forces(last, a, slot).iter().sum::<f64>())
                     .sum()
             })
@@ -371,15 +372,18 @@ fn contact(r: &SceneResult) -> Section {
             break;
         }
     }
-    Section::new(format!("{}: load sharing and mesh stiffness", r.title))
-        .push(sharing)
-        .push(stiffness)
+    Section::new(format!(
+        "{}: load sharing and mesh stiffness",
+        r.source.title
+    ))
+    .push(sharing)
+    .push(stiffness)
 }
 
 fn root_strain(chapter: &SceneChapter) -> Section {
     let r = &chapter.result;
     let last = r.torque_nm.len() - 1;
-    let mut section = Section::new(format!("{}: root strain", r.title)).push(Text::paragraph(
+    let mut section = Section::new(format!("{}: root strain", r.source.title)).push(Text::paragraph(
         "Surface strain along the profile at the gauges. Method 1 superposes deformation patterns (normal forces only), method 2 \
          puts the true loads on the finite element model. The estimated error of the mesh stands in the table.",
     ));
@@ -449,19 +453,19 @@ impl From<&GearPicture> for FieldPicture {
 }
 
 fn provenance(r: &SceneResult) -> Section {
-    let section = Section::new(format!("{}: scene and gears", r.title))
+    let section = Section::new(format!("{}: scene and gears", r.source.title))
         .push(Text::paragraph(format!(
             "gearmesh {}, computed {}; contact {:.3} s, strain {:.3} s; largest relative residual {:.1e}, torque balance {:.1e}.",
-            r.version,
-            r.created_utc,
-            r.seconds[0],
-            r.seconds[1],
-            r.residual.iter().copied().fold(0.0, f64::max),
-            r.torque_balance.iter().copied().fold(0.0, f64::max)
+            r.source.version,
+            r.source.created_utc,
+            r.solution.seconds[0],
+            r.solution.seconds[1],
+            r.solution.residual.iter().copied().fold(0.0, f64::max),
+            r.solution.torque_balance.iter().copied().fold(0.0, f64::max)
         )))
-        .push(Text::preformatted(r.scene_toml.clone()));
+        .push(Text::preformatted(r.source.scene_toml.clone()));
     // Rigid gears have no files.
-    let texts = r.gears.iter().filter(|gear| !gear.text.is_empty());
+    let texts = r.source.gears.iter().filter(|gear| !gear.text.is_empty());
     texts.fold(section, |section, gear| {
         section.push(Text::preformatted(gear.text.clone()))
     })

@@ -132,7 +132,7 @@ impl PairAnswer {
             strain: result.strain.iter().map(gauge).collect(),
             models: loaded.model_digests.clone(),
             contact_ratio: pair.contact_ratio(),
-            seconds: result.seconds,
+            seconds: result.solution.seconds,
         })
     }
 }
@@ -140,7 +140,7 @@ impl PairAnswer {
 impl ContactAnswer {
     fn new(loaded: &LoadedScene, result: &SceneResult) -> Self {
         let pair = &loaded.lines.pair;
-        let places = result.places.clone().unwrap_or_default();
+        let places = result.lines.places.clone().unwrap_or_default();
         let base_mm = MM * pair.gear_1.base_radius_m;
         let diameters = places.roll_1_rad.iter().zip(&places.width_m);
         let diameter = |(roll, width): (&f64, &f64)| match *width > 0.0 {
@@ -149,12 +149,12 @@ impl ContactAnswer {
         };
         let points = touching_points_m(pair, result);
         Self {
-            slots: result.slots,
-            slices: result.slices,
-            pair: result.pair.clone(),
-            pair_count: result.pair_count.clone(),
-            force_N: result.force_n.clone(),
-            pressure_MPa: scaled(&result.pressure_pa, 1e-6),
+            slots: result.lines.slots,
+            slices: result.lines.slices,
+            pair: result.lines.pair.clone(),
+            pair_count: result.lines.pair_count.clone(),
+            force_N: result.lines.force_n.clone(),
+            pressure_MPa: scaled(&result.lines.pressure_pa, 1e-6),
             diameter_mm: diameters.map(diameter).collect(),
             z_mm: scaled(&places.z_m, MM),
             width_mm: scaled(&places.width_m, MM),

@@ -108,7 +108,7 @@ fn choice(path: PathBuf) -> Option<Choice> {
             (scene.title().to_owned(), what)
         }
         "h5" => match ResultFile::open(&path).ok()? {
-            ResultFile::Pair(result) => (result.title, "result of a pair"),
+            ResultFile::Pair(result) => (result.source.title, "result of a pair"),
             ResultFile::System(result) => (result.head.title, "result of a multibody scene"),
         },
         _ => return None,

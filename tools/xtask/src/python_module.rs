@@ -24,7 +24,7 @@ pub fn build(workspace: &Workspace, venv: &Venv) -> Result<PathBuf, XtaskError> 
     let built = build_dir()?.join("libgearmesh_native.so");
     if !built.exists() {
         console::say(
-            "building the libraries, the Python module and the program; the first build takes about 7 minutes",
+            "building the libraries, the Python module and the program; the first build takes about 6 minutes",
         );
     }
     run_checked(cargo(workspace, venv).args(BUILD))?;

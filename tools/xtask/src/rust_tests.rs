@@ -1,4 +1,4 @@
-//! The Rust tests, one process more at a time than there are cores.
+//! The Rust tests, as many processes at a time as there are cores.
 //!
 //! `cargo test` runs one binary after another, and while the last long test of a binary runs the other cores wait. Here
 //! cargo builds the binaries and names them; each is cut into parts, one for each module of tests, which share what
@@ -130,10 +130,9 @@ pub fn run_named(
     Ok(finished)
 }
 
-/// Runs the parts, the first ones first, one more at a time than there are cores: each waits now and then, for a mesher
-/// or a file.
+/// Runs the parts, the first ones first, on as many threads as there are cores.
 fn run_side_by_side(parts: Vec<Part>, venv: &Venv) -> Result<Vec<PartResult>, XtaskError> {
-    let threads = 1 + std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let waiting = Mutex::new(parts.into_iter());
     let next = || waiting.lock().ok().and_then(|mut parts| parts.next());
     let outcomes: Vec<Result<Vec<PartResult>, XtaskError>> = std::thread::scope(|scope| {

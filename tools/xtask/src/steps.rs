@@ -73,7 +73,8 @@ fn beside_the_tests(
 ) -> Result<[(&'static str, Command); 5], XtaskError> {
     let cargo = |arguments: &[&str]| {
         let mut command = cargo(workspace, venv);
-        command.args(arguments);
+        // The tests have all cores: more processes than that by two or three take more processor time for the same.
+        command.args(arguments).env("CARGO_BUILD_JOBS", "1");
         command
     };
     // Program and Python module are both called gearmesh, so their pages would be written to one place at once.

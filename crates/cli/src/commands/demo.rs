@@ -57,8 +57,8 @@ pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
     for (pair, driven) in [("pair_a", "gear2"), ("pair_b", "gear3")] {
         let (definition, body) = reduce_gear(models, out, driven, &mut clock)?;
         let mut scene = Scene::read(&models.join(format!("{pair}.toml")))?;
-        scene.gear_1 = out.join("gear1.h5");
-        scene.gear_2 = out.join(format!("{driven}.h5"));
+        scene.gears[0].model = out.join("gear1.h5");
+        scene.gears[1].model = out.join(format!("{driven}.h5"));
         let loaded = load(scene)?;
         let result = run_scene(&loaded, &|_, _| {})?;
         result
@@ -80,7 +80,7 @@ pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
         let record = ReferenceRecord::read(&records.join(pair)).map_err(Failure::input)?;
         print_table(&result, &record)?;
         clock.lap(format!("{pair}: comparison"));
-        let stress = Section::new(format!("{}: stress", result.title))
+        let stress = Section::new(format!("{}: stress", result.source.title))
             .push(Text::paragraph(CROSS_SECTION))
             .push(FieldPicture::from(&picture));
         chapters.push(SceneChapter {
@@ -135,7 +135,7 @@ fn print_table(result: &SceneResult, record: &ReferenceRecord) -> Result<(), Fai
     let comparisons = compare_scene(result, record).map_err(Failure::work)?;
     console::data(format!(
         "\n{} against `{}` ({})",
-        result.title, record.title, record.kind
+        result.source.title, record.title, record.kind
     ));
     console::data(format!(
         "{:>10} {:>10} {:>7} {:>11} {:>7} {:>12} {:>13}   strain range by gauge, method 2: ustrain (deviation %)",

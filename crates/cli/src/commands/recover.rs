@@ -34,7 +34,7 @@ pub fn run(a: &Printed<RecoverRequest>) -> Result<(), Failure> {
         "{} gauges, {} positions, both methods: {:.3} s",
         result.strain.len(),
         result.angles() * result.torque_nm.len(),
-        result.seconds[1]
+        result.solution.seconds[1]
     ));
     periods::lines(&result).into_iter().for_each(console::data);
     Ok(())

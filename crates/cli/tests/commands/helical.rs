@@ -83,7 +83,7 @@ fn both_hands_run_through_the_whole_chain() {
     // the flanks are most curved in single contact (overlap ratio 0.477). Elastic teeth without modifications load the
     // ends of the path, too: 1.38 times that.
     let rated = |name: &str| number(&figures["ratings"][0]["figures"][name]);
-    let pressures = SceneResult::read(&result).unwrap().pressure_pa;
+    let pressures = SceneResult::read(&result).unwrap().lines.pressure_pa;
     let over = pressures.iter().copied().fold(0.0, f64::max) / rated("hertz_pressure_Pa");
     assert!((1.25..1.5).contains(&over), "{over}");
     let normal = TORQUE_NM / base_radius_m / (beta.sin() * alpha_n.cos()).asin().cos();

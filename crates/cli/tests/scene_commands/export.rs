@@ -121,13 +121,13 @@ fn curves_and_contact_of_a_pair() {
     let sum = |columns: &Columns, name: &str| columns[name].iter().sum::<f64>();
     assert!((sum(&contact, "force_N") / sum(&curves, "normal_force_N") - 1.0).abs() < 1e-12);
     // Line load times width is the force, and shares of the pairs make one.
-    let width_m = 12e-3 / result.slices as f64;
+    let width_m = 12e-3 / result.lines.slices as f64;
     let forces: Vec<f64> = contact["line_load_N_per_m"]
         .iter()
         .map(|q| q * width_m)
         .collect();
     assert!(largest_difference(&forces, &contact["force_N"]) < 1e-9 * sum(&contact, "force_N"));
-    let shares: f64 = sum(&contact, "load_share_of_pair") / result.slices as f64;
+    let shares: f64 = sum(&contact, "load_share_of_pair") / result.lines.slices as f64;
     assert!((shares / (curves["te_m"].len() as f64) - 1.0).abs() < 1e-12);
     // Pressure where there is force, and there only; contact between base circle and tip over the face.
     for (force, pressure) in contact["force_N"].iter().zip(&contact["pressure_Pa"]) {

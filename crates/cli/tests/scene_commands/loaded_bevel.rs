@@ -141,7 +141,10 @@ fn urad(result: &SceneResult, values_m: &[f64]) -> Vec<f64> {
 fn loads_at_rest_balance() {
     let text = loaded("[50.0, 200.0]", "");
     let (found, again) = (at_rest(&text), at_rest(&text));
-    assert_eq!((&found.te_m, &found.force_n), (&again.te_m, &again.force_n));
+    assert_eq!(
+        (&found.te_m, &found.lines.force_n),
+        (&again.te_m, &again.lines.force_n)
+    );
     let (desk, flanks) = (Desk::new(), flanks());
     let (file, page) = (desk.path("pair.h5"), desk.path("page.html"));
     found.write(&file).unwrap();

@@ -97,13 +97,13 @@ fn a_pair_turns_under_load() {
         let at = moment["at"].as_f64().unwrap();
         assert!((at - result.angle_rad[angle].to_degrees()).abs() < 1e-9);
         demand_contact(moment, forces[angle], 1e-5);
-        let size = result.slots * result.slices;
-        let here = &result.pressure_pa[(result.angles() + angle) * size..][..size];
+        let size = result.lines.slots * result.lines.slices;
+        let here = &result.lines.pressure_pa[(result.angles() + angle) * size..][..size];
         let largest = here.iter().copied().fold(0.0, f64::max);
         assert!((moment["pressure"].as_f64().unwrap() / largest - 1.0).abs() < 1e-6);
         // Closed surfaces, seen from outside, between those of root and tip cylinders.
         assert_eq!(numbers(&moment["open"]), [0.0, 0.0]);
-        let teeth = result.gears[0].definition_in("the result").unwrap();
+        let teeth = result.source.gears[0].definition_in("the result").unwrap();
         let (root, tip) = (teeth.profile.root_radius_m, teeth.profile.tip_radius_m);
         let disc = |r: f64| std::f64::consts::PI * (r * r - 7e-3_f64.powi(2)) * 12e-3;
         for volume in numbers(&moment["volume"]) {

@@ -29,7 +29,7 @@ fn plan_counts_what_run_computes() {
     let (result, _) = run_scene(&desk, "");
     let result = SceneResult::read(&result).unwrap();
     assert_eq!(result.angles() * result.torque_nm.len(), 48);
-    assert_eq!(result.slots * result.slices, 4);
+    assert_eq!(result.lines.slots * result.lines.slices, 4);
     assert_eq!(result.strain.len(), 1);
 }
 

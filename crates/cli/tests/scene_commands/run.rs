@@ -191,13 +191,14 @@ fn an_extended_path_runs_through_recovery_and_report() {
         assert!(number(&row["torque_balance"]) < 1e-10, "{row}");
     }
     let extended = SceneResult::read(&file).unwrap();
-    let lines = |r: &SceneResult| r.pair_count.iter().sum::<u32>();
+    let lines = |r: &SceneResult| r.lines.pair_count.iter().sum::<u32>();
     assert!(lines(&extended) > lines(&on_path));
     assert!(
         extended
+            .lines
             .pair_count
             .iter()
-            .all(|n| *n as usize <= extended.slots)
+            .all(|n| *n as usize <= extended.lines.slots)
     );
     let largest_te = largest(&on_path.te_m);
     let mut gains = Vec::new();

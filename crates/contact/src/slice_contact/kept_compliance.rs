@@ -11,7 +11,7 @@
 //! stand, as always.
 
 use super::compliance::{Filling, Part};
-use super::{Elastic, Run, SliceContact};
+use super::{Elastic, RatesOfPatches, Run, SliceContact};
 use crate::contact_error::ContactError;
 use crate::contact_patch::ContactPatch;
 use crate::local_contact::LocalContact;
@@ -137,7 +137,7 @@ impl SliceContact {
             keep(&mut self.kept.rates[gear], &self.rates[gear]);
             keep(&mut self.kept.along[gear], &self.along[gear]);
         }
-        self.rates_are_known = true;
+        self.rates_of_patches = RatesOfPatches::Known;
         Ok(())
     }
 
@@ -164,7 +164,6 @@ impl SliceContact {
         }
         self.fill_from_kept();
         self.divide_by_shares();
-        self.rates_are_known = false;
         Ok(true)
     }
 

@@ -66,7 +66,7 @@ impl GearMesh {
         Some(CoupledSide {
             contacts: &side.found.contacts,
             directions: &side.directions,
-            felt: &side.model,
+            felt: &*side.model,
             model: side.model.coupled()?,
         })
     }

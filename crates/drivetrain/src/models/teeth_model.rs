@@ -177,67 +177,8 @@ pub trait TeethModel: Send {
     fn restore(&mut self, _numbers: &[f64]) {}
 }
 
-impl TeethModel for Box<dyn TeethModel> {
-    fn evaluate(
-        &mut self,
-        flanks: &FlankContacts,
-        tangents: bool,
-        loads: &mut TeethLoads,
-    ) -> Result<(), DrivetrainError> {
-        (**self).evaluate(flanks, tangents, loads)
-    }
-
-    fn expect(&mut self, iterate: Iterate) {
-        (**self).expect(iterate);
-    }
-
-    fn apply_stiffness(
-        &mut self,
-        flanks: &FlankContacts,
-        loads: &TeethLoads,
-        opening_m: &[f64],
-        forces_n: &mut [f64],
-    ) {
-        (**self).apply_stiffness(flanks, loads, opening_m, forces_n);
-    }
-
-    fn resolves_teeth(&self) -> bool {
-        (**self).resolves_teeth()
-    }
-
-    fn acts_singly(&self) -> bool {
-        (**self).acts_singly()
-    }
-
-    fn takes_modes(&self) -> bool {
-        (**self).takes_modes()
-    }
-
-    fn coupled(&self) -> Option<&ReducedTeeth> {
-        (**self).coupled()
-    }
-
-    fn coupled_mut(&mut self) -> Option<&mut ReducedTeeth> {
-        (**self).coupled_mut()
-    }
-
-    fn prepare(&mut self, flanks: &FlankContacts, deepest_m: f64) -> Result<(), DrivetrainError> {
-        (**self).prepare(flanks, deepest_m)
-    }
-
-    fn felt(&self, contact: usize) -> ([f64; 2], f64) {
-        (**self).felt(contact)
-    }
-
-    fn remember(&mut self) {
-        (**self).remember();
-    }
-
-    fn save(&self, out: &mut Vec<f64>) {
-        (**self).save(out);
-    }
-
-    fn restore(&mut self, numbers: &[f64]) {
-        (**self).restore(numbers);
+impl<T: TeethModel + 'static> From<T> for Box<dyn TeethModel> {
+    fn from(model: T) -> Self {
+        Box::new(model)
     }
 }

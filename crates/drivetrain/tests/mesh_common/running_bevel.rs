@@ -48,7 +48,7 @@ pub fn flanks(slices: usize) -> BevelSlices {
     BevelSlices::new(&file.blank, &file.design().unwrap(), slices).unwrap()
 }
 
-fn damped(flanks: &BevelSlices, contact: SliceContact) -> Damped<ReducedTeeth> {
+fn damped(flanks: &BevelSlices, contact: SliceContact) -> Damped {
     let teeth = ReducedTeeth::of_flanks(contact, 3500.0).unwrap();
     let damping = Damping::StiffnessProportional {
         time_s: 5e-6,

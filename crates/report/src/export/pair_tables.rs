@@ -43,18 +43,18 @@ fn curves(result: &SceneResult) -> Table<'static> {
 
 /// A row for each torque, angle, pair of teeth and slice that are looked at.
 fn contact(result: &SceneResult) -> Table<'static> {
-    let (angles, slots, slices) = (result.angles(), result.slots, result.slices);
+    let (angles, slots, slices) = (result.angles(), result.lines.slots, result.lines.slices);
     let mut columns: [Vec<f64>; 11] = Default::default();
     for (k, &torque_nm) in result.torque_nm.iter().enumerate() {
         for angle in 0..angles {
             let total: f64 = result.position_forces(k, angle).iter().sum();
-            for slot in 0..result.pair_count[angle] as usize {
+            for slot in 0..result.lines.pair_count[angle] as usize {
                 let forces = result.forces(k, angle, slot);
                 let share = forces.iter().sum::<f64>() / total;
                 for (slice, &force) in forces.iter().enumerate() {
                     let at = (angle * slots + slot) * slices + slice;
-                    let pressure = result.pressure_pa[k * angles * slots * slices + at];
-                    let [roll, z, line_load] = match &result.places {
+                    let pressure = result.lines.pressure_pa[k * angles * slots * slices + at];
+                    let [roll, z, line_load] = match &result.lines.places {
                         Some(p) if p.width_m[at] > 0.0 => {
                             [p.roll_1_rad[at], p.z_m[at], force / p.width_m[at]]
                         }
@@ -64,7 +64,7 @@ fn contact(result: &SceneResult) -> Table<'static> {
                     let row = [
                         torque_nm,
                         result.angle_rad[angle],
-                        result.pair[angle * slots + slot],
+                        result.lines.pair[angle * slots + slot],
                         (slice + 1) as f64,
                         roll,
                         z,

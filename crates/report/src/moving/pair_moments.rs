@@ -47,14 +47,14 @@ pub fn pair_turns(
 #[must_use]
 pub fn touching_points_m(pair: &GearPair, result: &SceneResult) -> Vec<[f64; 2]> {
     let tooth = &pair.gear_1;
-    let Some(places) = &result.places else {
-        return vec![[0.0; 2]; result.angles() * result.slots * result.slices];
+    let Some(places) = &result.lines.places else {
+        return vec![[0.0; 2]; result.angles() * result.lines.slots * result.lines.slices];
     };
     let point = |(at, roll): (usize, &f64)| {
         if places.width_m[at] <= 0.0 {
             return [0.0; 2];
         }
-        let [number, _] = pair.teeth_of(result.pair[at / result.slices] as i64);
+        let [number, _] = pair.teeth_of(result.lines.pair[at / result.lines.slices] as i64);
         let turn =
             TAU * number as f64 / tooth.teeth as f64 + places.z_m[at] * tooth.twist_rad_per_m();
         let (s, c) = turn.sin_cos();
@@ -86,12 +86,12 @@ pub fn pair_moment(
     let patches = loaded.patches_at(driver_rad);
     let forces = result.position_forces(torque, angle);
     let pressures = {
-        let size = result.slots * result.slices;
-        &result.pressure_pa[(torque * result.angles() + angle) * size..][..size]
+        let size = result.lines.slots * result.lines.slices;
+        &result.lines.pressure_pa[(torque * result.angles() + angle) * size..][..size]
     };
     let mut loads = Vec::new();
     for patch in &patches {
-        let at = patch.line * result.slices + patch.slice;
+        let at = patch.line * result.lines.slices + patch.slice;
         if forces[at] <= 0.0 {
             continue;
         }

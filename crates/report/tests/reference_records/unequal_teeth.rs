@@ -5,6 +5,7 @@ use gearmesh_report::export::{Cells, torque_table};
 use gearmesh_report::scene_comparison::{SceneComparisonError, compare_scene};
 use gearmesh_report::scene_page::{SceneChapter, scene_page};
 use gearmesh_report::{ReferenceRecord, SeriesComparison, comparison_table};
+use gearmesh_scene::pair::{LineForces, PairSolution, PairSource};
 use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::{SceneResult, StrainSeries};
 use std::f64::consts::TAU;
@@ -50,9 +51,28 @@ fn result(pitches: usize) -> SceneResult {
                  [blank.holes]\ncount = 6\npitch_circle_diameter_mm = 88.0\ndiameter_mm = 20.0\nphase_deg = 0.0\n";
     let points = pitches * POINTS;
     SceneResult {
-        title: "23 and 47".into(),
-        gears: [gear_file(23, "kind = \"solid\"\n"), gear_file(47, holes)]
-            .map(StoredGear::of_older_file),
+        source: PairSource {
+            title: "23 and 47".into(),
+            gears: [gear_file(23, "kind = \"solid\"\n"), gear_file(47, holes)]
+                .map(StoredGear::of_older_file),
+            ..PairSource::default()
+        },
+        lines: LineForces {
+            slots: 1,
+            slices: 1,
+            pair: vec![0.0; points],
+            pair_count: vec![1; points],
+            force_n: vec![1.0; points],
+            pressure_pa: vec![1.0; points],
+            k_h_beta: vec![1.0],
+            ..LineForces::default()
+        },
+        solution: PairSolution {
+            iterations: vec![1],
+            residual: vec![0.0],
+            torque_balance: vec![0.0],
+            ..PairSolution::default()
+        },
         pitches,
         contact_coverage: Coverage::of_contact(47, pitches),
         proposal: if pitches < 47 {
@@ -67,16 +87,6 @@ fn result(pitches: usize) -> SceneResult {
         axial_force_1_n: vec![0.0; points],
         secant_n_per_m: vec![1.0; points],
         tangent_n_per_m: vec![1.0; points],
-        slots: 1,
-        slices: 1,
-        pair: vec![0.0; points],
-        pair_count: vec![1; points],
-        force_n: vec![1.0; points],
-        pressure_pa: vec![1.0; points],
-        k_h_beta: vec![1.0],
-        iterations: vec![1],
-        residual: vec![0.0],
-        torque_balance: vec![0.0],
         strain: vec![gauge(1, 23.0, 1081), gauge(2, 47.0, 47)],
         angle_rad,
         ..SceneResult::default()

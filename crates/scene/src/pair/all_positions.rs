@@ -4,7 +4,7 @@
 use super::between_positions::{BetweenPositions, Found, find};
 use super::contact_places::{ContactPlaces, PatchPlace};
 use super::position::{Measures, Position, PositionSolver};
-use super::result::SceneResult;
+use super::result::{LineForces, PairSolution, PairSource, SceneResult};
 use super::run::RunError;
 use super::warnings::{ASSUMPTIONS, Warnings};
 use gearmesh_contact::{FlanksAtRest, StaticContact};
@@ -129,8 +129,11 @@ pub(super) fn curves(
         even.map(|position| position.iterations as u32).sum()
     };
     SceneResult {
-        version: env!("CARGO_PKG_VERSION").into(),
-        created_utc: utc_now(),
+        source: PairSource {
+            version: env!("CARGO_PKG_VERSION").into(),
+            created_utc: utc_now(),
+            ..PairSource::default()
+        },
         torque_nm: torques_nm.to_vec(),
         angle_rad: first().map(|p| p.angle_rad).collect(),
         te_m: flatten(|p| p.te_m),
@@ -139,19 +142,24 @@ pub(super) fn curves(
         axial_force_1_n: flatten(|p| p.axial_1_n),
         secant_n_per_m: flatten(|p| p.secant_n_per_m),
         tangent_n_per_m: flatten(|p| p.tangent_n_per_m),
-        slots,
-        slices,
-        pair_count: pairs.iter().map(|pairs| pairs.len() as u32).collect(),
-        pair: (pairs.iter())
-            .flat_map(|pairs| (0..slots).map(|k| pairs.get(k).map_or(0.0, |pair| *pair as f64)))
-            .collect(),
-        force_n: on_lines(|p| &p.force_n),
-        pressure_pa: on_lines(|p| &p.pressure_pa),
-        places: stored_places(&found, &pairs, (slots, slices)),
-        k_h_beta: of_torques(|p| p.k_h_beta),
-        iterations: found.iter().map(iterations).collect(),
-        residual: of_torques(|p| p.residual),
-        torque_balance: of_torques(|p| p.torque_balance),
+        lines: LineForces {
+            slots,
+            slices,
+            pair_count: pairs.iter().map(|pairs| pairs.len() as u32).collect(),
+            pair: (pairs.iter())
+                .flat_map(|pairs| (0..slots).map(|k| pairs.get(k).map_or(0.0, |pair| *pair as f64)))
+                .collect(),
+            force_n: on_lines(|p| &p.force_n),
+            pressure_pa: on_lines(|p| &p.pressure_pa),
+            places: stored_places(&found, &pairs, (slots, slices)),
+            k_h_beta: of_torques(|p| p.k_h_beta),
+        },
+        solution: PairSolution {
+            iterations: found.iter().map(iterations).collect(),
+            residual: of_torques(|p| p.residual),
+            torque_balance: of_torques(|p| p.torque_balance),
+            seconds: [0.0; 2],
+        },
         between: BetweenPositions::new(
             found.into_iter().map(|found| found.between).collect(),
             slices,

@@ -94,7 +94,7 @@ impl BevelScene {
     /// # Errors
     /// [`InputError`] for a text that this version does not understand, and as of [`Self::design`].
     pub fn of_result(result: &SceneResult) -> Result<Option<Self>, InputError> {
-        let document = InputDocument::new("scene in result", &result.scene_toml);
+        let document = InputDocument::new("scene in result", &result.source.scene_toml);
         let scene = Self::from_document(document)?;
         let is_cut = scene.design()?.settings.iter().all(Option::is_some);
         Ok(is_cut.then_some(scene))
@@ -297,10 +297,13 @@ impl LoadedBevel {
             .members()
             .map(|members| members.map(|model| model.input.clone()));
         let none = || StoredGear::without_definition(String::new());
-        result.title.clone_from(&file.title);
-        result.scene_toml.clone_from(&self.scene.document.text);
-        result.gears = gears.unwrap_or_else(|| [none(), none()]);
-        result.model_files = self.model_files.clone();
+        result.source.title.clone_from(&file.title);
+        result
+            .source
+            .scene_toml
+            .clone_from(&self.scene.document.text);
+        result.source.gears = gears.unwrap_or_else(|| [none(), none()]);
+        result.source.model_files = self.model_files.clone();
         result.pitches = run_pitches;
         result.te_mesh_error = self.members().map_or(0.0, te_mesh_error);
         result.contact_coverage = Coverage::of_contact(1, run_pitches);
@@ -416,7 +419,7 @@ impl LoadedBevel {
             let gauges: Vec<(usize, usize)> = [1, 2].into_iter().flat_map(all).collect();
             result.strain = super::bevel_result::strain(members, &result, &gauges)?;
         }
-        result.seconds = [seconds, clock.elapsed().as_secs_f64()];
+        result.solution.seconds = [seconds, clock.elapsed().as_secs_f64()];
         Ok(result)
     }
 }

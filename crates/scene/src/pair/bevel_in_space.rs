@@ -60,7 +60,7 @@ impl<'a> BevelInSpace<'a> {
     /// # Errors
     /// [`RunError`] for flanks that cannot be made.
     pub fn new(scene: &'a BevelScene, result: &'a SceneResult) -> Result<Option<Self>, RunError> {
-        let Some((rest, places)) = result.bevel.zip(result.places.as_ref()) else {
+        let Some((rest, places)) = result.bevel.zip(result.lines.places.as_ref()) else {
             return Ok(None);
         };
         let file = &scene.file;
@@ -196,7 +196,7 @@ impl<'a> BevelInSpace<'a> {
         let s = along_m.get(at)? / self.flanks.face_widths_m()[member] + 0.5;
         let place = [s, *up.get(at)?];
         let point = self.flanks.flank_point_m(self.rest.side, member, place);
-        let pair = self.result.pair[at / self.result.slices] as i64;
+        let pair = self.result.lines.pair[at / self.result.lines.slices] as i64;
         let [tooth, teeth] =
             [self.rest.teeth_of(pair), self.rest.teeth].map(|of| of[member] as f64);
         Some(about_z(TAU * tooth / teeth) * point)

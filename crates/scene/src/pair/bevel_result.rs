@@ -189,15 +189,15 @@ impl SceneResult {
     #[must_use]
     pub fn even_position(&self, torque: usize, angle: usize) -> Option<PressedPosition<'_>> {
         self.bevel?;
-        let block = self.slots * self.slices;
+        let block = self.lines.slots * self.lines.slices;
         let of_torque = (torque * self.angles() + angle) * block;
         Some(PressedPosition {
-            pairs: &self.pair[angle * self.slots..][..self.slots],
-            forces_n: &self.force_n[of_torque..][..block],
-            pressures_pa: &self.pressure_pa[of_torque..][..block],
-            places: self.places.as_ref()?,
+            pairs: &self.lines.pair[angle * self.lines.slots..][..self.lines.slots],
+            forces_n: &self.lines.force_n[of_torque..][..block],
+            pressures_pa: &self.lines.pressure_pa[of_torque..][..block],
+            places: self.lines.places.as_ref()?,
             first: angle * block,
-            slices: self.slices,
+            slices: self.lines.slices,
         })
     }
 
@@ -205,14 +205,14 @@ impl SceneResult {
     #[must_use]
     pub fn position_between(&self, position: usize) -> Option<PressedPosition<'_>> {
         let it = &self.between;
-        let block = it.slots * self.slices;
+        let block = it.slots * self.lines.slices;
         Some(PressedPosition {
             pairs: it.pair.get(position * it.slots..)?.get(..it.slots)?,
             forces_n: &it.force_n[position * block..][..block],
             pressures_pa: &it.pressure_pa[position * block..][..block],
             places: it.places.as_ref()?,
             first: position * block,
-            slices: self.slices,
+            slices: self.lines.slices,
         })
     }
 
@@ -270,7 +270,7 @@ impl BevelFigures {
         });
         let (mut along, mut up) = ([f64::INFINITY, 0.0], [f64::INFINITY, 0.0]);
         let least_pa = 0.01 * largest(|_| true);
-        let half = 0.5 / result.slices as f64;
+        let half = 0.5 / result.lines.slices as f64;
         for at in pressing().filter(|at| at.pressure_pa >= least_pa) {
             let (s, v) = (at.along_m(1) / bevel.face_widths_m[1] + 0.5, at.up(1));
             along = [
@@ -326,7 +326,7 @@ pub fn strain(
     let one = |&(gear, index): &(usize, usize)| {
         let (member, model) = (gear - 1, models[gear - 1]);
         let rows = &model.gauges[index];
-        let spread = spread_from_heel(model, bevel.face_widths_m[0], result.slices);
+        let spread = spread_from_heel(model, bevel.face_widths_m[0], result.lines.slices);
         let reader = GaugeReader::new(model, rows, bevel.side, &spread)?;
         let read = |position: Option<PressedPosition<'_>>, later: i64| -> Strain {
             let pressing = position.into_iter().flat_map(PressedPosition::pressing);

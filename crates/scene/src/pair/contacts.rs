@@ -34,8 +34,8 @@ impl LoadedScene {
     /// Whether the contact lines of a result are those of this scene.
     #[must_use]
     pub fn has_lines_of(&self, result: &SceneResult) -> bool {
-        let counts = result.angle_rad.iter().zip(&result.pair_count);
-        self.line_slots(&result.angle_rad) == result.slots
+        let counts = result.angle_rad.iter().zip(&result.lines.pair_count);
+        self.line_slots(&result.angle_rad) == result.lines.slots
             && counts
                 .into_iter()
                 .all(|(&angle, &count)| self.lines_at(angle).1.len() == count as usize)
@@ -107,7 +107,7 @@ impl LoadedScene {
         let key = format!(
             "{:?} {:?} {:?} {:?} {:?} {} {:?}",
             self.model_digests,
-            self.scene.slides,
+            self.scene.gears.each_ref().map(|gear| gear.slides),
             lines.pair.flank,
             options.local,
             self.layout,

@@ -108,7 +108,7 @@ impl SceneResult {
     /// # Errors
     /// As of [`Self::overlap_width_m`].
     pub fn definitions(&self) -> Result<[&GearDefinition; 2], InputError> {
-        let [first, second] = &self.gears;
+        let [first, second] = &self.source.gears;
         Ok([
             first.definition_in("the result")?,
             second.definition_in("the result")?,
@@ -120,7 +120,7 @@ impl SceneResult {
     /// # Errors
     /// [`InputError`] for a scene that this version does not understand.
     pub fn scene(&self) -> Result<Scene, InputError> {
-        let document = InputDocument::new("scene in result", &self.scene_toml);
+        let document = InputDocument::new("scene in result", &self.source.scene_toml);
         Scene::from_document(document, Path::new("."))
     }
 
@@ -132,10 +132,10 @@ impl SceneResult {
         let swing = |values: &[f64], between: &[f64]| {
             swing(self.curve(values, torque).iter().chain(between))
         };
-        let block = self.slots * self.slices;
+        let block = self.lines.slots * self.lines.slices;
         let (first, last) = (torque * self.angles(), (torque + 1) * self.angles());
-        let even = &self.pressure_pa[first * block..last * block];
-        let block = self.between.slots * self.slices;
+        let even = &self.lines.pressure_pa[first * block..last * block];
+        let block = self.between.slots * self.lines.slices;
         let added = &self.between.pressure_pa[between.start * block..between.end * block];
         let normal = self.normal_force_n(torque);
         let averaged = self.averaged(&self.te_m, torque).len();
@@ -153,12 +153,13 @@ impl SceneResult {
                 &self.between.tangent_n_per_m[between],
             ),
             pressure_largest_pa: even.iter().chain(added).copied().fold(0.0, f64::max),
-            k_h_beta: self.k_h_beta[torque],
+            k_h_beta: self.lines.k_h_beta[torque],
             axial_force_1_mean_n: mean(&self.axial_force_1_n),
             normal_force_mean_n: self::mean(&normal[..averaged]),
-            torque_balance: self.torque_balance[torque],
-            residual: self.residual[torque],
-            iterations_per_position: f64::from(self.iterations[torque]) / self.angles() as f64,
+            torque_balance: self.solution.torque_balance[torque],
+            residual: self.solution.residual[torque],
+            iterations_per_position: f64::from(self.solution.iterations[torque])
+                / self.angles() as f64,
             bevel: BevelFigures::of(self, torque),
             errors: self.errors(torque),
         }
@@ -256,12 +257,12 @@ impl SceneResult {
     /// What lies between the slices of the most loaded line: how far a parabola through the mean line loads of three
     /// neighbours rises above the largest mean, over it. At the position at which that line is loaded least evenly.
     fn slice_error(&self, torque: usize) -> Option<f64> {
-        if self.slices < 3 {
+        if self.lines.slices < 3 {
             return None;
         }
         let mut worst = (0.0, 0.0);
         for angle in 0..self.angles() {
-            let lines = (0..self.slots).map(|slot| self.forces(torque, angle, slot));
+            let lines = (0..self.lines.slots).map(|slot| self.forces(torque, angle, slot));
             let sum = |forces: &[f64]| forces.iter().sum::<f64>();
             let Some(line) = lines.max_by(|a, b| sum(a).total_cmp(&sum(b))) else {
                 continue;

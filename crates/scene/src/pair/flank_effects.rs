@@ -23,7 +23,7 @@ impl Scene {
         number: usize,
         gear: &mut GearDefinition,
     ) -> Result<String, InputError> {
-        let stated = &self.microgeometry[number - 1];
+        let stated = &self.gears[number - 1].microgeometry;
         if let Some(table) = stated {
             let path = format!("gear_{number}.microgeometry");
             let teeth = (&gear.profile, gear.tooth.face_width_m);
@@ -43,8 +43,8 @@ pub(crate) fn deviations(
 ) -> Result<FlankDeviations, InputError> {
     let keys = TableKeys::new(&scene.document, "mesh.teeth");
     let mut made: [Vec<Arc<dyn FlankError>>; 2] = [Vec::new(), Vec::new()];
-    for (number, (tables, gear)) in scene.errors.iter().zip(gears).enumerate() {
-        for (i, table) in tables.iter().enumerate() {
+    for (number, (stated, gear)) in scene.gears.iter().zip(gears).enumerate() {
+        for (i, table) in stated.errors.iter().enumerate() {
             let key = format!("errors_{}.{i}", number + 1);
             let teeth = (&gear.profile, gear.tooth.face_width_m);
             made[number].push(table.on_gear(teeth, (&keys, &key), &scene.folder)?);
@@ -58,10 +58,11 @@ pub(crate) fn deviations(
 /// # Errors
 /// [`InputError`] for an offset that leaves no line of action.
 pub(crate) fn runout(scene: &Scene, pair: &GearPair) -> Result<Option<Runout>, InputError> {
-    let tables = scene.eccentricity.map(Option::unwrap_or_default);
-    if scene.eccentricity.iter().all(Option::is_none) {
+    let stated = scene.gears.each_ref().map(|gear| gear.eccentricity);
+    if stated.iter().all(Option::is_none) {
         return Ok(None);
     }
+    let tables = stated.map(Option::unwrap_or_default);
     let keys = TableKeys::new(&scene.document, "mesh.teeth");
     // Half of what the line of action leaves, for each gear.
     let least_m = pair.circles().sum_m().abs();

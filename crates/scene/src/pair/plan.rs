@@ -57,7 +57,7 @@ impl Plan {
             ),
         });
         text.extend(flank_lines(loaded));
-        let gauges = scene.gauges_1.len() + scene.gauges_2.len();
+        let gauges: usize = scene.gears.iter().map(|gear| gear.gauges.len()).sum();
         text.push(if gauges == 0 {
             "gauges     not computed".to_string()
         } else {
@@ -88,7 +88,7 @@ fn pair_lines(loaded: &LoadedScene) -> Vec<String> {
     let (scene, layout, pair) = (&loaded.scene, &loaded.layout, &loaded.lines.pair);
     let mut text = Vec::new();
     for (number, gear) in [(1, gear_1), (2, gear_2)] {
-        let bore = match scene.slides[number - 1] {
+        let bore = match scene.gears[number - 1].slides {
             true => " whose bore slides on a rigid pin",
             false => "",
         };
@@ -139,12 +139,9 @@ fn flank_lines(loaded: &LoadedScene) -> Vec<String> {
     for (number, microgeometry) in [1, 2].into_iter().zip(&loaded.microgeometry) {
         text.push(format!("flanks     gear {number}: {microgeometry}"));
     }
-    for (number, (errors, seat)) in [1, 2]
-        .into_iter()
-        .zip(scene.errors.iter().zip(&scene.eccentricity))
-    {
-        let kinds: Vec<&str> = (errors.iter().map(|error| error.kind()))
-            .chain(seat.map(|_| "eccentricity"))
+    for (number, gear) in [1, 2].into_iter().zip(&scene.gears) {
+        let kinds: Vec<&str> = (gear.errors.iter().map(|error| error.kind()))
+            .chain(gear.eccentricity.map(|_| "eccentricity"))
             .collect();
         if !kinds.is_empty() {
             text.push(format!("errors     gear {number}: {}", kinds.join(", ")));

@@ -68,9 +68,9 @@ impl StrainSeries {
     }
 }
 
-/// All curves of a run. With T torques, A angles, L line slots and S slices.
+/// Where the result of a pair comes from.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct SceneResult {
+pub struct PairSource {
     /// Title of the scene.
     pub title: String,
     /// The scene file, verbatim.
@@ -85,6 +85,47 @@ pub struct SceneResult {
     pub version: String,
     /// When, UTC.
     pub created_utc: String,
+}
+
+/// Forces on the contact lines. With T torques, A angles, L line slots and S slices.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LineForces {
+    /// Line slots L.
+    pub slots: usize,
+    /// Slices S.
+    pub slices: usize,
+    /// Pair number in each slot, `[A][L]`; only the first `pair_count` are used.
+    pub pair: Vec<f64>,
+    /// Contact lines looked at, `[A]`; tip edges beyond the path that stay apart count too, with no force.
+    pub pair_count: Vec<u32>,
+    /// Slice forces \[N\], `[T][A][L][S]`.
+    pub force_n: Vec<f64>,
+    /// Hertz pressure \[Pa\], `[T][A][L][S]`.
+    pub pressure_pa: Vec<f64>,
+    /// Where the slices touch; none in files of older programs.
+    pub places: Option<ContactPlaces>,
+    /// Largest over mean line load of the most loaded line, worst of all positions, per torque: K_Hβ.
+    pub k_h_beta: Vec<f64>,
+}
+
+/// How a pair was solved. With T torques.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PairSolution {
+    /// Newton iterations, sum over all positions, `[T]`.
+    pub iterations: Vec<u32>,
+    /// Largest relative residual, `[T]`.
+    pub residual: Vec<f64>,
+    /// Largest relative error of Σ F b = T₂, `[T]`.
+    pub torque_balance: Vec<f64>,
+    /// Solution and strain time \[s\].
+    pub seconds: [f64; 2],
+}
+
+/// All curves of a run. With T torques and A angles.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SceneResult {
+    /// Where it comes from.
+    pub source: PairSource,
     /// Pitches of gear 1 that the angles run through.
     pub pitches: usize,
     /// How much of the period of transmission error, stiffness, forces and pressure the run has seen.
@@ -107,28 +148,10 @@ pub struct SceneResult {
     pub secant_n_per_m: Vec<f64>,
     /// Tangent mesh stiffness \[N/m\], `[T][A]`.
     pub tangent_n_per_m: Vec<f64>,
-    /// Line slots L.
-    pub slots: usize,
-    /// Slices S.
-    pub slices: usize,
-    /// Pair number in each slot, `[A][L]`; only the first `pair_count` are used.
-    pub pair: Vec<f64>,
-    /// Contact lines looked at, `[A]`; tip edges beyond the path that stay apart count too, with no force.
-    pub pair_count: Vec<u32>,
-    /// Slice forces \[N\], `[T][A][L][S]`.
-    pub force_n: Vec<f64>,
-    /// Hertz pressure \[Pa\], `[T][A][L][S]`.
-    pub pressure_pa: Vec<f64>,
-    /// Where the slices touch; none in files of older programs.
-    pub places: Option<ContactPlaces>,
-    /// Largest over mean line load of the most loaded line, worst of all positions, per torque: K_Hβ.
-    pub k_h_beta: Vec<f64>,
-    /// Newton iterations, sum over all positions, per torque.
-    pub iterations: Vec<u32>,
-    /// Largest relative residual, per torque.
-    pub residual: Vec<f64>,
-    /// Largest relative error of Σ F b = T₂, per torque.
-    pub torque_balance: Vec<f64>,
+    /// Forces and pressures on the contact lines.
+    pub lines: LineForces,
+    /// How it was solved.
+    pub solution: PairSolution,
     /// Estimated relative error of the mesh in the deflection of a tooth while the next one carries, too: the larger
     /// one of both gears, zero where it was not estimated.
     pub te_mesh_error: f64,
@@ -142,8 +165,6 @@ pub struct SceneResult {
     pub ratings: Vec<RatingResult>,
     /// Warnings about assumptions.
     pub warnings: Vec<String>,
-    /// Solution and strain time \[s\].
-    pub seconds: [f64; 2],
 }
 
 impl SceneResult {
@@ -194,13 +215,14 @@ impl SceneResult {
 
     /// Slice forces of all lines at one position \[N\], `[L][S]`.
     pub fn position_forces(&self, torque: usize, angle: usize) -> &[f64] {
-        let size = self.slots * self.slices;
-        &self.force_n[(torque * self.angles() + angle) * size..][..size]
+        let size = self.lines.slots * self.lines.slices;
+        &self.lines.force_n[(torque * self.angles() + angle) * size..][..size]
     }
 
     /// Slice forces of one line \[N\].
     pub fn forces(&self, torque: usize, angle: usize, slot: usize) -> &[f64] {
-        let first = ((torque * self.angles() + angle) * self.slots + slot) * self.slices;
-        &self.force_n[first..first + self.slices]
+        let first =
+            ((torque * self.angles() + angle) * self.lines.slots + slot) * self.lines.slices;
+        &self.lines.force_n[first..first + self.lines.slices]
     }
 }

@@ -66,8 +66,8 @@ impl SceneResult {
             let problem = format!("it is {}, there are {angles} angles", self.pitches);
             return found("pitches", problem);
         }
-        let slots = self.slots;
-        if let Some(count) = (self.pair_count.iter()).find(|count| **count as usize > slots) {
+        let slots = self.lines.slots;
+        if let Some(count) = (self.lines.pair_count.iter()).find(|count| **count as usize > slots) {
             let problem = format!("it says {count}, there are {slots} contact lines");
             return found("pair_count", problem);
         }
@@ -105,7 +105,7 @@ impl Record for SceneResult {
             ("driver angle", self.angle_rad.len()),
         );
         // Of files before version 3 the periods follow from the gears.
-        let periods = periods_of(&self.gears);
+        let periods = periods_of(&self.source.gears);
         let of_mesh = periods.map(|periods| periods.contact());
         let (coverage, pitches) = (&mut self.contact_coverage, self.pitches);
         f.group("contact", |f| {
@@ -131,19 +131,24 @@ impl Record for SceneResult {
 
 impl SceneResult {
     fn head_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        f.text("title", &mut self.title, "title of the scene")?;
+        f.text("title", &mut self.source.title, "title of the scene")?;
         let what = "the scene, word for word";
-        f.text("scene_toml", &mut self.scene_toml, what)?;
+        f.text("scene_toml", &mut self.source.scene_toml, what)?;
         let typed = f.version() >= TYPED_DEFINITION;
         let names = [("gear_1_toml", "gear_1"), ("gear_2_toml", "gear_2")];
-        for (gear, names) in self.gears.iter_mut().zip(names) {
+        for (gear, names) in self.source.gears.iter_mut().zip(names) {
             gear.fields(f, names, typed)?;
         }
-        for (file, name) in self.model_files.iter_mut().zip(["model_1", "model_2"]) {
+        for (file, name) in self
+            .source
+            .model_files
+            .iter_mut()
+            .zip(["model_1", "model_2"])
+        {
             f.text(name, file, "file of the model, absolute")?;
         }
         let names = ["microgeometry_1", "microgeometry_2"];
-        for (text, name) in self.microgeometry.iter_mut().zip(names) {
+        for (text, name) in self.source.microgeometry.iter_mut().zip(names) {
             if f.has(name) {
                 f.text(name, text, "microgeometry of the gear in words")?;
             }
@@ -152,14 +157,24 @@ impl SceneResult {
             let what = "a run that would see whole periods; empty where this one does";
             f.text("proposal", &mut self.proposal, what)?;
         }
-        f.text("version", &mut self.version, "version of the program")?;
-        f.text("created_utc", &mut self.created_utc, "when, UTC")?;
+        f.text(
+            "version",
+            &mut self.source.version,
+            "version of the program",
+        )?;
+        f.text("created_utc", &mut self.source.created_utc, "when, UTC")?;
         f.lines("warnings", &mut self.warnings, "warnings about assumptions")?;
         let what = "pitches of gear 1 run through";
         f.count("pitches", &mut self.pitches, what)?;
         self.pitches = self.pitches.max(1);
         let what = "wall time of contact and of strain";
-        f.fixed("seconds", &mut self.seconds, &[("stage", 2)], "s", what)
+        f.fixed(
+            "seconds",
+            &mut self.solution.seconds,
+            &[("stage", 2)],
+            "s",
+            what,
+        )
     }
 
     fn curve_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
@@ -189,18 +204,24 @@ impl SceneResult {
         let (name, values) = ("stiffness_tangent_N_per_m", &mut self.tangent_n_per_m);
         f.bulk(name, values, &[t, a], "N/m", "tangent mesh stiffness")?;
         let what = "face load factor of the most loaded line, worst position";
-        f.numbers("k_h_beta", &mut self.k_h_beta, &[t], "1", what)?;
+        f.numbers("k_h_beta", &mut self.lines.k_h_beta, &[t], "1", what)?;
         let what = "Newton iterations, sum over all positions";
-        f.counts("iterations", &mut self.iterations, &[t], what)?;
+        f.counts("iterations", &mut self.solution.iterations, &[t], what)?;
         let what = "largest relative residual of the contact problem";
-        f.numbers("residual", &mut self.residual, &[t], "1", what)?;
+        f.numbers("residual", &mut self.solution.residual, &[t], "1", what)?;
         // Older programs did not store it.
         if f.has("te_mesh_error") {
             let what = "estimated relative error of the mesh in the deflection of teeth, zero where it was not estimated";
             f.number("te_mesh_error", &mut self.te_mesh_error, "1", what)?;
         }
         let what = "largest relative error of the torque balance";
-        f.numbers("torque_balance", &mut self.torque_balance, &[t], "1", what)
+        f.numbers(
+            "torque_balance",
+            &mut self.solution.torque_balance,
+            &[t],
+            "1",
+            what,
+        )
     }
 
     fn contact_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
@@ -210,26 +231,32 @@ impl SceneResult {
         );
         let what = "pair number of each contact line";
         let lines = [a, ("contact line", OPEN)];
-        f.numbers("pair", &mut self.pair, &lines, "1", what)?;
+        f.numbers("pair", &mut self.lines.pair, &lines, "1", what)?;
         if f.is_reading() {
-            self.slots = self.pair.len() / a.1.max(1);
+            self.lines.slots = self.lines.pair.len() / a.1.max(1);
         }
-        let l = ("contact line", self.slots);
+        let l = ("contact line", self.lines.slots);
         let what = "contact lines looked at; a tip edge that stays apart has no force";
-        f.counts("pair_count", &mut self.pair_count, &[a], what)?;
+        f.counts("pair_count", &mut self.lines.pair_count, &[a], what)?;
         let axes = [t, a, l, ("slice", OPEN)];
         let what = "normal force of each slice, positive in compression";
-        f.bulk("force_N", &mut self.force_n, &axes, "N", what)?;
+        f.bulk("force_N", &mut self.lines.force_n, &axes, "N", what)?;
         if f.is_reading() {
-            self.slices = self.force_n.len() / (t.1 * a.1 * l.1).max(1);
+            self.lines.slices = self.lines.force_n.len() / (t.1 * a.1 * l.1).max(1);
         }
-        let s = ("slice", self.slices);
+        let s = ("slice", self.lines.slices);
         let what = "peak Hertz pressure of each slice";
         let axes = [t, a, l, s];
-        f.bulk("pressure_Pa", &mut self.pressure_pa, &axes, "Pa", what)?;
+        f.bulk(
+            "pressure_Pa",
+            &mut self.lines.pressure_pa,
+            &axes,
+            "Pa",
+            what,
+        )?;
         // Older programs did not store the places.
-        if f.keeps("contact/width_m", self.places.is_some()) {
-            place_fields(self.places.get_or_insert_default(), f, "", &[a, l, s])?;
+        if f.keeps("contact/width_m", self.lines.places.is_some()) {
+            place_fields(self.lines.places.get_or_insert_default(), f, "", &[a, l, s])?;
         }
         Ok(())
     }
@@ -261,14 +288,18 @@ impl SceneResult {
             "tangent mesh stiffness",
         );
         f.numbers(name, &mut it.tangent_n_per_m, &[e], "N/m", what)?;
-        let axes = [e, ("contact line between", OPEN), ("slice", self.slices)];
+        let axes = [
+            e,
+            ("contact line between", OPEN),
+            ("slice", self.lines.slices),
+        ];
         let what = "normal force of each slice";
         f.bulk("between/force_N", &mut it.force_n, &axes, "N", what)?;
         if f.is_reading() {
-            it.slots = it.force_n.len() / (e.1 * self.slices).max(1);
+            it.slots = it.force_n.len() / (e.1 * self.lines.slices).max(1);
         }
         let lines = [e, ("contact line between", it.slots)];
-        let axes = [lines[0], lines[1], ("slice", self.slices)];
+        let axes = [lines[0], lines[1], ("slice", self.lines.slices)];
         let (name, what) = ("between/pressure_Pa", "peak Hertz pressure of each slice");
         f.bulk(name, &mut it.pressure_pa, &axes, "Pa", what)?;
         if f.keeps("between/pair", it.places.is_some()) {

@@ -5,7 +5,7 @@ use super::contact_places::ContactPlaces;
 use super::plan::Plan;
 use super::position::Measures;
 use super::rating::{PairRating, judged};
-use super::result::{SceneResult, StrainSeries};
+use super::result::{LineForces, PairSource, SceneResult, StrainSeries};
 use super::scene_file::Scene;
 use crate::model_shelf::{CondensedPairs, ModelShelf};
 use crate::periods::PairPeriods;
@@ -106,7 +106,7 @@ pub struct LoadedScene {
 /// # Errors
 /// [`InputError`] for gears that do not run together, as two of one hand.
 pub fn demand_gears_that_fit(scene: &Scene, shelf: &ModelShelf) -> Result<(), InputError> {
-    let models = [&scene.gear_1, &scene.gear_2];
+    let models = scene.gears.each_ref().map(|gear| &gear.model);
     if models.iter().all(|path| shelf.knows(path)) {
         return Ok(());
     }
@@ -234,22 +234,28 @@ fn solve(
     let curves = curves(&scene.torques_nm, found, size);
     let slips = loaded.unit_slips().into_iter().map(|slip| slip.to_string());
     let mut result = SceneResult {
-        title: scene.title.clone(),
-        scene_toml: scene.document.text.clone(),
-        gears: loaded.models.each_ref().map(|model| model.input.clone()),
-        model_files: [&scene.gear_1, &scene.gear_2].map(|file| absolute(file)),
+        source: PairSource {
+            title: scene.title.clone(),
+            scene_toml: scene.document.text.clone(),
+            gears: loaded.models.each_ref().map(|model| model.input.clone()),
+            model_files: scene.gears.each_ref().map(|gear| absolute(&gear.model)),
+            microgeometry: loaded.microgeometry.clone(),
+            ..curves.source
+        },
         pitches: scene.pitches,
-        microgeometry: loaded.microgeometry.clone(),
         contact_coverage: coverage,
         proposal: loaded.proposal(&loaded.gauges),
         te_mesh_error: te_mesh_error(loaded.models.each_ref().map(|model| &**model)),
-        places: Some(ContactPlaces::new(loaded, &angles, curves.slots)),
+        lines: LineForces {
+            places: Some(ContactPlaces::new(loaded, &angles, curves.lines.slots)),
+            ..curves.lines
+        },
         warnings: slips.chain(curves.warnings).collect(),
         ..curves
     };
     let clock = Instant::now();
     result.strain = strain(loaded, &result, &loaded.gauges)?;
-    result.seconds = [contact_seconds, clock.elapsed().as_secs_f64()];
+    result.solution.seconds = [contact_seconds, clock.elapsed().as_secs_f64()];
     result.ratings = judged(&loaded.ratings, &result);
     Ok(result)
 }

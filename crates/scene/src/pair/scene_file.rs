@@ -217,15 +217,30 @@ pub struct GaugesTable {
     pub gear_2: Vec<String>,
 }
 
+/// A gear of a pair.
+#[derive(Debug, Clone)]
+pub struct PairGear {
+    /// Its reduced model.
+    pub model: PathBuf,
+    /// Its microgeometry; that of the gear file inside the model where none is given.
+    pub microgeometry: Option<MicrogeometryTable>,
+    /// Whether its bore slides on a rigid pin.
+    pub slides: bool,
+    /// Its errors and faults.
+    pub errors: Vec<FlankErrorTable>,
+    /// Its place on its body.
+    pub eccentricity: Option<EccentricityTable>,
+    /// Gauges to read, by name.
+    pub gauges: Vec<String>,
+}
+
 /// A scene that has been read and checked. Paths are relative to the scene file's folder.
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// Title in prints and reports.
     pub title: String,
-    /// Reduced model of the driving gear.
-    pub gear_1: PathBuf,
-    /// Reduced model of the driven gear.
-    pub gear_2: PathBuf,
+    /// The driving gear and the driven one.
+    pub gears: [PairGear; 2],
     /// Centre distance \[m\].
     pub centre_distance_m: f64,
     /// Mid-face of gear 2 from that of gear 1 along the axes \[m\].
@@ -236,16 +251,8 @@ pub struct Scene {
     pub misalignment: Misalignment,
     /// Result from which they are taken instead.
     pub misalignment_from: Option<MisalignmentFrom>,
-    /// Microgeometry of gear 1 and gear 2; that of the gear files inside the models where none is given.
-    pub microgeometry: [Option<MicrogeometryTable>; 2],
-    /// Whether the bores of gear 1 and gear 2 slide on rigid pins.
-    pub slides: [bool; 2],
     /// Slices over the overlap of the faces; those of the models where none are given.
     pub slices: Option<usize>,
-    /// Errors and faults of gear 1 and gear 2.
-    pub errors: [Vec<FlankErrorTable>; 2],
-    /// Places of gear 1 and gear 2 on their bodies.
-    pub eccentricity: [Option<EccentricityTable>; 2],
     /// Local contact and friction.
     pub contact: ContactOptions,
     /// Radius of the tip edges \[m\] where the path is `extended`; none where it is `line-of-action`.
@@ -260,10 +267,6 @@ pub struct Scene {
     pub pitches: usize,
     /// Positions per pitch.
     pub points_per_pitch: usize,
-    /// Gauges to read on gear 1, by name.
-    pub gauges_1: Vec<String>,
-    /// Gauges to read on gear 2, by name.
-    pub gauges_2: Vec<String>,
     /// What is judged after the run; checked when the models are known.
     pub ratings: Vec<RatingTable>,
     /// Where the scene is.
@@ -310,14 +313,28 @@ impl Scene {
                 Some(1e-6 * radius_um.map_or(DEFAULT_EDGE_RADIUS_UM, f64::from))
             }
         };
-        let bores = [table.gear_1.bore, table.gear_2.bore];
+        let gear_1 = PairGear {
+            model: folder.join(&pair.gear_1),
+            microgeometry: table.gear_1.microgeometry,
+            slides: table.gear_1.bore == Some(BoreHold::Sliding),
+            errors: teeth.errors_1,
+            eccentricity: teeth.eccentricity_1,
+            gauges: table.gauges.gear_1,
+        };
+        let gear_2 = PairGear {
+            model: folder.join(&pair.gear_2),
+            microgeometry: table.gear_2.microgeometry,
+            slides: table.gear_2.bore == Some(BoreHold::Sliding),
+            errors: teeth.errors_2,
+            eccentricity: teeth.eccentricity_2,
+            gauges: table.gauges.gear_2,
+        };
         let PairModel::Hybrid { local, slices } = table.mesh.model;
         let notes = document.former_notes()?;
         let notes = notes.iter().map(ToString::to_string).collect();
         Ok(Self {
             title: table.title,
-            gear_1: folder.join(&pair.gear_1),
-            gear_2: folder.join(&pair.gear_2),
+            gears: [gear_1, gear_2],
             centre_distance_m: *pair.centre_distance_mm * 1e-3,
             axial_offset_m: pair.axial_offset_mm.map_or(0.0, f64::from) * 1e-3,
             flank: pair.flank,
@@ -326,11 +343,7 @@ impl Scene {
                 deviation_rad: pair.deviation_mrad.map_or(0.0, f64::from) * 1e-3,
             },
             misalignment_from: pair.misalignment_from.clone(),
-            microgeometry: [table.gear_1.microgeometry, table.gear_2.microgeometry],
-            slides: bores.map(|bore| bore == Some(BoreHold::Sliding)),
             slices,
-            errors: [teeth.errors_1, teeth.errors_2],
-            eccentricity: [teeth.eccentricity_1, teeth.eccentricity_2],
             contact: ContactOptions { local, friction },
             edge_radius_m,
             path_by_default: teeth.path.is_none() && teeth.edge_radius_um.is_none(),
@@ -338,8 +351,6 @@ impl Scene {
             start_rad: table.run.start_deg.map_or(0.0, f64::from).to_radians(),
             pitches: table.run.pitches.get(),
             points_per_pitch: table.run.points_per_pitch.get(),
-            gauges_1: table.gauges.gear_1,
-            gauges_2: table.gauges.gear_2,
             ratings: table.rating,
             folder: folder.into(),
             notes,
@@ -350,19 +361,21 @@ impl Scene {
     /// Whether teeth of a gear (1 or 2) differ by its errors or its place: it repeats after a revolution only.
     #[must_use]
     pub fn tells_teeth_apart(&self, gear: usize) -> bool {
-        self.eccentricity[gear - 1].is_some()
-            || self.errors[gear - 1]
-                .iter()
-                .any(FlankErrorTable::tells_teeth_apart)
+        let gear = &self.gears[gear - 1];
+        gear.eccentricity.is_some() || (gear.errors.iter()).any(FlankErrorTable::tells_teeth_apart)
     }
 
     /// The scene without what only decides the forces: for reading results, which have them.
     #[must_use]
     pub fn with_known_forces(self) -> Self {
+        let gears = self.gears.map(|gear| PairGear {
+            microgeometry: None,
+            errors: Vec::new(),
+            ..gear
+        });
         Self {
             misalignment_from: None,
-            microgeometry: [None, None],
-            errors: [Vec::new(), Vec::new()],
+            gears,
             ..self
         }
     }

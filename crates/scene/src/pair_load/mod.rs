@@ -30,8 +30,8 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
 /// As [`load`].
 pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, RunError> {
     demand_gears_that_fit(&scene, shelf)?;
-    let (model_1, mut gear_1) = gear_of(&scene, shelf, ("pair.gear_1", &scene.gear_1))?;
-    let (model_2, mut gear_2) = gear_of(&scene, shelf, ("pair.gear_2", &scene.gear_2))?;
+    let (model_1, mut gear_1) = gear_of(&scene, shelf, ("pair.gear_1", &scene.gears[0].model))?;
+    let (model_2, mut gear_2) = gear_of(&scene, shelf, ("pair.gear_2", &scene.gears[1].model))?;
     let microgeometry = [
         scene.modify_flanks(1, &mut gear_1)?,
         scene.modify_flanks(2, &mut gear_2)?,
@@ -123,7 +123,7 @@ fn on_their_bores(
 ) -> Result<[Option<Arc<ReducedGear>>; 2], InputError> {
     let mut bores = [None, None];
     for (k, model) in models.iter_mut().enumerate() {
-        if scene.slides[k] {
+        if scene.gears[k].slides {
             bores[k] = Some(Arc::clone(model));
             let sliding = model.with_sliding_bore();
             let key = format!("gear_{}.bore", k + 1);
@@ -158,9 +158,9 @@ fn gauge_places(
     models: &[Arc<ReducedGear>; 2],
 ) -> Result<Vec<(usize, usize)>, InputError> {
     let mut places = Vec::new();
-    for (gear, names) in [(1, &scene.gauges_1), (2, &scene.gauges_2)] {
+    for (gear, stated) in [1, 2].into_iter().zip(&scene.gears) {
         let known = &models[gear - 1].gauges;
-        for (i, name) in names.iter().enumerate() {
+        for (i, name) in stated.gauges.iter().enumerate() {
             let index = known.iter().position(|g| g.name == *name).ok_or_else(|| {
                 let names: Vec<&str> = known.iter().map(|g| g.name.as_str()).collect();
                 let known = match names.is_empty() {

@@ -210,7 +210,12 @@ impl RestCases {
                 let effort = Effort {
                     states: (loaded.lines.most_pairs() * loaded.layout.slices) as f64,
                     calls: (result.torque_nm.len() * result.angle_rad.len()) as f64,
-                    iterations: result.iterations.iter().map(|n| f64::from(*n)).sum(),
+                    iterations: result
+                        .solution
+                        .iterations
+                        .iter()
+                        .map(|n| f64::from(*n))
+                        .sum(),
                     ..clock.effort()
                 };
                 let figures = RestFigures {

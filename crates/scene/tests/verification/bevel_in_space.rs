@@ -53,7 +53,7 @@ fn a_bevel_pair_in_space_meshes() {
         let result = loaded(name, more);
         let scene = BevelScene::of_result(&result).unwrap().unwrap();
         let pair = BevelInSpace::new(&scene, &result).unwrap().unwrap();
-        let document = InputDocument::new(name, result.scene_toml.clone());
+        let document = InputDocument::new(name, result.source.scene_toml.clone());
         let file = PairFile::from_document(&document).unwrap();
         let slices = BevelSlices::new(&file.blank, &file.design().unwrap(), 15).unwrap();
         let (flanks, bevel) = (slices.pair(), result.bevel.unwrap());
@@ -78,7 +78,7 @@ fn a_bevel_pair_in_space_meshes() {
                 let [_, tooth] = bevel.teeth_of(at.pair);
                 let turn = TAU * tooth as f64 / bevel.teeth[1] as f64;
                 let on_2 = turned(turn, flanks.flank_point_m(bevel.side, 1, place));
-                let block = result.slots * result.slices;
+                let block = result.lines.slots * result.lines.slices;
                 let on_1 = (0..block).map(|k| Vector3::from(points[angle * block + k]));
                 let normal = flank_normal(flanks, bevel.side, place);
                 let normal = turned(turn, normal);
@@ -136,8 +136,8 @@ fn a_damaged_bevel_result_is_not_drawn() {
         pair.is_none_or(|pair| pair.turns_rad(0).is_none())
     };
     assert!(damaged(|r| r.bevel.as_mut().unwrap().teeth = [20, 21]));
-    assert!(damaged(|r| r.places = None));
-    assert!(damaged(|r| r.places.as_mut().unwrap().z_2_m.clear()));
-    assert!(damaged(|r| r.force_n.fill(0.0)));
+    assert!(damaged(|r| r.lines.places = None));
+    assert!(damaged(|r| r.lines.places.as_mut().unwrap().z_2_m.clear()));
+    assert!(damaged(|r| r.lines.force_n.fill(0.0)));
     assert!(!damaged(|_| ()));
 }

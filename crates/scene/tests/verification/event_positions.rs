@@ -32,8 +32,8 @@ fn of_even(r: &SceneResult, torque: usize) -> [f64; 2] {
     let ends = te
         .iter()
         .fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(*x), b.max(*x)));
-    let block = r.pressure_pa.len() / r.torque_nm.len();
-    let own = &r.pressure_pa[torque * block..(torque + 1) * block];
+    let block = r.lines.pressure_pa.len() / r.torque_nm.len();
+    let own = &r.lines.pressure_pa[torque * block..(torque + 1) * block];
     [ends.1 - ends.0, own.iter().copied().fold(0.0, f64::max)]
 }
 
@@ -59,7 +59,7 @@ fn a_coarse_grid_has_the_peaks_of_a_fine_one() {
             assert!(pressure_off < 4e-3, "{path} {torque}: {pressure_off:.1e}");
             let [even_te, even_pressure] = of_even(&coarse, torque);
             missed |= off(even_te, te) > 1e-2 || off(even_pressure, pressure) > 1e-2;
-            let factor_off = off(found.k_h_beta, fine.k_h_beta[torque]);
+            let factor_off = off(found.k_h_beta, fine.lines.k_h_beta[torque]);
             assert!(factor_off < 4e-3, "{path} {torque}: {factor_off:.1e}");
             let errors = found.errors;
             assert!(errors.te_positions.unwrap() < 2e-3, "{errors:?}");

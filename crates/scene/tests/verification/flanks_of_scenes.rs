@@ -228,7 +228,7 @@ fn keys_of_the_scene_act_as_those_of_the_gear_file() {
     );
     let file = by_file("");
     assert_eq!(file.te_m, by_scene.te_m);
-    assert_eq!(file.force_n, by_scene.force_n);
+    assert_eq!(file.lines.force_n, by_scene.lines.force_n);
     let unmodified = at_rest(200.0, "", folder.path());
     assert_eq!(by_file("[gear_1.microgeometry]\n").te_m, unmodified.te_m);
     assert!(
@@ -240,10 +240,10 @@ fn keys_of_the_scene_act_as_those_of_the_gear_file() {
     );
     let words = "tip relief 20 um linear from 92 mm, profile crowning 3 um about 90 mm, lead crowning 5 um, flank angle 2 um";
     assert_eq!(
-        file.microgeometry,
+        file.source.microgeometry,
         [format!("{words} (gear file)"), "unmodified".to_owned()]
     );
-    assert_eq!(by_scene.microgeometry[0], format!("{words} (scene)"));
+    assert_eq!(by_scene.source.microgeometry[0], format!("{words} (scene)"));
     let path = folder.path().join("result.h5");
     by_scene.write(&path).unwrap();
     assert_eq!(SceneResult::read(&path).unwrap(), by_scene);

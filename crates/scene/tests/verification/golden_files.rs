@@ -16,6 +16,7 @@ use gearmesh_model::{
     Column, DataTree, FileFormat, REDUCED_GEAR_FORMAT, ReducedGear, StoredGear, read_reduced_gear,
     write_reduced_gear,
 };
+use gearmesh_scene::pair::{LineForces, PairSolution, PairSource};
 use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::system_run::{
     Outcome, RunJob, RunOptions, SYSTEM_RESULT_FORMAT, SystemResult, run,
@@ -106,14 +107,37 @@ fn pair_result(version: u32) -> SceneResult {
     let text = |text: &str| text.to_owned();
     let later = |from: u32| version >= from;
     SceneResult {
-        title: text("golden"),
-        scene_toml: text("# the scene\ntitle = \"golden\"\n"),
-        gears: [24, 36].map(|teeth| StoredGear::of_older_file(gear_toml(teeth))),
-        model_files: [text("/a/gear_1.h5"), text("/a/gear_2.h5")],
-        // Texts of newer programs: empty in files without them.
-        microgeometry: Default::default(),
-        version: text("0.1.0"),
-        created_utc: text("2000-01-01T00:00:00Z"),
+        source: PairSource {
+            title: text("golden"),
+            scene_toml: text("# the scene\ntitle = \"golden\"\n"),
+            gears: [24, 36].map(|teeth| StoredGear::of_older_file(gear_toml(teeth))),
+            model_files: [text("/a/gear_1.h5"), text("/a/gear_2.h5")],
+            // Texts of newer programs: empty in files without them.
+            microgeometry: Default::default(),
+            version: text("0.1.0"),
+            created_utc: text("2000-01-01T00:00:00Z"),
+        },
+        lines: LineForces {
+            slots: SLOTS,
+            slices: SLICES,
+            pair: numbers(ANGLES * SLOTS, 1.0),
+            pair_count: vec![2; ANGLES],
+            force_n: numbers(lines, 5.0),
+            pressure_pa: numbers(lines, 1e6),
+            places: later(3).then(|| ContactPlaces {
+                roll_1_rad: numbers(places, 0.01),
+                z_m: numbers(places, 1e-3),
+                width_m: numbers(places, 2e-3),
+                ..ContactPlaces::default()
+            }),
+            k_h_beta: vec![1.1, 1.2],
+        },
+        solution: PairSolution {
+            iterations: vec![30, 31],
+            residual: vec![1e-14, 2e-14],
+            torque_balance: vec![1e-13, 2e-13],
+            seconds: [0.5, 0.25],
+        },
         pitches: 2,
         contact_coverage: Coverage::of_contact(1, 2),
         proposal: text(if later(3) {
@@ -134,22 +158,6 @@ fn pair_result(version: u32) -> SceneResult {
         },
         secant_n_per_m: numbers(curve, 1e8),
         tangent_n_per_m: numbers(curve, 2e8),
-        slots: SLOTS,
-        slices: SLICES,
-        pair: numbers(ANGLES * SLOTS, 1.0),
-        pair_count: vec![2; ANGLES],
-        force_n: numbers(lines, 5.0),
-        pressure_pa: numbers(lines, 1e6),
-        places: later(3).then(|| ContactPlaces {
-            roll_1_rad: numbers(places, 0.01),
-            z_m: numbers(places, 1e-3),
-            width_m: numbers(places, 2e-3),
-            ..ContactPlaces::default()
-        }),
-        k_h_beta: vec![1.1, 1.2],
-        iterations: vec![30, 31],
-        residual: vec![1e-14, 2e-14],
-        torque_balance: vec![1e-13, 2e-13],
         te_mesh_error: 0.0,
         between: Default::default(),
         bevel: None,
@@ -165,7 +173,6 @@ fn pair_result(version: u32) -> SceneResult {
         }],
         ratings: Vec::new(),
         warnings: vec![text("a warning")],
-        seconds: [0.5, 0.25],
     }
 }
 
@@ -176,7 +183,7 @@ fn results_of_pairs_of_every_version_are_read() {
         let mut found = SceneResult::read(&path).unwrap();
         let mut expected = pair_result(version);
         for result in [&mut found, &mut expected] {
-            result.gears = result.gears.each_ref().map(with_fillets_of_then);
+            result.source.gears = result.source.gears.each_ref().map(with_fillets_of_then);
         }
         assert_eq!(found, expected, "version {version}");
         assert!(matches!(

@@ -140,8 +140,8 @@ fn mates_of_unequal_width_touch_where_their_faces_overlap() {
     );
     let loaded = static_pair(1.0).unwrap();
     let found = gearmesh_scene::run(&loaded, &|_, _| ()).unwrap();
-    assert_eq!(found.slices, 4);
-    let places = found.places.as_ref().unwrap();
+    assert_eq!(found.lines.slices, 4);
+    let places = found.lines.places.as_ref().unwrap();
     for (z, width) in places
         .z_m
         .iter()

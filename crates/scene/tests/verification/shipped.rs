@@ -191,7 +191,7 @@ fn the_scenes_of_the_tutorial_name_its_gears() {
     let SceneFile::Pair(pair) = SceneFile::read(&folder.join("pair.toml")).unwrap() else {
         panic!("pair.toml is a pair");
     };
-    assert_eq!([pair.gear_1, pair.gear_2], [pinion, wheel]);
+    assert_eq!(pair.gears.map(|gear| gear.model), [pinion, wheel]);
     let SceneFile::System(drive) = SceneFile::read(&folder.join("drive.toml")).unwrap() else {
         panic!("drive.toml is a multibody scene");
     };

@@ -99,14 +99,12 @@ fn pair(models: [&str; 2]) -> PairTables {
 }
 
 /// A result without what says where and when it was made.
-fn found(result: SceneResult) -> SceneResult {
-    SceneResult {
-        scene_toml: String::new(),
-        model_files: Default::default(),
-        created_utc: String::new(),
-        seconds: [0.0; 2],
-        ..result
-    }
+fn found(mut result: SceneResult) -> SceneResult {
+    result.source.scene_toml.clear();
+    result.source.model_files = Default::default();
+    result.source.created_utc.clear();
+    result.solution.seconds = [0.0; 2];
+    result
 }
 
 #[test]
@@ -283,11 +281,9 @@ fn a_bevel_pair_of_tables_runs_as_its_file_does() {
         .replace("per_pitch = 16", "per_pitch = 4");
     let ran = |scene: BevelScene| {
         let pair = scene.load(&ModelShelf::default()).unwrap();
-        let result = pair.run(&|_, _| (), &AtomicBool::new(false)).unwrap();
-        SceneResult {
-            title: String::new(),
-            ..found(result)
-        }
+        let mut result = found(pair.run(&|_, _| (), &AtomicBool::new(false)).unwrap());
+        result.source.title.clear();
+        result
     };
     let of_file = BevelScene::from_document(InputDocument::new("bevel.toml", text)).unwrap();
     let of_tables = BevelScene::new(&bevel(), Path::new("")).unwrap();

@@ -170,16 +170,16 @@ fn along_the_path(r: &SceneResult) -> Vec<(String, Vec<f64>)> {
     let torque = 5;
     let pitch = std::f64::consts::TAU / TEETH as f64;
     let mut rows = Vec::new();
-    let block = r.slots * r.slices;
+    let block = r.lines.slots * r.lines.slices;
     let width_m = 23e-3;
     // E* of steel on steel, as Hertz has it: 1/E* = 2 (1 - nu^2)/E.
     let modulus_pa = 210e9 / (2.0 * (1.0 - 0.09));
     for (k, _) in r.angle_rad.iter().enumerate() {
         // Pairs are numbered on: those before the start of the turn are met at its end.
-        let (slots, turn) = (r.slots, r.angles());
+        let (slots, turn) = (r.lines.slots, r.angles());
         let found = (0..slots).find(|slot| {
-            let is_in_use = *slot < r.pair_count[k] as usize;
-            let pair = r.pair[k * slots + slot].round() as i64;
+            let is_in_use = *slot < r.lines.pair_count[k] as usize;
+            let pair = r.lines.pair[k * slots + slot].round() as i64;
             is_in_use && pair.rem_euclid(TEETH as i64) == 0
         });
         let (Some(slot), 0) = (found, k % 8) else {
@@ -191,20 +191,20 @@ fn along_the_path(r: &SceneResult) -> Vec<(String, Vec<f64>)> {
             k as f64
         };
         let angle = turned / r.points_per_pitch() as f64 * pitch;
-        let at = (torque * turn + k) * block + slot * r.slices;
-        let force_n: f64 = r.force_n[at..at + r.slices].iter().sum();
-        let pressure_pa = r.pressure_pa[at..at + r.slices]
+        let at = (torque * turn + k) * block + slot * r.lines.slices;
+        let force_n: f64 = r.lines.force_n[at..at + r.lines.slices].iter().sum();
+        let pressure_pa = r.lines.pressure_pa[at..at + r.lines.slices]
             .iter()
             .copied()
             .fold(0.0, f64::max);
         let path_m = angle * BASE_RADIUS_M;
         let half = 0.5 * LINE_M;
         let radius_m = (half + path_m) * (half - path_m) / LINE_M;
-        let most = r.force_n[at..at + r.slices]
+        let most = r.lines.force_n[at..at + r.lines.slices]
             .iter()
             .copied()
             .fold(0.0, f64::max);
-        let line_load = most / (width_m / r.slices as f64);
+        let line_load = most / (width_m / r.lines.slices as f64);
         let half_width_m =
             (4.0 * line_load * radius_m / (std::f64::consts::PI * modulus_pa)).sqrt();
         // Hertz: the pressure of the file is that of this half width.

@@ -113,7 +113,7 @@ fn a_passing_tooth_strains_its_root_alike() {
         let forces = result.position_forces(0, angle);
         let patches = loaded.patches_at(result.angle_rad[angle]).into_iter();
         let all = patches.map(|patch| Force {
-            newtons: forces[patch.line * result.slices + patch.slice],
+            newtons: forces[patch.line * result.lines.slices + patch.slice],
             patch,
         });
         all.filter(|force| force.newtons > 0.0).collect()

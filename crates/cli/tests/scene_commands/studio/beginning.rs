@@ -179,7 +179,7 @@ fn a_bevel_pair_and_a_gearbox_are_computed() {
     let largest = |all: &[f64]| all.iter().copied().fold(0.0, f64::max);
     let drawn: Vec<f64> = rows.iter().map(|value| value.as_f64().unwrap()).collect();
     assert_eq!(drawn.len(), 6 * run.torque_nm.len());
-    assert!((largest(&drawn) / (1e-6 * largest(&run.pressure_pa)) - 1.0).abs() < 1e-12);
+    assert!((largest(&drawn) / (1e-6 * largest(&run.lines.pressure_pa)) - 1.0).abs() < 1e-12);
     for page in ["bevel_pair.html", "bevel_pair_loaded.html"] {
         assert!(desk.path("bevel-pair").join(page).exists(), "{page}");
     }

@@ -84,8 +84,11 @@ fn curves_are_those_of_the_result_file() {
     let scaled =
         |values: &[f64], factor: f64| -> Vec<f64> { values.iter().map(|x| factor * x).collect() };
     assert_eq!(curve("te_um"), scaled(&result.te_m, 1e6));
-    assert_eq!(curve("pressure_MPa"), scaled(&result.pressure_pa, 1e-6));
-    assert_eq!(curve("force_N"), result.force_n);
+    assert_eq!(
+        curve("pressure_MPa"),
+        scaled(&result.lines.pressure_pa, 1e-6)
+    );
+    assert_eq!(curve("force_N"), result.lines.force_n);
     let strain: Vec<f64> = answer["strain"][0]["method_2_ustrain"]
         .as_array()
         .unwrap()
@@ -108,7 +111,7 @@ fn curves_are_those_of_the_result_file() {
     assert!(touching >= result.angles());
     // At every position the forces make the torque: sum of normal forces times the base radius of gear 2.
     let base_2_m = 1e-3 * 0.5 * 3.0 * 18.0 * 20f64.to_radians().cos();
-    let block = result.slots * result.slices;
+    let block = result.lines.slots * result.lines.slices;
     for (k, forces) in curve("force_N").chunks(block).enumerate() {
         let torque = result.torque_nm[k / result.angles()];
         assert!((forces.iter().sum::<f64>() * base_2_m / torque - 1.0).abs() < 1e-9);

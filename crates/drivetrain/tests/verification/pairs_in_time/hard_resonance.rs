@@ -142,7 +142,7 @@ impl Oscillator {
             coefficient_n_s_per_m: self.damping,
             full_depth_m: FULL_DEPTH,
         };
-        let damped = Damped::new(spring, damping, 1).unwrap();
+        let damped = || Damped::new(spring.clone(), damping, 1).unwrap();
         let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
         let (none, a) = ([Vec::new(), Vec::new()], pair.centre_distance_m);
         let kinematics = MeshKinematics::new(
@@ -153,9 +153,9 @@ impl Oscillator {
             PathEnds::Extended,
         )
         .unwrap();
-        let mesh = GearMesh::new(kinematics, Flank::Right, damped.clone())
+        let mesh = GearMesh::new(kinematics, Flank::Right, damped())
             .unwrap()
-            .with_side(Flank::Left, damped)
+            .with_side(Flank::Left, damped())
             .unwrap();
         let scene = Scene {
             te_m: -start[0],

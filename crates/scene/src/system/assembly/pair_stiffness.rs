@@ -83,11 +83,13 @@ impl SceneInvolutes<'_, '_> {
             return Err(fault(problem));
         }
         let result = SceneResult::read(file).map_err(|e| fault(e.to_string()))?;
-        let document =
-            InputDocument::new(format!("scene inside {shown}"), result.scene_toml.clone());
+        let document = InputDocument::new(
+            format!("scene inside {shown}"),
+            result.source.scene_toml.clone(),
+        );
         let scene = Scene::from_document(document, self.folder)?;
         for (i, gear) in self.flanks.gears.iter().enumerate() {
-            let mut of_result = result.gears[i].definition_in(&shown)?.clone();
+            let mut of_result = result.source.gears[i].definition_in(&shown)?.clone();
             scene.modify_flanks(i + 1, &mut of_result)?;
             if let Some(what) = difference(&of_result, &gear.definition) {
                 let problem = format!(

@@ -87,7 +87,7 @@ impl<F> SceneMesh<'_, F> {
     }
 
     /// The mesh of the teeth on all sides, with what the scene says of friction; `first` makes it of one side.
-    pub(super) fn of_sides<T: TeethModel + 'static>(
+    pub(super) fn of_sides<T: Into<Box<dyn TeethModel>>>(
         &self,
         teeth: impl IntoIterator<Item = (Flank, T)>,
         first: impl FnOnce(Flank, T) -> Result<GearMesh, DrivetrainError>,

@@ -211,11 +211,10 @@ fn pairs_are_read() {
             contact,
             edge_radius_m,
             path_by_default,
-            errors,
-            eccentricity,
+            gears,
             ..
         } = scene;
-        format!("{contact:?} {edge_radius_m:?} {path_by_default} {errors:?} {eccentricity:?}")
+        format!("{contact:?} {edge_radius_m:?} {path_by_default} {gears:?}")
     };
     assert_eq!(sense(former), sense(present));
     let wrong = read("model = \"hybrid\"\nfriction = { model = \"coulomb\", coefficient = 2.0 }\n");
