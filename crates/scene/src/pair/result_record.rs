@@ -131,24 +131,21 @@ impl Record for SceneResult {
 
 impl SceneResult {
     fn head_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        f.text("title", &mut self.source.title, "title of the scene")?;
+        let source = &mut self.source;
+        f.text("title", &mut source.title, "title of the scene")?;
         let what = "the scene, word for word";
-        f.text("scene_toml", &mut self.source.scene_toml, what)?;
+        f.text("scene_toml", &mut source.scene_toml, what)?;
         let typed = f.version() >= TYPED_DEFINITION;
         let names = [("gear_1_toml", "gear_1"), ("gear_2_toml", "gear_2")];
-        for (gear, names) in self.source.gears.iter_mut().zip(names) {
+        for (gear, names) in source.gears.iter_mut().zip(names) {
             gear.fields(f, names, typed)?;
         }
-        for (file, name) in self
-            .source
-            .model_files
-            .iter_mut()
-            .zip(["model_1", "model_2"])
-        {
+        let names = ["model_1", "model_2"];
+        for (file, name) in source.model_files.iter_mut().zip(names) {
             f.text(name, file, "file of the model, absolute")?;
         }
         let names = ["microgeometry_1", "microgeometry_2"];
-        for (text, name) in self.source.microgeometry.iter_mut().zip(names) {
+        for (text, name) in source.microgeometry.iter_mut().zip(names) {
             if f.has(name) {
                 f.text(name, text, "microgeometry of the gear in words")?;
             }
@@ -157,24 +154,15 @@ impl SceneResult {
             let what = "a run that would see whole periods; empty where this one does";
             f.text("proposal", &mut self.proposal, what)?;
         }
-        f.text(
-            "version",
-            &mut self.source.version,
-            "version of the program",
-        )?;
-        f.text("created_utc", &mut self.source.created_utc, "when, UTC")?;
+        f.text("version", &mut source.version, "version of the program")?;
+        f.text("created_utc", &mut source.created_utc, "when, UTC")?;
         f.lines("warnings", &mut self.warnings, "warnings about assumptions")?;
         let what = "pitches of gear 1 run through";
         f.count("pitches", &mut self.pitches, what)?;
         self.pitches = self.pitches.max(1);
         let what = "wall time of contact and of strain";
-        f.fixed(
-            "seconds",
-            &mut self.solution.seconds,
-            &[("stage", 2)],
-            "s",
-            what,
-        )
+        let seconds = &mut self.solution.seconds;
+        f.fixed("seconds", seconds, &[("stage", 2)], "s", what)
     }
 
     fn curve_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
@@ -205,10 +193,11 @@ impl SceneResult {
         f.bulk(name, values, &[t, a], "N/m", "tangent mesh stiffness")?;
         let what = "face load factor of the most loaded line, worst position";
         f.numbers("k_h_beta", &mut self.lines.k_h_beta, &[t], "1", what)?;
+        let solution = &mut self.solution;
         let what = "Newton iterations, sum over all positions";
-        f.counts("iterations", &mut self.solution.iterations, &[t], what)?;
+        f.counts("iterations", &mut solution.iterations, &[t], what)?;
         let what = "largest relative residual of the contact problem";
-        f.numbers("residual", &mut self.solution.residual, &[t], "1", what)?;
+        f.numbers("residual", &mut solution.residual, &[t], "1", what)?;
         // Older programs did not store it.
         if f.has("te_mesh_error") {
             let what = "estimated relative error of the mesh in the deflection of teeth, zero where it was not estimated";
@@ -217,7 +206,7 @@ impl SceneResult {
         let what = "largest relative error of the torque balance";
         f.numbers(
             "torque_balance",
-            &mut self.solution.torque_balance,
+            &mut solution.torque_balance,
             &[t],
             "1",
             what,
@@ -229,34 +218,29 @@ impl SceneResult {
             ("torque", self.torque_nm.len()),
             ("driver angle", self.angle_rad.len()),
         );
+        let it = &mut self.lines;
         let what = "pair number of each contact line";
         let lines = [a, ("contact line", OPEN)];
-        f.numbers("pair", &mut self.lines.pair, &lines, "1", what)?;
+        f.numbers("pair", &mut it.pair, &lines, "1", what)?;
         if f.is_reading() {
-            self.lines.slots = self.lines.pair.len() / a.1.max(1);
+            it.slots = it.pair.len() / a.1.max(1);
         }
-        let l = ("contact line", self.lines.slots);
+        let l = ("contact line", it.slots);
         let what = "contact lines looked at; a tip edge that stays apart has no force";
-        f.counts("pair_count", &mut self.lines.pair_count, &[a], what)?;
+        f.counts("pair_count", &mut it.pair_count, &[a], what)?;
         let axes = [t, a, l, ("slice", OPEN)];
         let what = "normal force of each slice, positive in compression";
-        f.bulk("force_N", &mut self.lines.force_n, &axes, "N", what)?;
+        f.bulk("force_N", &mut it.force_n, &axes, "N", what)?;
         if f.is_reading() {
-            self.lines.slices = self.lines.force_n.len() / (t.1 * a.1 * l.1).max(1);
+            it.slices = it.force_n.len() / (t.1 * a.1 * l.1).max(1);
         }
-        let s = ("slice", self.lines.slices);
+        let s = ("slice", it.slices);
         let what = "peak Hertz pressure of each slice";
         let axes = [t, a, l, s];
-        f.bulk(
-            "pressure_Pa",
-            &mut self.lines.pressure_pa,
-            &axes,
-            "Pa",
-            what,
-        )?;
+        f.bulk("pressure_Pa", &mut it.pressure_pa, &axes, "Pa", what)?;
         // Older programs did not store the places.
-        if f.keeps("contact/width_m", self.lines.places.is_some()) {
-            place_fields(self.lines.places.get_or_insert_default(), f, "", &[a, l, s])?;
+        if f.keeps("contact/width_m", it.places.is_some()) {
+            place_fields(it.places.get_or_insert_default(), f, "", &[a, l, s])?;
         }
         Ok(())
     }
