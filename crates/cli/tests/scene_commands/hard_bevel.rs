@@ -18,9 +18,9 @@ fn centre(result: &SceneResult) -> [f64; 2] {
     [sums[1] / sums[0], sums[2] / sums[0]]
 }
 
-/// Assembly errors move the loaded pattern along the tooth and up the flank in the directions that the tooth contact
-/// analysis tells of the mean contact without load, both ways; of rigid gears whose surfaces deflect, and of reduced
-/// ones.
+/// Assembly errors move the loaded pattern along the tooth and up the flank in the directions in which the tooth
+/// contact analysis moves the mean contact without load, both ways; of rigid gears whose surfaces deflect, and of
+/// reduced ones.
 #[test]
 fn assembly_errors_move_the_loaded_pattern() {
     const ERRORS: [(&str, &str, f64); 4] = [
@@ -90,7 +90,7 @@ fn assembly_errors_move_the_loaded_pattern() {
             parts.push(format!("{part:.2} at {key} = {error}"));
         }
         println!(
-            "{pair}: movement along the tooth over that of the contact without load (allowed 0.05 to 1): {}; least movement in the direction foretold \
+            "{pair}: movement along the tooth over that of the contact without load (allowed 0.05 to 1): {}; least movement in the expected direction \
              {least:.1e} of the face or the flank's height (more than 0)",
             parts.join(", ")
         );
