@@ -16,7 +16,7 @@ use crate::nlcp::{
 };
 use crate::placed_slice::ToothPlace;
 use crate::slice_compliance::{LocalDepth, SliceCompliance};
-use crate::slice_contact::kept_compliance::KeptCompliance;
+use crate::slice_contact::kept_compliance::{KeptCompliance, RatesOfPatches};
 use gearmesh_model::{Flank, ReducedGear};
 use std::sync::Arc;
 
@@ -119,15 +119,6 @@ pub struct SliceContact {
     lever_m: Vec<f64>,
     work: Workspace,
     rates_of_patches: RatesOfPatches,
-}
-
-/// What is known of the rates of the patches that were prepared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum RatesOfPatches {
-    Unasked,
-    /// Asked for: a solve ends with [`SliceContact::fill_rates`].
-    Asked,
-    Known,
 }
 
 impl SliceContact {

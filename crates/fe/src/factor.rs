@@ -192,7 +192,7 @@ impl Factor {
             .map_err(|_| FeError::OutOfMemory {
                 bytes: length.saturating_mul(size_of::<f64>()),
             })?;
-        // The first touch of new memory takes as long as some factorisations of it.
+        // By all threads: one alone takes a second to touch new memory of a gigabyte for the first time.
         values.par_extend(rayon::iter::repeat_n(0.0, length));
 
         let par = faer::get_global_parallelism();

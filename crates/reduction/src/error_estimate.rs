@@ -167,7 +167,7 @@ pub struct CoarserMeshes {
 }
 
 /// A cylindrical gear with the meshes that the estimate solves, from the finest to the coarsest.
-pub fn coarser_gears(gear: &GearDefinition) -> Vec<GearDefinition> {
+pub(crate) fn coarser_gears(gear: &GearDefinition) -> Vec<GearDefinition> {
     let one_step = gear.mesh.plane_strain || gear.mesh.element == Element::Tet10;
     let steps: &[Longer] = if one_step {
         &[Longer::All]

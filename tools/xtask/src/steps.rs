@@ -73,7 +73,8 @@ fn beside_the_tests(
 ) -> Result<[(&'static str, Command); 5], XtaskError> {
     let cargo = |arguments: &[&str]| {
         let mut command = cargo(workspace, venv);
-        // The tests have all cores: more processes than that by two or three take more processor time for the same.
+        // One compiler beside the tests, which have all cores: with more processes than cores the same work takes more
+        // processor time (docs/decisions/0017-development-builds.md).
         command.args(arguments).env("CARGO_BUILD_JOBS", "1");
         command
     };

@@ -11,7 +11,7 @@
 //! stand, as always.
 
 use super::compliance::{Filling, Part};
-use super::{Elastic, RatesOfPatches, Run, SliceContact};
+use super::{Elastic, Run, SliceContact};
 use crate::contact_error::ContactError;
 use crate::contact_patch::ContactPatch;
 use crate::local_contact::LocalContact;
@@ -103,6 +103,15 @@ impl KeptCompliance {
         self.moves.extend(moves);
         self.moves.len() == self.patches.len()
     }
+}
+
+/// What is known of the rates of the patches that were prepared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum RatesOfPatches {
+    Unasked,
+    /// Asked for: a solve ends with [`SliceContact::fill_rates`].
+    Asked,
+    Known,
 }
 
 impl SliceContact {
