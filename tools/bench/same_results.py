@@ -71,7 +71,8 @@ def compared(scene: Path, programs: list[str], folder: Path) -> str:
     """What is printed of a scene."""
     text = re.sub(r"^end_s = ([\d.e+-]+)", lambda m: f"end_s = {float(m[1]) / SHARE_OF_TIME:.12g}", scene.read_text(), flags=re.M)
     scene.write_text(text)
-    if not all(model(programs[0], scene.parent / name, scene.parent) for name in sorted(set(re.findall(r'"([^"]+\.h5)"', text)))):
+    named = re.findall(r'"([^"]+\.h5)"', re.sub(r"^#.*$", "", text, flags=re.M))
+    if not all(model(programs[0], scene.parent / name, scene.parent) for name in sorted(set(named))):
         return "left out: its models cannot be reduced"
     results = [folder / f"{scene.stem}_{k}.h5" for k in range(2)]
     ends = [run(program, "run", scene.name, "-o", result, folder=scene.parent) for program, result in zip(programs, results)]
