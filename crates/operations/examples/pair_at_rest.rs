@@ -12,8 +12,8 @@ use gearmesh_operations::Watch;
 use gearmesh_operations::gear_file::GearFile;
 use gearmesh_operations::reduce::{Reduction, reduce_to};
 use gearmesh_operations::run::{RunHow, run_pair};
-use gearmesh_scene::pair::scene_file::{PairTable, PairTables, RunTable};
 use gearmesh_scene::{Scene, load};
+use gearmesh_specification::pair::{PairTable, PairTables, RunTable};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().collect();

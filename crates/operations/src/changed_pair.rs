@@ -10,8 +10,9 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::ReducedGear;
 use gearmesh_scene::ModelShelf;
 use gearmesh_scene::pair::{PairWatch, run_watched};
-use gearmesh_scene::study::{BaseScene, Case, MadeFile, MadeFiles, Setting, Subject, VaryError};
+use gearmesh_scene::study::{BaseScene, MadeFile, MadeFiles, Subject, VaryError};
 use gearmesh_scene::{LoadedScene, Scene, SceneResult, load_from, named_files, renamed_files};
+use gearmesh_specification::study::{Case, Setting};
 
 use crate::failure::{Failure, Result};
 use crate::gear_file::{AnyGear, GearFile};

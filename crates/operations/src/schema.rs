@@ -25,9 +25,9 @@ pub enum TextKind {
 #[must_use]
 pub fn schema(kind: TextKind) -> Value {
     match kind {
-        TextKind::Scene => gearmesh_scene::schema::scene(),
-        TextKind::Study => gearmesh_scene::schema::study(),
-        TextKind::Optimise => gearmesh_scene::schema::optimise(),
+        TextKind::Scene => gearmesh_specification::schema::scene(),
+        TextKind::Study => gearmesh_specification::schema::study(),
+        TextKind::Optimise => gearmesh_specification::schema::optimise(),
         TextKind::Bearing => gearmesh_bearings::bearing_file::schema(),
         TextKind::Bevel => gearmesh_bevel::pair_file::schema(),
         TextKind::BevelGear => gearmesh_bevel::gear_file::gear_schema(),

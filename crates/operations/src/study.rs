@@ -6,7 +6,8 @@ use crate::reduce::reduced_for_study;
 use crate::watch::Watch;
 use gearmesh_report::study_page::study_page;
 use gearmesh_scene::pair::warnings::yielding;
-use gearmesh_scene::study::{Study, StudyOptions, StudyOutcome, gather_study, run_study};
+use gearmesh_scene::study::{StudyOptions, StudyOutcome, gather_study, run_study};
+use gearmesh_specification::study::Study;
 use std::collections::BTreeMap;
 use std::path::Path;
 

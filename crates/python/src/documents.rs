@@ -53,9 +53,9 @@ pub(crate) fn write_text(path: PathBuf, text: &str) -> PyResult<()> {
 pub(crate) fn schema(kind: &str) -> PyResult<String> {
     let schema = match kind {
         "gear" => gearmesh_geometry::gear_file::schema(),
-        "scene" => gearmesh_scene::schema::scene(),
-        "study" => gearmesh_scene::schema::study(),
-        "optimise" => gearmesh_scene::schema::optimise(),
+        "scene" => gearmesh_specification::schema::scene(),
+        "study" => gearmesh_specification::schema::study(),
+        "optimise" => gearmesh_specification::schema::optimise(),
         other => {
             return Err(InputError::new_err(format!(
                 "kind: found {other:?}, allowed are \"gear\", \"scene\", \"study\", \"optimise\""

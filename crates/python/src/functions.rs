@@ -1,14 +1,13 @@
 //! Python functions that a multibody run calls: loads and motions over time, laws of elements.
 
+use gearmesh_specification::host_functions::{
+    Derivatives, ElementFailure, HostFunctions, HostLaw, HostMotion, TimeCall,
+};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use gearmesh_scene::system::HostFunctions;
-use gearmesh_scene::system::host_functions::{
-    Derivatives, ElementFailure, HostLaw, HostMotion, TimeCall,
-};
 use pyo3::exceptions::{PyException, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

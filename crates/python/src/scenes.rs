@@ -12,7 +12,8 @@ use gearmesh_operations::run::{self as operations, RunHow};
 use gearmesh_scene::SceneFile;
 use gearmesh_scene::pair::{BevelScene, Scene};
 use gearmesh_scene::study::RestCases;
-use gearmesh_scene::system::{HostFunctions, SystemScene};
+use gearmesh_scene::system::SystemScene;
+use gearmesh_specification::host_functions::HostFunctions;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

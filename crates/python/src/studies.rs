@@ -9,7 +9,8 @@ use gearmesh_model::write_text;
 use gearmesh_operations::study::{gather, study as run_study};
 use gearmesh_operations::{Failure, Watch};
 use gearmesh_report::study_figures;
-use gearmesh_scene::study::{CaseRunner, MadeFile, SentCase, Study, StudyCases, StudyError};
+use gearmesh_scene::study::{CaseRunner, MadeFile, SentCase, StudyCases, StudyError};
+use gearmesh_specification::study::Study;
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 

@@ -1,6 +1,7 @@
 //! The page of an optimisation: what was found, the front, what was tried, what was asked.
 
-use gearmesh_scene::optimise::{Judged, Optimisation, Optimum, Trial};
+use gearmesh_scene::optimise::{Optimum, Trial};
+use gearmesh_specification::optimise::{Judged, Optimisation};
 
 use crate::column_words::{axis, head, parameter, words_and_unit};
 use crate::min_max::ends;

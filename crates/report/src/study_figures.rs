@@ -1,6 +1,7 @@
 //! The figures of a study for machines: what `gearmesh study --json` prints and Python gets.
 
-use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, Study};
+use gearmesh_scene::study::{CaseResult, Selected, SelectedValue};
+use gearmesh_specification::study::Study;
 use serde_json::{Value, json};
 
 /// Title, `from_s` and the cases: parameters, file, columns with their figures, or why there are none.

@@ -3,8 +3,9 @@
 mod cases_table;
 
 use gearmesh_scene::optimise::{Trial, front};
-use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, Study};
+use gearmesh_scene::study::{CaseResult, Selected, SelectedValue};
 use gearmesh_scene::system_run::Figures;
+use gearmesh_specification::study::Study;
 
 use crate::column_words::{self, axis, shown};
 use crate::min_max::ends;

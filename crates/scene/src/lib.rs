@@ -11,13 +11,11 @@
 //! | a multibody system | `[[body]]` | [`system`] |
 //!
 //! [`periods`] says how much of what repeats a run has seen, [`rating`] judges what both have given. [`SceneFile`]
-//! tells them apart, [`ResultFile`] their results, [`schema`] writes down what may be in them. [`system_run`] runs
-//! multibody systems, [`study`] computes a scene again and again with keys that vary, [`optimise`] seeks the best of
+//! tells them apart, [`ResultFile`] their results; what may be in a file stands in `gearmesh_specification`.
+//! [`system_run`] runs multibody systems, [`study`] computes a scene again and again with keys that vary, [`optimise`] seeks the best of
 //! them, [`accuracy`] says what exactness costs in time.
 
 pub mod accuracy;
-mod former_forms;
-mod gear_tables;
 mod megabytes;
 mod microgeometry_words;
 mod model_shelf;
@@ -29,7 +27,6 @@ pub mod periods;
 pub mod rating;
 mod result_file;
 pub mod scene_file;
-pub mod schema;
 pub mod study;
 pub mod system;
 pub mod system_run;

@@ -9,8 +9,9 @@ use gearmesh_operations::changed_pair::ChangedPair;
 use gearmesh_report::moving::GearShape;
 use gearmesh_report::words_and_unit;
 use gearmesh_scene::pair::PairWatch;
-use gearmesh_scene::study::{Case, PairColumns, Setting};
+use gearmesh_scene::study::PairColumns;
 use gearmesh_scene::{LoadedScene, SceneResult};
+use gearmesh_specification::study::{Case, Setting};
 use serde::Deserialize;
 use serde_json::{Value, json};
 

@@ -226,7 +226,7 @@ fn the_page_on_extending_shows_its_examples() {
         "crates/drivetrain/tests/verification/conformance/examples/waviness.rs",
         "crates/dynamics/tests/problems/distance_sensor.rs",
         "crates/dynamics/tests/problems/maxwell.rs",
-        "crates/scene/src/system/tables/planet_pin.rs",
+        "crates/specification/src/system/planet_pin.rs",
         "crates/scene/tests/verification/event_positions/own_figure.rs",
     ] {
         let file = read(&root().join(name));

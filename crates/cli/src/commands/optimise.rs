@@ -5,7 +5,8 @@ use crate::{console, interrupt};
 use gearmesh_operations::Failure;
 use gearmesh_operations::optimise::{OptimiseRequest, names};
 use gearmesh_report::{column_width, short};
-use gearmesh_scene::optimise::{Optimisation, Optimum, Trial};
+use gearmesh_scene::optimise::{Optimum, Trial};
+use gearmesh_specification::optimise::Optimisation;
 
 /// Lines of a front beyond which the printed table leaves some out.
 const MOST_LINES: usize = 20;

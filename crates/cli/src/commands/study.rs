@@ -6,8 +6,9 @@ use crate::{console, interrupt};
 use gearmesh_operations::study::{gather, study as run_study};
 use gearmesh_operations::{Failure, overwriting};
 use gearmesh_report::{column_width, short, study_figures, usual_unit};
-use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, SeriesOver, Study, StudyOutcome};
+use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, SeriesOver, StudyOutcome};
 use gearmesh_scene::system_run::{Figures, stem};
+use gearmesh_specification::study::Study;
 
 /// Cases beyond which the table tells the extremes only.
 const MOST_LINES: usize = 50;

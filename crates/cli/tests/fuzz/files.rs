@@ -7,9 +7,10 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_report::ReferenceRecord;
 use gearmesh_rexs::{Meshes, Running, import_to_run};
 use gearmesh_scene::rating::sn_curve;
-use gearmesh_scene::study::{Study, StudyScenes};
+use gearmesh_scene::study::StudyScenes;
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{InputKind, SceneFile};
+use gearmesh_specification::study::Study;
 use std::path::Path;
 
 const WHEEL: &str = include_str!("../../../../tests/support/wheel.toml");

@@ -12,7 +12,7 @@ use gearmesh_bevel::{FlankSide, PairFile};
 use gearmesh_operations::{Watch, uff};
 use gearmesh_rexs::{Meshes, Running, import_to_run};
 use gearmesh_scene::InputKind;
-use gearmesh_scene::optimise::Optimisation;
+use gearmesh_specification::optimise::Optimisation;
 use std::io::Write as _;
 
 /// Kinds that none of the shipped bearings has, and a line of a catalogue.

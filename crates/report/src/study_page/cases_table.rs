@@ -1,6 +1,7 @@
 //! The table of a study's cases: what each sets, and its columns.
 
-use gearmesh_scene::study::{CaseResult, SelectedValue, Study};
+use gearmesh_scene::study::{CaseResult, SelectedValue};
+use gearmesh_specification::study::Study;
 
 use super::{Column, is_same_at_every_torque, of_column};
 use crate::column_words::{self, head, words_and_unit};

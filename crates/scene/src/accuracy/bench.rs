@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::{ReducedGear, write_text};
+use gearmesh_specification::study::{Case, Setting};
 
 use super::column_errors::ColumnErrors;
 use super::default_columns::default_columns;
@@ -16,9 +17,9 @@ use super::system_knobs::of_system;
 use crate::model_shelf::ModelShelf;
 use crate::pair::warnings::ColumnPressure;
 use crate::study::{
-    BaseScene, Case, Effort, Evaluated, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch,
-    Setting, StudyError, StudyOptions, Subject, VaryError, Wanted, evaluate, known_columns,
-    make_files, number, steady_meshes,
+    BaseScene, Effort, Evaluated, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, StudyError,
+    StudyOptions, Subject, VaryError, Wanted, evaluate, known_columns, make_files, number,
+    steady_meshes,
 };
 
 /// Runs of a setting at most.

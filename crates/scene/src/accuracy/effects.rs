@@ -1,8 +1,9 @@
 //! The effects of a scene: what it names and could do without, and friction, which it may leave out.
 
+use gearmesh_specification::study::{Case, Setting};
 use toml::Value;
 
-use crate::study::{BaseScene, Case, Setting};
+use crate::study::BaseScene;
 
 /// An effect that is put off, or on.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,10 +3,10 @@
 use std::ops::RangeInclusive;
 
 use gearmesh_bevel::PairFile;
+use gearmesh_specification::study::{Case, Setting};
 use toml::Value;
 
 use crate::pair::LoadedScene;
-use crate::study::{Case, Setting};
 
 /// A place of a knob.
 #[derive(Debug, Clone, PartialEq)]

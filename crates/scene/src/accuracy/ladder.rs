@@ -11,7 +11,8 @@ use super::effects::Effect;
 use super::knobs::{Knob, case_of};
 use super::paste::to_paste;
 use crate::pair::warnings::ColumnPressure;
-use crate::study::{Case, Effort, StudyError};
+use crate::study::{Effort, StudyError};
+use gearmesh_specification::study::Case;
 
 /// Combinations that are run after the knobs by themselves.
 const MOST_COMBINATIONS: usize = 16;

@@ -8,16 +8,16 @@ use std::sync::{Mutex, PoisonError};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_model::write_text;
+use gearmesh_specification::optimise::{Judged, Optimisation, TermTable};
+use gearmesh_specification::study::{Case, Design, Setting, probabilities, seeded};
+use gearmesh_specification::system::run::Run;
 use rayon::prelude::*;
 
-use super::file::{Judged, Optimisation, TermTable};
 use crate::pair::warnings::{ColumnPressure, yielding};
 use crate::study::{
-    BaseScene, Case, Design, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, Setting,
-    StudyError, Subject, VaryError, Wanted, evaluate, is_without_load, known_columns, number,
-    probabilities, result_size, seeded,
+    BaseScene, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, StudyError, Subject,
+    VaryError, Wanted, evaluate, is_without_load, known_columns, number, result_size,
 };
-use crate::system::Run;
 use crate::system_run::demand_result_size;
 
 /// A choice of the variables that was tried.

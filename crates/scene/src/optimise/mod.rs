@@ -3,7 +3,6 @@
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
-//! | what the file says | [`Optimisation`] | `file.rs` |
 //! | what a choice of the variables is worth | [`Evaluator`] | `evaluator.rs` |
 //! | which choices are tried | [`optimise`] | `search.rs` |
 //! | which of them no other one beats | [`front`] | `pareto.rs` |
@@ -12,13 +11,9 @@
 //! simplex from its best. Both ask for no derivatives, which peak-to-peak values and pressures do not have everywhere.
 
 mod evaluator;
-mod file;
 mod pareto;
 mod search;
 
 pub use evaluator::{Evaluator, Trial};
-pub use file::{
-    Judged, ObjectiveTable, Optimisation, OptimiseTables, ScatterTable, TermTable, VariableTable,
-};
 pub use pareto::front;
 pub use search::{Optimum, optimise};

@@ -7,10 +7,10 @@ use gearmesh_contact::{FlankDeviations, GearSeat, Runout};
 use gearmesh_geometry::flank_error::FlankError;
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
+use gearmesh_specification::gear_tables::UM;
+use gearmesh_specification::gear_tables::seat::EccentricityTable;
 
 use super::scene_file::Scene;
-use crate::gear_tables::UM;
-use crate::gear_tables::seat::EccentricityTable;
 use crate::microgeometry_words::microgeometry_words;
 
 impl Scene {

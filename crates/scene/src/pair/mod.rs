@@ -1,6 +1,6 @@
 //! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks,
 //! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it,
-//! `taken_misalignment.rs` names the gearbox's result that has the axes, `run.rs` computes, position by position
+//! `run.rs` computes, position by position
 //! (`all_positions.rs`, `position.rs`, `between_positions.rs`), `figures.rs` makes the figures of a torque of it,
 //! `figure_table.rs` says how all doors show them, `contacts.rs` says where the teeth touch, `coverage.rs` says how
 //! much of each period that sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs` judges, `bevel.rs` puts
@@ -26,7 +26,6 @@ pub mod result;
 mod result_record;
 pub mod run;
 pub mod scene_file;
-pub mod taken_misalignment;
 pub mod warnings;
 
 pub use between_positions::{BetweenPositions, PEAK_SHARE};

@@ -4,13 +4,14 @@ use gearmesh_geometry::input::{Count, TableKeys};
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
 use gearmesh_model::ReducedGear;
 use gearmesh_rating::{NominalRating, TurningPoints};
+use gearmesh_specification::rating::{FatigueTable, RatingTable};
 use std::sync::Arc;
 
 use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
 use crate::rating::{
-    FatigueJob, FatigueTable, PassageLength, RatingFigure, RatingResult, RatingTable,
-    nominal_error, nominal_figures, nominal_method, nominal_remark, rim_m,
+    FatigueJob, PassageLength, RatingFigure, RatingResult, nominal_error, nominal_figures,
+    nominal_method, nominal_remark, rim_m,
 };
 
 /// A rating, made of the curves of a result.

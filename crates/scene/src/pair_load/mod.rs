@@ -5,6 +5,7 @@ mod taken_axes;
 
 use std::path::Path;
 use std::sync::Arc;
+use taken_axes::{TakenAxes, refuse_further_torques};
 
 use gearmesh_contact::{ContactLines, PathExtension};
 use gearmesh_geometry::input::TableKeys;
@@ -101,8 +102,8 @@ fn standing(scene: &mut Scene, gears: [&GearDefinition; 2]) -> Result<GearPair, 
     if let Some(from) = &scene.misalignment_from {
         let keys = TableKeys::new(&scene.document, "pair");
         let pair = (gears.map(|gear| gear.profile.teeth), scene.flank);
-        from.refuse_further_torques(&scene.document, &scene.torques_nm)?;
-        let axes = from.take(&keys, &scene.folder, pair)?;
+        refuse_further_torques(&scene.document, &scene.torques_nm)?;
+        let axes = TakenAxes::of(from, &keys, &scene.folder, pair)?;
         scene.misalignment = axes.misalignment;
         scene.notes.push(axes.note.clone());
         taken = Some(axes);

@@ -5,13 +5,13 @@ use std::path::Path;
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{InputError, Material};
 use gearmesh_rating::{
-    DamageError, MeanStress, Passage, SnCurve, SurfaceState, TurningPoints, miner_damage, rainflow,
+    DamageError, MeanStress, Passage, SnCurve, TurningPoints, miner_damage, rainflow,
     root_stress_pa,
 };
+use gearmesh_specification::rating::FatigueRule;
 
 use super::result::{RatingFigure, figures};
 use super::sn_table_file::read_sn_table;
-use super::table::FatigueRule;
 
 /// From the strain of a gauge to damage.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,29 +93,5 @@ impl FatigueJob {
             ("life_passages", damage.passages_to_failure()),
             life,
         ]))
-    }
-}
-
-impl FatigueRule {
-    /// How it judges, in words.
-    #[must_use]
-    pub fn method(&self) -> String {
-        let mean = match self.mean_stress {
-            MeanStress::None => "without regard to the mean",
-            MeanStress::Goodman { .. } => "mean by Goodman's line",
-        };
-        let passage = match self.passage {
-            Passage::Once => "passed once",
-            Passage::Repeated => "repeated",
-        };
-        let surface = match self.surface {
-            SurfaceState::PlaneStrain => "plane strain",
-            SurfaceState::Uniaxial => "uniaxial",
-        };
-        format!(
-            "cycles and damage of the stress ({surface}) from strain by method {}, S-N table {}, {mean}, history {passage}",
-            self.method,
-            self.sn_table.display()
-        )
     }
 }

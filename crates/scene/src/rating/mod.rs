@@ -3,7 +3,7 @@
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
-//! | what is in `[[rating]]` | [`RatingTable`] | `table.rs`, `sn_table_file.rs` |
+//! | what is in an S-N table | [`sn_curve`] | `sn_table_file.rs` |
 //! | what is made of a stress history | [`FatigueJob`] | `fatigue_job.rs` |
 //! | what is made of the largest force | [`nominal_figures`] | `nominal_figures.rs` |
 //! | what is made of a bearing's loads | [`BearingLifeJob`] | `bearing_life.rs` |
@@ -20,7 +20,6 @@ mod nominal_figures;
 mod result;
 pub(crate) mod rule;
 mod sn_table_file;
-pub mod table;
 
 pub use bearing_life::BearingLifeJob;
 pub use fatigue_job::{FatigueJob, PassageLength};
@@ -28,4 +27,3 @@ pub use nominal_figures::{nominal_error, nominal_figures, nominal_method, nomina
 pub(crate) use result::figure_names;
 pub use result::{RatingFigure, RatingResult};
 pub use sn_table_file::sn_curve;
-pub use table::{BearingLifeTable, FatigueRule, FatigueTable, NominalTable, RatingTable};

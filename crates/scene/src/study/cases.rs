@@ -7,12 +7,11 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use gearmesh_bearings::BearingError;
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::{FileError, ReducedGear, write_reduced_gear, write_text};
+use gearmesh_specification::study::{Case, Study};
 use rayon::prelude::*;
 
-use super::design::Case;
-use super::figure::FigureKinds;
+use super::figure::{FigureKinds, Wanted};
 use super::rest_cases::RestCases;
-use super::study_file::Study;
 use super::subject::{SeriesOver, Subject};
 use super::system_cases;
 use super::table::table;
@@ -211,7 +210,7 @@ impl StudyScenes {
     /// results that are too large.
     pub fn check_columns(&self, study: &Study, rest: &RestCases) -> Result<(), StudyError> {
         let (known, kinds) = known_columns(&self.base, rest)?;
-        for (number, one) in study.wanted().iter().enumerate() {
+        for (number, one) in Wanted::of_study(study).iter().enumerate() {
             if let Err(problem) = one.check(&known, kinds) {
                 return Err(study
                     .document

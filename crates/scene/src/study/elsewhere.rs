@@ -11,11 +11,11 @@ use std::sync::atomic::AtomicBool;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_specification::study::Study;
 use rayon::prelude::*;
 
 use super::cases::{Found, StudyError, StudyOutcome, StudyScenes, finished, make_folder};
 use super::rest_cases::RestCases;
-use super::study_file::Study;
 use super::subject::Subject;
 use super::system_cases;
 use super::varied_scene::{MadeFile, MadeFiles};

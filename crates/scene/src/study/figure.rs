@@ -1,8 +1,9 @@
 //! What of a column is looked at: `COLUMN`, or `COLUMN:FIGURE` for one number of a series.
 
+use gearmesh_specification::names::unknown;
+use gearmesh_specification::study::Study;
 use std::f64::consts::TAU;
 
-use crate::system::unknown;
 use crate::system_run::Figures;
 
 /// A number of a series.
@@ -110,6 +111,13 @@ impl Wanted {
             column: column.to_owned(),
             word: word.to_owned(),
         }
+    }
+
+    /// The columns that a study looks at.
+    #[must_use]
+    pub fn of_study(study: &Study) -> Vec<Self> {
+        let columns = study.tables.columns.iter();
+        columns.map(|text| Self::of(text)).collect()
     }
 
     /// As it was written.

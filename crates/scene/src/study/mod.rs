@@ -2,9 +2,7 @@
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
-//! | what the file says | [`Study`] | `study_file.rs` |
-//! | which values make which cases | [`Design`], [`Case`] | `design.rs`, `scatter.rs`, `varied_once.rs` |
-//! | what is computed | [`Subject`] | `subject.rs`, `bearing_operation.rs` |
+//! | what is computed | [`Subject`] | `subject.rs` |
 //! | the scene of a case | [`BaseScene`] | `varied_scene.rs`, `changed_file.rs` |
 //! | cases, their results and figures | [`run_study`] | `cases.rs`, `system_cases.rs`, `rest_cases.rs` |
 //! | which figures there are | [`RestColumn`], [`Wanted`] | `pair_columns.rs`, `rest_columns.rs`, `loaded_columns.rs`, `figure.rs` |
@@ -15,10 +13,8 @@
 //! was, and one that gets a further value computes that value only. Models are read once, and a gear is reduced again
 //! only where a key of its body varies, once for each value.
 
-mod bearing_operation;
 mod cases;
 mod changed_file;
-mod design;
 mod elsewhere;
 mod evaluate;
 mod figure;
@@ -26,22 +22,16 @@ mod loaded_columns;
 mod pair_columns;
 mod rest_cases;
 mod rest_columns;
-mod scatter;
-mod study_file;
 mod subject;
 mod system_cases;
 mod table;
-mod varied_once;
 mod varied_scene;
 
-pub use bearing_operation::{BearingOperation, OperationTable};
 pub use cases::{
     CaseResult, Selected, SelectedValue, StudyError, StudyOptions, StudyOutcome, StudyScenes,
     run_study,
 };
 pub(crate) use cases::{known_columns, make_files};
-pub use design::{Case, Design, Setting};
-pub(crate) use design::{probabilities, seeded};
 pub use elsewhere::{CaseRunner, SentCase, StudyCases, gather_study};
 pub use evaluate::{Effort, Scratch};
 pub(crate) use evaluate::{Evaluated, evaluate, number};
@@ -49,9 +39,6 @@ pub use figure::{Figure, FigureKinds, Wanted};
 pub(crate) use loaded_columns::is_without_load;
 pub use pair_columns::{PairColumns, RestColumn};
 pub use rest_cases::{RestCases, RestFigures};
-pub use scatter::{NormalTable, SpacedTable, UniformTable};
-pub use study_file::{ParameterTable, Study, StudyTables};
 pub use subject::{BearingSubject, SeriesOver, Subject};
 pub(crate) use system_cases::{SteadyMesh, result_size, steady_meshes};
-pub(crate) use varied_once::demand_each_once;
 pub use varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};

@@ -1,11 +1,11 @@
 //! The columns of a study of a gear pair: one number for each torque. Units of all columns at rest.
 
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
+use gearmesh_specification::names::unknown;
 
 use crate::pair::bevel_result::BevelRest;
 use crate::pair::figure_table::{FIGURES, RestFigure};
 use crate::pair::{LoadedScene, PairFigures, SceneResult, StrainSeries};
-use crate::system::unknown;
 
 /// Harmonics of the mesh frequency that are listed.
 const HARMONICS: usize = 10;

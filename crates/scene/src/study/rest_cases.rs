@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 
 use gearmesh_model::{FileError, bytes_digest, file_digest, write_text};
+use gearmesh_specification::study::Study;
 
 use super::cases::{Found, Selected, SelectedValue, StudyError};
 use super::evaluate::{Clock, Effort};
@@ -14,7 +15,6 @@ use super::figure::Wanted;
 use super::loaded_columns;
 use super::pair_columns::{PairColumns, RestColumn, columns, place, unit_of};
 use super::rest_columns;
-use super::study_file::Study;
 use super::subject::Subject;
 use crate::model_shelf::ModelShelf;
 use crate::named_files_and_theirs;
@@ -65,7 +65,7 @@ impl RestFigures {
     /// What a study takes from them.
     pub(super) fn found(&self, study: &Study) -> Found {
         Found {
-            figures: self.selected(&study.wanted()),
+            figures: self.selected(&Wanted::of_study(study)),
             yielding: self.yielding(),
         }
     }

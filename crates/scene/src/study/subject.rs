@@ -6,11 +6,12 @@ use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bevel::PairFile;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_specification::study::BearingOperation;
+use gearmesh_specification::system::run::Run;
 
-use super::bearing_operation::BearingOperation;
 use crate::pair::{BevelScene, Scene};
 use crate::scene_file::{InputKind, SceneFile};
-use crate::system::{Run, SystemScene};
+use crate::system::SystemScene;
 
 /// What is computed.
 #[derive(Debug, Clone)]

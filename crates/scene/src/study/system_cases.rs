@@ -6,15 +6,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use gearmesh_model::FileError;
+use gearmesh_specification::names::unknown;
+use gearmesh_specification::study::Study;
 
 use super::cases::{Found, Selected, SelectedValue, StudyError};
 use super::elsewhere::SentCase;
 use super::figure::{Figure, FigureKinds, RATINGS, SETS, Wanted, line_amplitude, resonance};
-use super::study_file::Study;
 use super::subject::Subject;
 use crate::pair::warnings::yielding;
 use crate::rating::figure_names;
-use crate::system::{SystemScene, unknown};
+use crate::system::SystemScene;
 use crate::system_run::{
     Figures, LOW_PASS_BAND, Outcome, PartFolder, ResultKind, ResultSize, RunHead, RunJob, RunKind,
     RunOptions, SetFigures, SystemResult, SystemRunError, Window, inputs, recorded_columns, run,
@@ -226,7 +227,7 @@ fn run_into(job: RunJob, file: &Path, stop: &AtomicBool) -> Result<bool, StudyEr
 
 /// What a study takes from a result.
 pub(super) fn found(study: &Study, result: &SystemResult) -> Found {
-    let wanted = study.wanted();
+    let wanted = Wanted::of_study(study);
     Found {
         figures: selected(&wanted, study.tables.from_s, result),
         yielding: (result.pressures().ok()).and_then(|columns| yielding(columns.into_iter())),

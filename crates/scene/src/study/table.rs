@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use gearmesh_model::csv_cell;
+use gearmesh_specification::study::Study;
 
 use super::cases::{CaseResult, Selected, SelectedValue};
-use super::study_file::Study;
 
 /// A line for each case, of gear pairs for each case and torque, with the columns side by side where each is a single
 /// number; otherwise a line for each case and column.

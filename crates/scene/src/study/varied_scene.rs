@@ -12,14 +12,13 @@ use std::path::{Path, PathBuf};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::bytes_digest;
+use gearmesh_specification::former_forms::{PAIR, SYSTEM};
+use gearmesh_specification::names::unknown;
+use gearmesh_specification::study::{Case, OperationTable, Setting};
 
-use super::bearing_operation::OperationTable;
 use super::changed_file::{absolute_names, check, file_text, is_hdf5};
-use super::design::{Case, Setting};
 use super::subject::{OPERATION, Subject, is_bearing};
-use crate::former_forms::{PAIR, SYSTEM};
 use crate::named_files;
-use crate::system::names::unknown;
 
 /// Digits of the digest in the name of a file that a study makes.
 const NAME_DIGITS: usize = 16;

@@ -2,10 +2,10 @@
 
 use gearmesh_dynamics::DynamicsError;
 use gearmesh_geometry::InputError;
+use gearmesh_specification::system::joint::MotionTable;
+use gearmesh_specification::system::load::LoadTable;
 
 use super::scene::SystemScene;
-use super::tables::joint::MotionTable;
-use super::tables::load::LoadTable;
 
 impl SystemScene {
     /// The complaint of a system at the place in the file that it is about: the first joint that it names, the force

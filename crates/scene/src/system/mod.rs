@@ -2,7 +2,7 @@
 //!
 //! | step | type | file |
 //! | --- | --- | --- |
-//! | read and check the file | [`SystemScene`] | `scene.rs`, `tables/` |
+//! | read and check the file | [`SystemScene`] | `scene.rs` |
 //! | read the gears that it names | [`LoadedSystem`] | `assembly/gears.rs` |
 //! | a multibody system with the names of its parts | [`BuiltSystem`] | `built.rs`, `assembly/` |
 //! | a stage of gears at a glance | [`StageSummary`] | `stage_summary.rs`, `iso_stiffness.rs` |
@@ -11,7 +11,6 @@
 pub mod assembly;
 pub mod built;
 mod complaint;
-pub mod host_functions;
 mod iso_stiffness;
 pub(crate) mod names;
 mod other_run_kind;
@@ -19,7 +18,6 @@ pub mod plan;
 pub mod planetary;
 pub mod scene;
 mod stage_summary;
-pub mod tables;
 
 pub use assembly::{
     BodyAtStart, GearState, GearsInMotion, LoadedSystem, MovingElements, MovingGear, MovingPart,
@@ -30,12 +28,7 @@ pub use built::{
     BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, BuiltTogether, Effect, RatingJob,
     RatingRule,
 };
-pub use host_functions::HostFunctions;
-pub(crate) use names::{label_problem, unknown};
 pub use plan::SystemPlan;
 pub(crate) use plan::step_in_words;
-pub use scene::{SystemScene, SystemTables};
+pub use scene::SystemScene;
 pub use stage_summary::StageSummary;
-pub use tables::output::OutputTable;
-pub use tables::run::{Direction, MotionValues, Run, RunKind, Schedule, SpeedSweep};
-pub use tables::solver::{Solver, Start};

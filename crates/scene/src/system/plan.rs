@@ -3,11 +3,11 @@
 use gearmesh_dynamics::scheme::StepControl;
 use gearmesh_dynamics::{DynamicsError, natural_modes};
 use gearmesh_geometry::InputError;
+use gearmesh_specification::system::run::{Direction, Run, Schedule};
 
 use super::built::{BuiltBody, BuiltMesh, BuiltPart, BuiltSystem};
 use super::scene::SystemScene;
 use super::stage_summary::StageSummary;
-use super::tables::run::{Direction, Run, Schedule};
 
 /// Degrees of freedom up to which the plan seeks the highest natural frequency: a second or less.
 const MOST_FOR_MODES: usize = 120;

@@ -5,96 +5,17 @@ use std::sync::Arc;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use gearmesh_specification::former_forms::SYSTEM;
+use gearmesh_specification::host_functions::HostFunctions;
+use gearmesh_specification::names::{check_names, unknown};
+use gearmesh_specification::system::SystemTables;
+use gearmesh_specification::system::joint::MotionTable;
+use gearmesh_specification::system::output::OutputTable;
+use gearmesh_specification::system::run::Run;
+use gearmesh_specification::system::solver::Solver;
 
-use super::host_functions::HostFunctions;
 use super::planetary::{self, PlanetarySet};
-use super::tables::bearing::BearingTable;
-use super::tables::body::BodyTable;
-use super::tables::connection::{BushingTable, SpringTable, TorsionSpringTable};
-use super::tables::gear_mesh::GearMeshTable;
-use super::tables::joint::{JointTable, MotionTable};
-use super::tables::load::LoadTable;
-use super::tables::output::OutputTable;
-use super::tables::planetary::PlanetaryTable;
-use super::tables::python_element::PythonElementTable;
-use super::tables::run::{Run, RunTable};
-use super::tables::shaft::ShaftTable;
-use super::tables::solver::{Solver, SolverTable};
-use crate::former_forms::SYSTEM;
 use crate::model_shelf::ModelShelf;
-use crate::rating::RatingTable;
-
-/// The keys of the file.
-#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SystemTables {
-    /// Title in prints and reports.
-    pub title: String,
-    /// What is done.
-    pub run: RunTable,
-    /// Integrator and start.
-    #[serde(default)]
-    pub solver: SolverTable,
-    /// What is written.
-    #[serde(default)]
-    pub output: OutputTable,
-    /// Acceleration of weight, world axes; no weight where not given.
-    pub gravity_m_per_s2: Option<[f64; 3]>,
-    /// Bodies.
-    #[serde(default)]
-    pub body: Vec<BodyTable>,
-    /// Joints.
-    #[serde(default)]
-    pub joint: Vec<JointTable>,
-    /// Prescribed motions.
-    #[serde(default)]
-    pub motion: Vec<MotionTable>,
-    /// Forces and torques.
-    #[serde(default)]
-    pub load: Vec<LoadTable>,
-    /// Line springs.
-    #[serde(default)]
-    pub spring: Vec<SpringTable>,
-    /// Torsion springs.
-    #[serde(default)]
-    pub torsion_spring: Vec<TorsionSpringTable>,
-    /// Bushings.
-    #[serde(default)]
-    pub bushing: Vec<BushingTable>,
-    /// Bearings.
-    #[serde(default)]
-    pub bearing: Vec<BearingTable>,
-    /// Shafts.
-    #[serde(default)]
-    pub shaft: Vec<ShaftTable>,
-    /// Force elements that a Python function computes.
-    #[serde(default)]
-    pub python_element: Vec<PythonElementTable>,
-    /// Gear meshes.
-    #[serde(default)]
-    pub gear_mesh: Vec<GearMeshTable>,
-    /// Planetary sets; their bodies, joints, bearings, motions, loads and meshes stand behind those of the file.
-    #[serde(default)]
-    pub planetary: Vec<PlanetaryTable>,
-    /// Strain gauges of reduced gears.
-    #[serde(default)]
-    pub gauge: Vec<GaugeTable>,
-    /// What is judged after the run.
-    #[serde(default)]
-    pub rating: Vec<RatingTable>,
-}
-
-/// `[[gauge]]`: gauges of a reduced gear that are read.
-#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct GaugeTable {
-    /// The gear's body.
-    pub body: String,
-    /// Names of gauges in its model.
-    pub names: Vec<String>,
-}
 
 /// A scene of a multibody system. Other files are relative to `folder`.
 #[derive(Debug, Clone)]
@@ -150,7 +71,7 @@ impl SystemScene {
         folder: &Path,
         models: Arc<ModelShelf>,
     ) -> Result<Self, InputError> {
-        let document = InputDocument::of_values(tables, folder)?;
+        let document = tables.document(folder)?;
         Self::with_models(document, folder, models)
     }
 
@@ -173,8 +94,8 @@ impl SystemScene {
         sets: Vec<PlanetarySet>,
         folder: &Path,
     ) -> Result<Self, InputError> {
-        let tables: SystemTables = document.parse()?;
-        super::names::check_names(&document)?;
+        let tables = SystemTables::of(&document)?;
+        check_names(&document)?;
         if tables.body.is_empty() && tables.shaft.is_empty() {
             return Err(document.error("body", "is empty; a scene has at least one body or shaft"));
         }
@@ -200,7 +121,7 @@ impl SystemScene {
             let named = tables.motion.iter().find(|table| table.name() == name);
             let motion = named.ok_or_else(|| {
                 let names: Vec<String> = tables.motion.iter().map(MotionTable::name).collect();
-                keys.error("motion", super::names::unknown("motion", name, &names))
+                keys.error("motion", unknown("motion", name, &names))
             })?;
             if motion.angle_deg.is_none() && motion.speed_rpm.is_none() {
                 let problem = format!(

@@ -15,6 +15,8 @@ use std::time::{Duration, Instant};
 
 use gearmesh_dynamics::{Motion, OutputGrid, Params, Simulation, System, TimeFunction};
 use gearmesh_geometry::InputError;
+use gearmesh_specification::system::run::Run;
+use gearmesh_specification::system::solver::Start;
 
 use super::error::SystemRunError;
 use super::from_scene::varied;
@@ -22,7 +24,7 @@ use super::in_time::begin;
 use super::job::{InTime, RunJob, RunKind};
 use super::recorded_columns::ResultSize;
 use super::recorder::{Course, Moment, Recorder, Selection, time};
-use crate::system::{LoadedSystem, Run, Start, SystemPlan, SystemScene, step_in_words};
+use crate::system::{LoadedSystem, SystemPlan, SystemScene, step_in_words};
 
 /// Wall time of all trials together, equilibria not counted: enough for some thousand steps of a pair.
 const TRIALS: Duration = Duration::from_millis(1000);

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use gearmesh_dynamics::DynamicsError;
 use gearmesh_model::FileError;
 use gearmesh_signal::SeriesError;
+use gearmesh_specification::system::output::MOST_ROWS;
 
-use crate::system::tables::output::MOST_ROWS;
 use crate::system::{STEPS_A_PERIOD, floored};
 
 /// Why a multibody scene could not be run.

@@ -6,6 +6,12 @@ use gearmesh_dynamics::{DynamicsError, Interpolation, Motion, System, Table, Tim
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{MOST_TEXT_BYTES, read_bytes};
 use gearmesh_model::{bytes_digest, file_digest};
+use gearmesh_specification::system::function::FunctionTable;
+use gearmesh_specification::system::gear_mesh::GearMeshTable;
+use gearmesh_specification::system::joint::MotionTable;
+use gearmesh_specification::system::load::LoadTable;
+use gearmesh_specification::system::run::{MotionValues, Run};
+use gearmesh_specification::system::solver::Start;
 
 use super::error::SystemRunError;
 use super::job::{
@@ -15,11 +21,7 @@ use super::job::{
 use super::recorder::Selection;
 use super::speed_plan::SpeedPlan;
 use crate::named_files_and_theirs;
-use crate::system::tables::function::FunctionTable;
-use crate::system::tables::gear_mesh::GearMeshTable;
-use crate::system::tables::joint::MotionTable;
-use crate::system::tables::load::LoadTable;
-use crate::system::{BuiltSystem, LoadedSystem, MotionValues, Run, Start, SystemScene, Variation};
+use crate::system::{BuiltSystem, LoadedSystem, SystemScene, Variation};
 
 impl RunJob {
     /// The job of a scene.

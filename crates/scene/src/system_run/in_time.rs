@@ -12,6 +12,8 @@ use gearmesh_dynamics::{
     Accepted, EnergyBalance, OutputGrid, Simulation, StaticParams, System, equilibrium,
 };
 use gearmesh_model::{DataTree, FileError, RowLog};
+use gearmesh_specification::system::output::MOST_ROWS;
+use gearmesh_specification::system::solver::Start;
 
 use super::column_statistics::ColumnStatistics;
 use super::error::SystemRunError;
@@ -26,8 +28,7 @@ use super::result_kind::ResultKind;
 use super::result_record::Contents;
 use super::run_record::RunRecord;
 use super::stored_checkpoint::{Recorded, from_tree, to_tree};
-use crate::system::tables::output::MOST_ROWS;
-use crate::system::{RatingJob, Start};
+use crate::system::RatingJob;
 
 /// Wall time between two calls of the progress.
 const TOLD_EVERY: Duration = Duration::from_millis(200);

@@ -7,9 +7,10 @@ use std::time::Duration;
 use gearmesh_dynamics::{Params, StepControl, System};
 use gearmesh_geometry::BaseCircles;
 use gearmesh_model::bytes_digest;
+use gearmesh_specification::system::solver::Start;
 
 use crate::system::planetary::PlanetarySet;
-use crate::system::{RatingJob, StageSummary, Start};
+use crate::system::{RatingJob, StageSummary};
 
 use super::error::SystemRunError;
 use super::recorder::Selection;

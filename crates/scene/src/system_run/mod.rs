@@ -63,7 +63,7 @@ pub use mesh_misalignment::MeshAxes;
 pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;
-pub use recorded_columns::{MOST_RESULT_BYTES, ResultSize, demand_result_size, recorded_columns};
+pub use recorded_columns::{ResultSize, demand_result_size, recorded_columns};
 pub use recorder::{Course, Moment, Recorder, Selection};
 pub use result::{EigenResult, FOLDED_SHARE, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
 pub use result_kind::ResultKind;

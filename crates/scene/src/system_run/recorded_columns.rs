@@ -5,12 +5,13 @@ use std::fmt;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::Column;
+use gearmesh_specification::system::run::Run;
 
 use super::job::{RunJob, RunKind};
 use super::recorder::{Course, Recorder, time};
 use super::{in_time, static_series};
 use crate::megabytes::megabytes;
-use crate::system::{Run, SystemScene};
+use crate::system::SystemScene;
 
 /// The columns of a job's rows; of natural frequencies none.
 #[must_use]
@@ -74,9 +75,6 @@ impl fmt::Display for ResultSize {
         write!(f, "{}", megabytes(self.bytes()))
     }
 }
-
-/// Largest results that are written where nobody allows more \[bytes\].
-pub const MOST_RESULT_BYTES: f64 = 1e9;
 
 /// Refuses results that are larger than they may be, before anything of them is computed. `what` they are, in the
 /// complaint.

@@ -6,8 +6,7 @@
 //! happens. Ramped: the speed changes evenly, each window is an equal part of the ramp.
 
 use gearmesh_dynamics::{DynamicsError, Interpolation, Table, TimeFunction};
-
-use crate::system::{Direction, Schedule, SpeedSweep};
+use gearmesh_specification::system::run::{Direction, Schedule, SpeedSweep};
 
 /// Share of the settling time in which the speed changes.
 const CHANGE: f64 = 0.25;

@@ -9,8 +9,8 @@ use gearmesh_dynamics::elements::{AppliedLoad, Axes, LoadKind, TorsionSpring};
 use gearmesh_dynamics::{
     Body, Joint, JointKind, Marker, MarkerPair, Motion, Params, System, SystemBuilder, TimeFunction,
 };
-use gearmesh_scene::system::Start;
 use gearmesh_scene::system_run::*;
+use gearmesh_specification::system::solver::Start;
 use nalgebra::Vector3;
 
 /// A folder with an output file.

@@ -12,8 +12,9 @@ use std::sync::atomic::AtomicBool;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearPair, Misalignment, ToothGeometry};
 use gearmesh_model::{ReducedGear, StoredGear, write_reduced_gear};
-use gearmesh_scene::optimise::{Optimisation, Optimum, Trial, optimise};
+use gearmesh_scene::optimise::{Optimum, Trial, optimise};
 use gearmesh_scene::{Scene, load, run};
+use gearmesh_specification::optimise::Optimisation;
 
 use crate::made_up_gears;
 

@@ -4,7 +4,8 @@
 use std::sync::atomic::AtomicBool;
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_scene::optimise::{Optimisation, optimise};
+use gearmesh_scene::optimise::optimise;
+use gearmesh_specification::optimise::Optimisation;
 
 use crate::studies_of_all_kinds::{BEARING, fe_models, numbers, oscillator, studied};
 

@@ -9,10 +9,11 @@ use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{ReducedGear, StoredGear, read_reduced_gear};
 use gearmesh_scene::study::{
-    CaseRunner, RestCases, Selected, SelectedValue, SentCase, Study, StudyCases, StudyError,
-    StudyOptions, StudyOutcome, Subject, gather_study, run_study,
+    CaseRunner, RestCases, Selected, SelectedValue, SentCase, StudyCases, StudyError, StudyOptions,
+    StudyOutcome, Subject, gather_study, run_study,
 };
 use gearmesh_scene::{Scene, load, run};
+use gearmesh_specification::study::Study;
 
 use crate::made_up_gears;
 

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use gearmesh_dynamics::{Params, System, TimeFunction};
-use gearmesh_scene::system::Start;
 use gearmesh_scene::system_run::*;
+use gearmesh_specification::system::solver::Start;
 
 use crate::system_runs::*;
 

@@ -5,7 +5,7 @@ use serde_json::Value;
 /// A key without a description is of no use in an editor.
 #[test]
 fn every_key_of_a_scene_is_described() {
-    let schema = gearmesh_scene::schema::scene().to_value();
+    let schema = gearmesh_specification::schema::scene().to_value();
     let mut bare = Vec::new();
     for (name, table) in schema["$defs"].as_object().unwrap() {
         for (key, rules) in table

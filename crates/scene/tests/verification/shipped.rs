@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use gearmesh_geometry::GearDefinition;
 use gearmesh_scene::SceneFile;
-use gearmesh_scene::system::{BuiltMesh, BuiltSystem, Run, SystemPlan};
+use gearmesh_scene::system::{BuiltMesh, BuiltSystem, SystemPlan};
 use gearmesh_scene::system_run::RunCost;
+use gearmesh_specification::system::run::Run;
 
 use crate::common::*;
 use crate::{assert_labelled, spin};

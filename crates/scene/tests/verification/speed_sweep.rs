@@ -16,8 +16,9 @@ use gearmesh_dynamics::{
     Body, BodyId, Joint, JointKind, Marker, MarkerPair, Motion, Params, System, TimeFunction,
 };
 use gearmesh_dynamics::{ElementFailure, ForceElement, Loads, View};
-use gearmesh_scene::system::{Direction, Schedule, SpeedSweep, Start};
 use gearmesh_scene::system_run::*;
+use gearmesh_specification::system::run::{Direction, Schedule, SpeedSweep};
+use gearmesh_specification::system::solver::Start;
 use system_runs::*;
 
 const MASS: f64 = 1.0;

@@ -13,7 +13,8 @@ use gearmesh_bevel::{PairFile, tooth_contact};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::ModelShelf;
 use gearmesh_scene::pair::BevelScene;
-use gearmesh_scene::study::{SelectedValue, Study, StudyOptions, StudyOutcome, run_study};
+use gearmesh_scene::study::{SelectedValue, StudyOptions, StudyOutcome, run_study};
+use gearmesh_specification::study::Study;
 
 pub(crate) fn fe_models() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models")

@@ -6,8 +6,9 @@ use std::sync::atomic::AtomicBool;
 
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::study::{
-    SelectedValue, Study, StudyOptions, StudyOutcome, StudyScenes, Subject, run_study,
+    SelectedValue, StudyOptions, StudyOutcome, StudyScenes, Subject, run_study,
 };
+use gearmesh_specification::study::Study;
 
 /// A wheel of 0.5 kg m² that a torque turns for a second: ω(1) = T/J.
 const SCENE: &str = include_str!("../../../../tests/support/wheel.toml");

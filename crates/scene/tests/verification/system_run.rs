@@ -11,8 +11,8 @@ use gearmesh_dynamics::{
     Table, TimeFunction, View,
 };
 use gearmesh_model::FileError;
-use gearmesh_scene::system::Start;
 use gearmesh_scene::system_run::*;
+use gearmesh_specification::system::solver::Start;
 use system_runs::*;
 
 fn adaptive() -> Params {

@@ -14,21 +14,21 @@ use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::read_reduced_gear;
 use gearmesh_scene::pair::BevelScene;
-use gearmesh_scene::pair::scene_file::{
-    GaugesTable, GearTable, MeshTable, PairModel, PairTable, PairTables, PairTeethTable, RunTable,
-};
-use gearmesh_scene::system::tables::body::BodyTable;
-use gearmesh_scene::system::tables::function::FunctionTable;
-use gearmesh_scene::system::tables::gear_mesh::{GearMeshTable, PathWord};
-use gearmesh_scene::system::tables::joint::{JointTable, JointWord, MotionTable};
-use gearmesh_scene::system::tables::load::LoadTable as TorqueTable;
-use gearmesh_scene::system::tables::mesh_model::{DampingTable, HybridTable, MeshModel};
-use gearmesh_scene::system::tables::output::OutputTable;
-use gearmesh_scene::system::tables::run as runs;
-use gearmesh_scene::system::tables::solver::SolverTable;
-use gearmesh_scene::system::{LoadedSystem, SystemScene, SystemTables};
+use gearmesh_scene::system::{LoadedSystem, SystemScene};
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{ModelShelf, Scene, SceneResult, load, load_from, run};
+use gearmesh_specification::pair::{
+    GaugesTable, GearTable, MeshTable, PairModel, PairTable, PairTables, PairTeethTable, RunTable,
+};
+use gearmesh_specification::system::body::BodyTable;
+use gearmesh_specification::system::function::FunctionTable;
+use gearmesh_specification::system::gear_mesh::{GearMeshTable, PathWord};
+use gearmesh_specification::system::joint::{JointTable, JointWord, MotionTable};
+use gearmesh_specification::system::load::LoadTable as TorqueTable;
+use gearmesh_specification::system::mesh_model::{DampingTable, HybridTable, MeshModel};
+use gearmesh_specification::system::output::OutputTable;
+use gearmesh_specification::system::solver::SolverTable;
+use gearmesh_specification::system::{SystemTables, run as runs};
 
 use crate::common::changed;
 use crate::made_up_gears;

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use gearmesh_drivetrain::{BevelSlices, GearMesh, ReducedTeeth, TeethModel};
 use gearmesh_geometry::{Flank, InputError};
 use gearmesh_model::{ReducedGear, read_reduced_gear};
+use gearmesh_specification::system::mesh_model::{HybridTable, MeshModel};
 
 use super::bevel_mesh::{SceneBevel, material};
 use super::bodies::Bodies;
 use crate::system::iso_stiffness::REFERENCE_LINE_LOAD_N_PER_M;
-use crate::system::tables::mesh_model::{HybridTable, MeshModel};
 
 /// Slices where neither the scene nor models say how many.
 const SLICES: usize = 15;

@@ -1,6 +1,9 @@
 //! `[[gear_mesh]]` with `bevel_pair`: flanks from a pair file between two bodies whose axes meet.
 
 use gearmesh_geometry::given;
+use gearmesh_specification::system::gear_mesh::{BevelSurfaceTable, PathWord, TouchingFlanks};
+use gearmesh_specification::system::mesh_model::{HertzTable, ImpactTable, MeshModel};
+use gearmesh_specification::system::{MM, UM};
 use std::path::Path;
 
 use gearmesh_bevel::PairFile;
@@ -18,9 +21,6 @@ use super::gear_mesh::PreparedMesh;
 use super::mesh_stiffness::{impact_law, stated_impact};
 use super::parts::Parts;
 use super::scene_mesh::SceneMesh;
-use crate::system::tables::gear_mesh::{BevelSurfaceTable, PathWord, TouchingFlanks};
-use crate::system::tables::mesh_model::{HertzTable, ImpactTable, MeshModel};
-use crate::system::tables::{MM, UM};
 
 /// A mesh of bevel gears, with the file of their pair.
 pub(super) type SceneBevel<'a> = SceneMesh<'a, &'a Path>;

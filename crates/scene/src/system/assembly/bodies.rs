@@ -1,6 +1,9 @@
 //! `[[body]]` to bodies in their places, and markers on them.
 
 use gearmesh_geometry::given;
+use gearmesh_specification::names::unknown;
+use gearmesh_specification::system::MM;
+use gearmesh_specification::system::body::{BodyTable, Flexibility};
 use std::sync::Arc;
 
 use gearmesh_drivetrain::{modal_gear_body, modes_up_to};
@@ -13,9 +16,6 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::gears::{BodyGear, Gear};
 use crate::system::built::BuiltPart;
-use crate::system::names;
-use crate::system::tables::MM;
-use crate::system::tables::body::{BodyTable, Flexibility};
 
 /// The world in scene files.
 pub(super) const GROUND_NAME: &str = "ground";
@@ -357,7 +357,7 @@ impl Bodies {
         }
         let mut known = vec![GROUND_NAME];
         known.extend(self.names());
-        let mut problem = names::unknown("body", name, &known);
+        let mut problem = unknown("body", name, &known);
         if name.ends_with("/ring") && !known.iter().any(|known| known.ends_with("/ring")) {
             problem += "; outer rings are bodies of bearings with a `housing`, which joints and other bearings cannot name";
         }

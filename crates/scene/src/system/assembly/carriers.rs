@@ -9,6 +9,8 @@
 //!
 //! unless the scene states its velocity.
 
+use gearmesh_specification::system::MM;
+use gearmesh_specification::system::bearing::BearingTable;
 use std::collections::VecDeque;
 
 use nalgebra::Vector3;
@@ -16,8 +18,6 @@ use nalgebra::Vector3;
 use super::bodies::Bodies;
 use super::joints::PlacedJoint;
 use super::shafts::PlacedShaft;
-use crate::system::tables::MM;
-use crate::system::tables::bearing::BearingTable;
 
 /// What holds bodies.
 #[derive(Clone, Copy)]

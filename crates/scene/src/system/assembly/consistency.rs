@@ -2,15 +2,15 @@
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_specification::names::unknown;
+use gearmesh_specification::system::body::Flexibility;
+use gearmesh_specification::system::mesh_model::MeshKind;
 
 use super::LoadedSystem;
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;
 use super::parts::Parts;
 use crate::system::built::BuiltPart;
-use crate::system::names;
-use crate::system::tables::body::Flexibility;
-use crate::system::tables::mesh_model::MeshKind;
 
 impl LoadedSystem {
     /// Names of bodies, of joints with motions, and of force elements must differ among each other.
@@ -91,7 +91,7 @@ impl LoadedSystem {
         for ((key, what, stated), known) in stated.into_iter().zip(known) {
             for (i, name) in stated.iter().flatten().enumerate() {
                 if !known.contains(name) {
-                    let problem = names::unknown(what, name, &known);
+                    let problem = unknown(what, name, &known);
                     return Err(keys.error(&format!("{key}.{i}"), problem));
                 }
             }

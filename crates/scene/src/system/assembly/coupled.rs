@@ -5,14 +5,14 @@ use gearmesh_drivetrain::{CoupledMeshes, GearOnRollers, MeshElement, MeshToCoupl
 use gearmesh_dynamics::elements::ForceElement;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_specification::system::body::{BodyTable, Coupling};
+use gearmesh_specification::system::mesh_model::MeshKind;
 
 use super::bodies::Bodies;
 use super::connections::{Connections, SeatedBearing};
 use super::gear_mesh::PreparedMesh;
 use super::linked::firsts;
 use crate::system::built::BuiltTogether;
-use crate::system::tables::body::{BodyTable, Coupling};
-use crate::system::tables::mesh_model::MeshKind;
 
 /// A mesh that is left for its group.
 pub(super) struct MeshOfGroup {

@@ -7,15 +7,15 @@
 use gearmesh_drivetrain::GearOnFaces;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_specification::system::body::Flexibility;
+use gearmesh_specification::system::mesh_model::MeshKind;
+use gearmesh_specification::system::shaft::ShaftModel;
 use nalgebra::DMatrix;
 use std::sync::Arc;
 
 use super::bodies::{PlacedBody, mode_count};
 use super::gears::{BodyGear, Gear};
 use crate::system::scene::SystemScene;
-use crate::system::tables::body::Flexibility;
-use crate::system::tables::mesh_model::MeshKind;
-use crate::system::tables::shaft::ShaftModel;
 
 /// A gear whose faces are joined one by one.
 #[derive(Debug)]

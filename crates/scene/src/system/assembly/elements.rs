@@ -8,16 +8,16 @@ use gearmesh_dynamics::{BodyId, MarkerPair, TimeFunction};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::given;
 use gearmesh_geometry::input::{Beside, TableKeys};
+use gearmesh_specification::system::MM;
+use gearmesh_specification::system::connection::{SpringTable, StiffnessTable};
+use gearmesh_specification::system::function::{Sources, product};
+use gearmesh_specification::system::load::{AxesWord, LoadTable};
 use nalgebra::{Matrix6, Vector3};
 
 use super::bearings;
 use super::bodies::{Bodies, Frame, direction};
 use super::connections::Connections;
 use super::stiffness::refuse_rigid;
-use crate::system::tables::MM;
-use crate::system::tables::connection::{SpringTable, StiffnessTable};
-use crate::system::tables::function::{Sources, product};
-use crate::system::tables::load::{AxesWord, LoadTable};
 
 /// N/mm in N/m, N·s/mm in N·s/m.
 pub(super) const PER_MM: f64 = 1e3;

@@ -10,6 +10,10 @@ use gearmesh_geometry::given;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{BaseCircles, Flank, GearPair, InputError, Misalignment};
 use gearmesh_model::ReducedGear;
+use gearmesh_specification::system::MM;
+use gearmesh_specification::system::flank_errors::FlankErrorTable;
+use gearmesh_specification::system::gear_mesh::{GearMeshTable, TeethTable};
+use gearmesh_specification::system::mesh_model::{MeshKind, MeshModel};
 
 use super::bevel_hybrid::BevelModels;
 use super::bodies::Bodies;
@@ -20,10 +24,6 @@ use super::mesh_model::Involutes;
 use super::parts::Parts;
 use super::scene_mesh::SceneMesh;
 use crate::system::built::{BuiltGauge, BuiltMesh};
-use crate::system::tables::MM;
-use crate::system::tables::flank_errors::FlankErrorTable;
-use crate::system::tables::gear_mesh::{GearMeshTable, TeethTable};
-use crate::system::tables::mesh_model::{MeshKind, MeshModel};
 
 /// A mesh of two bodies, ready but for its place in the system.
 pub(super) struct PreparedMesh {

@@ -12,15 +12,15 @@ use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{GearDefinition, InputError, Material};
 use gearmesh_model::{RadialMotions, ReducedGear};
+use gearmesh_specification::system::body::{BoreHold, Flexibility};
+use gearmesh_specification::system::gear_mesh::GearMeshTable;
+use gearmesh_specification::system::mesh_model::MeshKind;
 use nalgebra::{Matrix3, Vector3};
 
 use super::cut_into_shaft::OnFaces;
 use crate::microgeometry_words::microgeometry_words;
 use crate::model_shelf::ModelShelf;
 use crate::system::scene::SystemScene;
-use crate::system::tables::body::{BoreHold, Flexibility};
-use crate::system::tables::gear_mesh::GearMeshTable;
-use crate::system::tables::mesh_model::MeshKind;
 
 /// A gear from a gear file or a model.
 #[derive(Debug)]

@@ -5,14 +5,14 @@ use std::f64::consts::TAU;
 use gearmesh_dynamics::{JointKind, Motion, TimeFunction};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_specification::names::unknown;
+use gearmesh_specification::system::MM;
+use gearmesh_specification::system::function::Sources;
+use gearmesh_specification::system::joint::{JointTable, JointWord, MotionTable};
+use gearmesh_specification::system::run::Run;
 
 use super::bodies::{Bodies, Seat};
 use super::connections::Connections;
-use crate::system::names;
-use crate::system::tables::MM;
-use crate::system::tables::function::Sources;
-use crate::system::tables::joint::{JointTable, JointWord, MotionTable};
-use crate::system::tables::run::Run;
 
 /// What a motion drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -168,7 +168,7 @@ pub(super) fn motions(
         let position = known.clone().position(|name| *name == table.joint);
         let joint = position.ok_or_else(|| {
             let known: Vec<&String> = known.by_ref().collect();
-            keys.error("joint", names::unknown("joint", &table.joint, &known))
+            keys.error("joint", unknown("joint", &table.joint, &known))
         })?;
         let (driven, motion) = function(table, &keys, sources)?;
         let word = joints[joint].table.kind;

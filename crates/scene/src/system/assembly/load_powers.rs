@@ -6,13 +6,13 @@
 use std::f64::consts::TAU;
 
 use gearmesh_geometry::input::Beside;
+use gearmesh_specification::system::SystemTables;
+use gearmesh_specification::system::function::FunctionTable;
+use gearmesh_specification::system::load::{AxesWord, LoadTable};
 use nalgebra::Vector3;
 
 use super::bodies::{Bodies, GROUND_NAME};
 use super::joints::PlacedMotion;
-use crate::system::scene::SystemTables;
-use crate::system::tables::function::FunctionTable;
-use crate::system::tables::load::{AxesWord, LoadTable};
 
 /// Power that does not come out, as a share of what goes in, from which it is reported.
 const MISSING: f64 = 0.01;

@@ -10,6 +10,7 @@ use std::collections::HashMap;
 use gearmesh_bearings::definition::BearingGeometry;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_specification::system::mesh_model::MeshKind;
 
 use super::LoadedSystem;
 use super::bearings::placed_bearing;
@@ -18,7 +19,6 @@ use super::gear_mesh::PreparedMesh;
 use super::linked::firsts;
 use super::parts::Parts;
 use crate::system::built::BuiltPart;
-use crate::system::tables::mesh_model::MeshKind;
 
 /// What holds a piece along its axis.
 #[derive(Debug, Clone, Copy, Default)]

@@ -2,9 +2,9 @@
 
 use super::mesh_model::SceneInvolutes;
 use super::parts::Parts;
-use crate::system::tables::UM;
-use crate::system::tables::gear_mesh::TouchingFlanks;
-use crate::system::tables::mesh_model::{MeshKind, MeshModel};
+use gearmesh_specification::system::UM;
+use gearmesh_specification::system::gear_mesh::TouchingFlanks;
+use gearmesh_specification::system::mesh_model::{MeshKind, MeshModel};
 
 impl SceneInvolutes<'_, '_> {
     /// Lists the effects of this mesh.

@@ -12,13 +12,13 @@ use std::f64::consts::TAU;
 
 use gearmesh_dynamics::scheme::StepControl;
 use gearmesh_geometry::InputError;
+use gearmesh_specification::system::mesh_model::MeshKind;
+use gearmesh_specification::system::run::Run;
 use nalgebra::Vector3;
 
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;
-use crate::system::Run;
 use crate::system::scene::SystemScene;
-use crate::system::tables::mesh_model::MeshKind;
 
 /// Steps that a mesh period needs at least: the scheme's error of a motion at the mesh frequency, |C| (2π/10)² with C
 /// of docs/theory/multibody.md, is then 3.4 % of its inertia force. At five steps it is 14 %, at two the mesh frequency

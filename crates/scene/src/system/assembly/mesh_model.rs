@@ -12,12 +12,12 @@ use gearmesh_drivetrain::{
 use gearmesh_geometry::point_contact::contact_modulus_pa;
 use gearmesh_geometry::{Flank, GearPair, InputError, ToothGeometry};
 use gearmesh_model::ReducedGear;
+use gearmesh_specification::system::gear_mesh::{PathWord, TouchingFlanks};
+use gearmesh_specification::system::mesh_model::{AnalyticTable, HybridTable, MeshKind, MeshModel};
 
 use super::gears::Gear;
 use super::scene_mesh::SceneMesh;
 use crate::system::iso_stiffness::REFERENCE_LINE_LOAD_N_PER_M;
-use crate::system::tables::gear_mesh::{PathWord, TouchingFlanks};
-use crate::system::tables::mesh_model::{AnalyticTable, HybridTable, MeshKind, MeshModel};
 
 /// What the teeth of two cylindrical gears are made from.
 pub(super) struct Involutes<'a, 'm> {

@@ -2,6 +2,8 @@
 //! it is, in words.
 
 use gearmesh_geometry::given;
+use gearmesh_specification::system::mesh_model::{ImpactTable, Iso6336Table, MeshModel};
+use gearmesh_specification::system::{MM, UM};
 use std::path::Path;
 
 use gearmesh_contact::SliceLayout;
@@ -12,8 +14,6 @@ use gearmesh_geometry::{Flank, GearDefinition, InputError};
 use super::mesh_model::SceneInvolutes;
 use crate::system::iso_stiffness::{N_PER_MM_UM, REFERENCE_LINE_LOAD_N_PER_M, iso_stiffness};
 use crate::system::stage_summary::StageSummary;
-use crate::system::tables::mesh_model::{ImpactTable, Iso6336Table, MeshModel};
-use crate::system::tables::{MM, UM};
 
 /// K in N/mm^e and e of `impact` as a scene states them.
 pub(super) fn stated_impact(

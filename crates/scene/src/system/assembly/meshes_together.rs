@@ -3,12 +3,12 @@
 use gearmesh_drivetrain::{DrivetrainError, GearMesh};
 use gearmesh_dynamics::{BodyId, System};
 use gearmesh_geometry::InputError;
+use gearmesh_specification::system::body::BoreHold;
+use gearmesh_specification::system::mesh_model::MeshKind;
 
 use super::gears_in_motion::GearState;
 use super::{LoadedSystem, Variation};
 use crate::system::built::BuiltTogether;
-use crate::system::tables::body::BoreHold;
-use crate::system::tables::mesh_model::MeshKind;
 
 /// Why forces on teeth are not known where bodies stand.
 #[derive(Debug, thiserror::Error)]

@@ -79,6 +79,11 @@ use std::sync::Arc;
 use gearmesh_dynamics::{Motion, Redundancy, System, SystemBuilder};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_specification::names::unknown;
+use gearmesh_specification::system::function::Sources;
+use gearmesh_specification::system::mesh_model::MeshKind;
+use gearmesh_specification::system::run::Run;
+use gearmesh_specification::system::solver::Start;
 
 use self::bearings::tangent::Tangent;
 use self::bearings::{cages, housing, rigid};
@@ -94,12 +99,7 @@ use self::shafts::PlacedShaft;
 use self::start_at_rest::start_in_equilibrium;
 use self::start_speeds::settle_speeds;
 use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
-use super::names;
 use super::scene::SystemScene;
-use super::tables::function::Sources;
-use super::tables::mesh_model::MeshKind;
-use super::tables::run::Run;
-use super::tables::solver::Start;
 
 /// A scene whose gears have been read. Systems can be built from it again and again.
 #[derive(Debug, Clone)]
@@ -409,7 +409,7 @@ impl LoadedSystem {
             for (k, name) in table.names.iter().enumerate() {
                 let index = known.iter().position(|gauge| gauge == name);
                 let index = index.ok_or_else(|| {
-                    keys.error(&format!("names.{k}"), names::unknown("gauge", name, &known))
+                    keys.error(&format!("names.{k}"), unknown("gauge", name, &known))
                 })?;
                 gauges.push(BuiltGauge {
                     name: name.clone(),

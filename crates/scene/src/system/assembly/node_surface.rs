@@ -6,15 +6,15 @@ use gearmesh_drivetrain::{
 };
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{Flank, InputError};
+use gearmesh_specification::system::gear_mesh::PathWord;
+use gearmesh_specification::system::mesh_model::{NodeSurfaceTable, NodeWeights};
+use gearmesh_specification::system::{MM, UM};
 
 use super::bevel_hybrid::BevelModels;
 use super::bevel_mesh::SceneBevel;
 use super::mesh_model::{SceneInvolutes, ends_of_flank};
 use super::mesh_stiffness::{impact_law, stated_impact};
 use super::scene_mesh::SceneMesh;
-use crate::system::tables::gear_mesh::PathWord;
-use crate::system::tables::mesh_model::{NodeSurfaceTable, NodeWeights};
-use crate::system::tables::{MM, UM};
 
 /// Slices along the face, for columns and for modes.
 const SLICES: usize = 15;

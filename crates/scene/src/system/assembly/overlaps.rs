@@ -1,9 +1,9 @@
 //! Gears on one axis whose faces overlap: no gearbox has them, and no equation of a scene would show them.
 
 use gearmesh_geometry::ToothGeometry;
+use gearmesh_specification::system::MM;
 
 use super::bodies::{Bodies, PlacedBody};
-use crate::system::tables::MM;
 
 /// Axes nearer than this are one \[m\]; faces that overlap by less touch.
 const SAME_M: f64 = 1e-6;

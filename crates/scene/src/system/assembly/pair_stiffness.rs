@@ -11,12 +11,12 @@ use gearmesh_contact::{
 use gearmesh_drivetrain::{PairCurve, PairSamples};
 use gearmesh_geometry::input::{Count, InputDocument};
 use gearmesh_geometry::{Flank, GearDefinition, InputError};
+use gearmesh_specification::system::gear_mesh::PathWord;
+use gearmesh_specification::system::mesh_model::{MeshKind, PairStiffnessTable};
+use gearmesh_specification::system::{MM, UM};
 
 use super::mesh_model::SceneInvolutes;
 use crate::pair::{Scene, SceneResult};
-use crate::system::tables::gear_mesh::PathWord;
-use crate::system::tables::mesh_model::{MeshKind, PairStiffnessTable};
-use crate::system::tables::{MM, UM};
 
 /// Harmonics of the mesh cycle where a scene says nothing.
 const HARMONICS: usize = 20;

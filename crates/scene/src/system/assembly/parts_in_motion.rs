@@ -3,6 +3,7 @@
 
 use gearmesh_bearings::ElementOutline;
 use gearmesh_geometry::InputError;
+use gearmesh_specification::system::bearing::{BearingModel, BearingTable};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::bearings::cages::{self, PlacedCage};
@@ -12,7 +13,6 @@ use super::bodies::{Bodies, Frame, Seat};
 use super::shafts::PlacedShaft;
 use crate::system::names::{body_column, element_column};
 use crate::system::scene::SystemScene;
-use crate::system::tables::bearing::{BearingModel, BearingTable};
 
 /// Where a ring begins and ends from the pitch circle, as shares of a ball's diameter: for a picture, files state
 /// neither.

@@ -5,22 +5,21 @@ use gearmesh_bearings::life::Lubrication;
 use gearmesh_geometry::input::{Count, TableKeys};
 use gearmesh_geometry::{Flank, InputError};
 use gearmesh_rating::{LoadPoint, NominalRating};
+use gearmesh_specification::names::unknown;
+use gearmesh_specification::rating::{BearingLifeTable, FatigueTable, RatingTable};
+use gearmesh_specification::system::bearing::BearingModel;
+use gearmesh_specification::system::mesh_model::MeshKind;
+use gearmesh_specification::system::run::Run;
 use nalgebra::Vector3;
 
 use super::bearings::placed_bearing;
 use super::bodies::Bodies;
 use super::gear_mesh::{PreparedMesh, fitting_pair};
 use super::gears::BodyGear;
-use crate::rating::{
-    BearingLifeJob, BearingLifeTable, FatigueJob, FatigueTable, RatingTable, nominal_error,
-    nominal_method, rim_m,
-};
+use crate::rating::{BearingLifeJob, FatigueJob, nominal_error, nominal_method, rim_m};
 use crate::system::built::{BuiltGauge, RatingJob, RatingRule};
-use crate::system::names::{self, body_column, element_column};
+use crate::system::names::{body_column, element_column};
 use crate::system::scene::SystemScene;
-use crate::system::tables::bearing::BearingModel;
-use crate::system::tables::mesh_model::MeshKind;
-use crate::system::tables::run::Run;
 
 /// All ratings of a scene.
 pub(super) fn build(
@@ -43,7 +42,7 @@ pub(super) fn build(
                 let prepared = meshes.iter().find(|other| other.built.name == mesh);
                 let prepared = prepared.ok_or_else(|| {
                     let known: Vec<&str> = meshes.iter().map(|mesh| &*mesh.built.name).collect();
-                    keys.error("mesh", names::unknown("gear mesh", &mesh, &known))
+                    keys.error("mesh", unknown("gear mesh", &mesh, &known))
                 })?;
                 let load_and_class = (load, table.tolerance_class.map(Count::get));
                 let job = nominal(prepared, load_and_class, bodies, &keys)?;
@@ -154,7 +153,7 @@ fn fatigue(
     let gauge = found.clone().find(|gauge| gauge.name == rule.gauge);
     let gauge = gauge.ok_or_else(|| {
         let known: Vec<&str> = found.clone().map(|gauge| &*gauge.name).collect();
-        let problem = names::unknown("gauge in a [[gauge]]", &rule.gauge, &known);
+        let problem = unknown("gauge in a [[gauge]]", &rule.gauge, &known);
         keys.error("gauge", problem)
     })?;
     if found.any(|other| other.name == rule.gauge && other.body != gauge.body) {
@@ -216,7 +215,7 @@ fn bearing_life(
     let bearing = tables.iter().find(|one| one.name == table.bearing);
     let bearing = bearing.ok_or_else(|| {
         let known: Vec<&str> = tables.iter().map(|one| &*one.name).collect();
-        keys.error("bearing", names::unknown("bearing", &table.bearing, &known))
+        keys.error("bearing", unknown("bearing", &table.bearing, &known))
     })?;
     if matches!(bearing.model, BearingModel::Rigid(_)) {
         let problem = "is a joint and has no load in its rows; take another kind of model";

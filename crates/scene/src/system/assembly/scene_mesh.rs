@@ -8,12 +8,12 @@ use gearmesh_dynamics::{GROUND, Marker};
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{Flank, InputError};
 use gearmesh_model::ReducedGear;
+use gearmesh_specification::system::UM;
+use gearmesh_specification::system::gear_mesh::{EccentricityTable, GearMeshTable, TeethTable};
+use gearmesh_specification::system::mesh_model::DampingTable;
 
 use super::gear_mesh::PreparedMesh;
 use crate::system::built::BuiltMesh;
-use crate::system::tables::UM;
-use crate::system::tables::gear_mesh::{EccentricityTable, GearMeshTable, TeethTable};
-use crate::system::tables::mesh_model::DampingTable;
 
 /// A table with all that its models are made from; `F`: what only flanks of one family need.
 pub(super) struct SceneMesh<'a, F> {

@@ -9,14 +9,14 @@ use gearmesh_dynamics::elements::BeamSection;
 use gearmesh_dynamics::{Body, JointKind, MarkerPair};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_specification::system::MM;
+use gearmesh_specification::system::shaft::{ShaftModel, ShaftTable};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::bodies::{Bodies, Frame, PlacedBody, Seat, axes_along, direction};
 use super::connections::Connections;
 use super::cut_into_shaft::moving_end;
 use super::lump::Lump;
-use crate::system::tables::MM;
-use crate::system::tables::shaft::{ShaftModel, ShaftTable};
 
 /// A shaft whose bodies are in the list.
 pub(super) struct PlacedShaft {

@@ -4,10 +4,10 @@ use gearmesh_drivetrain::FlankContacts;
 use gearmesh_drivetrain::tooth_overlap::{BEHIND, THROUGH};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{Flank, InputError};
+use gearmesh_specification::system::UM;
 
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;
-use crate::system::tables::UM;
 
 /// Touching is met to this gap \[m\]: far below any deflection, well above rounding.
 const TOUCHING_M: f64 = 1e-13;

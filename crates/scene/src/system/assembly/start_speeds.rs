@@ -9,6 +9,9 @@ use std::f64::consts::TAU;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_specification::system::connection::TorsionSpringTable;
+use gearmesh_specification::system::joint::JointWord;
+use gearmesh_specification::system::mesh_model::MeshKind;
 use nalgebra::Vector3;
 
 use super::bodies::{Bodies, Seat};
@@ -17,9 +20,6 @@ use super::gear_mesh::PreparedMesh;
 use super::joints::{PlacedJoint, PlacedMotion};
 use super::mesh_frequency::carrier_rad_per_s;
 use super::willis::Planets;
-use crate::system::tables::connection::TorsionSpringTable;
-use crate::system::tables::joint::JointWord;
-use crate::system::tables::mesh_model::MeshKind;
 
 /// Share by which speeds that a scene states on both gears of a `kinematic` mesh may miss its ratio: they are written
 /// with a few figures.

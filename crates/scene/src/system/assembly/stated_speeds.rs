@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_specification::system::body::BodyTable;
+use gearmesh_specification::system::joint::JointWord;
 use nalgebra::Vector3;
 
 use super::bodies::Bodies;
 use super::joints::PlacedJoint;
-use crate::system::tables::body::BodyTable;
-use crate::system::tables::joint::JointWord;
 
 /// Share of a speed that may point across the joint's axis: a milliradian, whose loss changes the speed by 5e-7.
 const ACROSS: f64 = 1e-3;

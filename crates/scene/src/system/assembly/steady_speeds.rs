@@ -6,7 +6,7 @@ use super::gear_mesh::PreparedMesh;
 use super::joints::PlacedMotion;
 use super::start_speeds::settle_speeds;
 use crate::system::SystemScene;
-use crate::system::tables::run::Run;
+use gearmesh_specification::system::run::Run;
 
 /// The bodies at these speeds, from bodies whose speeds nothing holds; none where a motion changes its speed from the
 /// begin of the statistics to the end, and of runs that are not recorded in time.

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::definition::greatest_common_divisor;
 use gearmesh_geometry::input::{Beside, DerivedTable, InputDocument, TableKeys};
+use gearmesh_specification::system::planetary::{MemberTable, PlanetaryTable};
+use gearmesh_specification::system::{MM, SystemTables};
 use nalgebra::{Rotation3, Vector3};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -18,8 +20,6 @@ use super::pins::PlanetRow;
 use super::room::Room;
 use super::{PartnerLayout, PlanetarySet, SetMembers, keys};
 use crate::model_shelf::ModelShelf;
-use crate::system::tables::MM;
-use crate::system::tables::planetary::{MemberTable, PlanetaryTable};
 
 /// Keys of `[[body]]` that members and planets have.
 const BODY_KEYS: [&str; 10] = [
@@ -40,11 +40,6 @@ struct Marks {
     planetary: Option<IgnoredAny>,
 }
 
-#[derive(Deserialize)]
-struct Sets {
-    planetary: Vec<PlanetaryTable>,
-}
-
 /// The document with all that follows from its planetary sets, and the sets.
 ///
 /// # Errors
@@ -56,7 +51,7 @@ pub(in crate::system) fn expand(
     if document.glance::<Marks>()?.planetary.is_none() {
         return Ok((document, Vec::new()));
     }
-    let tables = document.parse::<Sets>()?.planetary;
+    let tables = SystemTables::planetary_sets(&document)?;
     let raw = document.table()?;
     let mut gears = gears_of_bodies(&raw);
     let (mut items, mut known) = (Vec::new(), Vec::<Known>::new());

@@ -6,13 +6,13 @@ use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{
     GearDefinition, GearPair, InputError, Misalignment, PairError, ToothGeometry,
 };
+use gearmesh_specification::system::planetary::{MemberTable, PlanetaryTable, SupportWord};
+use gearmesh_specification::system::{MM, UM};
 
 use super::layout::SetTeeth;
 use super::partners::{OtherSet, Partners};
 use super::room::Room;
 use crate::model_shelf::ModelShelf;
-use crate::system::tables::planetary::{MemberTable, PlanetaryTable, SupportWord};
-use crate::system::tables::{MM, UM};
 
 /// A gear of a set.
 #[derive(Debug, Clone)]

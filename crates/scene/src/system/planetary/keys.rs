@@ -2,8 +2,7 @@
 
 use gearmesh_geometry::input::{Beside, TableKeys};
 use gearmesh_geometry::{InputError, given};
-
-use crate::system::tables::planetary::{
+use gearmesh_specification::system::planetary::{
     MemberTable, PinnedKeys, PlanetaryTable, SetMeshTable, SupportWord,
 };
 

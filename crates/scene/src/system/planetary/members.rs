@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use gearmesh_geometry::InputError;
+use gearmesh_specification::names::unknown;
+use gearmesh_specification::system::planetary::{MemberTable, SupportWord};
 use nalgebra::Vector3;
 use toml::{Table, Value};
 
 use super::expansion::{Expansion, copied, made, numbers};
-use crate::system::names;
-use crate::system::tables::planetary::{MemberTable, SupportWord};
 
 /// Where a bearing of a set stands.
 pub(super) struct BearingSeat {
@@ -38,7 +38,7 @@ impl Expansion<'_> {
         };
         if !gears.contains_key(body) {
             let known: Vec<&String> = gears.keys().collect();
-            let problem = names::unknown("body", body, &known);
+            let problem = unknown("body", body, &known);
             return Err(self.keys.error(&format!("{key}.body"), problem));
         }
         let own = self.below(key);

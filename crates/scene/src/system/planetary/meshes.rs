@@ -1,5 +1,10 @@
 //! The meshes of a set, with the errors of their gears.
 
+use gearmesh_specification::system::function::FunctionTable;
+use gearmesh_specification::system::mesh_model::MeshKind;
+use gearmesh_specification::system::planetary::{
+    MemberTable, OutOfRoundTable, SenseWord, SetMeshTable,
+};
 use toml::{Table, Value};
 
 use super::SetMembers;
@@ -7,9 +12,6 @@ use super::expansion::{Expansion, made, numbers};
 use super::gears::SetGears;
 use super::partners::Partners;
 use super::pins::PlanetRow;
-use crate::system::tables::function::FunctionTable;
-use crate::system::tables::mesh_model::MeshKind;
-use crate::system::tables::planetary::{MemberTable, OutOfRoundTable, SenseWord, SetMeshTable};
 
 /// The gears of a kind of mesh, whose numbers are 1 and 2: a member, or a planet of a row.
 #[derive(Clone, Copy)]

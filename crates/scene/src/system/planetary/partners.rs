@@ -11,6 +11,9 @@ use std::path::Path;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::Beside;
+use gearmesh_specification::names::unknown;
+use gearmesh_specification::system::MM;
+use gearmesh_specification::system::planetary::{PartnerKeys, PartnerSide};
 use nalgebra::Vector3;
 use toml::Table;
 
@@ -19,9 +22,6 @@ use super::expansion::{Expansion, Known};
 use super::gears::SetGear;
 use super::pins::PlanetRow;
 use crate::model_shelf::ModelShelf;
-use crate::system::names;
-use crate::system::tables::MM;
-use crate::system::tables::planetary::{PartnerKeys, PartnerSide};
 
 /// What a partner that is a planet of another set states.
 const BESIDE_PLANETS_OF: [&str; 3] = ["planets_of", "pair_distance_mm", "side"];
@@ -160,7 +160,7 @@ impl Expansion<'_> {
                 true => format!(
                     "found `{name}`, and no planetary set stands before this one; put it first"
                 ),
-                false => names::unknown("planetary set before this one", name, &names),
+                false => unknown("planetary set before this one", name, &names),
             });
         };
         if known.set.ring_meshes.is_empty() {

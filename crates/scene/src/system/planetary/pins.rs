@@ -2,17 +2,17 @@
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_specification::system::MM;
+use gearmesh_specification::system::body::BoreHold;
+use gearmesh_specification::system::planetary::{
+    PinnedKeys, PlanetDeviationTable, SetBearingTable, SupportWord,
+};
 use nalgebra::Vector3;
 use toml::{Table, Value};
 
 use super::expansion::Expansion;
 use super::gears::SetGear;
 use super::members::BearingSeat;
-use crate::system::tables::MM;
-use crate::system::tables::body::BoreHold;
-use crate::system::tables::planetary::{
-    PinnedKeys, PlanetDeviationTable, SetBearingTable, SupportWord,
-};
 
 /// Where a pin is, in the set's axes.
 pub(super) struct Pin {

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_specification::system::MM;
 
 use super::gears::SetGears;
 use super::partners::Partners;
-use crate::system::tables::MM;
 
 /// Planets of a set beside each other.
 pub(super) struct Room<'a> {

@@ -2,7 +2,8 @@
 
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::Scene;
-use gearmesh_scene::study::{Study, StudyScenes, Subject};
+use gearmesh_scene::study::{StudyScenes, Subject};
+use gearmesh_specification::study::Study;
 
 use crate::common::*;
 

@@ -4,12 +4,12 @@ use gearmesh_bearings::BearingDefinition;
 use gearmesh_bearings::quasi_static::Row;
 use gearmesh_dynamics::Body;
 use gearmesh_geometry::InputError;
+use gearmesh_specification::system::bearing::{BearingModel, CageTable};
 use nalgebra::Vector3;
 
 use super::placed_bearing::PlacedBearing;
 use crate::system::assembly::bodies::{Bodies, Frame, PlacedBody};
 use crate::system::scene::SystemScene;
-use crate::system::tables::bearing::{BearingModel, CageTable};
 
 /// A cage in the list of bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

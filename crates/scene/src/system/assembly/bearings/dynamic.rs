@@ -8,16 +8,16 @@ use gearmesh_bearings::quasi_static::Row;
 use gearmesh_bearings::{BearingDefinition, DynamicBearing, DynamicEffects};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_specification::system::bearing::{
+    DynamicBearingTable, LandTable, PocketTable, ReboundTable, SurfaceTable, TractionTable,
+};
+use gearmesh_specification::system::{MM, UM};
 
 use super::cages::PlacedCage;
 use super::placed_bearing::PlacedBearing;
 use crate::system::assembly::bodies::Seat;
 use crate::system::assembly::connections::Connections;
 use crate::system::assembly::elements::PER_MM;
-use crate::system::tables::bearing::{
-    DynamicBearingTable, LandTable, PocketTable, ReboundTable, SurfaceTable, TractionTable,
-};
-use crate::system::tables::{MM, UM};
 
 /// N/mm^1.5 in N/m^1.5.
 const PER_MM_15: f64 = PER_MM * 31.622_776_601_683_793;

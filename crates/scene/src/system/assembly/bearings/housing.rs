@@ -5,13 +5,13 @@ use std::borrow::Cow;
 use gearmesh_dynamics::Body;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{Beside, TableKeys};
+use gearmesh_specification::system::bearing::BearingTable;
 
 use super::placed_bearing::PlacedBearing;
 use crate::system::assembly::bodies::{Bodies, PlacedBody, Seat};
 use crate::system::assembly::connections::Connections;
 use crate::system::assembly::elements::bushing;
 use crate::system::scene::SystemScene;
-use crate::system::tables::bearing::BearingTable;
 
 /// Name of the outer ring's body.
 fn ring(bearing: &str) -> String {

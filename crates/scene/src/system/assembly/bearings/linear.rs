@@ -5,6 +5,9 @@ use gearmesh_dynamics::elements::{AxialSupport, LinearBearing, MatrixBearing};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::given;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_specification::system::bearing::{
+    AxialSupportWord, LinearBearingTable, QuasiStaticBearingTable,
+};
 use nalgebra::{Matrix5, Vector5};
 
 use super::placed_bearing::PlacedBearing;
@@ -13,9 +16,6 @@ use super::tangent::TangentSeat;
 use crate::system::assembly::connections::Connections;
 use crate::system::assembly::elements::PER_MM;
 use crate::system::assembly::stiffness::refuse_rigid;
-use crate::system::tables::bearing::{
-    AxialSupportWord, LinearBearingTable, QuasiStaticBearingTable,
-};
 
 /// As plans call them.
 const KIND: &str = "linear bearing";

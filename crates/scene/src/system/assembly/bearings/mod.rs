@@ -13,12 +13,12 @@ pub(super) mod tangent;
 use gearmesh_bearings::Control;
 use gearmesh_bearings::faults::Fault;
 use gearmesh_geometry::InputError;
+use gearmesh_specification::system::bearing::{
+    BearingModel, BearingTable, DynamicBearingTable, QuasiStaticBearingTable,
+};
 
 use self::placed_bearing::PlacedBearing;
 use super::connections::Connections;
-use crate::system::tables::bearing::{
-    BearingModel, BearingTable, DynamicBearingTable, QuasiStaticBearingTable,
-};
 
 /// Adds all bearings that are force elements.
 pub(super) fn add(connections: &mut Connections<'_>) -> Result<(), InputError> {

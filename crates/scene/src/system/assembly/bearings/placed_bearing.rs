@@ -7,11 +7,11 @@ use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::{BearingDefinition, QuasiStaticBearing};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_specification::system::bearing::BearingTable;
 
 use super::housing;
 use crate::system::assembly::bodies::{Bodies, Seat};
 use crate::system::scene::SystemScene;
-use crate::system::tables::bearing::BearingTable;
 
 /// A bearing between its bodies.
 pub(in crate::system::assembly) struct PlacedBearing<'a> {

@@ -2,11 +2,11 @@
 
 use gearmesh_bearings::{QuasiStaticElement, RingDamping};
 use gearmesh_geometry::InputError;
+use gearmesh_specification::system::bearing::QuasiStaticBearingTable;
 
 use super::placed_bearing::PlacedBearing;
 use crate::system::assembly::connections::{Connections, SeatedBearing};
 use crate::system::assembly::elements::PER_MM;
-use crate::system::tables::bearing::QuasiStaticBearingTable;
 
 /// Adds one.
 pub(super) fn add(

@@ -2,10 +2,10 @@
 
 use gearmesh_dynamics::JointKind;
 use gearmesh_geometry::InputError;
+use gearmesh_specification::system::bearing::{BearingModel, HeldWord};
 
 use super::placed_bearing::PlacedBearing;
 use crate::system::assembly::connections::Connections;
-use crate::system::tables::bearing::{BearingModel, HeldWord};
 
 /// Adds the joints of all rigid bearings.
 pub(in crate::system::assembly) fn add(

@@ -7,9 +7,8 @@
 
 use gearmesh_bearings::{BearingError, Control, Operation, QuasiStaticBearing, RingPose};
 use gearmesh_dynamics::{Marker, MarkerPair, State, System};
+use gearmesh_specification::system::bearing::{BearingModel, BearingTable};
 use nalgebra::{Matrix5, Vector3, Vector5};
-
-use crate::system::tables::bearing::{BearingModel, BearingTable};
 
 /// A bearing whose tangent is taken.
 #[derive(Debug, Clone)]

@@ -11,7 +11,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
-use crate::system::host_functions::HostFunctions;
+use crate::host_functions::HostFunctions;
 
 /// A function of time; its unit is that of its key.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -83,7 +83,7 @@ pub enum FunctionForm {
 
 /// Where functions come from that the table only names.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sources<'a> {
+pub struct Sources<'a> {
     /// Files are relative to it.
     pub folder: &'a Path,
     /// Functions of the calling program.
@@ -138,7 +138,7 @@ impl<'de> Visitor<'de> for NumberOrForm {
 
 impl FunctionTable {
     /// A value that shows its sign: a constant, the end of a step, a slope; none of other forms.
-    pub(crate) fn first_value(&self) -> Option<f64> {
+    pub fn first_value(&self) -> Option<f64> {
         match self {
             Self::Constant(value) => Some(*value),
             Self::Form(form) => match form.as_ref() {
@@ -154,7 +154,7 @@ impl FunctionTable {
     ///
     /// # Errors
     /// [`InputError`] at `key`, or in the file of a table.
-    pub(crate) fn function(
+    pub fn function(
         &self,
         keys: &TableKeys<'_>,
         key: &str,
@@ -235,6 +235,6 @@ impl FunctionTable {
 }
 
 /// The product of two functions.
-pub(crate) fn product(first: TimeFunction, second: TimeFunction) -> TimeFunction {
+pub fn product(first: TimeFunction, second: TimeFunction) -> TimeFunction {
     TimeFunction::Product(Box::new(first), Box::new(second))
 }

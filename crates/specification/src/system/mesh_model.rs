@@ -66,7 +66,7 @@ impl MeshKind {
     }
 
     /// Name among the kinds of parts of a system.
-    pub(crate) fn of_parts(self) -> &'static str {
+    pub fn of_parts(self) -> &'static str {
         match self {
             Self::Kinematic => "kinematic mesh",
             Self::Impact => "impact mesh",
@@ -115,7 +115,7 @@ impl MeshModel {
     }
 
     /// Its damping in words for the plan; none where it has none.
-    pub(crate) fn damping_in_words(&self) -> Option<String> {
+    pub fn damping_in_words(&self) -> Option<String> {
         let step = |damping: Option<_>| damping.map(|_| "STEP of the depth");
         let words = match self {
             Self::Kinematic {} => None,
@@ -178,7 +178,7 @@ pub struct NodeSurfaceTable {
 
 impl NodeSurfaceTable {
     /// Its law as `impact` states it.
-    pub(crate) fn law(&self) -> ImpactTable {
+    pub fn law(&self) -> ImpactTable {
         ImpactTable {
             stiffness_N_per_mm_e: Some(self.stiffness_N_per_mm_e),
             exponent: Some(self.exponent),
@@ -320,7 +320,7 @@ impl DampingTable {
     }
 
     /// The damping in SI units.
-    pub(crate) fn damping(&self) -> Damping {
+    pub fn damping(&self) -> Damping {
         match *self {
             Self::StiffnessProportional {
                 time_s,

@@ -149,7 +149,7 @@ impl FlankErrorTable {
     }
 
     /// Whether it is not the same on all teeth.
-    pub(crate) fn tells_teeth_apart(&self) -> bool {
+    pub fn tells_teeth_apart(&self) -> bool {
         !matches!(self, Self::Deviation { tooth: None, .. })
     }
 
@@ -168,7 +168,7 @@ impl FlankErrorTable {
     ///
     /// # Errors
     /// [`InputError`] at `key`, or in a file.
-    pub(crate) fn on_gear(
+    pub fn on_gear(
         &self,
         (gear, face_width_m): (&ToothGeometry, f64),
         (keys, key): (&TableKeys<'_>, &str),

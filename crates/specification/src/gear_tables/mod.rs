@@ -6,6 +6,6 @@ pub mod path_word;
 pub mod seat;
 
 /// A millimetre in metres.
-pub(crate) const MM: f64 = 1e-3;
+pub const MM: f64 = 1e-3;
 /// A micrometre in metres.
-pub(crate) const UM: f64 = 1e-6;
+pub const UM: f64 = 1e-6;

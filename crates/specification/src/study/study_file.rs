@@ -11,11 +11,10 @@ use serde::Deserialize;
 
 use super::bearing_operation::OperationTable;
 use super::design::{self, Case, Design};
-use super::figure::Wanted;
 use super::scatter::{NormalTable, SpacedTable, UniformTable};
 use super::varied_once::demand_each_once;
-use crate::system::label_problem;
-use crate::system_run::MOST_RESULT_BYTES;
+use crate::MOST_RESULT_BYTES;
+use crate::names::label_problem;
 
 /// The keys of the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -219,13 +218,6 @@ impl Study {
             return Err(study.document.error("parameter", problem));
         }
         Ok(study)
-    }
-
-    /// The columns that are looked at.
-    #[must_use]
-    pub fn wanted(&self) -> Vec<Wanted> {
-        let columns = self.tables.columns.iter();
-        columns.map(|text| Wanted::of(text)).collect()
     }
 
     fn case_count(&self) -> Option<usize> {

@@ -11,7 +11,7 @@ use gearmesh_geometry::input::InputDocument;
 ///
 /// # Errors
 /// [`InputError`] at the second one.
-pub(crate) fn demand_each_once<'t>(
+pub fn demand_each_once<'t>(
     document: &InputDocument,
     list: &str,
     varied: impl Iterator<Item = (&'t str, &'t [String])>,

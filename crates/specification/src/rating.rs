@@ -159,6 +159,30 @@ pub struct FatigueRule {
     pub sn_table: PathBuf,
 }
 
+impl FatigueRule {
+    /// How it judges, in words.
+    #[must_use]
+    pub fn method(&self) -> String {
+        let mean = match self.mean_stress {
+            MeanStress::None => "without regard to the mean",
+            MeanStress::Goodman { .. } => "mean by Goodman's line",
+        };
+        let passage = match self.passage {
+            Passage::Once => "passed once",
+            Passage::Repeated => "repeated",
+        };
+        let surface = match self.surface {
+            SurfaceState::PlaneStrain => "plane strain",
+            SurfaceState::Uniaxial => "uniaxial",
+        };
+        format!(
+            "cycles and damage of the stress ({surface}) from strain by method {}, S-N table {}, {mean}, history {passage}",
+            self.method,
+            self.sn_table.display()
+        )
+    }
+}
+
 impl FatigueTable {
     /// The rule, checked as far as no part of the scene is needed.
     ///

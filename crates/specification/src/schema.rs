@@ -4,7 +4,7 @@ use gearmesh_geometry::input::file_schema;
 use schemars::{JsonSchema, Schema};
 
 use crate::optimise::OptimiseTables;
-use crate::pair::scene_file::PairTables;
+use crate::pair::PairTables;
 use crate::study::StudyTables;
 use crate::system::SystemTables;
 

@@ -9,9 +9,9 @@ use gearmesh_geometry::input::InputDocument;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::MOST_RESULT_BYTES;
+use crate::names::label_problem;
 use crate::study::{NormalTable, OperationTable, UniformTable, demand_each_once};
-use crate::system::label_problem;
-use crate::system_run::MOST_RESULT_BYTES;
 
 /// The keys of the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

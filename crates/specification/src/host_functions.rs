@@ -10,7 +10,7 @@ use gearmesh_dynamics::HostFunction;
 pub use gearmesh_dynamics::elements::{HostLaw, HostMotion};
 pub use gearmesh_dynamics::{Derivatives, ElementFailure, TimeCall};
 
-use super::names::unknown;
+use crate::names::unknown;
 
 /// The functions by name.
 #[derive(Clone, Default)]
@@ -31,14 +31,14 @@ impl HostFunctions {
     }
 
     /// A function of time, or what to say where it is not there.
-    pub(crate) fn of_time(&self, name: &str) -> Result<HostFunction, String> {
+    pub fn of_time(&self, name: &str) -> Result<HostFunction, String> {
         let call = self.of_time.get(name);
         let call = call.ok_or_else(|| missing(name, self.of_time.keys()))?;
         Ok(HostFunction::new(name, Arc::clone(call)))
     }
 
     /// A law, or what to say where it is not there.
-    pub(crate) fn law(&self, name: &str) -> Result<Arc<HostLaw>, String> {
+    pub fn law(&self, name: &str) -> Result<Arc<HostLaw>, String> {
         let law = self.laws.get(name);
         let law = law.ok_or_else(|| missing(name, self.laws.keys()))?;
         Ok(Arc::clone(law))

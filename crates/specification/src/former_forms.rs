@@ -4,7 +4,7 @@
 use gearmesh_geometry::input::{FormerTable, Move};
 
 /// Those of multibody scenes.
-pub(crate) const SYSTEM: &[FormerTable] = &[
+pub const SYSTEM: &[FormerTable] = &[
     FormerTable {
         table: "bearing",
         moves: &[
@@ -68,7 +68,7 @@ pub(crate) const SYSTEM: &[FormerTable] = &[
 ];
 
 /// Those of scenes of a pair.
-pub(crate) const PAIR: &[FormerTable] = &[FormerTable {
+pub const PAIR: &[FormerTable] = &[FormerTable {
     table: "mesh",
     moves: &[
         to("model", "model.kind"),

@@ -140,7 +140,7 @@ pub(super) fn cases(
 }
 
 /// Random numbers that belong to a name: FNV-1a of it, mixed with the seed.
-pub(crate) fn seeded(seed: u64, name: &str) -> Rng {
+pub fn seeded(seed: u64, name: &str) -> Rng {
     let start = 0xcbf2_9ce4_8422_2325_u64 ^ seed;
     let mixed = name.bytes().fold(start, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
@@ -149,7 +149,7 @@ pub(crate) fn seeded(seed: u64, name: &str) -> Rng {
 }
 
 /// Cumulative probabilities, one a sample, strictly between 0 and 1.
-pub(crate) fn probabilities(design: Design, samples: usize, mut rng: Rng) -> Vec<f64> {
+pub fn probabilities(design: Design, samples: usize, mut rng: Rng) -> Vec<f64> {
     let inside = |p: f64| p.clamp(1e-12, 1.0 - 1e-12);
     if design == Design::Random {
         return (0..samples).map(|_| inside(rng.f64())).collect();

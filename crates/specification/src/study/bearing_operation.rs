@@ -75,10 +75,7 @@ impl BearingOperation {
     ///
     /// # Errors
     /// [`InputError`] for unknown keys and numbers out of their range.
-    pub(super) fn from_value(
-        value: &toml::Value,
-        document: &InputDocument,
-    ) -> Result<Self, InputError> {
+    pub fn from_value(value: &toml::Value, document: &InputDocument) -> Result<Self, InputError> {
         let error = |key: &str, problem: String| {
             let key = if key.is_empty() {
                 "operation".to_owned()

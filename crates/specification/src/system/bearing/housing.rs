@@ -4,7 +4,7 @@ use gearmesh_geometry::input::Beside;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::system::tables::connection::StiffnessTable;
+use crate::system::connection::StiffnessTable;
 
 /// `bearing.housing`: the outer ring as a body, and the stiffness that it stands on.
 pub type HousingTable = Beside<StiffnessTable, RingKeys>;

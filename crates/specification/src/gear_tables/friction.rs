@@ -58,7 +58,7 @@ impl FrictionTable {
     ///
     /// # Errors
     /// [`InputError`] for a number out of its range.
-    pub(crate) fn check(&self, keys: &TableKeys<'_>) -> Result<SpeedFriction, InputError> {
+    pub fn check(&self, keys: &TableKeys<'_>) -> Result<SpeedFriction, InputError> {
         let Self::Coulomb {
             dynamic_coefficient: sliding,
             static_coefficient,
@@ -91,7 +91,7 @@ impl FrictionTable {
 
 impl PairFrictionTable {
     /// The friction in SI units.
-    pub(crate) fn friction(&self) -> PathFriction {
+    pub fn friction(&self) -> PathFriction {
         let Self::Coulomb {
             dynamic_coefficient,
             reversal_um,

@@ -112,7 +112,7 @@ pub enum TouchingFlanks {
 
 impl TouchingFlanks {
     /// The flanks that it names.
-    pub(crate) fn flanks(self) -> &'static [Flank] {
+    pub fn flanks(self) -> &'static [Flank] {
         match self {
             Self::Both => &Flank::ALL,
             Self::Right => &[Flank::Right],

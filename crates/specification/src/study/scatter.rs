@@ -43,7 +43,9 @@ impl UniformTable {
         self.from + (self.to - self.from) * probability
     }
 
-    pub(crate) fn problem(self) -> Option<String> {
+    /// What is wrong with it, if anything is.
+    #[must_use]
+    pub fn problem(self) -> Option<String> {
         let ordered = self.from.is_finite() && self.to.is_finite() && self.from < self.to;
         (!ordered).then(|| {
             format!(
@@ -65,7 +67,9 @@ impl NormalTable {
         }
     }
 
-    pub(crate) fn problem(self) -> Option<String> {
+    /// What is wrong with it, if anything is.
+    #[must_use]
+    pub fn problem(self) -> Option<String> {
         let fit = self.mean.is_finite() && self.deviation.is_finite() && self.deviation > 0.0;
         (!fit).then(|| {
             format!(
@@ -86,7 +90,9 @@ impl SpacedTable {
         (0..self.count).map(|k| at(k as f64 / last)).collect()
     }
 
-    pub(crate) fn problem(self) -> Option<String> {
+    /// What is wrong with it, if anything is.
+    #[must_use]
+    pub fn problem(self) -> Option<String> {
         let fit =
             self.from.is_finite() && self.to.is_finite() && (2..=10_000).contains(&self.count);
         (!fit).then(|| {
