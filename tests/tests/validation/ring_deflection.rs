@@ -91,10 +91,20 @@ struct Found {
     strain_of_lowest: f64,
 }
 
+/// Outer diameters of the reference's rims \[mm\], the thin one first.
+fn rims_mm() -> [f64; 2] {
+    let rows = reference();
+    [rows[0][0], rows[rows.len() - 1][0]]
+}
+
 fn found(mesh: &str, estimate_error: bool) -> Found {
+    found_on(&rims_mm(), mesh, estimate_error)
+}
+
+fn found_on(rims_mm: &[f64], mesh: &str, estimate_error: bool) -> Found {
     let mut found = Found::default();
     let rows = reference();
-    for outer_mm in [rows[0][0], rows[rows.len() - 1][0]] {
+    for &outer_mm in rims_mm {
         let gear = reduced(outer_mm, mesh, estimate_error);
         let of_rim: Vec<&[f64; 6]> = rows.iter().filter(|r| r[0] == outer_mm).collect();
         let most_beside = of_rim.iter().fold(0.0f64, |most, r| most.max(r[3].abs()));
@@ -171,15 +181,17 @@ fn a_ring_deflects_as_an_independent_program_says() {
 
 /// Elements that are shorter in the fillets alone: from the default length to its half the root strain changes four
 /// times as much as from there to a quarter (second order; three times is allowed, 3.3 to 3.5 found), whatever the
-/// length along the flank. What is left, 0.15 %, is not of the fillets. Without it the half length is within what it
+/// length along the flank. What is left, 0.15 %, is not of the fillets. The thin rim is looked at, which bends most. Without it the half length is within what it
 /// states. Elements below the fillet grow from those along it; where they did not, the error
 /// grew from 0.6 to 8 %.
 #[test]
 fn shorter_elements_in_the_fillets_are_enough_for_the_root_strain_of_a_ring() {
     let default = on_default_mesh();
-    let shorter = found("fillet_mm = 0.075\n", true);
-    let shortest = found("fillet_mm = 0.0375\n", false);
-    for k in 0..default.strains.len() {
+    let thin = &rims_mm()[..1];
+    let shorter = found_on(thin, "fillet_mm = 0.075\n", true);
+    let shortest = found_on(thin, "fillet_mm = 0.0375\n", false);
+    assert_eq!(shortest.strains.len(), 2);
+    for k in 0..shortest.strains.len() {
         let [first, second, third] = [default, &shorter, &shortest].map(|found| found.strains[k]);
         let (change, next) = (second - first, third - second);
         assert!(change > 3.0 * next && next > 0.0, "{change} {next}");

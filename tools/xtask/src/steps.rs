@@ -79,9 +79,15 @@ fn beside_the_tests(
         command
     };
     // Program and Python module are both called gearmesh, so their pages would be written to one place at once.
+    let driver = clippy_driver()?;
     let pages = |targets: &str| {
         let mut command = cargo(&["doc", "--workspace", targets, "--no-deps", "--quiet"]);
         command.env("RUSTDOCFLAGS", "-D warnings");
+        // What clippy has checked is read, not checked again: its driver with the arguments that it was given above. Were
+        // they others, each crate would be checked once more, and the pages be the same.
+        command.env("RUSTC_WORKSPACE_WRAPPER", &driver);
+        let arguments = LINT_ARGUMENTS.map(|argument| format!("{argument}__CLIPPY_HACKERY__"));
+        command.env("CLIPPY_ARGS", arguments.concat());
         command
     };
     let mut python_tests = Command::new(venv.python());
@@ -94,8 +100,8 @@ fn beside_the_tests(
     // Built with the tests.
     python_tests.env("GEARMESH_PROGRAM", program()?);
     // Not `--all-targets`, which checks libraries without tests of their own as tests, too.
-    let lints = "clippy --workspace --lib --bins --tests --benches --examples -- -D warnings";
-    let lints: Vec<&str> = lints.split(' ').collect();
+    let targets = "clippy --workspace --lib --bins --tests --benches --examples --";
+    let lints: Vec<&str> = targets.split(' ').chain(LINT_ARGUMENTS).collect();
     Ok([
         ("lints", cargo(&lints)),
         ("documentation of the libraries", pages("--lib")),
@@ -106,6 +112,21 @@ fn beside_the_tests(
         ),
         ("Python tests", python_tests),
     ])
+}
+
+/// What clippy is given: warnings end it.
+const LINT_ARGUMENTS: [&str; 2] = ["-D", "warnings"];
+
+/// Clippy's compiler, which is beside cargo's.
+fn clippy_driver() -> Result<PathBuf, XtaskError> {
+    let mut command = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+    command.args(["--print", "sysroot"]);
+    let output = command
+        .output()
+        .map_err(XtaskError::io(|| format!("starting {}", shown(&command))))?;
+    let sysroot = String::from_utf8_lossy(&output.stdout);
+    let driver = format!("clippy-driver{}", std::env::consts::EXE_SUFFIX);
+    Ok(PathBuf::from(sysroot.trim()).join("bin").join(driver))
 }
 
 /// Runs a step and says how it ended, after how long.

@@ -124,7 +124,7 @@ fn tetrahedra_below_one_tooth() {
 }
 
 #[test]
-#[ignore = "whole gears of tetrahedra, a minute"]
+#[ignore = "a whole gear of tetrahedra, seconds"]
 fn tetrahedra_with_fillets_and_openings() {
     // A turn has at least twelve elements: wide fillets, few elements.
     let wide = |text: &str, radius: &str| {
@@ -138,7 +138,7 @@ fn tetrahedra_with_fillets_and_openings() {
     let blank = format!(
         "{filleted}holes = {{ count = 9, pitch_circle_diameter_mm = 29.0, diameter_mm = 2.4, phase_deg = 11.0 }}\n"
     );
-    both_ways_agree((TETRAHEDRA, &blank), 9, 2 + 5, true);
+    both_ways_agree((TETRAHEDRA, &blank), 9, 2 + 5, false);
 }
 
 #[test]
