@@ -11,13 +11,13 @@ use super::element_keys::Clearances;
 use super::roller_keys::{LAMINAE, usual_taper};
 use super::row_keys::{PreloadKeys, RowKeys};
 use super::{GeneralKeys, Inside, MM};
-use crate::catalogue::{CatalogueLine, CatalogueType, KnownInside};
-use crate::definition::{
+use gearmesh_bearings::catalogue::{CatalogueLine, CatalogueType, KnownInside};
+use gearmesh_bearings::definition::{
     Arrangement, BallBearingKind, BallGeometry, BearingGeometry, RollerGeometry, RollerProfile,
     StatedRatings,
 };
-use crate::designations;
-use crate::estimate::Estimate;
+use gearmesh_bearings::designations;
+use gearmesh_bearings::estimate::Estimate;
 
 /// Keys of a line of a catalogue.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
