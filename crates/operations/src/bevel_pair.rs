@@ -68,20 +68,27 @@ fn write_grids(
     size: [usize; 2],
     watch: &Watch<'_>,
 ) -> Result<(), Result<BevelError, String>> {
+    // All are made before the first is written.
+    let flanks = design.teeth.iter().flat_map(|tooth| {
+        let side = move |side: FlankSide| (tooth, side);
+        FlankSide::BOTH.map(side)
+    });
+    let made = flanks.map(|(tooth, side)| {
+        let table = tooth.nominal_grid_csv(side, size).map_err(Ok)?;
+        let path = folder.join(format!("{}-{}.csv", tooth.blank.name, side.word()));
+        Ok((path, table))
+    });
+    let made: Vec<(PathBuf, String)> = made.collect::<Result<_, _>>()?;
     let fault = |e: std::io::Error| Err(format!("{}: {e}", folder.display()));
     std::fs::create_dir_all(folder).map_err(fault)?;
-    for tooth in &design.teeth {
-        for side in FlankSide::BOTH {
-            let table = tooth.nominal_grid_csv(side, size).map_err(Ok)?;
-            let path = folder.join(format!("{}-{}.csv", tooth.blank.name, side.word()));
-            write_text(&path, &table).map_err(|e| Err(e.to_string()))?;
-            watch.note(format!(
-                "{}: {} x {} points",
-                path.display(),
-                size[0],
-                size[1]
-            ));
-        }
+    for (path, table) in &made {
+        write_text(path, table).map_err(|e| Err(e.to_string()))?;
+        watch.note(format!(
+            "{}: {} x {} points",
+            path.display(),
+            size[0],
+            size[1]
+        ));
     }
     Ok(())
 }
