@@ -124,7 +124,7 @@ pub(crate) fn half_taper_rad(g: &RollerGeometry) -> f64 {
 /// As [`half_taper_rad`], from D/d_m and α.
 ///
 /// The left side grows with ε, the right one falls: one solution between 0 and α, by bisection.
-pub fn half_taper_of(ratio: f64, contact_angle_rad: f64) -> f64 {
+pub(crate) fn half_taper_of(ratio: f64, contact_angle_rad: f64) -> f64 {
     let (mut low, mut high) = (0.0, contact_angle_rad);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);

@@ -5,7 +5,7 @@
 //!
 //! | step | type | file |
 //! | --- | --- | --- |
-//! | what a bearing is | [`BearingDefinition`] | `definition.rs`, read by `gearmesh_specification::bearing` |
+//! | what a bearing is | [`BearingDefinition`] | `definition.rs`, read by `bearing_file.rs` |
 //! | ball in a groove, roller on a race | [`PointContact`], [`LineContact`] | `point_contact.rs`, `line_contact.rs` |
 //! | one row of balls or rollers | [`BallRow`], [`FourPointRow`], [`RollerRow`], [`BarrelRow`] | `ball_row.rs`, `four_point_row.rs`, `roller_row.rs`, `barrel_row.rs` |
 //! | how balls orbit and spin | | `ball_kinematics.rs` |
@@ -31,6 +31,7 @@ mod ball_kinematics;
 pub mod ball_row;
 mod barrel_equilibrium;
 pub mod barrel_row;
+pub mod bearing_file;
 pub mod bent_race;
 mod build_rows;
 pub mod catalogue;
@@ -80,7 +81,6 @@ pub use ball_kinematics::RaceControl;
 pub use ball_row::BallRow;
 pub use barrel_row::BarrelRow;
 pub use bent_race::BentRace;
-pub use build_rows::half_taper_of;
 pub use catalogue::CatalogueLine;
 pub use definition::BearingDefinition;
 pub use dynamic::{DynamicBearing, DynamicEffects};

@@ -178,7 +178,7 @@ impl StatedRatings {
     /// Ratings of a row of bearings whose own these are: 0.7 (balls) or 7/9 (rollers) is the power of their number in
     /// C, ISO 281. C_u is that of all.
     #[must_use]
-    pub fn of_several(
+    pub(crate) fn of_several(
         self,
         bearings: usize,
         geometry: &BearingGeometry,

@@ -28,7 +28,7 @@ pub fn schema(kind: TextKind) -> Value {
         TextKind::Scene => gearmesh_specification::schema::scene(),
         TextKind::Study => gearmesh_specification::schema::study(),
         TextKind::Optimise => gearmesh_specification::schema::optimise(),
-        TextKind::Bearing => gearmesh_specification::bearing::schema(),
+        TextKind::Bearing => gearmesh_bearings::bearing_file::schema(),
         TextKind::Bevel => gearmesh_bevel::pair_file::schema(),
         TextKind::BevelGear => gearmesh_bevel::gear_file::gear_schema(),
         TextKind::Gear => gearmesh_geometry::gear_file::schema(),

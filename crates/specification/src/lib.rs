@@ -9,13 +9,11 @@
 //! | tables of both: errors, friction, seats of gears | | [`gear_tables`] |
 //! | `[[rating]]` of both | [`RatingTable`](rating::RatingTable) | [`rating`] |
 //! | study | [`StudyTables`](study::StudyTables) | [`study`] |
-//! | rolling bearing | [`BearingFromFile`](bearing::BearingFromFile) | [`bearing`] |
 //! | optimisation | [`OptimiseTables`](optimise::OptimiseTables) | [`optimise`] |
 //!
-//! Gears and bevel pairs are described where they are computed, for model files hold their definitions:
-//! `gearmesh_geometry::gear_file`, `gearmesh_bevel::pair_file`. [`schema`] writes down what may be in a file.
+//! Gears, bevel pairs and bearings are described where they are computed: `gearmesh_geometry::gear_file`,
+//! `gearmesh_bevel::pair_file`, `gearmesh_bearings::bearing_file`. [`schema`] writes down what may be in a file.
 
-pub mod bearing;
 pub mod former_forms;
 pub mod gear_tables;
 pub mod host_functions;

@@ -1,9 +1,9 @@
 //! One evaluation in equilibrium: load of the inner ring with its tangent, 14 balls; cold, and warm from the balls'
 //! places of the evaluation before.
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::{ElementPlaces, Operation, QuasiStaticBearing, RingPose};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_specification::bearing::BearingFromFile;
 use nalgebra::Vector5;
 use std::hint::black_box;
 

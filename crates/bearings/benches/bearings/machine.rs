@@ -1,6 +1,7 @@
 //! Seed 000's bearing on a shaft at 6000 rpm: 18 balls of 9.525 mm on 70 mm, 15 degrees, pressed in by 500 N, 300 N of
 //! radial load.
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::dynamic::{
     FluidTraction, LandContact, LandFilm, LandGuide, LandSide, PocketShape, Pockets, Rebound,
     StatedContact, Traction, TriangleSize,
@@ -16,7 +17,6 @@ use gearmesh_dynamics::{
     TimeFunction,
 };
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_specification::bearing::BearingFromFile;
 use nalgebra::Vector3;
 
 pub const BALLS: usize = 18;

@@ -1,11 +1,11 @@
 //! Bearings known by their catalogue line: what is estimated, what is kept, what is refused, what is warned of.
 
 use crate::common::close;
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::{Arrangement, BearingGeometry};
 use gearmesh_bearings::designations;
 use gearmesh_bearings::{QuasiStaticBearing, Ratings};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_specification::bearing::BearingFromFile;
 
 fn read(text: &str) -> Result<BearingFromFile, String> {
     BearingFromFile::from_document(&InputDocument::new("b.toml", text)).map_err(|e| e.to_string())

@@ -1,10 +1,10 @@
 //! Bearings that several tests use.
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::{BearingDefinition, BearingGeometry};
 use gearmesh_bearings::quasi_static::Row;
 use gearmesh_bearings::{QuasiStaticBearing, Ratings};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_specification::bearing::BearingFromFile;
 use nalgebra::{Matrix2, Vector2};
 
 /// REFERENCES §2: Z 16, D 22.23, f 0.5232, 40°, E 206 GPa.

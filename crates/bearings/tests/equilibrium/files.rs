@@ -3,8 +3,8 @@
 use crate::ball_types::{FOUR_POINT, THRUST};
 use crate::barrels::BARRELS;
 use crate::common::{B218, B6205, ROLLERS, TAPERED};
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_specification::bearing::BearingFromFile;
 
 fn complaint(text: &str) -> String {
     let document = InputDocument::new("b.toml", text);

@@ -1,10 +1,10 @@
 //! Fits and heat: closed forms, a cylinder model of its own, and bearings whose clearance is stated instead.
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingGeometry;
 use gearmesh_bearings::fit::{OperatingClearance, raceways_m};
 use gearmesh_bearings::{Operation, RingPose};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_specification::bearing::BearingFromFile;
 use nalgebra::{Vector3, Vector5};
 
 use crate::common::{B6205, PAIR, ROLLERS, TAPERED, bearing, close, definition};

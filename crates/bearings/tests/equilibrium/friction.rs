@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{FrictionTorque, Operation, Ratings};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_specification::bearing::BearingFromFile;
 
 use crate::common::{B218, B6205, PAIR, ROLLERS, TAPERED, bearing, close, definition};
 

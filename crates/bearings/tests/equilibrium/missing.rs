@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{Life, Operation, QuasiStaticBearing, RingPose};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_specification::bearing::BearingFromFile;
 use nalgebra::{Vector3, Vector5};
 
 use crate::common::{

@@ -3,6 +3,7 @@
 use super::{bearing_clearance, bearing_friction, bearing_page};
 use crate::arguments::{BearingArguments, ControlWord};
 use crate::console;
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingGeometry;
 use gearmesh_bearings::estimate::Estimate;
 use gearmesh_bearings::frequencies::RollingSizes;
@@ -15,7 +16,6 @@ use gearmesh_bearings::{
     QuasiStaticBearing, Ratings, RingLoad, RingPose, StaticSafety,
 };
 use gearmesh_operations::{Failure, output_name, overwriting};
-use gearmesh_specification::bearing::BearingFromFile;
 use serde_json::{Value, json};
 use std::path::Path;
 

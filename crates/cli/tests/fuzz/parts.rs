@@ -4,6 +4,7 @@
 use crate::common::{points_of_flank, root};
 use crate::files::{document, fuzz_text, scene_is_answered, shipped, shipped_texts};
 use crate::{fuzz, mutation};
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::{
     AppliedBearingLoad, Control, Operation, QuasiStaticBearing, TiltCondition,
 };
@@ -11,7 +12,6 @@ use gearmesh_bevel::{FlankSide, PairFile};
 use gearmesh_operations::{Watch, uff};
 use gearmesh_rexs::{Meshes, Running, import_to_run};
 use gearmesh_scene::InputKind;
-use gearmesh_specification::bearing::BearingFromFile;
 use gearmesh_specification::optimise::Optimisation;
 use std::io::Write as _;
 

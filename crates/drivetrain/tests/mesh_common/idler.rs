@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::AtomicUsize;
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingMaterial;
 use gearmesh_bearings::{Control, QuasiStaticElement, RingDamping};
 use gearmesh_contact::LocalContact;
@@ -13,7 +14,6 @@ use gearmesh_dynamics::{Joint, JointKind, Marker, MarkerPair, System, TimeFuncti
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{Flank, GearPair, Misalignment};
 use gearmesh_model::{RadialMotions, ReducedGear, bore_wave};
-use gearmesh_specification::bearing::BearingFromFile;
 
 use super::*;
 

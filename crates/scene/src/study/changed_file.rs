@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bevel::PairFile;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::read_reduced_gear;
-use gearmesh_specification::bearing::BearingFromFile;
 
 use super::subject::is_bearing;
 use crate::scene_file::InputKind;

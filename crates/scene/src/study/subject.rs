@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bevel::PairFile;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_specification::bearing::BearingFromFile;
 use gearmesh_specification::study::BearingOperation;
 use gearmesh_specification::system::run::Run;
 

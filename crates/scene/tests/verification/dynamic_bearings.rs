@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::dynamic::{PocketShape, Pockets, Rebound, Traction};
 use gearmesh_bearings::{
     AppliedBearingLoad, DynamicBearing, DynamicEffects, Operation, QuasiStaticBearing, RingPose,
@@ -18,7 +19,6 @@ use gearmesh_dynamics::{
 };
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::system_run::{Outcome, RunJob, RunOptions, SystemResult, run};
-use gearmesh_specification::bearing::BearingFromFile;
 
 use crate::assert_labelled;
 use crate::common::{Outputs, build_in, changed, load};

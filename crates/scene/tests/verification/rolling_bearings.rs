@@ -2,11 +2,11 @@
 
 use std::fs;
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::{AppliedBearingLoad, Operation, QuasiStaticBearing, TiltCondition};
 use gearmesh_dynamics::{StaticParams, equilibrium};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::system_run::RunJob;
-use gearmesh_specification::bearing::BearingFromFile;
 
 use crate::common::{Outputs, build_in, changed, line_of, load};
 use crate::system_runs::Desk;

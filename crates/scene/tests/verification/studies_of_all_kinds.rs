@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::{
     AppliedBearingLoad, Control, Operation, QuasiStaticBearing, TiltCondition,
 };
@@ -13,7 +14,6 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::ModelShelf;
 use gearmesh_scene::pair::BevelScene;
 use gearmesh_scene::study::{SelectedValue, StudyOptions, StudyOutcome, run_study};
-use gearmesh_specification::bearing::BearingFromFile;
 use gearmesh_specification::study::Study;
 
 pub(crate) fn fe_models() -> PathBuf {

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::{AppliedBearingLoad, Operation, QuasiStaticBearing, TiltCondition};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_specification::bearing::BearingFromFile;
 use nalgebra::Vector2;
 
 use super::positions::{ALPHA_DEG, unit};

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::path::Path;
 
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::{BearingDefinition, QuasiStaticBearing};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_specification::bearing::BearingFromFile;
 use gearmesh_specification::system::bearing::BearingTable;
 
 use super::housing;

@@ -19,14 +19,14 @@ use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use ball_keys::{AngularContactKeys, BallKeys, DeepGrooveKeys, FourPointKeys};
-use barrel_keys::SphericalRollerKeys;
-use catalogue_keys::{CatalogueKeys, Line};
-use gearmesh_bearings::definition::{
+use crate::definition::{
     Arrangement, BallBearingKind, BearingDefinition, BearingGeometry, BearingMaterial, Preload,
     StatedRatings,
 };
-use gearmesh_bearings::estimate::Estimate;
+use crate::estimate::Estimate;
+use ball_keys::{AngularContactKeys, BallKeys, DeepGrooveKeys, FourPointKeys};
+use barrel_keys::SphericalRollerKeys;
+use catalogue_keys::{CatalogueKeys, Line};
 use roller_keys::{CylindricalRollerKeys, RollerKeys, TaperedRollerKeys};
 use row_keys::{PreloadKeys, RowKeys};
 

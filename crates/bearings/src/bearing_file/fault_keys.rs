@@ -9,10 +9,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{MM, UM};
-use gearmesh_bearings::definition::{Arrangement, BallGeometry, BearingGeometry};
-use gearmesh_bearings::faults::{
-    BallSpall, Fault, MisalignedRing, OffSizeBall, RaceSpall, Side, Waviness,
-};
+use crate::definition::{Arrangement, BallGeometry, BearingGeometry};
+use crate::faults::{BallSpall, Fault, MisalignedRing, OffSizeBall, RaceSpall, Side, Waviness};
 
 /// `race`, `ring`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]

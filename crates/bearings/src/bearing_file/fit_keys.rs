@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::element_keys::Clearances;
 use super::{MM, UM};
-use gearmesh_bearings::definition::{BearingDefinition, BearingGeometry, BearingMaterial};
-use gearmesh_bearings::fit::{Fit, Seat, raceways_m};
+use crate::definition::{BearingDefinition, BearingGeometry, BearingMaterial};
+use crate::fit::{Fit, Seat, raceways_m};
 
 /// Temperature at which sizes are stated \[°C\].
 const COLD_C: f64 = 20.0;

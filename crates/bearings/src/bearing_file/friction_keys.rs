@@ -6,8 +6,8 @@ use gearmesh_geometry::number_range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use gearmesh_bearings::definition::BearingGeometry;
-use gearmesh_bearings::friction::{Friction, LoadFactor, usual_factors};
+use crate::definition::BearingGeometry;
+use crate::friction::{Friction, LoadFactor, usual_factors};
 
 /// `[friction]`: friction torque by Palmgren's model.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]

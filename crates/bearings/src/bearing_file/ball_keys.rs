@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::element_keys::{Clearances, Elements};
 use super::{MM, UM};
-use gearmesh_bearings::definition::{BallBearingKind, BallGeometry};
+use crate::definition::{BallBearingKind, BallGeometry};
 
 number_range!(
     /// Radius of a groove over the ball's diameter.

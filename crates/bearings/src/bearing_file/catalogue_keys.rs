@@ -11,13 +11,13 @@ use super::element_keys::Clearances;
 use super::roller_keys::{LAMINAE, usual_taper};
 use super::row_keys::{PreloadKeys, RowKeys};
 use super::{GeneralKeys, Inside, MM};
-use gearmesh_bearings::catalogue::{CatalogueLine, CatalogueType, KnownInside};
-use gearmesh_bearings::definition::{
+use crate::catalogue::{CatalogueLine, CatalogueType, KnownInside};
+use crate::definition::{
     Arrangement, BallBearingKind, BallGeometry, BearingGeometry, RollerGeometry, RollerProfile,
     StatedRatings,
 };
-use gearmesh_bearings::designations;
-use gearmesh_bearings::estimate::Estimate;
+use crate::designations;
+use crate::estimate::Estimate;
 
 /// Keys of a line of a catalogue.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::element_keys::{Clearances, Elements};
 use super::{MM, UM};
-use gearmesh_bearings::definition::{RollerGeometry, RollerProfile, Taper};
-use gearmesh_bearings::half_taper_of;
+use crate::build_rows::half_taper_of;
+use crate::definition::{RollerGeometry, RollerProfile, Taper};
 
 /// Laminae where the file names none.
 pub(super) const LAMINAE: usize = 40;

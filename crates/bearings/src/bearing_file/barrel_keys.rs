@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::MM;
 use super::element_keys::Clearances;
 use super::roller_keys::{RollerKeys, Rollers};
-use gearmesh_bearings::definition::{Arrangement, BarrelShape, RollerGeometry, RollerProfile};
+use crate::definition::{Arrangement, BarrelShape, RollerGeometry, RollerProfile};
 
 /// Keys of spherical roller bearings.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{MM, UM};
-use gearmesh_bearings::definition::{Arrangement, Preload};
+use crate::definition::{Arrangement, Preload};
 
 /// Rows side by side.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
