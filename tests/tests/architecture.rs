@@ -26,7 +26,7 @@ mod vocabulary;
 const OFFLINE: [&str; 3] = ["mesh", "fe", "reduction"];
 
 /// The crates of the online side, which read a reduced model and never make one.
-const ONLINE: [&str; 9] = [
+const ONLINE: [&str; 10] = [
     "contact",
     "bearings",
     "dynamics",
@@ -34,12 +34,13 @@ const ONLINE: [&str; 9] = [
     "recovery",
     "signal",
     "rating",
+    "specification",
     "scene",
     "report",
 ];
 
 /// What each crate may use, `gearmesh-` left out. Data walks one way, so a crate stands below all that it uses.
-const ALLOWED: [(&str, &[&str]); 22] = [
+const ALLOWED: [(&str, &[&str]); 23] = [
     ("elements", &[]),
     ("geometry", &["elements"]),
     ("mesh", &["bevel", "elements", "geometry"]),
@@ -61,6 +62,17 @@ const ALLOWED: [(&str, &[&str]); 22] = [
     ("rexs", &[]),
     ("rating", &["geometry", "contact"]),
     (
+        "specification",
+        &[
+            "bearings",
+            "geometry",
+            "contact",
+            "dynamics",
+            "drivetrain",
+            "rating",
+        ],
+    ),
+    (
         "scene",
         &[
             "bearings",
@@ -73,11 +85,19 @@ const ALLOWED: [(&str, &[&str]); 22] = [
             "rating",
             "recovery",
             "signal",
+            "specification",
         ],
     ),
     (
         "report",
-        &["geometry", "model", "contact", "scene", "signal"],
+        &[
+            "geometry",
+            "model",
+            "contact",
+            "scene",
+            "signal",
+            "specification",
+        ],
     ),
     (
         "operations",
@@ -93,6 +113,7 @@ const ALLOWED: [(&str, &[&str]); 22] = [
             "drivetrain",
             "recovery",
             "scene",
+            "specification",
             "report",
             "rexs",
         ],
@@ -104,6 +125,7 @@ const ALLOWED: [(&str, &[&str]); 22] = [
             "model",
             "operations",
             "scene",
+            "specification",
             "signal",
             "report",
         ],
@@ -122,6 +144,7 @@ const ALLOWED: [(&str, &[&str]); 22] = [
             "operations",
             "signal",
             "scene",
+            "specification",
             "report",
             "rexs",
             "studio",
@@ -129,7 +152,15 @@ const ALLOWED: [(&str, &[&str]); 22] = [
     ),
     (
         "python",
-        &["geometry", "fe", "model", "operations", "scene", "report"],
+        &[
+            "geometry",
+            "fe",
+            "model",
+            "operations",
+            "scene",
+            "specification",
+            "report",
+        ],
     ),
     (
         "tests",

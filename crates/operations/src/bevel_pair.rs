@@ -69,16 +69,14 @@ fn write_grids(
     watch: &Watch<'_>,
 ) -> Result<(), Result<BevelError, String>> {
     // All are made before the first is written.
-    let flanks = design.teeth.iter().flat_map(|tooth| {
-        let side = move |side: FlankSide| (tooth, side);
-        FlankSide::BOTH.map(side)
-    });
-    let made = flanks.map(|(tooth, side)| {
-        let table = tooth.nominal_grid_csv(side, size).map_err(Ok)?;
-        let path = folder.join(format!("{}-{}.csv", tooth.blank.name, side.word()));
-        Ok((path, table))
-    });
-    let made: Vec<(PathBuf, String)> = made.collect::<Result<_, _>>()?;
+    let mut made = Vec::new();
+    for tooth in &design.teeth {
+        for side in FlankSide::BOTH {
+            let table = tooth.nominal_grid_csv(side, size).map_err(Ok)?;
+            let path = folder.join(format!("{}-{}.csv", tooth.blank.name, side.word()));
+            made.push((path, table));
+        }
+    }
     let fault = |e: std::io::Error| Err(format!("{}: {e}", folder.display()));
     std::fs::create_dir_all(folder).map_err(fault)?;
     for (path, table) in &made {

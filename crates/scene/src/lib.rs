@@ -12,8 +12,8 @@
 //!
 //! [`periods`] says how much of what repeats a run has seen, [`rating`] judges what both have given. [`SceneFile`]
 //! tells them apart, [`ResultFile`] their results; what may be in a file stands in `gearmesh_specification`.
-//! [`system_run`] runs multibody systems, [`study`] computes a scene again and again with keys that vary, [`optimise`] seeks the best of
-//! them, [`accuracy`] says what exactness costs in time.
+//! [`system_run`] runs multibody systems, [`study`] computes a scene again and again with keys that vary, [`optimise`]
+//! seeks the best of them, [`accuracy`] says what exactness costs in time.
 
 pub mod accuracy;
 mod megabytes;

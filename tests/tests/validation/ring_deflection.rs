@@ -181,9 +181,9 @@ fn a_ring_deflects_as_an_independent_program_says() {
 
 /// Elements that are shorter in the fillets alone: from the default length to its half the root strain changes four
 /// times as much as from there to a quarter (second order; three times is allowed, 3.3 to 3.5 found), whatever the
-/// length along the flank. What is left, 0.15 %, is not of the fillets. The thin rim is looked at, which bends most. Without it the half length is within what it
-/// states. Elements below the fillet grow from those along it; where they did not, the error
-/// grew from 0.6 to 8 %.
+/// length along the flank. What is left, 0.15 %, is not of the fillets. Without it the half length is within what it
+/// states. Elements below the fillet grow from those along it; where they did not, the error grew from 0.6 to 8 %.
+/// The thin rim is looked at, which bends most.
 #[test]
 fn shorter_elements_in_the_fillets_are_enough_for_the_root_strain_of_a_ring() {
     let default = on_default_mesh();

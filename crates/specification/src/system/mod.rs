@@ -1,5 +1,5 @@
-//! The scene of a multibody system: its tables, as written in the file, and their checks. One file per table; those that
-//! pairs have, too, are in `gear_tables/`.
+//! The scene of a multibody system: its tables, as written in the file, and their checks. One file per table; those
+//! that pairs have, too, are in `gear_tables/`.
 
 pub mod bearing;
 pub mod body;
