@@ -83,8 +83,8 @@ fn beside_the_tests(
     let pages = |targets: &str| {
         let mut command = cargo(&["doc", "--workspace", targets, "--no-deps", "--quiet"]);
         command.env("RUSTDOCFLAGS", "-D warnings");
-        // What clippy has checked is read, not checked again: its driver with the arguments that it is given below. Were
-        // they others, each crate would be checked once more, and the pages would be the same.
+        // What clippy has checked is read, not checked again: its driver with the arguments that it is given below.
+        // With others each crate would be checked once more, and the pages would be the same.
         command.env("RUSTC_WORKSPACE_WRAPPER", &driver);
         let arguments = LINT_ARGUMENTS.map(|argument| format!("{argument}__CLIPPY_HACKERY__"));
         command.env("CLIPPY_ARGS", arguments.concat());
