@@ -154,7 +154,7 @@ fn slices_deflect_alike_and_converge_with_the_stations() {
 /// body and fillets may be coarse.
 #[test]
 fn slices_of_a_slotted_wheel_deflect_alike() {
-    let mesh = "element = \"hex20\"\nfillet_mm = 0.3\nbody_mm = 6.0\naxial_mm = 5.0\n";
+    let mesh = "element = \"hex20\"\nfillet_mm = 0.3\nbody_mm = 8.0\naxial_mm = 10.0\n";
     compared("slotted, hex20", &gear(9, mesh, SLOTTED, ""), 0.0);
 }
 
