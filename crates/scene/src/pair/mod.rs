@@ -1,12 +1,11 @@
 //! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks,
-//! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it,
-//! `run.rs` computes, position by position
-//! (`all_positions.rs`, `position.rs`, `between_positions.rs`), `figures.rs` makes the figures of a torque of it,
-//! `figure_table.rs` says how all doors show them, `contacts.rs` says where the teeth touch, `coverage.rs` says how
-//! much of each period that sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs` judges, `bevel.rs` puts
-//! bevel pairs at rest, `bevel_result.rs` says what their results have besides, `bevel_in_space.rs` where they stand
-//! for pictures, `warnings.rs` tells where the model's assumptions are strained. `pair_load/` reads what a scene
-//! names.
+//! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it, `run.rs` computes,
+//! position by position (`all_positions.rs`, `position.rs`, `between_positions.rs`), `figures.rs` makes the figures of
+//! a torque of it, `figure_table.rs` says how all doors show them, `contacts.rs` says where the teeth touch,
+//! `coverage.rs` says how much of each period that sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs`
+//! judges, `bevel.rs` puts bevel pairs at rest, `bevel_result.rs` says what their results have besides,
+//! `bevel_in_space.rs` where they stand for pictures, `warnings.rs` tells where the model's assumptions are strained.
+//! `pair_load/` reads what a scene names.
 
 mod all_positions;
 mod between_positions;
