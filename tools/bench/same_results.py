@@ -30,21 +30,27 @@ def run(program: str, *words, folder: Path, most_s: float = MOST_S) -> tuple[int
     return done.returncode, done.stdout + done.stderr
 
 
-def model(program: str, path: Path, files: Path) -> bool:
-    """Whether the model is there, reduced on a coarse mesh where it was not."""
+def source_of(path: Path, scene: str, files: Path) -> Path | None:
+    """The gear file of a model: the one that the head of the scene names, or one that is called like it."""
+    named = re.search(rf"^#.*\breduce (?:\S*/)?(\S+\.toml) -o (?:\S*/)?{re.escape(path.name)}$", scene, re.M)
+    if named:
+        return files / named[1]
+    return next(iter(sorted(files.glob(f"{path.stem}.toml")) or sorted(files.glob(f"{path.stem}_*.toml"))), None)
+
+
+def model(program: str, path: Path, source: Path | None, made: dict[Path, Path]) -> bool:
+    """Whether the model of a gear file is there, reduced on a coarse mesh where it was not; `made`: the files of those there."""
     path = path.resolve()
-    if path.exists():
-        return True
-    source = next(iter(sorted(files.glob(f"{path.stem}.toml")) or sorted(files.glob(f"{path.stem}_*.toml"))), None)
-    if source is None:
-        return False
+    if source is None or made.get(path) == source:
+        return source is not None
+    made[path] = source
     text = source.read_text()
     if "[mesh]" not in text and "[bevel_gear" not in text:
         module, face = (float(re.search(rf"^{key}\s*=\s*([\d.]+)", text, re.M)[1]) for key in ("module_mm", "face_width_mm"))
         lengths = dict(flank=0.6 * module, fillet=0.2 * module, body=2 * module, axial=face / 4)
         source.write_text(text + "\n[mesh]\n" + "".join(f"{name}_mm = {mm:g}\n" for name, mm in lengths.items()))
     path.parent.mkdir(parents=True, exist_ok=True)
-    return run(program, "reduce", source.name, "-o", path, folder=files, most_s=600)[0] == 0
+    return run(program, "reduce", source.name, "-o", path, folder=source.parent, most_s=600)[0] == 0
 
 
 def numbers(path: Path) -> dict[str, np.ndarray]:
@@ -67,12 +73,14 @@ def differences(old: Path, new: Path) -> list[str]:
     return found
 
 
-def compared(scene: Path, programs: list[str], folder: Path) -> str:
-    """What is printed of a scene."""
-    text = re.sub(r"^end_s = ([\d.e+-]+)", lambda m: f"end_s = {float(m[1]) / SHARE_OF_TIME:.12g}", scene.read_text(), flags=re.M)
+def compared(scene: Path, programs: list[str], folder: Path, made: dict[Path, Path]) -> str:
+    """What is printed of a scene; `made`: the gear files of the models that are there."""
+    shorter = lambda m: f"{m[1]} = {float(m[2]) / SHARE_OF_TIME:.12g}"
+    text = re.sub(r"^(end_s|statistics_from_s) = ([\d.e+-]+)", shorter, scene.read_text(), flags=re.M)
     scene.write_text(text)
     named = re.findall(r'"([^"]+\.h5)"', re.sub(r"^#.*$", "", text, flags=re.M))
-    if not all(model(programs[0], scene.parent / name, scene.parent) for name in sorted(set(named))):
+    paths = [scene.parent / name for name in sorted(set(named))]
+    if not all(model(programs[0], path, source_of(path, text, scene.parent), made) for path in paths):
         return "left out: its models cannot be reduced"
     results = [folder / f"{scene.stem}_{k}.h5" for k in range(2)]
     ends = [run(program, "run", scene.name, "-o", result, folder=scene.parent) for program, result in zip(programs, results)]
@@ -91,15 +99,15 @@ def compared(scene: Path, programs: list[str], folder: Path) -> str:
 
 def main(old: str, new: str, *names: str) -> int:
     programs = [str(Path(program).absolute()) for program in (old, new)]
-    differ = 0
+    differ, made = 0, {}
     with tempfile.TemporaryDirectory() as temporary:
         files = Path(temporary) / "fe_models"
         shutil.copytree("fe_models", files)
         for scene in sorted(files.glob("*.toml")):
             text = scene.read_text()
-            is_scene = re.search(r"^(\[run\]|run\s*=|\[tca\])", text, re.M) and not re.search(r"^scene\s*=", text, re.M)
+            is_scene = re.search(r"^(\[run\]|run\s*=|\[tca\]|\[load\])", text, re.M) and not re.search(r"^scene\s*=", text, re.M)
             if is_scene and (not names or scene.stem in names):
-                line = compared(scene, programs, Path(temporary))
+                line = compared(scene, programs, Path(temporary), made)
                 differ += line.startswith("DIFFERS")
                 print(f"{scene.stem}: {line}", flush=True)
     return int(differ > 0)
