@@ -385,3 +385,19 @@ def test_what_is_read_is_never_what_is_written(pinion, models, tmp_path):
     with pytest.raises(gm.InputError, match="link"):
         pinion.reduce(link, error_estimate=False, progress=False)
     assert (tmp_path / "wheel.h5").read_bytes() == before
+
+
+def test_a_study_writes_over_nothing_that_it_reads(tmp_path):
+    scene, page = tmp_path / "scene.toml", tmp_path / "out" / "study.html"
+    shutil.copy(PENDULUM, scene)
+    study = tmp_path / "study.toml"
+    study.write_text(
+        'title = "lengths"\nscene = "scene.toml"\ncolumns = ["bodies/rod/turn_rad"]\n'
+        '[[parameter]]\nname = "end"\nkeys = ["run.end_s"]\nvalues = [0.01]\n'
+    )
+    page.parent.mkdir()
+    page.hardlink_to(scene)
+    before = scene.read_bytes()
+    with pytest.raises(gm.InputError, match="study.html is read by this command"):
+        gm.study(study, page.parent, progress=False)
+    assert scene.read_bytes() == before and not (page.parent / "study.csv").exists()

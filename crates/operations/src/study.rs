@@ -1,6 +1,7 @@
 //! A scene again and again with some of its keys changed.
 
 use crate::failure::{Failure, Result};
+use crate::overwriting::refuse_named;
 use crate::page_file;
 use crate::reduce::reduced_for_study;
 use crate::watch::Watch;
@@ -11,11 +12,23 @@ use gearmesh_specification::study::Study;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+/// Refuses a folder whose table or page is a file that the study reads.
+///
+/// # Errors
+/// [`Failure`] that names both.
+pub fn refuse_overwriting(study: &Study, folder: &Path) -> Result<()> {
+    let read = [Path::new(&study.document.file), &study.folder];
+    let outputs = ["study.csv", "study.html"].map(|name| folder.join(name));
+    let mut outputs = outputs.iter();
+    outputs.try_for_each(|output| refuse_named(&study.document.text, read, output))
+}
+
 /// Runs all cases of a study into a folder, and writes its page; stopped, the same call goes on later.
 ///
 /// # Errors
 /// [`Failure`] before the first case where the study or one of its scenes is wrong, and where files cannot be written.
 pub fn study(study: &Study, folder: &Path, watch: &Watch<'_>) -> Result<StudyOutcome> {
+    refuse_overwriting(study, folder)?;
     let task = watch.listener.begin("study");
     let progress = |done: usize, count: usize| task.advance(done as f64, count as f64);
     let options = StudyOptions {
@@ -47,6 +60,7 @@ pub fn gather(
     failures: &BTreeMap<String, String>,
     watch: &Watch<'_>,
 ) -> Result<StudyOutcome> {
+    refuse_overwriting(study, folder)?;
     let outcome = gather_study(study, folder, failures)?;
     conclude(study, &outcome, folder, watch)?;
     Ok(outcome)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_model::write_text;
-use gearmesh_operations::study::{gather, study as run_study};
+use gearmesh_operations::study::{gather, refuse_overwriting, study as run_study};
 use gearmesh_operations::{Failure, Watch};
 use gearmesh_report::study_figures;
 use gearmesh_scene::study::{CaseRunner, MadeFile, SentCase, StudyCases, StudyError};
@@ -81,6 +81,7 @@ pub(crate) fn study_gears(
 ) -> PyResult<Vec<(PathBuf, String)>> {
     py.detach(|| {
         let study = study_at(&path, most_result_gb).map_err(input_error)?;
+        refuse_overwriting(&study, &folder).map_err(raised)?;
         let cases = StudyCases::new(&study, &folder).map_err(study_error)?;
         let mut gears = Vec::new();
         for (path, made) in cases.missing() {

@@ -3,8 +3,8 @@
 use super::study_elsewhere as elsewhere;
 use crate::arguments::StudyArguments;
 use crate::{console, interrupt};
-use gearmesh_operations::study::{gather, study as run_study};
-use gearmesh_operations::{Failure, overwriting};
+use gearmesh_operations::Failure;
+use gearmesh_operations::study::{gather, refuse_overwriting, study as run_study};
 use gearmesh_report::{column_width, short, study_figures, usual_unit};
 use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, SeriesOver, StudyOutcome};
 use gearmesh_scene::system_run::{Figures, stem};
@@ -15,10 +15,9 @@ const MOST_LINES: usize = 50;
 
 /// Runs the command.
 pub fn run(a: &StudyArguments) -> Result<(), Failure> {
-    let outputs = ["study.csv", "study.html"].map(|name| a.output.join(name));
-    overwriting::refuse(vec![a.study.clone()], &outputs)?;
     let mut study = Study::read(&a.study)?;
     study.most_result_bytes = 1e9 * a.most_result_gb;
+    refuse_overwriting(&study, &a.output)?;
     let failures = match (&a.scheduler, &a.gather) {
         (None, None) => None,
         (None, Some(failures)) => Some(elsewhere::failures(failures)?),
