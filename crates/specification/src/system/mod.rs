@@ -110,7 +110,8 @@ pub struct GaugeTable {
 }
 
 impl SystemTables {
-    /// The tables of a file.
+    /// The tables of a file in today's form: one in a former form is brought into it by
+    /// [`InputDocument::with_former`] and [`crate::former_forms::SYSTEM`].
     ///
     /// # Errors
     /// [`InputError`] with file, line, key, what was found and what is allowed.
