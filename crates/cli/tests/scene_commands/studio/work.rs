@@ -13,14 +13,16 @@ fn long_calculations_stop() {
     let desk = Desk::new();
     let studio = Studio::open(&pair_scene(&desk));
     let long = json!({"settings": {"run.pitches": 300, "run.points_per_pitch": 200}});
-    std::thread::scope(|scope| {
-        let waiting = scope.spawn(|| studio.post("/api/pair", &long));
+    let solved = || number(&studio.get("/api/progress").json()["solved"]);
+    let wait_until = |is_so: &dyn Fn(f64) -> bool| {
         let begun = std::time::Instant::now();
-        while begun.elapsed() < Duration::from_secs(20)
-            && number(&studio.get("/api/progress").json()["solved"]) < 10.0
-        {
+        while begun.elapsed() < Duration::from_secs(20) && !is_so(solved()) {
             std::thread::sleep(Duration::from_millis(5));
         }
+    };
+    std::thread::scope(|scope| {
+        let waiting = scope.spawn(|| studio.post("/api/pair", &long));
+        wait_until(&|solved| solved >= 10.0);
         assert_eq!(studio.post("/api/stop", &json!({})).status, 200);
         let reply = waiting.join().unwrap();
         assert_eq!(
@@ -28,8 +30,10 @@ fn long_calculations_stop() {
             (409, &json!("stopped"))
         );
 
+        // What has been solved stays what it was until the next calculation has begun.
+        let stopped_at = solved();
         let waiting = scope.spawn(|| studio.post("/api/pair", &long));
-        std::thread::sleep(Duration::from_millis(50));
+        wait_until(&|solved| solved != stopped_at);
         assert_eq!(studio.post("/api/pair", &json!({})).status, 200);
         let reply = waiting.join().unwrap();
         assert_eq!(
