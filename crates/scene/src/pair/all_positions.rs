@@ -92,14 +92,7 @@ pub(super) fn curves(
     found: Vec<TorquePositions>,
     (least_slots, slices): (usize, usize),
 ) -> SceneResult {
-    let mut warnings = Warnings::default();
-    for (torque, found) in torques_nm.iter().zip(&found) {
-        for position in found.all() {
-            for (assumption, value) in ASSUMPTIONS.into_iter().zip(position.strained) {
-                warnings.note(assumption, value, *torque);
-            }
-        }
-    }
+    let warnings = strained_assumptions(torques_nm, &found);
     let first = || found.iter().take(1).flat_map(|found| &found.even);
     let pairs = pairs_of_angles(&found);
     let slots = pairs.iter().map(Vec::len).fold(least_slots, usize::max);
@@ -167,6 +160,19 @@ pub(super) fn curves(
         warnings: warnings.sentences(),
         ..SceneResult::default()
     }
+}
+
+/// Where the model's assumptions are strained most.
+fn strained_assumptions(torques_nm: &[f64], found: &[TorquePositions]) -> Warnings {
+    let mut warnings = Warnings::default();
+    for (torque, found) in torques_nm.iter().zip(found) {
+        for position in found.all() {
+            for (assumption, value) in ASSUMPTIONS.into_iter().zip(position.strained) {
+                warnings.note(assumption, value, *torque);
+            }
+        }
+    }
+    warnings
 }
 
 /// Pairs of teeth at each even angle: under another torque other lines may be near.
