@@ -33,24 +33,25 @@ def run(program: str, *words, folder: Path, most_s: float = MOST_S) -> tuple[int
 def source_of(path: Path, scene: str, files: Path) -> Path | None:
     """The gear file of a model: the one that the head of the scene names, or one that is called like it."""
     named = re.search(rf"^#.*\breduce (?:\S*/)?(\S+\.toml) -o (?:\S*/)?{re.escape(path.name)}$", scene, re.M)
-    if named:
+    if named and (files / named[1]).exists():
         return files / named[1]
     return next(iter(sorted(files.glob(f"{path.stem}.toml")) or sorted(files.glob(f"{path.stem}_*.toml"))), None)
 
 
-def model(program: str, path: Path, source: Path | None, made: dict[Path, Path]) -> bool:
+def model(program: str, path: Path, source: Path | None, made: dict[Path, Path | None]) -> bool:
     """Whether the model of a gear file is there, reduced on a coarse mesh where it was not; `made`: the files of those there."""
     path = path.resolve()
     if source is None or made.get(path) == source:
         return source is not None
-    made[path] = source
     text = source.read_text()
     if "[mesh]" not in text and "[bevel_gear" not in text:
         module, face = (float(re.search(rf"^{key}\s*=\s*([\d.]+)", text, re.M)[1]) for key in ("module_mm", "face_width_mm"))
         lengths = dict(flank=0.6 * module, fillet=0.2 * module, body=2 * module, axial=face / 4)
         source.write_text(text + "\n[mesh]\n" + "".join(f"{name}_mm = {mm:g}\n" for name, mm in lengths.items()))
     path.parent.mkdir(parents=True, exist_ok=True)
-    return run(program, "reduce", source.name, "-o", path, folder=source.parent, most_s=600)[0] == 0
+    done = run(program, "reduce", source.name, "-o", path, folder=source.parent, most_s=600)[0] == 0
+    made[path] = source if done else None
+    return done
 
 
 def numbers(path: Path) -> dict[str, np.ndarray]:
@@ -73,7 +74,7 @@ def differences(old: Path, new: Path) -> list[str]:
     return found
 
 
-def compared(scene: Path, programs: list[str], folder: Path, made: dict[Path, Path]) -> str:
+def compared(scene: Path, programs: list[str], folder: Path, made: dict[Path, Path | None]) -> str:
     """What is printed of a scene; `made`: the gear files of the models that are there."""
     shorter = lambda m: f"{m[1]} = {float(m[2]) / SHARE_OF_TIME:.12g}"
     text = re.sub(r"^(end_s|statistics_from_s) = ([\d.e+-]+)", shorter, scene.read_text(), flags=re.M)

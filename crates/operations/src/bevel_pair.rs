@@ -61,7 +61,7 @@ pub fn design(a: &BevelRequest, watch: &Watch<'_>) -> Result<Answer> {
     })
 }
 
-/// Writes nominal points and normals of all flanks; none where one cannot be made or written.
+/// Writes nominal points and normals of all flanks; none where one cannot be made.
 fn write_grids(
     design: &PairDesign,
     folder: &Path,

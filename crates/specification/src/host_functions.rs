@@ -30,14 +30,20 @@ impl HostFunctions {
         self.of_time.is_empty() && self.laws.is_empty()
     }
 
-    /// A function of time, or what to say where it is not there.
+    /// A function of time.
+    ///
+    /// # Errors
+    /// What to say where it is not there.
     pub fn of_time(&self, name: &str) -> Result<HostFunction, String> {
         let call = self.of_time.get(name);
         let call = call.ok_or_else(|| missing(name, self.of_time.keys()))?;
         Ok(HostFunction::new(name, Arc::clone(call)))
     }
 
-    /// A law, or what to say where it is not there.
+    /// A law.
+    ///
+    /// # Errors
+    /// What to say where it is not there.
     pub fn law(&self, name: &str) -> Result<Arc<HostLaw>, String> {
         let law = self.laws.get(name);
         let law = law.ok_or_else(|| missing(name, self.laws.keys()))?;

@@ -124,6 +124,12 @@ fn clippy_driver() -> Result<PathBuf, XtaskError> {
     let output = command
         .output()
         .map_err(XtaskError::io(|| format!("starting {}", shown(&command))))?;
+    if !output.status.success() {
+        return Err(XtaskError::Failed {
+            command: shown(&command),
+            status: output.status.to_string(),
+        });
+    }
     let sysroot = String::from_utf8_lossy(&output.stdout);
     let driver = format!("clippy-driver{}", std::env::consts::EXE_SUFFIX);
     Ok(PathBuf::from(sysroot.trim()).join("bin").join(driver))

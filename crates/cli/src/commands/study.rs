@@ -17,11 +17,14 @@ const MOST_LINES: usize = 50;
 pub fn run(a: &StudyArguments) -> Result<(), Failure> {
     let mut study = Study::read(&a.study)?;
     study.most_result_bytes = 1e9 * a.most_result_gb;
-    refuse_overwriting(&study, &a.output)?;
     let failures = match (&a.scheduler, &a.gather) {
         (None, None) => None,
         (None, Some(failures)) => Some(elsewhere::failures(failures)?),
-        (Some(scheduler), _) => Some(elsewhere::run(a, scheduler)?),
+        (Some(scheduler), _) => {
+            // Before the cluster computes; `gather` looks only afterwards.
+            refuse_overwriting(&study, &a.output)?;
+            Some(elsewhere::run(a, scheduler)?)
+        }
     };
     let outcome = match failures {
         Some(failures) => gather(&study, &a.output, &failures, &console::watch())?,

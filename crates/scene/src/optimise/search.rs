@@ -9,7 +9,7 @@ use argmin::core::{CostFunction, Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
 use argmin::solver::particleswarm::ParticleSwarm;
 use gearmesh_geometry::InputError;
-use gearmesh_specification::optimise::Optimisation;
+use gearmesh_specification::optimise::{Optimisation, VariableTable};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 use std::path::Path;
@@ -101,7 +101,7 @@ const STOPPED: &str = "stopped on demand";
 /// Values of the variables at these shares of their bounds, to six digits of the bounds' distance.
 fn values_at(problem: &Optimisation, shares: &[f64]) -> Vec<f64> {
     let variables = problem.tables.variable.iter();
-    let value = |(variable, share): (&gearmesh_specification::optimise::VariableTable, &f64)| {
+    let value = |(variable, share): (&VariableTable, &f64)| {
         let share = (share.clamp(0.0, 1.0) * 1e6).round() / 1e6;
         variable.from * (1.0 - share) + variable.to * share
     };

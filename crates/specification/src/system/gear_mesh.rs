@@ -6,9 +6,9 @@ use gearmesh_geometry::{Flank, kinds};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::flank_errors::FlankErrorTable;
-use super::friction::FrictionTable;
 use super::mesh_model::{HertzTable, MeshModel};
+use crate::gear_tables::flank_errors::FlankErrorTable;
+use crate::gear_tables::friction::FrictionTable;
 pub use crate::gear_tables::path_word::PathWord;
 pub use crate::gear_tables::seat::EccentricityTable;
 

@@ -10,8 +10,8 @@ use gearmesh_geometry::{kinds, number_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::flank_errors::CrackTable;
-use super::{MM, UM};
+use crate::gear_tables::flank_errors::CrackTable;
+use crate::gear_tables::{MM, UM};
 
 /// `gear_mesh.model`, cheapest first.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]

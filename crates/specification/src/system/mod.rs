@@ -36,7 +36,6 @@ use serde::{Deserialize, Serialize};
 use shaft::ShaftTable;
 use solver::SolverTable;
 
-pub use crate::gear_tables::{MM, UM, flank_errors, friction};
 use crate::rating::RatingTable;
 
 /// The keys of the file.

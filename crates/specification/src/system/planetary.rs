@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use super::bearing::{BearingModel, HousingTable};
 use super::body::{BoreHold, Coupling, Flexibility};
-use super::flank_errors::FlankErrorTable;
 use super::function::FunctionTable;
 use super::gear_mesh::{EccentricityTable, TeethTable};
 use super::mesh_model::{HertzTable, MeshModel};
 use super::planet_pin::PinTable;
+use crate::gear_tables::flank_errors::FlankErrorTable;
 
 /// `[[planetary]]` as written in the file. Angles count counter-clockwise about the axis of the set, from x, or from
 /// where x is after the turns about x and then y that take z into the axis.

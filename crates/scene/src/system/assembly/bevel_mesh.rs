@@ -1,9 +1,9 @@
 //! `[[gear_mesh]]` with `bevel_pair`: flanks from a pair file between two bodies whose axes meet.
 
 use gearmesh_geometry::given;
+use gearmesh_specification::gear_tables::{MM, UM};
 use gearmesh_specification::system::gear_mesh::{BevelSurfaceTable, PathWord, TouchingFlanks};
 use gearmesh_specification::system::mesh_model::{HertzTable, ImpactTable, MeshModel};
-use gearmesh_specification::system::{MM, UM};
 use std::path::Path;
 
 use gearmesh_bevel::PairFile;

@@ -1,8 +1,8 @@
 //! `[[body]]` to bodies in their places, and markers on them.
 
 use gearmesh_geometry::given;
+use gearmesh_specification::gear_tables::MM;
 use gearmesh_specification::names::unknown;
-use gearmesh_specification::system::MM;
 use gearmesh_specification::system::body::{BodyTable, Flexibility};
 use std::sync::Arc;
 

@@ -9,7 +9,7 @@
 //!
 //! unless the scene states its velocity.
 
-use gearmesh_specification::system::MM;
+use gearmesh_specification::gear_tables::MM;
 use gearmesh_specification::system::bearing::BearingTable;
 use std::collections::VecDeque;
 

@@ -8,7 +8,7 @@ use gearmesh_dynamics::{BodyId, MarkerPair, TimeFunction};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::given;
 use gearmesh_geometry::input::{Beside, TableKeys};
-use gearmesh_specification::system::MM;
+use gearmesh_specification::gear_tables::MM;
 use gearmesh_specification::system::connection::{SpringTable, StiffnessTable};
 use gearmesh_specification::system::function::{Sources, product};
 use gearmesh_specification::system::load::{AxesWord, LoadTable};

@@ -10,8 +10,8 @@ use gearmesh_geometry::given;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{BaseCircles, Flank, GearPair, InputError, Misalignment};
 use gearmesh_model::ReducedGear;
-use gearmesh_specification::system::MM;
-use gearmesh_specification::system::flank_errors::FlankErrorTable;
+use gearmesh_specification::gear_tables::MM;
+use gearmesh_specification::gear_tables::flank_errors::FlankErrorTable;
 use gearmesh_specification::system::gear_mesh::{GearMeshTable, TeethTable};
 use gearmesh_specification::system::mesh_model::{MeshKind, MeshModel};
 

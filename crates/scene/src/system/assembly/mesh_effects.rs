@@ -2,7 +2,7 @@
 
 use super::mesh_model::SceneInvolutes;
 use super::parts::Parts;
-use gearmesh_specification::system::UM;
+use gearmesh_specification::gear_tables::UM;
 use gearmesh_specification::system::gear_mesh::TouchingFlanks;
 use gearmesh_specification::system::mesh_model::{MeshKind, MeshModel};
 

@@ -2,8 +2,8 @@
 //! it is, in words.
 
 use gearmesh_geometry::given;
+use gearmesh_specification::gear_tables::{MM, UM};
 use gearmesh_specification::system::mesh_model::{ImpactTable, Iso6336Table, MeshModel};
-use gearmesh_specification::system::{MM, UM};
 use std::path::Path;
 
 use gearmesh_contact::SliceLayout;

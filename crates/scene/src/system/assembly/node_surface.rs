@@ -6,9 +6,9 @@ use gearmesh_drivetrain::{
 };
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{Flank, InputError};
+use gearmesh_specification::gear_tables::{MM, UM};
 use gearmesh_specification::system::gear_mesh::PathWord;
 use gearmesh_specification::system::mesh_model::{NodeSurfaceTable, NodeWeights};
-use gearmesh_specification::system::{MM, UM};
 
 use super::bevel_hybrid::BevelModels;
 use super::bevel_mesh::SceneBevel;

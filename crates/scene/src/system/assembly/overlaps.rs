@@ -1,7 +1,7 @@
 //! Gears on one axis whose faces overlap: no gearbox has them, and no equation of a scene would show them.
 
 use gearmesh_geometry::ToothGeometry;
-use gearmesh_specification::system::MM;
+use gearmesh_specification::gear_tables::MM;
 
 use super::bodies::{Bodies, PlacedBody};
 

@@ -11,9 +11,9 @@ use gearmesh_contact::{
 use gearmesh_drivetrain::{PairCurve, PairSamples};
 use gearmesh_geometry::input::{Count, InputDocument};
 use gearmesh_geometry::{Flank, GearDefinition, InputError};
+use gearmesh_specification::gear_tables::{MM, UM};
 use gearmesh_specification::system::gear_mesh::PathWord;
 use gearmesh_specification::system::mesh_model::{MeshKind, PairStiffnessTable};
-use gearmesh_specification::system::{MM, UM};
 
 use super::mesh_model::SceneInvolutes;
 use crate::pair::{Scene, SceneResult};

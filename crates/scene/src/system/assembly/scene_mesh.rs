@@ -8,7 +8,7 @@ use gearmesh_dynamics::{GROUND, Marker};
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{Flank, InputError};
 use gearmesh_model::ReducedGear;
-use gearmesh_specification::system::UM;
+use gearmesh_specification::gear_tables::UM;
 use gearmesh_specification::system::gear_mesh::{EccentricityTable, GearMeshTable, TeethTable};
 use gearmesh_specification::system::mesh_model::DampingTable;
 

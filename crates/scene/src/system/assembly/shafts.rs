@@ -9,7 +9,7 @@ use gearmesh_dynamics::elements::BeamSection;
 use gearmesh_dynamics::{Body, JointKind, MarkerPair};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_specification::system::MM;
+use gearmesh_specification::gear_tables::MM;
 use gearmesh_specification::system::shaft::{ShaftModel, ShaftTable};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 

@@ -4,7 +4,7 @@ use gearmesh_drivetrain::FlankContacts;
 use gearmesh_drivetrain::tooth_overlap::{BEHIND, THROUGH};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{Flank, InputError};
-use gearmesh_specification::system::UM;
+use gearmesh_specification::gear_tables::UM;
 
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;

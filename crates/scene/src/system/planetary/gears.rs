@@ -6,8 +6,8 @@ use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{
     GearDefinition, GearPair, InputError, Misalignment, PairError, ToothGeometry,
 };
+use gearmesh_specification::gear_tables::{MM, UM};
 use gearmesh_specification::system::planetary::{MemberTable, PlanetaryTable, SupportWord};
-use gearmesh_specification::system::{MM, UM};
 
 use super::layout::SetTeeth;
 use super::partners::{OtherSet, Partners};

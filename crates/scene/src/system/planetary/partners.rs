@@ -11,8 +11,8 @@ use std::path::Path;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::Beside;
+use gearmesh_specification::gear_tables::MM;
 use gearmesh_specification::names::unknown;
-use gearmesh_specification::system::MM;
 use gearmesh_specification::system::planetary::{PartnerKeys, PartnerSide};
 use nalgebra::Vector3;
 use toml::Table;

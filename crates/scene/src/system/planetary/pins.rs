@@ -2,7 +2,7 @@
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_specification::system::MM;
+use gearmesh_specification::gear_tables::MM;
 use gearmesh_specification::system::body::BoreHold;
 use gearmesh_specification::system::planetary::{
     PinnedKeys, PlanetDeviationTable, SetBearingTable, SupportWord,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_specification::system::MM;
+use gearmesh_specification::gear_tables::MM;
 
 use super::gears::SetGears;
 use super::partners::Partners;

@@ -8,10 +8,10 @@ use gearmesh_bearings::quasi_static::Row;
 use gearmesh_bearings::{BearingDefinition, DynamicBearing, DynamicEffects};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_specification::gear_tables::{MM, UM};
 use gearmesh_specification::system::bearing::{
     DynamicBearingTable, LandTable, PocketTable, ReboundTable, SurfaceTable, TractionTable,
 };
-use gearmesh_specification::system::{MM, UM};
 
 use super::cages::PlacedCage;
 use super::placed_bearing::PlacedBearing;
